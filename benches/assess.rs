@@ -13,9 +13,9 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 /// Maximum time for scoring, from the issue.
-const CEILING: Duration = Duration::from_millis(500);
+const MAX_TIME: Duration = Duration::from_millis(500);
 /// Maximum time from a sample to the changed cue (shared assessment, in-task feedback).
-const CUE_CEILING: Duration = Duration::from_millis(100);
+const MAX_CUE_LATENCY: Duration = Duration::from_millis(100);
 const FLIGHT_S: f64 = 1500.0;
 const ROUNDS: usize = 7;
 
@@ -105,16 +105,16 @@ fn main() -> ExitCode {
         assess.as_secs_f64(),
         FLIGHT_S / assess.as_secs_f64(),
         assess.as_secs_f64() / read.as_secs_f64(),
-        CEILING.as_secs_f64(),
-        if assess <= CEILING { "ok" } else { "EXCEEDED" },
+        MAX_TIME.as_secs_f64(),
+        if assess <= MAX_TIME { "ok" } else { "EXCEEDED" },
     );
     let (slowest, change) = cue_latency(&scenario, &datagrams);
     println!(
         "cue: at most {:.3} ms from a sample to its changed cue, {:.3} ms for any datagram; limit {} ms: {}",
         change.as_secs_f64() * 1e3,
         slowest.as_secs_f64() * 1e3,
-        CUE_CEILING.as_millis(),
-        if slowest <= CUE_CEILING { "ok" } else { "EXCEEDED" },
+        MAX_CUE_LATENCY.as_millis(),
+        if slowest <= MAX_CUE_LATENCY { "ok" } else { "EXCEEDED" },
     );
-    ExitCode::from(u8::from(frames.is_err() || assess > CEILING || slowest > CUE_CEILING))
+    ExitCode::from(u8::from(frames.is_err() || assess > MAX_TIME || slowest > MAX_CUE_LATENCY))
 }

@@ -12,7 +12,7 @@ use std::time::Duration;
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
 const SESSIONS: usize = 10_000;
 /// Maximum time, from the issue.
-const CEILING: Duration = Duration::from_secs(2);
+const MAX_TIME: Duration = Duration::from_secs(2);
 const ROUNDS: usize = 5;
 
 fn main() {
@@ -26,8 +26,8 @@ fn main() {
     let lines: Vec<String> = (0..SESSIONS).map(renamed).collect();
     let took = best(ROUNDS, || {
         let records: Vec<SessionRecord> = lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
-        cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::LeaveOut })
+        cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Exclude })
     });
-    println!("a cohort of {SESSIONS} sessions: {:.2} s (limit {} s)", took.as_secs_f64(), CEILING.as_secs());
-    assert!(took < CEILING, "limit exceeded");
+    println!("a cohort of {SESSIONS} sessions: {:.2} s (limit {} s)", took.as_secs_f64(), MAX_TIME.as_secs());
+    assert!(took < MAX_TIME, "limit exceeded");
 }

@@ -16,13 +16,13 @@ const SECONDS: f64 = 60.0;
 const TICK: SimTime = SimTime::from_us(2500);
 const ROUNDS: usize = 5;
 
-fn say(what: &str, taken: Duration) {
+fn print_cost(what: &str, taken: Duration) {
     let per_second_us = taken.as_secs_f64() * 1e6 / SECONDS;
     println!("{what:<40} {per_second_us:>9.1} us per simulated second {:>9.0} x real time", 1e6 / per_second_us);
 }
 
 /// Returns the sensor readings of a hover, so that the autopilot can be timed without physics and sensors.
-fn tape(start: &Bench) -> Vec<(SimTime, Readings)> {
+fn recorded_readings(start: &Bench) -> Vec<(SimTime, Readings)> {
     let mut sensors = start.sensors.clone();
     let battery = BatteryReading { voltage_v: 11.5, current_a: 12.0, remaining_pct: 80.0 };
     let truth = SensorInputs { rigid: &start.state.rigid, battery, lamp_on: false };
@@ -38,14 +38,14 @@ fn tape(start: &Bench) -> Vec<(SimTime, Readings)> {
 
 fn main() {
     let start = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
-    say(
+    print_cost(
         "sensors",
         best(ROUNDS, || {
-            black_box(tape(&start));
+            black_box(recorded_readings(&start));
         }),
     );
-    let readings = tape(&start);
-    say(
+    let readings = recorded_readings(&start);
+    print_cost(
         "estimator",
         best(ROUNDS, || {
             let mut estimator = start.autopilot.estimator().clone();
@@ -55,7 +55,7 @@ fn main() {
             black_box(estimator.estimate());
         }),
     );
-    say(
+    print_cost(
         "autopilot with estimator",
         best(ROUNDS, || {
             let mut autopilot = start.autopilot.clone();
@@ -65,5 +65,5 @@ fn main() {
         }),
     );
     let mut whole = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
-    say("all together", best(ROUNDS, || whole.run(SECONDS, |_| ())));
+    print_cost("all together", best(ROUNDS, || whole.run(SECONDS, |_| ())));
 }

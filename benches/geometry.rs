@@ -14,7 +14,7 @@ use std::hint::black_box;
 const POINTS: usize = 4000;
 const ROUNDS: usize = 9;
 
-fn say<T>(what: &str, points: &[Vec3<Enu>], ask: impl Fn(Vec3<Enu>) -> T) {
+fn print_cost<T>(what: &str, points: &[Vec3<Enu>], ask: impl Fn(Vec3<Enu>) -> T) {
     let taken = best(ROUNDS, || {
         points.iter().for_each(|p| {
             black_box(ask(*p));
@@ -49,11 +49,11 @@ fn main() {
     ];
     let diagonal = Vec3::<Enu>::new(1.0, 2.0, -0.5).unit();
     for (place, points) in &places {
-        say(&format!("nearest within 3 m, {place}"), points, |p| geometry.nearest(p, 3.0));
-        say(&format!("nearest within 200 m, {place}"), points, |p| geometry.nearest(p, 200.0));
-        say(&format!("ray up 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, 1.0), 30.0));
-        say(&format!("ray down 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, -1.0), 30.0));
-        say(&format!("diagonal ray 200 m, {place}"), points, |p| geometry.ray(p, diagonal, 200.0));
+        print_cost(&format!("nearest within 3 m, {place}"), points, |p| geometry.nearest(p, 3.0));
+        print_cost(&format!("nearest within 200 m, {place}"), points, |p| geometry.nearest(p, 200.0));
+        print_cost(&format!("ray up 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, 1.0), 30.0));
+        print_cost(&format!("ray down 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, -1.0), 30.0));
+        print_cost(&format!("diagonal ray 200 m, {place}"), points, |p| geometry.ray(p, diagonal, 200.0));
         let mut found = Vec::new();
         let taken = best(ROUNDS, || {
             for p in points {
@@ -66,7 +66,7 @@ fn main() {
         println!("{:<44} {:>8.0} ns", format!("contacts of a capsule, {place}"), taken.as_secs_f64() * 1e9 / points.len() as f64);
     }
     let deck = around(&[Vec3::new(10.0, 1.0, 34.0)], 0.005, 7);
-    say("contacts of a capsule on the deck", &deck, |p| {
+    print_cost("contacts of a capsule on the deck", &deck, |p| {
         let mut found = Vec::new();
         let probe =
             HullProbe::Capsule { a_m: p + Vec3::new(0.0, 0.0, 0.03), b_m: p + Vec3::new(0.15, 0.1, 0.03), radius_m: 0.03 };

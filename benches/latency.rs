@@ -16,26 +16,26 @@ const TICK_MS: f64 = 2.5;
 const TARGET_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
 /// Pause between measurements. Not a multiple of any period in the vehicle, so that all phases occur.
-const PAUSE: Duration = Duration::from_micros(7_310);
+const MEASUREMENT_PAUSE: Duration = Duration::from_micros(7_310);
 /// Message rate and duration of the flood.
 const FLOOD_HZ: u64 = 50_000;
-const FLOOD_FOR: Duration = Duration::from_secs(5);
+const FLOOD_DURATION: Duration = Duration::from_secs(5);
 /// Minimum simulation time per wall time during the flood.
-const PACE_FLOOR: f64 = 0.99;
+const MIN_PACE: f64 = 0.99;
 
 /// Number of stick steps in flight, and time with centered stick before each, so that the vehicle is at rest.
 const STEPS: usize = 150;
-const CENTRED_FOR: Duration = Duration::from_millis(400);
+const CENTERED_DURATION: Duration = Duration::from_millis(400);
 /// Interval between stick samples in flight.
-const STICKS_EVERY: Duration = Duration::from_millis(20);
+const STICK_INTERVAL: Duration = Duration::from_millis(20);
 /// Deviation of the roll rate from its mean at rest that counts as a response, in standard deviations.
-const SIGMAS: f64 = 6.0;
+const NOISE_SIGMAS: f64 = 6.0;
 /// PX4's mode numbers: automatic takeoff, hold, and altitude mode.
 const TAKE_OFF: [f32; 3] = [1.0, 4.0, 2.0];
-const HOLDING: u32 = 4 << 16 | 3 << 24;
+const HOLD: u32 = 4 << 16 | 3 << 24;
 const ALTITUDE: [f32; 3] = [1.0, 2.0, 0.0];
 
-fn long(command: MavCmd, p: [f32; 3]) -> MavMessage {
+fn command_long(command: MavCmd, p: [f32; 3]) -> MavMessage {
     MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         command,
         param1: p[0],
@@ -59,10 +59,10 @@ fn ms(since: Instant) -> f64 {
 
 fn commands(client: &mut Client) -> (f64, f64) {
     let one = |k: usize| {
-        std::thread::sleep(PAUSE);
+        std::thread::sleep(MEASUREMENT_PAUSE);
         let command = MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF;
         let begin = now();
-        client.send(&long(command, [(k % 2) as f32, 0.0, 0.0]));
+        client.send(&command_long(command, [(k % 2) as f32, 0.0, 0.0]));
         client.wait(|m| if let MavMessage::COMMAND_ACK(ack) = m { (ack.command == command).then_some(()) } else { None });
         ms(begin)
     };
@@ -71,9 +71,9 @@ fn commands(client: &mut Client) -> (f64, f64) {
 
 fn sticks(client: &mut Client) -> (f64, f64) {
     // Requests RC_CHANNELS at the rate of the control loop.
-    client.send(&long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0, 0.0]));
+    client.send(&command_long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0, 0.0]));
     let one = |k: usize| {
-        std::thread::sleep(PAUSE);
+        std::thread::sleep(MEASUREMENT_PAUSE);
         let y = if k.is_multiple_of(2) { 400 } else { -400 };
         let begin = now();
         client.send(&stick(y));
@@ -88,8 +88,8 @@ fn stick(y: i16) -> MavMessage {
     MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() })
 }
 
-fn order(client: &mut Client, command: MavCmd, p: [f32; 3]) {
-    client.send(&long(command, p));
+fn command_and_wait(client: &mut Client, command: MavCmd, p: [f32; 3]) {
+    client.send(&command_long(command, p));
     let result =
         client.wait(|m| if let MavMessage::COMMAND_ACK(ack) = m { (ack.command == command).then_some(ack.result) } else { None });
     assert_eq!(result, MavResult::MAV_RESULT_ACCEPTED, "{command:?}");
@@ -100,11 +100,11 @@ fn roll_rate(client: &mut Client) -> f64 {
 }
 
 /// Returns the roll rates while the stick is centered, rad/s.
-fn at_rest(client: &mut Client, time: Duration) -> Vec<f64> {
+fn rest_roll_rates(client: &mut Client, time: Duration) -> Vec<f64> {
     let (begin, mut sent) = (now(), None::<Instant>);
     let mut rates = Vec::new();
     while begin.elapsed() < time {
-        if sent.is_none_or(|sent| sent.elapsed() >= STICKS_EVERY) {
+        if sent.is_none_or(|sent| sent.elapsed() >= STICK_INTERVAL) {
             client.send(&stick(0));
             sent = Some(now());
         }
@@ -115,22 +115,22 @@ fn at_rest(client: &mut Client, time: Duration) -> Vec<f64> {
 
 /// Measures from a step of the stick in flight to the first roll rate outside the noise, which includes rotors and airframe.
 fn rates(client: &mut Client) -> (f64, f64) {
-    order(client, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [30.0, 2_500.0, 0.0]);
-    at_rest(client, CENTRED_FOR);
-    order(client, MavCmd::MAV_CMD_DO_SET_MODE, TAKE_OFF);
-    order(client, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0]);
-    client.wait(|m| if let MavMessage::HEARTBEAT(beat) = m { (beat.custom_mode == HOLDING).then_some(()) } else { None });
-    at_rest(client, CENTRED_FOR);
-    order(client, MavCmd::MAV_CMD_DO_SET_MODE, ALTITUDE);
-    let calm = at_rest(client, FLOOD_FOR);
+    command_and_wait(client, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [30.0, 2_500.0, 0.0]);
+    rest_roll_rates(client, CENTERED_DURATION);
+    command_and_wait(client, MavCmd::MAV_CMD_DO_SET_MODE, TAKE_OFF);
+    command_and_wait(client, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0]);
+    client.wait(|m| if let MavMessage::HEARTBEAT(beat) = m { (beat.custom_mode == HOLD).then_some(()) } else { None });
+    rest_roll_rates(client, CENTERED_DURATION);
+    command_and_wait(client, MavCmd::MAV_CMD_DO_SET_MODE, ALTITUDE);
+    let calm = rest_roll_rates(client, FLOOD_DURATION);
     let mean = calm.iter().sum::<f64>() / calm.len() as f64;
     let deviation = (calm.iter().map(|rate| (rate - mean) * (rate - mean)).sum::<f64>() / calm.len() as f64).sqrt();
     let one = |k: usize| {
-        at_rest(client, CENTRED_FOR);
-        std::thread::sleep(PAUSE);
+        rest_roll_rates(client, CENTERED_DURATION);
+        std::thread::sleep(MEASUREMENT_PAUSE);
         let begin = now();
         client.send(&stick(if k.is_multiple_of(2) { 500 } else { -500 }));
-        while (roll_rate(client) - mean).abs() < SIGMAS * deviation {}
+        while (roll_rate(client) - mean).abs() < NOISE_SIGMAS * deviation {}
         ms(begin)
     };
     let spread = spread((0..STEPS).map(one).collect());
@@ -139,7 +139,7 @@ fn rates(client: &mut Client) -> (f64, f64) {
 }
 
 /// Returns the simulation time per second of wall time, as observed by one peer while another one floods, and the messages per second.
-fn under_flood(client: &mut Client, port: u16) -> (f64, f64) {
+fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     let (stop, sent) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
     let flood = {
         let (stop, sent) = (Arc::clone(&stop), Arc::clone(&sent));
@@ -160,7 +160,7 @@ fn under_flood(client: &mut Client, port: u16) -> (f64, f64) {
             }
         })
     };
-    let (pace, wall_s) = client.pace(FLOOD_FOR);
+    let (pace, wall_s) = client.pace(FLOOD_DURATION);
     stop.store(true, Ordering::Relaxed);
     flood.join().expect("the flood ends");
     (pace, sent.load(Ordering::Relaxed) as f64 / wall_s)
@@ -188,10 +188,8 @@ fn main() {
         median / TICK_MS,
         p99 / TICK_MS
     );
-    let (pace, rate) = under_flood(&mut client, port);
-    println!(
-        "with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {PACE_FLOOR})"
-    );
-    good &= pace >= PACE_FLOOR;
+    let (pace, rate) = pace_under_flood(&mut client, port);
+    println!("with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {MIN_PACE})");
+    good &= pace >= MIN_PACE;
     assert!(good, "target missed");
 }

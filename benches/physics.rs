@@ -19,11 +19,11 @@ const STEPS: i64 = 500;
 const SAMPLES: usize = 61;
 
 /// Maximum medians, as ratios to the baseline.
-const FREE: f64 = 4.0;
-const NEAR: f64 = 8.0;
-const CLOSE: f64 = 20.0;
-const STANDING: f64 = 200.0;
-const SCRAPING: f64 = 200.0;
+const MAX_FREE: f64 = 4.0;
+const MAX_NEAR: f64 = 8.0;
+const MAX_CLOSE: f64 = 20.0;
+const MAX_STANDING: f64 = 200.0;
+const MAX_SCRAPING: f64 = 200.0;
 
 /// Baseline: position, velocity, attitude and rates of a rigid body (13 numbers) and four rotor speeds, integrated in minimal code.
 mod floor {
@@ -82,7 +82,7 @@ struct Case {
     limit: f64,
     start: PhysicsState,
     /// Simulation time of the state.
-    since: SimTime,
+    start_time: SimTime,
     actuators: Actuators,
     /// True if it touches the deck in almost every step.
     touches: bool,
@@ -91,16 +91,16 @@ struct Case {
 
 impl Case {
     fn new(name: &'static str, limit: f64, start: PhysicsState, actuators: Actuators) -> Self {
-        Self { name, limit, start, since: SimTime::ZERO, actuators, touches: false, samples: Vec::new() }
+        Self { name, limit, start, start_time: SimTime::ZERO, actuators, touches: false, samples: Vec::new() }
     }
 
-    /// Creates a case on the deck that starts at [`SETTLED`].
+    /// Creates a case on the deck that starts at [`SETTLED_AT`].
     fn on_deck(name: &'static str, limit: f64, start: PhysicsState) -> Self {
-        Self { since: SETTLED, touches: true, ..Self::new(name, limit, start, Actuators::default()) }
+        Self { start_time: SETTLED_AT, touches: true, ..Self::new(name, limit, start, Actuators::default()) }
     }
 
     fn fly(&self, model: &AirframeModel, site: &Site) -> PhysicsState {
-        let (mut state, mut now) = (self.start.clone(), self.since);
+        let (mut state, mut now) = (self.start.clone(), self.start_time);
         let load = PowerLoad { lamp_on: true, airborne: true };
         let mut touched = 0;
         for _ in 0..STEPS {
@@ -150,14 +150,14 @@ fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
 }
 
 /// Time after which an aircraft that was placed on the deck has settled.
-const SETTLED: SimTime = SimTime::from_ms(2000);
+const SETTLED_AT: SimTime = SimTime::from_ms(2000);
 
-/// Returns the state of an aircraft standing on the deck at [`SETTLED`].
+/// Returns the state of an aircraft standing on the deck at [`SETTLED_AT`].
 fn standing(model: &AirframeModel, site: &Site, vehicle: &Vehicle, deck: Vec3<Enu>) -> PhysicsState {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
     let mut state = at(deck + Vec3::new(0.0, 0.0, feet + 0.03));
     let mut now = SimTime::ZERO;
-    while now < SETTLED {
+    while now < SETTLED_AT {
         model.advance(&mut state, &Actuators::default(), &AirState::STILL, site, PowerLoad::default(), now, STEP);
         now += STEP;
     }
@@ -173,11 +173,11 @@ fn cases(model: &AirframeModel, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
     let mut scrape = stand.clone();
     scrape.rigid.velocity_m_s = Vec3::new(4.0, 0.0, 0.0);
     vec![
-        Case::new("free, 60 m over the deck", FREE, hovering(model, deck + up(60.0)), hover),
-        Case::new("near, 2 m over the deck", NEAR, hovering(model, deck + up(2.0)), hover),
-        Case::new("close, 0.5 m over the deck", CLOSE, hovering(model, deck + up(0.5)), hover),
-        Case::on_deck("standing on the deck, motors off", STANDING, stand),
-        Case::on_deck("scraping along the deck", SCRAPING, scrape),
+        Case::new("free, 60 m over the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
+        Case::new("near, 2 m over the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
+        Case::new("close, 0.5 m over the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
+        Case::on_deck("standing on the deck, motors off", MAX_STANDING, stand),
+        Case::on_deck("scraping along the deck", MAX_SCRAPING, scrape),
     ]
 }
 
@@ -193,7 +193,7 @@ fn median(samples: &mut [f64]) -> f64 {
     samples[samples.len() / 2]
 }
 
-fn fly_floor() {
+fn run_baseline() {
     let mut y: floor::Y = [0.0; 17];
     y[6] = 1.0;
     for _ in 0..STEPS {
@@ -209,7 +209,7 @@ fn main() -> ExitCode {
     let mut cases = cases(&model, &site, &vehicle);
     let mut floors = Vec::new();
     for _ in 0..SAMPLES {
-        floors.push(ns_per_step(fly_floor));
+        floors.push(ns_per_step(run_baseline));
         for case in &mut cases {
             let taken = ns_per_step(|| {
                 black_box(case.fly(&model, &site));

@@ -17,10 +17,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Minimum speed of the whole vehicle, as a multiple of real time, from the issue.
-const FLOOR: f64 = 300.0;
+const MIN_SPEED: f64 = 300.0;
 const STEP: SimTime = SimTime::from_ms(20);
 /// Time limit of a flight; the battery is empty before.
-const LONGEST: SimTime = SimTime::from_ms(1_600_000);
+const MAX_FLIGHT: SimTime = SimTime::from_ms(1_600_000);
 const PILOT: LinkId = LinkId(1);
 const ROUNDS: usize = 3;
 
@@ -61,7 +61,7 @@ impl Job {
         let mut pilot = Pilot::new(PilotConfig { scenario, vehicle, skill, seed: self.seed });
         let mut sim = self.sim(true);
         let (mut inputs, mut crashes) = (Inputs::new(), 0);
-        while pilot.finished().is_none() && sim.now() < LONGEST {
+        while pilot.finished().is_none() && sim.now() < MAX_FLIGHT {
             sim.handle_timeout(sim.now() + STEP);
             while let Some(datagram) = sim.poll_transmit() {
                 if datagram.link == PILOT {
@@ -100,7 +100,7 @@ impl Job {
 /// Returns the simulation time of the first message on the ground station's link that satisfies `said`.
 fn first(job: &Job, mut said: impl FnMut(&MavMessage) -> bool) -> SimTime {
     let (mut sim, mut decoder) = (job.sim(false), Decoder::new());
-    while sim.now() < LONGEST {
+    while sim.now() < MAX_FLIGHT {
         sim.handle_timeout(sim.now() + SimTime::from_ms(1));
         while let Some(datagram) = sim.poll_transmit() {
             let frames = decoder.datagram(&datagram.bytes);
@@ -135,10 +135,10 @@ fn main() -> ExitCode {
         let runs = (0..ROUNDS).map(|_| job.replay(&inputs, end));
         let (wall, sent) = runs.min_by_key(|(wall, _)| *wall).unwrap_or_default();
         let times = end.s() / wall.as_secs_f64();
-        misses |= times < FLOOR;
-        let verdict = if times >= FLOOR { "reaches" } else { "MISSES" };
+        misses |= times < MIN_SPEED;
+        let verdict = if times >= MIN_SPEED { "reaches" } else { "MISSES" };
         println!(
-            "{name}: {end} of flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the minimum of {FLOOR:.0}",
+            "{name}: {end} of flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the minimum of {MIN_SPEED:.0}",
             wall.as_secs_f64(),
             sent as f64 / 1e3 / end.s()
         );

@@ -22,14 +22,14 @@ use std::time::Duration;
 const TARGET_HZ: f64 = 15.0;
 /// Maximum processor time per frame, s: twice that of the slowest locations when it was set. Processor time is used because it hardly depends on
 /// other load on the machine.
-const CEILING_CPU_S: f64 = 0.25;
+const MAX_FRAME_CPU_S: f64 = 0.25;
 /// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s, from the issue.
-const CARD_HZ: f64 = 144.0;
+const MIN_CARD_HZ: f64 = 144.0;
 /// Number of frames per location, after one that warms up the caches.
 const FRAMES: usize = 4;
 
 /// Returns viewpoints of a flight with the points to look at.
-fn places() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
+fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
     vec![
         ("take-off", at(-112.0, 78.0, 12.0), at(-40.0, 20.0, 25.0)),
         ("slab", at(-30.0, -9.0, 33.0), at(-30.0, 0.0, 32.5)),
@@ -41,12 +41,12 @@ fn places() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
 }
 
 /// Minimum simulation time per wall time of a simulator that runs while views are rendered continuously.
-const PACE_FLOOR: f64 = 0.99;
+const MIN_PACE: f64 = 0.99;
 /// Maximum number of clock slips of that simulator; each one removes a part of the flight. The clock slips if a tick is 0.25 s late. Delays are
 /// noticeable in the controls from 0.1 s on; these are printed, but not limited, because other load on the machine can cause them.
-const SLIPS_MOST: u64 = 0;
+const MAX_SLIPS: u64 = 0;
 /// Duration of this measurement.
-const PACE_OVER: Duration = Duration::from_secs(10);
+const PACE_DURATION: Duration = Duration::from_secs(10);
 
 struct Cost {
     frame: Duration,
@@ -56,7 +56,7 @@ struct Cost {
 /// Renders both views like the window: the camera's on a second device if there is no graphics card.
 struct Views {
     studio: Studio,
-    aside: Option<SecondaryRenderer>,
+    secondary: Option<SecondaryRenderer>,
     /// Textures of the inspector's view and the camera's view.
     textures: [wgpu::Texture; 2],
 }
@@ -65,10 +65,10 @@ impl Views {
     fn on(gpu: Gpu, preset: &str) -> Self {
         let software = gpu.software;
         let studio = Studio::on(gpu, two_bridges(), 7, preset, SimTime::ZERO);
-        let quality = Quality::named(preset).expect("a preset");
-        let aside = software.then(|| SecondaryRenderer::open(quality, Arc::clone(&studio.scene)).expect("a second device"));
+        let quality = Quality::by_name(preset).expect("a preset");
+        let secondary = software.then(|| SecondaryRenderer::open(quality, Arc::clone(&studio.scene)).expect("a second device"));
         let textures = [(); 2].map(|()| picture_texture(&studio.gpu, (1, 1)));
-        Self { studio, aside, textures }
+        Self { studio, secondary, textures }
     }
 
     /// Renders a frame of both views and waits until it is complete.
@@ -76,8 +76,8 @@ impl Views {
         let start = now();
         let moment = self.studio.moment(from, look, false, at(1.0, 0.5, 0.0));
         let camera = self.studio.stage().camera(&moment, size_px);
-        if let Some(aside) = &self.aside {
-            aside.start(camera.clone()).expect("the second device works");
+        if let Some(secondary) = &self.secondary {
+            secondary.start(camera.clone()).expect("the second device works");
         }
         let inspector = self.studio.stage().inspector(&moment, size_px);
         let (gpu, renderer) = self.studio.renderer();
@@ -89,9 +89,9 @@ impl Views {
             renderer.draw(gpu, shot, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
             renderer.counts()
         };
-        let counts = draw(&inspector, left).and(match &self.aside {
-            Some(aside) => {
-                let (picture, cost) = aside.picture().expect("the second device works");
+        let counts = draw(&inspector, left).and(match &self.secondary {
+            Some(secondary) => {
+                let (picture, cost) = secondary.picture().expect("the second device works");
                 fill(gpu, right, &picture);
                 cost
             }
@@ -118,14 +118,14 @@ fn median(mut times: Vec<Duration>) -> Duration {
 }
 
 /// Renders all locations. Returns the processor time per frame, s, if available, and the frame rate, 1/s.
-fn measured(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>, f64) {
+fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>, f64) {
     let (mut medians, mut cpu) = (Vec::new(), Some(0.0));
-    for (name, from, look) in places() {
+    for (name, from, look) in viewpoints() {
         views.frame((from, look), size_px);
         let before = cpu_s();
         let costs: Vec<Cost> = (0..FRAMES).map(|_| views.frame((from, look), size_px)).collect();
         let spent = cpu_s().zip(before).map(|(after, before)| (after - before) / FRAMES as f64);
-        cpu = cpu.zip(spent).map(|(sum, spent)| sum + spent / places().len() as f64);
+        cpu = cpu.zip(spent).map(|(sum, spent)| sum + spent / viewpoints().len() as f64);
         let (counts, time) = (costs[0].counts, median(costs.into_iter().map(|cost| cost.frame).collect()));
         println!(
             "  {name}: {:.0} ms, {:.0} ms of processor time, {} triangles, {} draw calls",
@@ -158,12 +158,12 @@ fn beside(views: &mut Views) -> (f64, f64, Lateness) {
         std::thread::spawn(move || {
             let mut client = Client::new(port, 255);
             client.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
-            let pace = client.pace(PACE_OVER);
+            let pace = client.pace(PACE_DURATION);
             stop.store(true, Ordering::Relaxed);
             pace
         })
     };
-    let (_, from, look) = places()[1];
+    let (_, from, look) = viewpoints()[1];
     let mut frames = 0.0;
     while !stop.load(Ordering::Relaxed) {
         views.frame((from, look), (640, 360));
@@ -181,33 +181,33 @@ fn main() {
     println!("device: {}", gpu.name);
     let mut views = Views::on(gpu, presets[0]);
     let built = start.elapsed();
-    let (_, from, look) = places()[1];
+    let (_, from, look) = viewpoints()[1];
     let first = views.frame((from, look), (640, 360));
     println!(
         "startup: {:.1} s for loading the scene, {:.1} s more for the first frame (including shader compilation)",
         built.as_secs_f64(),
         first.frame.as_secs_f64()
     );
-    let (small, _) = measured(&mut views, (640, 360), presets[0]);
+    let (small, _) = measure(&mut views, (640, 360), presets[0]);
     let (pace, rate_hz, late) = beside(&mut views);
     println!(
-        "a simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {PACE_FLOOR}), ticks at \
-         most {:.1} ms late, {} clock slips (maximum {SLIPS_MOST})",
+        "a simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_PACE}), ticks at \
+         most {:.1} ms late, {} clock slips (maximum {MAX_SLIPS})",
         late.latest_ms, late.slips
     );
     if presets[1] != presets[0] {
         views = Views::on(views.studio.gpu, presets[1]);
     }
-    let (_, large_hz) = measured(&mut views, (1920, 1080), presets[1]);
-    let card = views.aside.is_none();
-    let kept = if card { large_hz >= CARD_HZ } else { small.is_none_or(|cpu| cpu <= CEILING_CPU_S) };
+    let (_, large_hz) = measure(&mut views, (1920, 1080), presets[1]);
+    let card = views.secondary.is_none();
+    let kept = if card { large_hz >= MIN_CARD_HZ } else { small.is_none_or(|cpu| cpu <= MAX_FRAME_CPU_S) };
     let verdict = if kept { "ok" } else { "MISSED" };
     if card {
-        println!("2 x 1920 x 1080, {}: minimum {CARD_HZ:.0} frames/s: {verdict}", presets[1]);
+        println!("2 x 1920 x 1080, {}: minimum {MIN_CARD_HZ:.0} frames/s: {verdict}", presets[1]);
     } else {
-        println!("2 x 640 x 360: target {TARGET_HZ:.0} frames/s; limit {CEILING_CPU_S} s of processor time: {verdict}");
+        println!("2 x 640 x 360: target {TARGET_HZ:.0} frames/s; limit {MAX_FRAME_CPU_S} s of processor time: {verdict}");
     }
-    if !kept || pace < PACE_FLOOR || late.slips > SLIPS_MOST {
+    if !kept || pace < MIN_PACE || late.slips > MAX_SLIPS {
         std::process::exit(1);
     }
 }

@@ -17,11 +17,11 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let site = Site::build(&job, 7);
     println!("{}: {} members, {} defects", job.name, site.members().len(), site.defects().len());
     for defect in site.defects().iter().take(3) {
-        let away_m = (defect.position_m - job.ground_team.pad_m).norm();
-        println!("defect {} is {away_m:.0} m from the pad", defect.id);
+        let distance_m = (defect.position_m - job.ground_team.pad_m).norm();
+        println!("defect {} is {distance_m:.0} m from the pad", defect.id);
     }
-    let over_the_pad = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 10.0);
-    if let Some(nearest) = site.nearest(over_the_pad, 200.0, SimTime::ZERO) {
+    let above_pad_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 10.0);
+    if let Some(nearest) = site.nearest(above_pad_m, 200.0, SimTime::ZERO) {
         println!(
             "10 m above the pad, the nearest object is {}, {:.1} m away",
             site.object_name(nearest.object),

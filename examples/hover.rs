@@ -15,12 +15,12 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     vehicle.run_until(|v| (v.height_m() - HEIGHT_M).abs() < 0.3, LIMIT)?;
     vehicle.run(SimTime::from_ms(3_000));
     let start_m = vehicle.position_m();
-    let mut strayed_m: f64 = 0.0;
+    let mut max_error_m: f64 = 0.0;
     for _ in 0..100 {
         vehicle.run(SimTime::from_ms(100));
-        strayed_m = strayed_m.max((vehicle.position_m() - start_m).norm());
+        max_error_m = max_error_m.max((vehicle.position_m() - start_m).norm());
     }
-    println!("largest position error in ten seconds: {strayed_m:.2} m");
+    println!("largest position error in ten seconds: {max_error_m:.2} m");
     vehicle.land()?;
     vehicle.run_until(|v| !v.armed(), LIMIT)?;
     println!("landed after {:.1} s", vehicle.now().s());

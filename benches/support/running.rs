@@ -9,7 +9,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Time without data after which the simulator counts as gone.
-const GONE: Duration = Duration::from_secs(5);
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(5);
 
 #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
 pub fn now() -> Instant {
@@ -17,7 +17,7 @@ pub fn now() -> Instant {
 }
 
 /// A simulator process that ends when this is dropped.
-pub struct Running {
+pub struct SimulatorProcess {
     child: Child,
     told: BufReader<ChildStdout>,
 }
@@ -30,7 +30,7 @@ pub struct Lateness {
     pub slips: u64,
 }
 
-impl Running {
+impl SimulatorProcess {
     /// Ends the simulator and reads its delays.
     pub fn end(mut self) -> Lateness {
         drop(self.child.stdin.take());
@@ -46,7 +46,7 @@ impl Running {
     }
 }
 
-impl Drop for Running {
+impl Drop for SimulatorProcess {
     fn drop(&mut self) {
         // Closing standard input ends the simulator. It may already have exited.
         drop(self.child.stdin.take());
@@ -66,7 +66,7 @@ impl Client {
     pub fn new(port: u16, system: u8) -> Self {
         let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
         socket.connect(("127.0.0.1", port)).expect("loopback");
-        socket.set_read_timeout(Some(GONE)).expect("a timeout");
+        socket.set_read_timeout(Some(SILENCE_TIMEOUT)).expect("a timeout");
         Self { socket, encoder: Encoder::new(system, 190), decoder: Decoder::new(), buffer: vec![0; 65_536] }
     }
 
@@ -102,7 +102,7 @@ impl Client {
 }
 
 /// Starts a simulator in real time and returns the port for ground stations.
-pub fn start() -> (Running, u16) {
+pub fn start() -> (SimulatorProcess, u16) {
     let job = ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--log", "warn"];
     let mut child = Command::new(env!("CARGO_BIN_EXE_spandrel"))
         .args(job)
@@ -112,7 +112,7 @@ pub fn start() -> (Running, u16) {
         .spawn()
         .expect("the program runs");
     let told = BufReader::new(child.stdout.take().expect("piped"));
-    let mut running = Running { child, told };
+    let mut running = SimulatorProcess { child, told };
     let port = running.line()["gcs_port"].as_u64().expect("a port");
     (running, port as u16)
 }

@@ -7,16 +7,16 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// Path of the workspace root relative to this package.
-const ROOT: &str = "../..";
+const WORKSPACE_ROOT: &str = "../..";
 
 fn main() {
     let root = env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
     let mut code = String::new();
     for (name, folder) in [("SCENARIOS", "scenarios"), ("VEHICLES", "vehicle-params")] {
-        println!("cargo::rerun-if-changed={ROOT}/{folder}");
-        let files = toml_files(&Path::new(&root).join(ROOT).join(folder));
-        code.push_str(&constants(&files, folder));
-        code.push_str(&table(name, &files, folder));
+        println!("cargo::rerun-if-changed={WORKSPACE_ROOT}/{folder}");
+        let files = toml_files(&Path::new(&root).join(WORKSPACE_ROOT).join(folder));
+        code.push_str(&file_constants(&files, folder));
+        code.push_str(&file_table(name, &files, folder));
     }
     let out = Path::new(&env::var("OUT_DIR").unwrap_or_default()).join("shipped.rs");
     if let Err(error) = fs::write(&out, code) {
@@ -25,38 +25,38 @@ fn main() {
 }
 
 /// Returns Rust code that defines one constant per file with the file's text.
-fn constants(files: &[PathBuf], folder: &str) -> String {
+fn file_constants(files: &[PathBuf], folder: &str) -> String {
     let mut code = String::new();
     for path in files {
         // The path is relative to the manifest, so that the source tree can be moved without a clean build.
-        let (stem, file) = (text(path.file_stem()), format!("/{ROOT}/{folder}/{}", text(path.file_name())));
+        let (stem, file) = (to_text(path.file_stem()), format!("/{WORKSPACE_ROOT}/{folder}/{}", to_text(path.file_name())));
         let _ = writeln!(code, "/// Text of `{folder}/{stem}.toml`.");
         let _ = writeln!(
             code,
             "pub const {}: &str = include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), {file:?}));",
-            constant(&stem)
+            constant_name(&stem)
         );
     }
     code
 }
 
 /// Returns Rust code that defines the list of all files: stem and text.
-fn table(name: &str, files: &[PathBuf], folder: &str) -> String {
+fn file_table(name: &str, files: &[PathBuf], folder: &str) -> String {
     let mut code = format!("/// Shipped files of `{folder}`: stem and text.\npub const {name}: &[(&str, &str)] = &[");
     for path in files {
-        let stem = text(path.file_stem());
-        let _ = write!(code, "({stem:?}, {}), ", constant(&stem));
+        let stem = to_text(path.file_stem());
+        let _ = write!(code, "({stem:?}, {}), ", constant_name(&stem));
     }
     code.push_str("];\n");
     code
 }
 
 /// Returns the name of a file's constant, such as `TWO_BRIDGES` for `two-bridges`.
-fn constant(stem: &str) -> String {
+fn constant_name(stem: &str) -> String {
     stem.to_uppercase().replace('-', "_")
 }
 
-fn text(part: Option<&OsStr>) -> String {
+fn to_text(part: Option<&OsStr>) -> String {
     part.and_then(|part| part.to_str()).unwrap_or_default().to_owned()
 }
 

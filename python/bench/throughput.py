@@ -21,20 +21,20 @@ import numpy as np
 import spandrel.gymnasium_envs  # noqa: F401 (registers the environments)
 
 # Minimum ratio of our throughput to theirs, in simulation time.
-FLOOR = 20.0
+MIN_RATIO = 20.0
 # Used if gym-pybullet-drones is not installed: its result on a dedicated machine with two cores, multiples of real time.
-STATED_PEER = 27.0
+FALLBACK_PEER_SPEED = 27.0
 # Wall time of one round, s, and number of rounds.
 ROUND_S, ROUNDS = 3.0, 5
 # Episodes do not end while steps are measured. Resets are measured separately.
-ENDLESS = 10**9
+MAX_STEPS = 10**9
 # Vehicles per batch: several per thread of a large machine.
-VEHICLES = 64
+BATCH_SIZE = 64
 # The control rate nearest to our 50 Hz; physics at the default 240 Hz.
 PEER_HZ, PEER_PHYSICS_HZ = 48, 240
 
 
-def timed(step, each):
+def steps_per_second(step, each):
     """Returns steps per second of wall time; each call steps `each` environments."""
     calls, start = 0, time.perf_counter()
     while (passed := time.perf_counter() - start) < ROUND_S:
@@ -43,10 +43,10 @@ def timed(step, each):
     return calls * each / passed
 
 
-def ours(name, count, threads):
+def make_batch_step(name, count, threads):
     """Returns a function that steps all environments of a batch with varying actions, and the simulation time per step, s."""
     env = gymnasium.make_vec(
-        name, num_envs=count, vectorization_mode="vector_entry_point", threads=threads, max_episode_steps=ENDLESS
+        name, num_envs=count, vectorization_mode="vector_entry_point", threads=threads, max_episode_steps=MAX_STEPS
     )
     env.reset(seed=1)
     env.action_space.seed(1)
@@ -55,9 +55,9 @@ def ours(name, count, threads):
     return lambda: env.step(actions[next(turn) % len(actions)]), env.step_s
 
 
-def single(name):
+def make_single_step(name):
     """Returns a function that steps one environment, and the simulation time per step, s."""
-    env = gymnasium.make(name, max_episode_steps=ENDLESS)
+    env = gymnasium.make(name, max_episode_steps=MAX_STEPS)
     env.reset(seed=1)
     action = np.zeros(env.action_space.shape, np.float32)
     return lambda: env.step(action), env.unwrapped.step_s
@@ -102,10 +102,10 @@ def main():
     for name in ("Spandrel-Hover-v0", "Spandrel-Inspect-v0"):
         print(f"{name}, time per reset (a flight from the pad to the start position): {reset_ms(gymnasium.make(name)):.1f} ms")
     rows = {
-        f"Spandrel-Hover-v0, {VEHICLES} vehicles, {cores} threads": (*ours("Spandrel-Hover-v0", VEHICLES, cores), VEHICLES),
-        f"Spandrel-Hover-v0, {VEHICLES} vehicles, 1 thread": (*ours("Spandrel-Hover-v0", VEHICLES, 1), VEHICLES),
-        "Spandrel-Hover-v0, one environment": (*single("Spandrel-Hover-v0"), 1),
-        f"Spandrel-Inspect-v0, 16 vehicles, {cores} threads": (*ours("Spandrel-Inspect-v0", 16, cores), 16),
+        f"Spandrel-Hover-v0, {BATCH_SIZE} vehicles, {cores} threads": (*make_batch_step("Spandrel-Hover-v0", BATCH_SIZE, cores), BATCH_SIZE),
+        f"Spandrel-Hover-v0, {BATCH_SIZE} vehicles, 1 thread": (*make_batch_step("Spandrel-Hover-v0", BATCH_SIZE, 1), BATCH_SIZE),
+        "Spandrel-Hover-v0, one environment": (*make_single_step("Spandrel-Hover-v0"), 1),
+        f"Spandrel-Inspect-v0, 16 vehicles, {cores} threads": (*make_batch_step("Spandrel-Inspect-v0", 16, cores), 16),
     }
     peers = {}
     for action in ("RPM", "VEL"):
@@ -116,15 +116,15 @@ def main():
     rates = dict.fromkeys([*rows, *peers], 0.0)
     for _ in range(ROUNDS):
         for name, (step, _, each) in (rows | peers).items():
-            rates[name] = max(rates[name], timed(step, each))
+            rates[name] = max(rates[name], steps_per_second(step, each))
     speeds = {name: rates[name] * step_s for name, (_, step_s, _) in (rows | peers).items()}
     for name, rate in rates.items():
         print(f"{name}: {rate:.0f} steps/s, {speeds[name]:.0f} times real time")
     # Comparable tasks: velocity setpoints, tracked by our autopilot and by their controller.
-    theirs = next((speeds[name] for name in peers if name.endswith("VEL")), STATED_PEER)
+    theirs = next((speeds[name] for name in peers if name.endswith("VEL")), FALLBACK_PEER_SPEED)
     ratio = max(speeds[name] for name in rows if name.startswith("Spandrel-Hover")) / theirs
-    print(f"ratio with velocity setpoints: {ratio:.1f} (minimum {FLOOR:.0f})")
-    sys.exit(0 if ratio >= FLOOR else 1)
+    print(f"ratio with velocity setpoints: {ratio:.1f} (minimum {MIN_RATIO:.0f})")
+    sys.exit(0 if ratio >= MIN_RATIO else 1)
 
 
 if __name__ == "__main__":

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     import pandas
 
 
-_KINDS: dict[str, Callable[[str], object]] = {
+_COLUMN_TYPES: dict[str, Callable[[str], object]] = {
     **dict.fromkeys(("frame", "light", "snapshot", "missing", "on_path", "interpolated"), int),
     "contact": str,
 }
 """Columns of the frames that are not floats."""
 
 
-def _number(text: str) -> float:
+def _parse_float(text: str) -> float:
     """A cell as a float; NaN where the telemetry held no value."""
     return float(text) if text else math.nan
 
@@ -69,7 +69,7 @@ class Assessment:
 
         rows = list(csv.DictReader(io.StringIO(self.frames_csv)))
         # Parsed by Python instead of pandas, so that every number round-trips exactly.
-        columns = {name: [_KINDS.get(name, _number)(row[name]) for row in rows] for name in (rows[0] if rows else ())}
+        columns = {name: [_COLUMN_TYPES.get(name, _parse_float)(row[name]) for row in rows] for name in (rows[0] if rows else ())}
         return pandas.DataFrame(columns).set_index("frame")
 
 

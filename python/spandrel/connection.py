@@ -14,7 +14,7 @@ from pymavlink import mavutil  # noqa: E402
 if TYPE_CHECKING:
     from .vehicle import Vehicle
 
-STEP_S = 0.02
+POLL_INTERVAL_S = 0.02
 """Simulation time between polls of a blocking read, s."""
 
 
@@ -72,7 +72,7 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
                 return message
             if limit_s is not None and self._vehicle.time_s >= limit_s:
                 return None
-            self.select(STEP_S)
+            self.select(POLL_INTERVAL_S)
 
     def select(self, timeout: float) -> bool:
         """Advances simulation time instead of waiting."""

@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from ._spandrel import Batch
 
-SEEDS = 2**31
+SEED_LIMIT = 2**31
 """Upper bound of episode seeds, exclusive: the range that telemetry can carry."""
-MEASURES = {"hover": ("distance_m", "hits"), "inspect": ("flown_share", "found_share")}
+INFO_KEYS = {"hover": ("distance_m", "hits"), "inspect": ("flown_share", "found_share")}
 """Keys of `info` by kind of environment."""
-HOVER_STEPS = 1_000
+HOVER_MAX_STEPS = 1_000
 """Maximum episode length: 20 s of simulation time."""
-INSPECT_STEPS = 15_000
+INSPECT_MAX_STEPS = 15_000
 """Maximum episode length: 25 minutes of simulation time, the time limit of the shipped inspection."""
 
 Observation = NDArray[np.float32]
@@ -35,7 +35,7 @@ class _Native:
         low, high = np.array(self.batch.action_limits(), dtype=np.float32).T
         self.action_space = gymnasium.spaces.Box(low, high, dtype=np.float32)
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (self.width,), np.float32)
-        self.keys = MEASURES[kind]
+        self.keys = INFO_KEYS[kind]
 
     def unpack(
         self, turn: tuple[bytes, bytes, bytes, bytes]
@@ -65,7 +65,7 @@ class SpandrelEnv(gymnasium.Env[Observation, Action]):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, dict[str, Any]]:
         """Starts an episode with the vehicle airborne above the pad. The same seed reproduces the episode bit for bit."""
         super().reset(seed=seed)
-        episode = int(self.np_random.integers(SEEDS))
+        episode = int(self.np_random.integers(SEED_LIMIT))
         observations, _, _, infos = self._native.unpack(self._native.batch.reset([episode]))
         return observations[0], {key: float(values[0]) for key, values in infos.items()}
 
@@ -117,7 +117,7 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
             if one is not None:
                 self._streams[k] = gymnasium.utils.seeding.np_random(one)[0]
         self._steps[:], self._over[:] = 0, False
-        turn = self._native.batch.reset([int(stream.integers(SEEDS)) for stream in self._streams])
+        turn = self._native.batch.reset([int(stream.integers(SEED_LIMIT)) for stream in self._streams])
         observations, _, _, infos = self._native.unpack(turn)
         return observations, self._masked(infos)
 
@@ -129,7 +129,7 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
         self, actions: Action
     ) -> tuple[Observation, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Runs one step in each environment. If the previous step ended an episode, starts the next one instead."""
-        seeds = [int(stream.integers(SEEDS)) if over else None for stream, over in zip(self._streams, self._over)]
+        seeds = [int(stream.integers(SEED_LIMIT)) if over else None for stream, over in zip(self._streams, self._over)]
         rows = np.ascontiguousarray(actions, dtype=np.float32)
         observations, rewards, terminated, infos = self._native.unpack(self._native.batch.step(rows.tobytes(), seeds))
         self._steps = np.where(self._over, 0, self._steps + 1)
@@ -153,5 +153,5 @@ def _register(name: str, steps: int, **arguments: str) -> None:
         )
 
 
-_register("Spandrel-Hover-v0", HOVER_STEPS, kind="hover", scenario="drill-hover")
-_register("Spandrel-Inspect-v0", INSPECT_STEPS, kind="inspect", scenario="two-bridges")
+_register("Spandrel-Hover-v0", HOVER_MAX_STEPS, kind="hover", scenario="drill-hover")
+_register("Spandrel-Inspect-v0", INSPECT_MAX_STEPS, kind="inspect", scenario="two-bridges")

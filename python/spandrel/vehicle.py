@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 NS = 1_000_000_000
 TICK_NS = 1_000_000
 """Physics time step, ns."""
-LOOK_NS = 20_000_000
+POLL_INTERVAL_NS = 20_000_000
 """Interval at which conditions are checked and datagrams exchanged, ns of simulation time."""
-ANSWER_NS = NS
+COMMAND_TIMEOUT_NS = NS
 """Timeout for the reply to a command, ns of simulation time."""
-RETRY_NS = NS // 2
+ARM_RETRY_INTERVAL_NS = NS // 2
 """Interval between arming attempts, ns of simulation time."""
-SERVING_SLEEP_S = 0.002
+SERVE_POLL_INTERVAL_S = 0.002
 """Sleep time of the serving thread between steps, s of wall time."""
 
 ACCEPTED, IN_PROGRESS = 0, 5
@@ -127,7 +127,7 @@ class Vehicle:
                 raise LateError(
                     f"the condition was not met within {sim_s} s of simulation time; last status text: {state.text}"
                 )
-            self._advance_to(min(limit, now + LOOK_NS))
+            self._advance_to(min(limit, now + POLL_INTERVAL_NS))
         return state
 
     def command(
@@ -139,7 +139,7 @@ class Vehicle:
         Raises RefusedError if the command is rejected, or if there is no reply within one second of simulation time.
         """
         self._flight.ask(int(command), list(params), place_enu_m)
-        limit = self._flight.now_ns() + ANSWER_NS
+        limit = self._flight.now_ns() + COMMAND_TIMEOUT_NS
         while self._flight.now_ns() < limit:
             self._advance_to(self._flight.now_ns() + TICK_NS)
             answer = self._flight.answer()
@@ -158,7 +158,7 @@ class Vehicle:
             except RefusedError:
                 if self._flight.now_ns() >= limit:
                     raise
-                self._advance_to(self._flight.now_ns() + RETRY_NS)
+                self._advance_to(self._flight.now_ns() + ARM_RETRY_INTERVAL_NS)
             else:
                 return
 
@@ -230,7 +230,7 @@ class Vehicle:
         port = _free_port()
         link, _ = self._flight.open_udp(kind, ("127.0.0.1", port))
         self._stop.clear()
-        self._server = threading.Thread(target=self._keep_pace, args=(speed,), name="spandrel", daemon=True)
+        self._server = threading.Thread(target=self._follow_wall_clock, args=(speed,), name="spandrel", daemon=True)
         self._server.start()
         try:
             yield f"udpin://127.0.0.1:{port}"
@@ -252,10 +252,10 @@ class Vehicle:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _keep_pace(self, speed: float) -> None:
+    def _follow_wall_clock(self, speed: float) -> None:
         """Keeps simulation time in step with wall time until `serve` ends."""
         begun_ns, begun = self._flight.now_ns(), time.monotonic()
-        while not self._stop.wait(SERVING_SLEEP_S):
+        while not self._stop.wait(SERVE_POLL_INTERVAL_S):
             self._flight.run(begun_ns + round(speed * (time.monotonic() - begun) * NS))
             with self._advanced:
                 self._advanced.notify_all()

@@ -33,7 +33,7 @@ def flight(tmp_path_factory):
     return path
 
 
-def test_tables_hold_the_numbers_of_the_assessment(flight):
+def test_tables_match_the_assessment(flight):
     assessment = spandrel.assess(flight, JOB, AIRCRAFT)
     scores = assessment.data["scores"]
     table = assessment.scores
@@ -52,7 +52,7 @@ def test_tables_hold_the_numbers_of_the_assessment(flight):
     assert frames["snapshot"].sum() == 1
 
 
-def test_the_same_numbers_as_the_program(flight, tmp_path):
+def test_scores_match_the_program(flight, tmp_path):
     program = os.environ.get("SPANDREL")
     if program is None:
         pytest.skip("SPANDREL does not name the program")
@@ -63,7 +63,7 @@ def test_the_same_numbers_as_the_program(flight, tmp_path):
     assert spandrel.assess(flight, JOB, AIRCRAFT).data == json.loads(said.stdout)
 
 
-def test_exact_what_cannot_be_scored_is_said(flight, tmp_path):
+def test_exact_unscorable_logs_raise_errors(flight, tmp_path):
     with pytest.raises(spandrel.AssessmentError, match="scn_crc"):
         spandrel.assess(flight, "drill-hover", AIRCRAFT)
     with pytest.raises(OSError, match="nowhere.tlog"):
@@ -74,6 +74,6 @@ def test_exact_what_cannot_be_scored_is_said(flight, tmp_path):
         spandrel.assess(empty, JOB, AIRCRAFT)
 
 
-def test_exact_a_log_that_cannot_be_written_is_an_error(tmp_path):
+def test_exact_unwritable_log_raises_an_error(tmp_path):
     with pytest.raises(OSError, match="flight.tlog"), spandrel.Vehicle().record(tmp_path / "no" / "flight.tlog"):
         pass

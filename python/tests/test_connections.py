@@ -10,7 +10,7 @@ from mavsdk.plugins.telemetry import Telemetry
 import spandrel
 
 # Wall-clock timeout, s, so that a failing test does not hang.
-FOUND_S = 60.0
+DISCOVERY_TIMEOUT_S = 60.0
 # Speed of simulation time relative to wall time; MAVSDK uses wall time.
 SPEED = 4.0
 
@@ -24,7 +24,7 @@ def test_wire_pymavlink_waits_in_simulation_time():
         assert vehicle.time_s - before == pytest.approx(1.5, abs=0.021)
 
 
-def test_wire_pymavlink_loses_nothing_while_the_script_computes():
+def test_wire_pymavlink_loses_no_messages_during_computation():
     with spandrel.Vehicle(seed=7) as vehicle:
         connection = vehicle.connect()
         connection.wait_heartbeat(timeout=5)
@@ -37,7 +37,7 @@ def test_wire_pymavlink_loses_nothing_while_the_script_computes():
         assert {later - earlier for earlier, later in zip(times, times[1:])} <= {19, 20, 21}
 
 
-def test_wire_two_pymavlink_connections_in_lockstep():
+def test_wire_two_pymavlink_connections_run_in_lockstep():
     with spandrel.Vehicle(seed=7) as vehicle:
         first, second = vehicle.connect(), vehicle.connect()
         vehicle.run_for(2.0)
@@ -45,7 +45,7 @@ def test_wire_two_pymavlink_connections_in_lockstep():
         assert second.recv_match(type="ATTITUDE") is not None
 
 
-def test_exact_a_closed_connection_is_an_error_and_no_hang():
+def test_exact_closed_connection_raises_an_error():
     vehicle = spandrel.Vehicle(seed=7)
     vehicle.connect().close()
     with pytest.raises(spandrel.SpandrelError, match="does not reply"):
@@ -59,10 +59,10 @@ def test_wire_mavsdk_arms_and_takes_off():
         mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
         try:
             mavsdk.add_any_connection(address)
-            system = mavsdk.first_autopilot(FOUND_S)
+            system = mavsdk.first_autopilot(DISCOVERY_TIMEOUT_S)
             assert system is not None, "no vehicle discovered"
             telemetry, action = Telemetry(system), Action(system)
-            end = time.monotonic() + FOUND_S
+            end = time.monotonic() + DISCOVERY_TIMEOUT_S
             while not telemetry.health_all_ok() and time.monotonic() < end:
                 vehicle.run_for(0.1)
             action.arm()
@@ -74,7 +74,7 @@ def test_wire_mavsdk_arms_and_takes_off():
         vehicle.run_until(lambda state: state.height_m > 100.0, sim_s=1)
 
 
-def test_exact_serving_and_lockstep_exclude_each_other():
+def test_exact_serve_and_connect_are_mutually_exclusive():
     vehicle = spandrel.Vehicle()
     with vehicle.serve():
         with pytest.raises(spandrel.SpandrelError, match="served in real time"):

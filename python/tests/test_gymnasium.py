@@ -14,18 +14,18 @@ HOVER, INSPECT = "Spandrel-Hover-v0", "Spandrel-Inspect-v0"
 SEED = 5
 
 
-def towards(observation, limit):
+def velocity_toward_target(observation, limit):
     """Returns a velocity toward the point at the start of an observation, m/s: 1/s times the distance."""
     return np.clip(observation[:3], -limit, limit)
 
 
 def hover_action(observation):
-    return np.append(towards(observation, 4.0), 0.0).astype(np.float32)
+    return np.append(velocity_toward_target(observation, 4.0), 0.0).astype(np.float32)
 
 
 def inspect_action(observation, snapshot):
     """Flies to the next point, level until close, points the camera at the target there, and takes pictures."""
-    velocity = towards(observation, 3.0)
+    velocity = velocity_toward_target(observation, 3.0)
     if np.hypot(observation[0], observation[1]) > 8.0:
         velocity[2] = 0.0
     yaw_rate = np.clip(np.arctan2(observation[4], observation[3]), -1.0, 1.0)
@@ -34,7 +34,7 @@ def inspect_action(observation, snapshot):
 
 
 @pytest.mark.parametrize("name", [HOVER, INSPECT])
-def test_gymnasiums_own_checker(name):
+def test_environments_pass_the_gymnasium_checker(name):
     with warnings.catch_warnings():
         # A recommendation only: actions and observations are in SI units, not normalized.
         warnings.filterwarnings("ignore", message=".*(symmetric and normalized|infinity).*")
@@ -42,7 +42,7 @@ def test_gymnasiums_own_checker(name):
 
 
 @pytest.mark.parametrize("name", [HOVER, INSPECT])
-def test_exact_the_same_seed_gives_the_same_bits(name):
+def test_exact_same_seed_is_bit_identical(name):
     env = gymnasium.make(name)
     runs = []
     for seed in (SEED, SEED, SEED + 1):
@@ -53,7 +53,7 @@ def test_exact_the_same_seed_gives_the_same_bits(name):
     assert runs[0] == runs[1] != runs[2]
 
 
-def test_exact_a_fresh_environment_gives_the_bits_of_a_kept_one():
+def test_exact_new_and_reused_environments_are_bit_identical():
     """The cached start of the latest seed does not change results."""
     kept, digests = gymnasium.make(HOVER), []
     for env in (kept, kept, gymnasium.make(HOVER)):
@@ -63,7 +63,7 @@ def test_exact_a_fresh_environment_gives_the_bits_of_a_kept_one():
     assert digests[0] == digests[1] == digests[2]
 
 
-def test_flight_hover_is_rewarded_for_nearness():
+def test_flight_hover_rewards_short_distances():
     env = gymnasium.make(HOVER)
     observation, _ = env.reset(seed=SEED)
     rewards = []
@@ -77,7 +77,7 @@ def test_flight_hover_is_rewarded_for_nearness():
     assert truncated and not terminated
 
 
-def test_flight_actions_fly_the_way_that_they_say():
+def test_flight_actions_move_the_vehicle_as_documented():
     """Forward, left, up in heading axes; yaw counterclockwise."""
     env = gymnasium.make(HOVER)
     for axis in range(4):
@@ -91,7 +91,7 @@ def test_flight_actions_fly_the_way_that_they_say():
         assert all(abs(value) < 0.35 for other, value in enumerate(moved) if other != axis)
 
 
-def test_flight_a_crash_ends_the_episode():
+def test_flight_crash_ends_the_episode():
     env = gymnasium.make(HOVER)
     env.reset(seed=SEED)
     # Move sideways first, because a soft contact with the pad is a landing.
@@ -104,7 +104,7 @@ def test_flight_a_crash_ends_the_episode():
     assert terminated and info["hits"] > 0
 
 
-def test_flight_inspect_is_rewarded_for_path_and_defects():
+def test_flight_inspect_rewards_paths_and_defects():
     env = gymnasium.make(INSPECT)
     observation, info = env.reset(seed=SEED)
     assert info == {"flown_share": 0.0, "found_share": 0.0}
@@ -120,7 +120,7 @@ def test_flight_inspect_is_rewarded_for_path_and_defects():
     assert info["found_share"] > 0.0
 
 
-def test_exact_wrong_actions_are_refused():
+def test_exact_invalid_actions_raise_errors():
     env = gymnasium.make(HOVER).unwrapped
     with pytest.raises(ValueError, match="reset every environment"):
         env.step(np.zeros(4, np.float32))
@@ -132,7 +132,7 @@ def test_exact_wrong_actions_are_refused():
 
 
 @pytest.mark.parametrize("mode", ["sync", "vector_entry_point"])
-def test_exact_vectors_fly_the_bits_of_single_environments(mode):
+def test_exact_vector_and_single_environments_are_bit_identical(mode):
     singles = [gymnasium.make(HOVER) for _ in range(3)]
     starts = np.array([env.reset(seed=SEED + k)[0] for k, env in enumerate(singles)])
     vector = gymnasium.make_vec(HOVER, num_envs=3, vectorization_mode=mode)
@@ -148,7 +148,7 @@ def test_exact_vectors_fly_the_bits_of_single_environments(mode):
         assert infos["_distance_m"].all()
 
 
-def test_exact_the_next_episode_begins_in_the_step_after_an_end():
+def test_exact_next_episode_starts_one_step_after_the_end():
     vector = gymnasium.make_vec(HOVER, num_envs=2, vectorization_mode="vector_entry_point", max_episode_steps=5)
     first, _ = vector.reset(seed=[SEED, None])
     actions = np.ones((2, 4), np.float32)
@@ -160,7 +160,7 @@ def test_exact_the_next_episode_begins_in_the_step_after_an_end():
     assert [vector.step(actions)[3].all() for _ in range(5)] == ends
 
 
-def test_exact_the_number_of_threads_changes_no_bit():
+def test_exact_number_of_threads_does_not_affect_results():
     digests = []
     for threads in (1, 3):
         vector = spandrel.gymnasium_envs.SpandrelVectorEnv("hover", "drill-hover", num_envs=5, threads=threads)

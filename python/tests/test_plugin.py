@@ -28,28 +28,28 @@ def digest(pytester):
     return line.split()[-1]
 
 
-def test_exact_two_runs_of_a_test_give_the_same_bits(pytester):
+def test_exact_two_runs_of_a_test_are_bit_identical(pytester):
     pytester.makepyfile(FLIGHT)
     first, second = digest(pytester), digest(pytester)
     assert len(first) == 64
     assert first == second
 
 
-def test_exact_another_seed_of_the_marker_gives_other_bits(pytester):
+def test_exact_marker_seed_changes_the_flight(pytester):
     pytester.makepyfile(FLIGHT)
     first = digest(pytester)
     pytester.makepyfile(FLIGHT.replace("seed=11", "seed=12"))
     assert digest(pytester) != first
 
 
-def test_the_example_of_the_documentation_is_short_and_passes(pytester):
+def test_documentation_example_is_short_and_passes(pytester):
     text = EXAMPLE.read_text(encoding="utf-8")
     assert sum(1 for line in text.splitlines() if line.strip()) <= 15
     pytester.makepyfile(test_square=text)
     pytester.runpytest_subprocess("--strict-markers").assert_outcomes(passed=1)
 
 
-def test_the_example_fails_where_a_corner_is_wrong(pytester):
+def test_documentation_example_fails_with_a_wrong_corner(pytester):
     text = EXAMPLE.read_text(encoding="utf-8").replace("vehicle.go_to(*corner)", "vehicle.go_to(east + 40, north, up)")
     pytester.makepyfile(test_square=text)
     result = pytester.runpytest_subprocess()

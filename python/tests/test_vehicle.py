@@ -17,7 +17,7 @@ def flown(seed):
     return vehicle
 
 
-def test_exact_a_step_is_one_millisecond():
+def test_exact_step_is_one_millisecond():
     vehicle = spandrel.Vehicle()
     assert vehicle.step().time_s == 0.001
     assert vehicle.step(499).time_s == 0.5
@@ -25,7 +25,7 @@ def test_exact_a_step_is_one_millisecond():
     assert vehicle.step(0).time_s == vehicle.time_s == 0.75
 
 
-def test_flight_arms_takes_off_goes_and_lands():
+def test_flight_arm_take_off_go_to_and_land():
     vehicle = flown(7)
     assert vehicle.state.armed
     vehicle.go_to(8.0, 6.0, 7.0)
@@ -55,13 +55,13 @@ def test_flight_sticks_climb():
     assert vehicle.state.height_m > start + 1.0
 
 
-def test_exact_two_runs_give_the_same_bits_and_another_seed_others():
+def test_exact_only_equal_seeds_are_bit_identical():
     digests = [flown(seed).digest for seed in (7, 7, 8)]
     assert digests[0] == digests[1] != digests[2]
     assert len(digests[0]) == 64
 
 
-def test_exact_two_threads_at_once_give_the_same_bits_as_one_after_the_other():
+def test_exact_concurrent_flights_are_bit_identical():
     alone = flown(7).digest
     found = []
     threads = [threading.Thread(target=lambda: found.append(flown(7).digest)) for _ in range(2)]
@@ -84,7 +84,7 @@ def test_stepping_lets_other_python_threads_run():
     assert turns > 1_000
 
 
-def test_exact_a_condition_that_never_holds_is_late():
+def test_exact_unmet_condition_raises_late_error():
     vehicle = spandrel.Vehicle()
     with pytest.raises(spandrel.LateError, match="was not met within 2 s of simulation time"):
         vehicle.run_until(lambda state: state.armed, sim_s=2)
@@ -101,7 +101,7 @@ def test_exact_a_condition_that_never_holds_is_late():
         ({"after_crash": "cry"}, "unknown rule cry; allowed: scenario, continue, respawn, end"),
     ],
 )
-def test_exact_a_wrong_job_is_refused_in_words(arguments, words):
+def test_exact_invalid_jobs_raise_descriptive_errors(arguments, words):
     with pytest.raises(spandrel.JobError, match=words):
         spandrel.Vehicle(**arguments)
 
@@ -114,14 +114,14 @@ def test_exact_every_problem_of_a_file_is_listed(tmp_path):
     assert "wrong" in str(raised.value) and "job.toml:" in str(raised.value)
 
 
-def test_exact_a_refused_command_raises_with_the_answer():
+def test_exact_rejected_command_raises_the_result():
     with pytest.raises(spandrel.RefusedError, match="MAV_CMD_USER_1 returned MAV_RESULT_UNSUPPORTED"):
         spandrel.Vehicle().command(31010)
     with pytest.raises(ValueError, match="unknown MAV_CMD 65000"):
         spandrel.Vehicle().command(65000)
 
 
-def test_exact_what_makes_no_sense_is_a_value_error():
+def test_exact_invalid_arguments_raise_value_errors():
     vehicle = spandrel.Vehicle()
     for wrong in (lambda: vehicle.step(-1), lambda: vehicle.run_for(-1.0), lambda: vehicle.run_for(math.nan)):
         with pytest.raises(ValueError, match="allowed: 0 or more"):
@@ -130,7 +130,7 @@ def test_exact_what_makes_no_sense_is_a_value_error():
         vehicle.open_link("carrier pigeon")
 
 
-def test_wire_a_link_without_a_socket_carries_frames_both_ways():
+def test_wire_socketless_link_carries_frames_in_both_directions():
     vehicle = spandrel.Vehicle()
     link = vehicle.open_link("gcs")
     vehicle.run_for(1.0)
@@ -142,6 +142,6 @@ def test_wire_a_link_without_a_socket_carries_frames_both_ways():
         link.send(b"")
 
 
-def test_names_of_what_ships():
+def test_names_of_shipped_files():
     assert "two-bridges" in spandrel.scenarios()
     assert "phantom2" in spandrel.vehicles()

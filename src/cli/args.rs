@@ -6,7 +6,7 @@ use spandrel_sitl::endpoint::flavour as endpoint;
 use spandrel_view::flow::pipe;
 
 /// Maximum seed: MAVLink messages carry it as a signed 32-bit integer.
-const SEED_MAX: u64 = i32::MAX as u64;
+const MAX_SEED: u64 = i32::MAX as u64;
 
 /// Scenario, aircraft and seed of a flight.
 #[derive(Debug, Clone, clap::Args)]
@@ -18,7 +18,7 @@ pub struct JobArgs {
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
     /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
-    #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
 }
 
@@ -30,13 +30,13 @@ impl JobArgs {
 }
 
 /// Parses a seed for `--seed`, 0 to 2147483647.
-pub fn seed(text: &str) -> Result<u64, String> {
-    text.parse().ok().filter(|seed| *seed <= SEED_MAX).ok_or_else(|| format!("'{text}' is not a seed (allowed: 0 to {SEED_MAX})"))
+pub fn parse_seed(text: &str) -> Result<u64, String> {
+    text.parse().ok().filter(|seed| *seed <= MAX_SEED).ok_or_else(|| format!("'{text}' is not a seed (allowed: 0 to {MAX_SEED})"))
 }
 
 /// Returns a new seed from the wall clock.
 pub fn random_seed() -> u64 {
-    spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & SEED_MAX
+    spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & MAX_SEED
 }
 
 /// Autopilot protocol that the vehicle uses toward its clients.
@@ -105,10 +105,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_seeds_fit_the_wire() {
-        assert_eq!(seed("2147483647"), Ok(2_147_483_647));
-        assert!(seed("2147483648").is_err());
-        assert!(seed("-1").is_err());
-        assert!(random_seed() <= SEED_MAX);
+    fn exact_seeds_fit_in_32_bits() {
+        assert_eq!(parse_seed("2147483647"), Ok(2_147_483_647));
+        assert!(parse_seed("2147483648").is_err());
+        assert!(parse_seed("-1").is_err());
+        assert!(random_seed() <= MAX_SEED);
     }
 }

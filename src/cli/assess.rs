@@ -48,7 +48,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let graded = grade(&log, &scenario, &vehicle)?;
     match &args.json {
         Some(target) => files::write(target, export::json_text(&graded.assessment).as_bytes()),
-        None => files::write("-", table::scores(&json!(graded.assessment)).as_bytes()),
+        None => files::write("-", table::scores_text(&json!(graded.assessment)).as_bytes()),
     }
 }
 

@@ -6,15 +6,15 @@ use serde_json::json;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{self, Scenario, Task};
 use spandrel_model::site::{NearestPoint, Site, defects};
-use spandrel_model::toml::{Problem, listed};
+use spandrel_model::toml::{Problem, split_displayed};
 use spandrel_model::vehicle::{self, Vehicle};
 
 /// Minimum clearance between path and obstacles, in addition to half the aircraft's width, m (issue 2, section 2).
-const MARGIN_M: f64 = 0.5;
+const MIN_CLEARANCE_M: f64 = 0.5;
 
 /// Seeds tried for a scenario without its own seed. One seed shows whether a task reaches a bridge, three whether there is enough room for the
 /// defects (estimate).
-const SEEDS_TRIED: [u64; 3] = [1, 2, 3];
+const TRIAL_SEEDS: [u64; 3] = [1, 2, 3];
 
 /// Check scenario and vehicle files
 ///
@@ -62,7 +62,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
     }
     let Findings { problems, warnings, notes } = &findings;
-    let (first, more) = listed(problems);
+    let (first, more) = split_displayed(problems);
     if args.json {
         println!("{:#}", json!({ "problems": first, "more_problems": more, "warnings": warnings, "notes": notes }));
     } else {
@@ -110,17 +110,17 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
     }
     match scenario::read(&source.file, &source.text, &|name| source.sibling(name)) {
         Ok(scenario) => {
-            findings.problems.extend(tight_passages(source, &scenario, aircraft));
-            findings.warnings.extend(too_few_defects(source, &scenario));
+            findings.problems.extend(clearance_problems(source, &scenario, aircraft));
+            findings.warnings.extend(missing_defects_warning(source, &scenario));
         }
         Err(wrong) => findings.problems.extend(wrong.0),
     }
 }
 
 /// Top-level keys that occur only in vehicle files or only in scenarios. They identify the kind of a file even if some keys are missing.
-const OF_VEHICLES: [&str; 10] =
+const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
-const OF_SCENARIOS: [&str; 13] = [
+const SCENARIO_KEYS: [&str; 13] = [
     "title",
     "seed",
     "origin",
@@ -145,17 +145,17 @@ fn is_vehicle(text: &str) -> bool {
         let word = line.trim_start_matches(['[', ' ']).split(['.', ']', '=', ' ', '\t']).next();
         word.filter(|_| head || !in_table)
     });
-    let weigh = |word: &str| i32::from(OF_VEHICLES.contains(&word)) - i32::from(OF_SCENARIOS.contains(&word));
+    let weigh = |word: &str| i32::from(VEHICLE_KEYS.contains(&word)) - i32::from(SCENARIO_KEYS.contains(&word));
     words.map(weigh).sum::<i32>() > 0
 }
 
-fn tight_passages(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
-    let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MARGIN_M;
+fn clearance_problems(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
+    let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MIN_CLEARANCE_M;
     // The result does not depend on defects or traffic, so any seed works.
-    let site = Site::build(&Scenario { defects: defects_not_placed(scenario), ..scenario.clone() }, 0);
+    let site = Site::build(&Scenario { defects: without_defects(scenario), ..scenario.clone() }, 0);
     let lines: Vec<usize> = task_lines(&source.text);
     let tight = |(k, task): (usize, &Task)| {
-        let (at_m, clearance_m, object) = tightest(task, &site, needed_m)?;
+        let (at_m, clearance_m, object) = min_clearance(task, &site, needed_m)?;
         let [east, north, up] = at_m.array();
         Some(Problem {
             file: source.file.clone(),
@@ -163,7 +163,7 @@ fn tight_passages(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) 
             key: format!("tasks.{k}"),
             value: format!("{clearance_m:.2} m"),
             allowed: format!(
-                "at least {needed_m:.2} m for {}: half its {:.2} m tip to tip plus {MARGIN_M} m",
+                "at least {needed_m:.2} m for {}: half its {:.2} m tip to tip plus {MIN_CLEARANCE_M} m",
                 aircraft.id, aircraft.hull.tip_to_tip_m
             ),
             message: format!(
@@ -176,12 +176,12 @@ fn tight_passages(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) 
 }
 
 /// Warns if fewer defects can be placed than requested: tries the scenario's own seed, or the first few seeds.
-fn too_few_defects(source: &SourceFile, scenario: &Scenario) -> Option<String> {
+fn missing_defects_warning(source: &SourceFile, scenario: &Scenario) -> Option<String> {
     let wanted = scenario.defects.count;
     if wanted == 0 || scenario.defects.placed.is_some() {
         return None;
     }
-    let seeds = scenario.seed.map_or_else(|| SEEDS_TRIED.to_vec(), |seed| vec![seed]);
+    let seeds = scenario.seed.map_or_else(|| TRIAL_SEEDS.to_vec(), |seed| vec![seed]);
     let placed = seeds.iter().map(|seed| (Site::build(scenario, *seed).defects().len(), *seed));
     let (least, seed) = placed.min()?;
     let line = source.text.lines().position(|line| line.trim_start().starts_with("[defects]")).map_or(1, |k| k + 1);
@@ -195,17 +195,17 @@ fn too_few_defects(source: &SourceFile, scenario: &Scenario) -> Option<String> {
     })
 }
 
-fn defects_not_placed(scenario: &Scenario) -> scenario::DefectSpec {
+fn without_defects(scenario: &Scenario) -> scenario::DefectSpec {
     scenario::DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
 }
 
 /// Returns the point with the least clearance along the path, if it is below the minimum.
-fn tightest(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
+fn min_clearance(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
     let points = &task.path_m;
     let wrap = if task.closed { points.first() } else { points.last() };
     let pieces = points.iter().zip(points.iter().skip(1).chain(wrap));
     let (at_m, near) = pieces.fold(None, |best: Option<(Vec3<Enu>, NearestPoint)>, (from, to)| {
-        site.geometry().tightest(*from, *to, best.map_or(needed_m, |b| b.1.distance_m)).or(best)
+        site.geometry().min_clearance(*from, *to, best.map_or(needed_m, |b| b.1.distance_m)).or(best)
     })?;
     Some((at_m, near.distance_m, site.object_name(near.object)))
 }
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_task_lines_are_found_by_their_heads() {
+    fn exact_task_lines_are_found() {
         assert_eq!(task_lines("a = 1\n[[tasks]]\nx = 2\n [[ tasks ]]\n[wind]\n"), [2, 4]);
     }
 
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_fewer_defects_than_asked_for_are_a_warning() {
+    fn regress_fewer_defects_than_requested_give_a_warning() {
         let aircraft = files::vehicle("phantom2").unwrap().vehicle;
         let mut source = files::any_source("drill-straight-line").unwrap();
         let found = |source: &SourceFile| {
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_only_near_names_are_suggested() {
+    fn regress_only_similar_keys_are_suggested() {
         let message = |key: &str| {
             let mut source = files::any_source("drill-straight-line").unwrap();
             source.text = source.text.replace("[defects]\n", &format!("[defects]\n{key} = 1\n"));
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_path_that_is_too_tight_is_refused_with_its_place() {
+    fn exact_low_clearance_is_reported_with_its_position() {
         let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
         aircraft.hull.tip_to_tip_m = 30.0;
         let mut findings = Findings::default();
@@ -283,9 +283,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_path_is_refused_from_the_very_size_that_no_longer_fits() {
+    fn exact_clearance_limit_matches_the_aircraft_size() {
         // Tolerance, m: the search along the path stops within 1 mm of the tightest point.
-        const CLOSE_M: f64 = 2e-3;
+        const TOLERANCE_M: f64 = 2e-3;
         let source = files::any_source("drill-gap").unwrap();
         let scenario = scenario::read(&source.file, &source.text, &|name| source.sibling(name)).unwrap();
         let site = Site::build(&scenario, 0);
@@ -296,11 +296,11 @@ mod tests {
         let problems = |tip_to_tip_m: f64| {
             let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
             aircraft.hull.tip_to_tip_m = tip_to_tip_m;
-            tight_passages(&source, &scenario, &aircraft)
+            clearance_problems(&source, &scenario, &aircraft)
         };
-        let fits_m = 2.0 * (tightest_m - MARGIN_M);
-        assert_eq!(problems(fits_m - CLOSE_M), []);
-        let refused = problems(fits_m + 2.0 * CLOSE_M);
+        let fits_m = 2.0 * (tightest_m - MIN_CLEARANCE_M);
+        assert_eq!(problems(fits_m - TOLERANCE_M), []);
+        let refused = problems(fits_m + 2.0 * TOLERANCE_M);
         assert_eq!(refused.len(), 1);
         assert_eq!(task_lines(&source.text), [refused[0].line]);
         // The reported point has the reported clearance.

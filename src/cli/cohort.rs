@@ -3,7 +3,7 @@
 use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
-use crate::records::from_lines;
+use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
 use spandrel_training::record::{IncompletePolicy, omitted_summary};
@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 /// Maximum number of contradictions printed as text; the tables list all of them.
-const CONTRADICTIONS: usize = 12;
+const MAX_CONTRADICTIONS: usize = 12;
 
 /// Summarize the results of a group of trainees
 ///
@@ -61,7 +61,7 @@ pub struct Args {
 /// If files or the database are invalid, or output cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let records = match &args.records {
-        Some(file) => from_lines(file)?,
+        Some(file) => read_json_lines(file)?,
         None => args.place.location().open()?.records(None)?,
     };
     let selection = Selection {
@@ -99,7 +99,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 /// Returns the number of sessions and the main statistics of the first sessions as text.
-fn first_sessions(cohort: &Cohort) -> String {
+fn summary_of_first_sessions(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
     if let Some(words) = omitted_summary(cohort.left_out) {
         let _ = writeln!(out, "{words} (--include-incomplete counts them)");
@@ -123,7 +123,7 @@ fn first_sessions(cohort: &Cohort) -> String {
 }
 
 fn words(cohort: &Cohort) -> String {
-    let mut out = first_sessions(cohort);
+    let mut out = summary_of_first_sessions(cohort);
     if !cohort.tests.is_empty() {
         let _ = writeln!(out, "\n{} people, {} repetitions", cohort.group.len(), cohort.repetitions);
         let _ = writeln!(
@@ -176,11 +176,11 @@ fn words(cohort: &Cohort) -> String {
         );
     }
     let contradictions = &cohort.self_rating.contradictions;
-    for one in contradictions.iter().take(CONTRADICTIONS) {
+    for one in contradictions.iter().take(MAX_CONTRADICTIONS) {
         let _ = writeln!(out, "{}: {}", one.trainee, one.words);
     }
-    if contradictions.len() > CONTRADICTIONS {
-        let _ = writeln!(out, "and {} more contradictions (--json, --csv)", contradictions.len() - CONTRADICTIONS);
+    if contradictions.len() > MAX_CONTRADICTIONS {
+        let _ = writeln!(out, "and {} more contradictions (--json, --csv)", contradictions.len() - MAX_CONTRADICTIONS);
     }
     for warning in &cohort.warnings {
         let _ = writeln!(out, "note: {warning}");

@@ -15,10 +15,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Interval at which the child processes are checked.
-const LOOK: Duration = Duration::from_millis(20);
+const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 /// Wall time that the monitor gets to detect the end of the session after the pilot has finished (it needs 3 s of simulation time with the aircraft
 /// at rest).
-const GRACE: Duration = Duration::from_secs(15);
+const MONITOR_GRACE_PERIOD: Duration = Duration::from_secs(15);
 
 /// Fly a whole session automatically
 ///
@@ -67,17 +67,17 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let job = JobArgs { seed: Some(seed), ..args.job.clone() };
     let quiet = if log == tracing::Level::INFO { tracing::Level::WARN } else { log };
     let mut monitor = Child::start("monitor", &[args::common_args(&job, log), monitor_args(args)].concat())?;
-    let announced = monitor.announced()?;
+    let announced = monitor.read_announcement()?;
     let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
     let pilot_args = [args::common_args(&job, quiet), args.skill.to_args(), vec!["--port".to_owned(), "0".to_owned()]];
     let mut pilot = Child::start("pilot", &pilot_args.concat())?;
-    let pilot_port = pilot.announced()?["port"].as_u64().unwrap_or_default();
+    let pilot_port = pilot.read_announcement()?["port"].as_u64().unwrap_or_default();
     let monitor_port = announced["port"].as_u64().unwrap_or_default();
     let sim_args = [args::common_args(&job, quiet), args.flavour.to_args(), sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
-    sim.announced()?;
+    sim.read_announcement()?;
     tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);
-    let lost = wait(&mut monitor, &mut pilot, &mut sim, &stop);
+    let lost = wait_for_end(&mut monitor, &mut pilot, &mut sim, &stop);
     monitor.finish();
     sim.finish();
     pilot.finish();
@@ -110,17 +110,17 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
 
 /// Waits for the end of the session. Returns early if the monitor does not detect an end after the pilot has finished, or with an error if a process
 /// exits too soon.
-fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
+fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
     let mut pilot_done: Option<Stopwatch> = None;
     loop {
         if monitor.ended().is_some() || stop.is_requested() {
             return None;
         }
-        if let Some(report) = pilot.line() {
+        if let Some(report) = pilot.try_read_line() {
             tracing::info!("pilot finished: {report}");
             pilot_done = Some(Stopwatch::start());
         }
-        if pilot_done.is_some_and(|since| since.elapsed() > GRACE) {
+        if pilot_done.is_some_and(|since| since.elapsed() > MONITOR_GRACE_PERIOD) {
             return None;
         }
         for (name, child) in [("simulator", &mut *sim), ("pilot", &mut *pilot)] {
@@ -131,6 +131,6 @@ fn wait(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequ
                 return Some(AppError::failed(format!("the {name} ended early ({status})")));
             }
         }
-        std::thread::sleep(LOOK);
+        std::thread::sleep(CHECK_INTERVAL);
     }
 }

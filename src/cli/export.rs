@@ -79,7 +79,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     scorm: Option<String>,
     /// Seed that places the defects, for a scenario that sets none
-    #[arg(long, value_name = "N", value_parser = args::seed)]
+    #[arg(long, value_name = "N", value_parser = args::parse_seed)]
     seed: Option<u64>,
 }
 
@@ -110,7 +110,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         };
         files::write(target, &recorded(stored)?)?;
     }
-    exchanged(args, stored.as_ref())?;
+    export_for_learning_systems(args, stored.as_ref())?;
     if args.scenario.is_none() && args.glb.is_none() && args.plan.is_none() {
         return Ok(());
     }
@@ -128,7 +128,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("building the site");
     // Without a seed, only the geometry is exported, which is the same for every seed.
     let site = Site::build(&scenario, seed.unwrap_or_default());
-    progress.end();
+    progress.finish();
     if let Some(target) = &args.scenario {
         files::write(target, json_text(&ScenarioExport::new(&scenario, site.defects())).as_bytes())?;
     }
@@ -137,7 +137,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             Some(vehicle) => vehicle,
             None => files::vehicle(&args.vehicle)?.vehicle,
         };
-        let map = PlanningContext { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, keep_clear_m: None };
+        let map =
+            PlanningContext { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, transit_clearance_m: None };
         files::write(target, json_text(&flight_plan::plan(&map, args.flavour.display_name().autopilot)).as_bytes())?;
     }
     if let Some(target) = &args.glb {
@@ -147,13 +148,13 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 /// Exports a session as Parquet, xAPI or SCORM.
-fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError> {
+fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError> {
     let needed = |flag: &str| {
         stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, but '{}' is not one", args.from)))
     };
     if let Some(target) = &args.parquet {
         let stored = needed("--parquet")?;
-        files::write(target, &crate::io::parquet::frames(&scoring::frame_rows(stored)?)?)?;
+        files::write(target, &crate::io::parquet::frames_to_parquet(&scoring::frame_rows(stored)?)?)?;
     }
     if let Some(target) = &args.xapi {
         needed("--xapi")?;
@@ -163,13 +164,13 @@ fn exchanged(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError
     }
     if let Some(target) = &args.scorm {
         needed("--scorm")?;
-        files::write(target, &zipped(&report::package(Path::new(&args.from))?)?)?;
+        files::write(target, &zip_files(&report::package(Path::new(&args.from))?)?)?;
     }
     Ok(())
 }
 
 /// Packs files into a ZIP archive; the same files give the same bytes.
-fn zipped(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
+fn zip_files(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
     let write = || {
         let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
         let options = zip::write::SimpleFileOptions::default()

@@ -12,7 +12,7 @@ pub const NAME: &str = "generate";
 
 /// Kind of output: manual pages or shell completions.
 #[derive(Debug, Subcommand)]
-pub enum What {
+pub enum GeneratorCommand {
     /// Write the manual pages of the program and its subcommands
     Man {
         /// Folder for the pages; must exist
@@ -28,22 +28,22 @@ pub enum What {
 
 /// Returns the hidden subcommand.
 pub fn subcommand() -> Command {
-    What::augment_subcommands(Command::new(NAME).hide(true).subcommand_required(true))
+    GeneratorCommand::augment_subcommands(Command::new(NAME).hide(true).subcommand_required(true))
 }
 
 /// Runs the subcommand. `documented` is the program's command line without this subcommand.
 ///
 /// # Errors
 /// If a file or standard output cannot be written.
-pub fn run(what: &What, mut documented: Command) -> Result<(), AppError> {
+pub fn run(what: &GeneratorCommand, mut documented: Command) -> Result<(), AppError> {
     match what {
-        What::Man { folder } => {
+        GeneratorCommand::Man { folder } => {
             for (name, page) in pages(documented)? {
                 files::write(&folder.join(name).display().to_string(), &page)?;
             }
             Ok(())
         }
-        What::Completions { shell } => {
+        GeneratorCommand::Completions { shell } => {
             let name = documented.get_name().to_owned();
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut documented, name, &mut script);
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_completions_name_every_subcommand_but_this_one() {
+    fn exact_completions_list_every_visible_subcommand() {
         for shell in [Shell::Bash, Shell::Zsh, Shell::Fish] {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut super::super::Cli::command(), "spandrel", &mut script);

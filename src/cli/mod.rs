@@ -72,7 +72,7 @@ pub fn main() -> ExitCode {
     let matches = Cli::command().subcommand(generate::subcommand()).get_matches();
     let done = match matches.subcommand() {
         Some((generate::NAME, inner)) => {
-            let what = generate::What::from_arg_matches(inner).unwrap_or_else(|error| error.exit());
+            let what = generate::GeneratorCommand::from_arg_matches(inner).unwrap_or_else(|error| error.exit());
             generate::run(&what, Cli::command())
         }
         _ => run(&Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())),
@@ -111,12 +111,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_command_line_is_consistent() {
+    fn exact_clap_definitions_are_valid() {
         Cli::command().debug_assert();
     }
 
     #[test]
-    fn exact_every_subcommand_explains_itself_with_an_example() {
+    fn exact_every_subcommand_help_has_examples() {
         for command in Cli::command().get_subcommands() {
             let help = command.clone().render_long_help().to_string();
             assert!(help.contains("Examples:"), "{}: no examples", command.get_name());

@@ -5,7 +5,7 @@ use super::ports::MONITOR_PORT;
 use super::table;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::addresses;
-use crate::io::append_file::WriteRefused;
+use crate::io::append_file::WriteError;
 use crate::io::clock::{self, Stopwatch};
 use crate::io::files::{self, ScenarioFile, VehicleFile};
 use crate::io::net::{NetEvent, SocketHub, SocketId};
@@ -25,13 +25,13 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Longest wait for a datagram, because the core needs the wall clock every 100 ms.
-const WAIT: Duration = Duration::from_millis(50);
+const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Interval at which received data is written to disk.
-const FLUSH_EVERY: Duration = Duration::from_millis(250);
+const FLUSH_INTERVAL: Duration = Duration::from_millis(250);
 /// Time without data after which the vehicle may use another address.
-const SILENT: Duration = Duration::from_secs(3);
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Interval at which the pilot is warned while the disk cannot be written.
-const WARN_EVERY: Duration = Duration::from_secs(30);
+const WARNING_INTERVAL: Duration = Duration::from_secs(30);
 /// Maximum number of datagrams processed before answers are sent.
 const BATCH: usize = 256;
 
@@ -113,8 +113,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         monitor,
         folder,
         resolved,
-        described: false,
-        flushed: Duration::ZERO,
+        session_json_saved: false,
+        last_flush: Duration::ZERO,
         warned: None,
         stopwatch: watch,
     };
@@ -128,7 +128,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
         progress.report(|| shell.status_line());
     }
-    progress.end();
+    progress.finish();
     shell.end(args.announce, &stop)
 }
 
@@ -189,8 +189,8 @@ struct MonitorProcess {
     /// True once `scenario.toml` contains the seed and the placed defects.
     resolved: bool,
     /// True if `session.json` is up to date.
-    described: bool,
-    flushed: Duration,
+    session_json_saved: bool,
+    last_flush: Duration,
     /// Time of the last warning about the disk; `None` while it can be written.
     warned: Option<Duration>,
     stopwatch: Stopwatch,
@@ -199,11 +199,11 @@ struct MonitorProcess {
 impl MonitorProcess {
     /// Processes received data, sends the core's answers and saves its records.
     fn step(&mut self) {
-        let mut wait = WAIT;
+        let mut wait = MAX_WAIT;
         for _ in 0..BATCH {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;
-            self.take(&arrival);
+            self.handle_event(&arrival);
         }
         let wall = self.stopwatch.elapsed();
         self.monitor.handle_timeout(SimTime::from_s(wall.as_secs_f64()));
@@ -212,11 +212,11 @@ impl MonitorProcess {
         self.send();
     }
 
-    fn take(&mut self, arrival: &NetEvent) {
+    fn handle_event(&mut self, arrival: &NetEvent) {
         let NetEvent::Datagram { from, bytes, .. } = arrival else { return };
         let wall = self.stopwatch.elapsed();
         if self.peer != Some(*from) {
-            let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_heard) < SILENT;
+            let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_heard) < SILENCE_TIMEOUT;
             if current_is_alive {
                 tracing::debug!("ignored a datagram from another address {from}");
                 return;
@@ -248,43 +248,44 @@ impl MonitorProcess {
     }
 
     fn save_when_due(&mut self) {
-        if self.stopwatch.elapsed().saturating_sub(self.flushed) >= FLUSH_EVERY {
+        if self.stopwatch.elapsed().saturating_sub(self.last_flush) >= FLUSH_INTERVAL {
             self.save_and_report();
         }
     }
 
     fn save_and_report(&mut self) {
-        self.flushed = self.stopwatch.elapsed();
+        self.last_flush = self.stopwatch.elapsed();
         let saved = self.save();
         self.report_disk(saved.err());
     }
 
     /// Writes all pending data.
-    fn save(&mut self) -> Result<(), WriteRefused> {
+    fn save(&mut self) -> Result<(), WriteError> {
         self.folder.flush()?;
         if !self.resolved
             && let (Some(seed), Some(survey)) = (self.monitor.seed(), self.monitor.survey())
         {
             self.folder.resolve(seed, survey.defects())?;
             self.resolved = true;
-            self.described = false;
+            self.session_json_saved = false;
         }
-        if !self.described {
-            self.folder.describe(|scenario, vehicle, utc, starts| self.monitor.session_info(scenario, vehicle, utc, starts))?;
-            self.described = true;
+        if !self.session_json_saved {
+            self.folder
+                .write_session_json(|scenario, vehicle, utc, starts| self.monitor.session_info(scenario, vehicle, utc, starts))?;
+            self.session_json_saved = true;
         }
         Ok(())
     }
 
     /// Warns in the log and tells the pilot when the disk fails, repeatedly while it does, and when it works again.
-    fn report_disk(&mut self, refused: Option<WriteRefused>) {
+    fn report_disk(&mut self, refused: Option<WriteError>) {
         let wall = self.stopwatch.elapsed();
         match refused {
             None if self.warned.take().is_some() => {
                 tracing::info!("recording to disk resumed");
                 self.monitor.notify_pilot("Recording resumed", MavSeverity::MAV_SEVERITY_INFO);
             }
-            Some(refused) if self.warned.is_none_or(|last| wall.saturating_sub(last) >= WARN_EVERY) => {
+            Some(refused) if self.warned.is_none_or(|last| wall.saturating_sub(last) >= WARNING_INTERVAL) => {
                 self.warned = Some(wall);
                 let (pending, dropped) = (self.folder.pending() / 1000, self.folder.dropped());
                 tracing::warn!("{refused}; {pending} kB in memory, {dropped} records lost; retrying");
@@ -299,8 +300,8 @@ impl MonitorProcess {
     fn complete(&mut self, json: Option<&str>, stop: &StopRequest) -> Result<(), AppError> {
         loop {
             self.write_records();
-            self.described = false;
-            let saved = self.save().and_then(|()| json.map_or(Ok(()), |json| self.folder.assessment(json)));
+            self.session_json_saved = false;
+            let saved = self.save().and_then(|()| json.map_or(Ok(()), |json| self.folder.write_assessment(json)));
             match saved {
                 Err(refused) if stop.is_requested() => return Err(refused.into()),
                 saved => {
@@ -337,8 +338,8 @@ impl MonitorProcess {
         }
         let graded = self.outcome()?;
         if !announce {
-            print!("{}", table::scores(&json!(graded.assessment)));
-            table::places(self.folder.path());
+            print!("{}", table::scores_text(&json!(graded.assessment)));
+            table::print_locations(self.folder.path());
         }
         Ok(())
     }

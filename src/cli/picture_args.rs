@@ -4,12 +4,12 @@ use crate::errors::AppError;
 use spandrel_view::quality::{PRESETS, Quality};
 
 /// Maximum width or height of an image, px.
-const LARGEST_PX: u32 = 8192;
+const MAX_SIZE_PX: u32 = 8192;
 
 /// Returns the quality preset with this name.
 pub fn quality(name: &str) -> Result<Quality, AppError> {
     let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-    Quality::named(name)
+    Quality::by_name(name)
         .ok_or_else(|| AppError::wrong(format!("--quality {name}: unknown preset (allowed: {})", names.join(", "))))
 }
 
@@ -17,11 +17,11 @@ pub fn quality(name: &str) -> Result<Quality, AppError> {
 pub fn size(text: &str) -> Result<(u32, u32), AppError> {
     let wrong = || {
         AppError::wrong(format!(
-            "--size {text}: not a size (allowed: WIDTHxHEIGHT in px, each 16 to {LARGEST_PX}, for example 1280x720)"
+            "--size {text}: not a size (allowed: WIDTHxHEIGHT in px, each 16 to {MAX_SIZE_PX}, for example 1280x720)"
         ))
     };
     let (width, height) = text.split_once('x').ok_or_else(wrong)?;
-    let side = |text: &str| text.parse::<u32>().ok().filter(|px| (16..=LARGEST_PX).contains(px)).ok_or_else(wrong);
+    let side = |text: &str| text.parse::<u32>().ok().filter(|px| (16..=MAX_SIZE_PX).contains(px)).ok_or_else(wrong);
     Ok((side(width)?, side(height)?))
 }
 

@@ -17,9 +17,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Longest wait for a datagram.
-const WAIT: Duration = Duration::from_millis(50);
+const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Wall time without a datagram after which a connected vehicle counts as lost.
-const SILENT: Duration = Duration::from_secs(10);
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// Skill level of the synthetic trainee.
 #[derive(Debug, Clone, clap::Args)]
@@ -113,7 +113,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let (watch, mut heard, mut reported) = (Stopwatch::start(), None, false);
     let mut progress = ProgressLog::start("waiting for the vehicle");
     while !stop.is_requested() {
-        let arrival = hub.next(WAIT);
+        let arrival = hub.next(MAX_WAIT);
         if let Some(NetEvent::Datagram { from, bytes, .. }) = arrival
             && *peer.get_or_insert(from) == from
         {
@@ -143,17 +143,17 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             }
         }
         if let Some(last) = heard
-            && watch.elapsed().saturating_sub(last) > SILENT
+            && watch.elapsed().saturating_sub(last) > SILENCE_TIMEOUT
         {
-            let message = format!("no data from the vehicle for {} s", SILENT.as_secs());
+            let message = format!("no data from the vehicle for {} s", SILENCE_TIMEOUT.as_secs());
             return if reported { Ok(()) } else { Err(AppError::failed(message)) };
         }
     }
-    progress.end();
-    ended(&pilot)
+    progress.finish();
+    flight_result(&pilot)
 }
 
-fn ended(pilot: &Pilot) -> Result<(), AppError> {
+fn flight_result(pilot: &Pilot) -> Result<(), AppError> {
     match pilot.finished() {
         Some(report) if report.reason == "landed" => Ok(()),
         Some(report) => Err(AppError::failed(report.reason.clone())),
@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_borrowed_numbers_reach_the_child_and_come_back() {
+    fn exact_expert_parameters_round_trip_through_arguments() {
         let args = SkillArgs { skill: "novice".into(), expert_in: vec![SkillFactor::Delay, SkillFactor::Lapses] };
         assert_eq!(args.to_args(), ["--skill", "novice", "--expert-in", "delay,lapses"]);
         let skill = args.skill().unwrap();

@@ -6,9 +6,9 @@ use crate::io::clock;
 use crate::io::files;
 use crate::io::plan_rules::rules;
 use crate::io::trainee_id::TraineeId;
-use crate::records::from_lines;
+use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
-use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_counting};
+use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_for_policy};
 use spandrel_training::record::{IncompletePolicy, omitted_summary};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -52,14 +52,14 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let trainee = args.trainee.as_str();
     let mut records = match &args.records {
-        Some(file) => from_lines(file)?,
+        Some(file) => read_json_lines(file)?,
         None => args.place.location().open()?.records(Some(trainee))?,
     };
     records.retain(|record| record.trainee == trainee);
     records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
     let rules = rules(args.rules.as_deref())?;
     let incomplete = IncompletePolicy::included(args.include_incomplete);
-    let Some(plan) = plan_counting(records, incomplete, &rules, clock::unix_us()) else {
+    let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us()) else {
         return Err(AppError::wrong(format!(
             "there is no session of '{trainee}' in the records; use spandrel records import to add sessions"
         )));
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_scenario_that_a_rule_names_is_shipped() {
+    fn exact_scenarios_in_the_rules_are_shipped() {
         let rules = rules(None).unwrap();
         let names = rules.rules.iter().map(|rule| &rule.scenario).chain([&rules.job, &rules.retention_scenario]);
         for name in names {

@@ -57,13 +57,13 @@ impl PortArgs {
         self.ports == "ephemeral"
     }
 
-    fn moved(&self, first: u16) -> u16 {
+    fn shifted(&self, first: u16) -> u16 {
         first + u16::from(self.instance)
     }
 
     /// Returns the ports of the vehicle number `more` after this one in the same process. All port numbers shift, except those that the system
     /// chooses. Only the first vehicle has serial ports.
-    pub fn of(&self, more: u8) -> Self {
+    pub fn for_vehicle(&self, more: u8) -> Self {
         let port = |port: PortChoice, step: u16| match port {
             PortChoice::Number(number @ 1..) => PortChoice::Number(number.saturating_add(step * u16::from(more))),
             PortChoice::Number(0) | PortChoice::None => port,
@@ -92,7 +92,7 @@ impl PortArgs {
             Some(PortChoice::None) => None,
             Some(PortChoice::Number(port)) => Some(port),
             None if self.ephemeral() => Some(0),
-            None => Some(self.moved(first)),
+            None => Some(self.shifted(first)),
         }
     }
 
@@ -111,7 +111,7 @@ impl PortArgs {
             Some(Destination::Address(address)) => Some(address),
             Some(Destination::None) => None,
             None if self.ephemeral() => None,
-            None => Some(local(self.moved(SDK_TARGET))),
+            None => Some(local(self.shifted(SDK_TARGET))),
         }
     }
 
@@ -121,7 +121,7 @@ impl PortArgs {
             Some(PortChoice::Number(port)) => port,
             Some(PortChoice::None) => 0,
             None if self.ephemeral() => 0,
-            None => self.moved(MONITOR_PORT),
+            None => self.shifted(MONITOR_PORT),
         }
     }
 
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_default_ports_are_those_of_the_design_and_move_with_the_instance() {
+    fn exact_default_ports_shift_with_the_instance() {
         let args = parse(&[]);
         assert_eq!(args.ground_stations(), [local(14550)]);
         assert_eq!((args.sdk(), args.monitor_port(), args.tcp()), (Some(local(14540)), 14030, Some(5760)));
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_arguments_of_a_child_read_back_the_same() {
+    fn exact_child_process_arguments_round_trip() {
         let args = parse(&[
             "--instance",
             "2",
@@ -227,9 +227,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_second_vehicle_of_a_process_has_ports_of_its_own() {
-        let args =
-            parse(&["--sdk", "127.0.0.1:9000", "--tcp-port", "7000", "--gcs-port", "0", "--serial", "/dev/ttyS1:57600"]).of(2);
+    fn exact_further_vehicles_of_a_process_get_shifted_ports() {
+        let args = parse(&["--sdk", "127.0.0.1:9000", "--tcp-port", "7000", "--gcs-port", "0", "--serial", "/dev/ttyS1:57600"])
+            .for_vehicle(2);
         assert_eq!((args.instance, args.sdk(), args.tcp(), args.monitor_port()), (2, Some(local(9002)), Some(7020), 14032));
         assert_eq!((args.port(args.gcs_port, GCS_PORT), args.port(None, PAYLOAD_PORT)), (Some(0), Some(14282)));
         assert!(args.serial.is_empty());

@@ -1,7 +1,7 @@
 //! `spandrel questionnaire`: asks the questions after a flight in a terminal.
 
 use crate::errors::{AppError, EXIT_CODES};
-use crate::io::answers::{languages, stored, task_ids};
+use crate::io::answers::{languages, read_answers_of, task_ids};
 use crate::io::replace::replace;
 use crate::io::session_folder::StoredSession;
 use spandrel_model::scenario::Scenario;
@@ -58,7 +58,7 @@ enum TypedInput {
     Keep,
     Back,
     Leave,
-    Nonsense,
+    Invalid,
 }
 
 /// Runs the subcommand.
@@ -66,10 +66,10 @@ enum TypedInput {
 /// # Errors
 /// If the session or a file is invalid, or answers cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let scenario = StoredSession::scenario_of(&args.session)?.scenario;
-    let mut answers = stored(&args.session, &scenario)?.unwrap_or_default();
+    let scenario = StoredSession::read_scenario(&args.session)?.scenario;
+    let mut answers = read_answers_of(&args.session, &scenario)?.unwrap_or_default();
     let languages = languages(args.wording.as_slice())?;
-    let wording = chosen(args, &languages, &answers)?;
+    let wording = select_wording(args, &languages, &answers)?;
     answers.language.clone_from(&wording.language);
     let questions = questions(args, &scenario, &answers);
     let (mut input, mut output) = (std::io::stdin().lock(), std::io::stdout().lock());
@@ -83,7 +83,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 /// Returns the wording to use: the requested language, the custom wording, the language of the saved answers, or that of the terminal.
-fn chosen<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
+fn select_wording<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
     if let Some(tag) = &args.language {
         let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();
         let none = || AppError::wrong(format!("--language {tag}: unknown language (allowed: {})", names.join(", ")));
@@ -124,7 +124,8 @@ fn ask_questions(
     writeln!(output, "{}\n{}\n{}", wording.title, wording.introduction, help(wording)).map_err(told)?;
     let mut at = 0;
     while let Some(question) = questions.get(at) {
-        write!(output, "\n[{}/{}] {}", at + 1, questions.len(), asked(*question, wording, scenario, answers)).map_err(told)?;
+        write!(output, "\n[{}/{}] {}", at + 1, questions.len(), prompt_text(*question, wording, scenario, answers))
+            .map_err(told)?;
         output.flush().map_err(told)?;
         let mut line = String::new();
         if input.read_line(&mut line).map_err(told)? == 0 {
@@ -142,7 +143,7 @@ fn ask_questions(
             TypedInput::Keep => at += 1,
             TypedInput::Back => at = at.saturating_sub(1),
             TypedInput::Leave => return Ok(()),
-            TypedInput::Nonsense => writeln!(output, "{}", allowed(*question, &wording.form)).map_err(told)?,
+            TypedInput::Invalid => writeln!(output, "{}", allowed(*question, &wording.form)).map_err(told)?,
         }
     }
     Ok(())
@@ -153,7 +154,7 @@ fn help(wording: &Wording) -> String {
     format!("{}\n{}", scale.join("   "), wording.form.keys)
 }
 
-fn asked(question: PromptQuestion, wording: &Wording, scenario: &Scenario, answers: &Answers) -> String {
+fn prompt_text(question: PromptQuestion, wording: &Wording, scenario: &Scenario, answers: &Answers) -> String {
     let name = |id: u32| scenario.tasks.iter().find(|task| task.id == id).map_or(String::new(), |task| task.name.clone());
     let before = |given: Option<&u8>| given.map_or(String::new(), |value| format!(" [{value}]"));
     match question {
@@ -185,7 +186,7 @@ fn parse_input(line: &str, question: PromptQuestion) -> TypedInput {
         "" => TypedInput::Keep,
         "b" | "B" => TypedInput::Back,
         "q" | "Q" => TypedInput::Leave,
-        number => number.parse().ok().filter(fits).map_or(TypedInput::Nonsense, TypedInput::Answer),
+        number => number.parse().ok().filter(fits).map_or(TypedInput::Invalid, TypedInput::Answer),
     }
 }
 
@@ -196,7 +197,7 @@ mod tests {
     use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
 
     /// Types lines into a questionnaire of the default scenario. Returns the output and the number of saves.
-    fn type_in(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
+    fn run_with_input(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
         let scenario = files::scenario("two-bridges").unwrap().scenario;
         let (mut shown, mut saved) = (Vec::new(), 0);
         let mut save = |_: &Answers| {
@@ -220,39 +221,39 @@ mod tests {
     }
 
     #[test]
-    fn exact_answers_are_taken_in_order_and_saved_one_by_one() {
+    fn exact_every_answer_is_saved_immediately() {
         let mut answers = Answers::default();
-        let (shown, saved) = type_in(&all(), &mut answers, &"2\n".repeat(24));
+        let (shown, saved) = run_with_input(&all(), &mut answers, &"2\n".repeat(24));
         assert_eq!((answers.given.len(), saved), (24, 24));
         assert!(answers.given.values().all(|answer| *answer == 2));
         assert!(shown.contains("[24/24] Landing"), "{shown}");
     }
 
     #[test]
-    fn exact_leaving_keeps_the_answers_and_nonsense_is_asked_again() {
+    fn exact_leaving_keeps_answers_and_invalid_input_repeats_the_question() {
         let mut answers = Answers::default();
-        let (shown, saved) = type_in(&all(), &mut answers, "1\n6\nfive\n0\n4\nq\n3\n");
+        let (shown, saved) = run_with_input(&all(), &mut answers, "1\n6\nfive\n0\n4\nq\n3\n");
         assert_eq!((answers.given.len(), saved), (2, 2));
         assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 4);
         assert_eq!(shown.matches("Please a whole number from 1 to 5").count(), 3);
         // The end of the input also leaves the questionnaire.
-        assert_eq!(type_in(&all(), &mut answers, "").1, 0);
+        assert_eq!(run_with_input(&all(), &mut answers, "").1, 0);
     }
 
     #[test]
-    fn exact_one_goes_back_and_enter_keeps() {
+    fn exact_b_goes_back_and_enter_keeps_the_answer() {
         let mut answers = Answers::default();
-        type_in(&all(), &mut answers, "1\n1\nb\n5\n\n3\nq\n");
+        run_with_input(&all(), &mut answers, "1\n1\nb\n5\n\n3\nq\n");
         assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 5);
         assert_eq!(answers.given.get(&QuestionnaireItem::Overall(OverallItem::Feedback)), None);
         assert_eq!(answers.given[&QuestionnaireItem::Phase(InspectionPhase::Calibration, PhaseAspect::Performance)], 3);
     }
 
     #[test]
-    fn exact_workload_scales_go_in_fives() {
+    fn exact_tlx_answers_are_multiples_of_five() {
         let mut answers = Answers::default();
         let questions: Vec<PromptQuestion> = TlxScale::ALL.into_iter().map(PromptQuestion::Tlx).collect();
-        type_in(&questions, &mut answers, "7\n105\n35\n100\n0\n5\n10\n15\n");
+        run_with_input(&questions, &mut answers, "7\n105\n35\n100\n0\n5\n10\n15\n");
         assert_eq!(answers.tlx.values().copied().collect::<Vec<u8>>(), [35, 100, 0, 5, 10, 15]);
     }
 }

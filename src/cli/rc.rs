@@ -20,16 +20,16 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Longest wait for a datagram: a quarter of the interval between stick samples.
-const WAIT: Duration = Duration::from_millis(5);
+const MAX_WAIT: Duration = Duration::from_millis(5);
 /// Wall time without a datagram after which a connected vehicle counts as lost.
-const SILENT: Duration = Duration::from_secs(10);
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall time without a first datagram after which a waiting message is shown.
-const PATIENCE: Duration = Duration::from_secs(3);
+const WAITING_MESSAGE_DELAY: Duration = Duration::from_secs(3);
 /// Key that quits in the terminal.
-const ENDS: &str = "escape";
+const QUIT_KEY: &str = "escape";
 /// Interval at which the calibration wizard polls the device.
-const LOOK: Duration = Duration::from_millis(5);
-const NO_ENTER: &str = "nothing was saved: the calibration needs the Enter key, but standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
+const POLL_INTERVAL: Duration = Duration::from_millis(5);
+const STDIN_ENDED_MESSAGE: &str = "nothing was saved: the calibration needs the Enter key, but standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
 
 /// Fly with a gamepad, an RC transmitter or the keyboard
 ///
@@ -127,16 +127,16 @@ enum StickSource {
 fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError> {
     if args.keyboard {
         let keys = controller::keys(args.keys.as_deref())?;
-        if let Some(duty) = keys.binding_name(ENDS) {
+        if let Some(duty) = keys.binding_name(QUIT_KEY) {
             let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
             return Err(AppError::wrong(format!(
-                "{file}{duty} = \"{ENDS}\": this key quits in the terminal; choose another one"
+                "{file}{duty} = \"{QUIT_KEY}\": this key quits in the terminal; choose another one"
             )));
         }
         let words = keys.help_text();
-        let terminal = RawTerminal::take()?;
-        print_line(&format!("{words}\n{ENDS:10} quit"));
-        if !terminal.tells_releases {
+        let terminal = RawTerminal::enter()?;
+        print_line(&format!("{words}\n{QUIT_KEY:10} quit"));
+        if !terminal.reports_releases {
             print_line(
                 "this terminal does not report key releases: sticks return to center automatically, and a key repeats its action only after a pause of 0.7 s",
             );
@@ -149,7 +149,7 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
         }
         None => EventSource::device(args.device.as_deref())?,
     };
-    Ok(StickSource::Device(Box::new(CalibratedController::take(
+    Ok(StickSource::Device(Box::new(CalibratedController::open(
         source,
         profiles,
         args.profile.as_deref(),
@@ -163,19 +163,20 @@ fn print_line(text: &str) {
 }
 
 impl StickSource {
-    fn show_axes(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> Result<ControllerReading, AppError> {
+    fn poll(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> Result<ControllerReading, AppError> {
         match self {
             Self::Device(hand) => Ok(hand.poll(link, flown, now)),
             Self::Keyboard { terminal, board } => {
                 let mut over = false;
                 while let Some(key) = terminal.next() {
                     match key {
-                        controller::TerminalKey::Down(key) => {
-                            board.press(&key, terminal.tells_releases, now).into_iter().for_each(|action| link.act(action, now))
-                        }
+                        controller::TerminalKey::Down(key) => board
+                            .press(&key, terminal.reports_releases, now)
+                            .into_iter()
+                            .for_each(|action| link.request_action(action, now)),
                         controller::TerminalKey::Up(key) => board.release(&key),
-                        controller::TerminalKey::LetGo => board.release_all(),
-                        controller::TerminalKey::End => over = true,
+                        controller::TerminalKey::FocusLost => board.release_all(),
+                        controller::TerminalKey::Quit => over = true,
                     }
                 }
                 Ok(ControllerReading { sticks: Some(board.sticks(now)), over })
@@ -198,7 +199,7 @@ fn fly(
         link.set_arm_key(&board.keys().label("arm"));
     }
     while !stop.is_requested() {
-        if let Some(NetEvent::Datagram { from, bytes, .. }) = hub.next(WAIT)
+        if let Some(NetEvent::Datagram { from, bytes, .. }) = hub.next(MAX_WAIT)
             && from == vehicle
         {
             if heard.is_none() {
@@ -207,7 +208,7 @@ fn fly(
             heard = Some(watch.elapsed());
             link.receive(&bytes);
         }
-        if heard.is_none() && !told && watch.elapsed() > PATIENCE {
+        if heard.is_none() && !told && watch.elapsed() > WAITING_MESSAGE_DELAY {
             print_line(&format!("no vehicle at {vehicle} yet; waiting"));
             told = true;
         }
@@ -216,7 +217,7 @@ fn fly(
             begin.get_or_insert(now);
         }
         let flown = begin.map_or(SimTime::ZERO, |begin| now - begin);
-        let look = pilot.show_axes(&mut link, flown, now)?;
+        let look = pilot.poll(&mut link, flown, now)?;
         link.set_sticks(look.sticks, now);
         link.handle_timeout(now);
         while let Some(bytes) = link.poll_transmit() {
@@ -228,8 +229,8 @@ fn fly(
         if look.over {
             return Ok(());
         }
-        if heard.is_some_and(|last| watch.elapsed().saturating_sub(last) > SILENT) {
-            return Err(AppError::failed(format!("no data from the vehicle for {} s", SILENT.as_secs())));
+        if heard.is_some_and(|last| watch.elapsed().saturating_sub(last) > SILENCE_TIMEOUT) {
+            return Err(AppError::failed(format!("no data from the vehicle for {} s", SILENCE_TIMEOUT.as_secs())));
         }
     }
     Ok(())
@@ -239,9 +240,9 @@ fn calibrate(args: &Args, profiles: &ProfileFolder, stop: &StopRequest) -> Resul
     // Fails early if the profile could not be saved.
     profiles.folder()?;
     let mut source = EventSource::device(args.device.as_deref())?;
-    let mode = StickMode::numbered(args.stick_mode).unwrap_or(StickMode::Two);
-    let profile = run_wizard(&mut source, mode, &is_enter(), stop)?;
-    println!("{}", profiles.keep(&profile)?.display());
+    let mode = StickMode::from_number(args.stick_mode).unwrap_or(StickMode::Two);
+    let profile = run_wizard(&mut source, mode, &enter_presses(), stop)?;
+    println!("{}", profiles.save(&profile)?.display());
     Ok(())
 }
 
@@ -251,7 +252,7 @@ fn run_wizard(
     enters: &Receiver<()>,
     stop: &StopRequest,
 ) -> Result<ControllerProfile, AppError> {
-    let mut wizard = CalibrationWizard::new(source.of().clone(), mode);
+    let mut wizard = CalibrationWizard::new(source.device_info().clone(), mode);
     let watch = Stopwatch::start();
     let mut told = String::new();
     while !stop.is_requested() {
@@ -259,10 +260,10 @@ fn run_wizard(
         while let Some(event) = source.next(now) {
             wizard.handle(event, now);
         }
-        match enters.recv_timeout(LOOK) {
+        match enters.recv_timeout(POLL_INTERVAL) {
             Ok(()) => wizard.confirm(now),
             Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return Err(AppError::failed(NO_ENTER)),
+            Err(RecvTimeoutError::Disconnected) => return Err(AppError::failed(STDIN_ENDED_MESSAGE)),
         }
         wizard.handle_timeout(now);
         if let Some(profile) = wizard.profile() {
@@ -278,7 +279,7 @@ fn run_wizard(
 }
 
 /// Returns a channel that receives a message for every line on standard input (Enter).
-fn is_enter() -> Receiver<()> {
+fn enter_presses() -> Receiver<()> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {
         for _ in std::io::stdin().lock().lines().map_while(Result::ok) {
@@ -302,14 +303,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_calibration_that_cannot_be_kept_is_not_begun() {
+    fn exact_calibration_needs_a_profile_folder() {
         let args = Line::parse_from(["rc", "--calibrate"]).args;
         let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
         assert!(told.contains("specify a folder with --profiles"), "{told}");
     }
 
     #[test]
-    fn exact_a_calibration_whose_input_has_ended_ends() {
+    fn exact_calibration_fails_when_standard_input_ends() {
         let record = InputRecording::read("r", "{\"format\":1,\"device\":\"Pad\",\"id\":\"1:2\"}").unwrap();
         let (_, enters) = channel();
         let told = run_wizard(&mut EventSource::Record(record), StickMode::Two, &enters, &StopRequest::default())

@@ -5,8 +5,8 @@ use crate::io::progress::ProgressLog;
 use crate::io::trainee_id::TraineeId;
 use crate::io::{clock, files};
 use crate::records::{
-    Database, ImportCounts, RecordsLocation, erase_older, erase_person, find, folders_of, folders_older, import_into, kept,
-    lines, push, session_folders, session_id,
+    Database, ImportCounts, RecordsLocation, erase_older_than, erase_person, find, folders_of_trainee, folders_older_than,
+    import_into, lines, push, session_folders, session_id, stored_data,
 };
 use spandrel_monitor::export::json_text;
 use spandrel_training::record::SessionOutcome;
@@ -18,7 +18,7 @@ use std::path::PathBuf;
 /// Microseconds in one day.
 const DAY_US: u64 = 86_400_000_000;
 /// Maximum retention time, days (100 years).
-const RETENTION_MAX_DAYS: i64 = 36_525;
+const MAX_RETENTION_DAYS: i64 = 36_525;
 
 /// Keep sessions, trainees and answers in a database
 ///
@@ -118,7 +118,7 @@ enum RecordsCommand {
     /// Erase everything older than this many days from the database and the session folders
     Retention {
         /// Age, days (1 to 36525)
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(1..=RETENTION_MAX_DAYS))]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(1..=MAX_RETENTION_DAYS))]
         days: i64,
         /// Erase; without this option, only list what would be erased
         #[arg(long)]
@@ -234,7 +234,7 @@ fn rebuild(place: &RecordsLocation, yes: bool) -> Result<(), AppError> {
         progress.report(|| format!("session {} of {}", k + 1, folders.len()));
         records.extend(taken.read(folder, (&none, &erased), "kept unchanged"));
     }
-    progress.end();
+    progress.finish();
     let made = database.rebuild(&records, &gone)?;
     let deleted =
         if gone.is_empty() { String::new() } else { format!(", {} without a folder on this machine deleted", gone.len()) };
@@ -265,11 +265,11 @@ fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppErr
     let database = place.open()?;
     let before = clock::utc(limit_us).0;
     if !yes {
-        let (old, folders) = (database.older_than(limit_us)?, folders_older(place, limit_us)?);
+        let (old, folders) = (database.older_than(limit_us)?, folders_older_than(place, limit_us)?);
         println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());
         return Ok(());
     }
-    let (deleted, folders) = erase_older(&database, place, limit_us)?;
+    let (deleted, folders) = erase_older_than(&database, place, limit_us)?;
     println!("erased {deleted} sessions and {folders} folders from before {before}");
     Ok(())
 }
@@ -282,7 +282,7 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
     let name = args.id.as_str();
     let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
     if args.role.is_some() || details.iter().any(Option::is_some) {
-        database.set_given(name, args.role.as_deref().and_then(Role::from_word), details)?;
+        database.update_details(name, args.role.as_deref().and_then(Role::from_word), details)?;
     }
     let person = find(database, name)?;
     let person = person.ok_or_else(|| AppError::wrong(format!("{}: unknown person '{name}'", database.name())))?;
@@ -295,7 +295,7 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
 /// If there is no data, or the database or the output fails.
 fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = place.open()?;
-    let kept = kept(&database, place, trainee)?;
+    let kept = stored_data(&database, place, trainee)?;
     let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: no data about '{trainee}'", database.name())))?;
     files::write(out, json_text(&kept).as_bytes())
 }
@@ -306,7 +306,7 @@ fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppEr
 /// If a folder or the database cannot be changed.
 fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
     let database = place.open()?;
-    let folders = folders_of(place, trainee)?;
+    let folders = folders_of_trainee(place, trainee)?;
     if !yes {
         let sessions = database.records(Some(trainee))?.len();
         let known = if find(&database, trainee)?.is_some() { "in the database" } else { "not in the database" };
@@ -328,6 +328,6 @@ fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppErr
 fn push_sessions(place: &RecordsLocation, args: &PushArgs) -> Result<(), AppError> {
     let records = place.open()?.records(args.trainee.as_ref().map(TraineeId::as_str))?;
     let all = push::push(place, &records, &args.url, &args.home)?;
-    println!("{}: {} sessions, {} statements sent, {} already there", args.url, records.len(), all.sent, all.there_already);
+    println!("{}: {} sessions, {} statements sent, {} already there", args.url, records.len(), all.sent, all.already_there);
     Ok(())
 }

@@ -44,7 +44,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         Some(other) => compared(&args.session, other)?,
         None => page::session(&review(&args.session)?),
     };
-    progress.end();
+    progress.finish();
     match &args.out {
         Some(target) => files::write(target, text.as_bytes()),
         None => {

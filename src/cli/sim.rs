@@ -196,7 +196,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let glb = args.files.is_some().then(|| gltf::glb(&site));
     for door in &mut doors {
         if let (Some(store), Some(glb)) = (&mut door.files.store, &glb) {
-            store.show_site(glb);
+            store.set_site(glb);
         }
         door.links.bound["seed"] = seed.into();
         if args.announce {
@@ -229,13 +229,13 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
         }
         if args.lateness {
-            println!("{}", told(late));
+            println!("{}", lateness_json(late));
         }
     }
     Ok(())
 }
 
-fn told(late: Lateness) -> serde_json::Value {
+fn lateness_json(late: Lateness) -> serde_json::Value {
     let ms = |time: Duration| 1e3 * time.as_secs_f64();
     serde_json::json!({ "latest_ms": ms(late.latest), "slips": late.slips, "slipped_ms": ms(late.slipped) })
 }
@@ -268,20 +268,20 @@ struct VehicleIo {
 
 impl VehicleIo {
     fn open(args: &Args, more: u8) -> Result<Self, AppError> {
-        let ports = args.ports.of(more);
+        let ports = args.ports.for_vehicle(more);
         let instance = ports.instance;
         let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
         let store =
             args.files.as_ref().map(folder).map(|folder| FileStore::open(&folder, args.log_space * 1_000_000)).transpose()?;
         let params =
-            args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { numbered(path, instance + 1) });
-        let heard = args.signing_key.as_ref().map(|key| SigningStore::of(key, instance + 1));
+            args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { with_system_id(path, instance + 1) });
+        let heard = args.signing_key.as_ref().map(|key| SigningStore::for_vehicle(key, instance + 1));
         let kept = VehicleFiles { store, params: params.map(ParamFile::new), signing_store: heard };
         Ok(Self { links: Links::open(&ports.resolve(), &args.lockstep)?, files: kept, instance })
     }
 }
 
-fn numbered(path: &Path, system_id: u8) -> PathBuf {
+fn with_system_id(path: &Path, system_id: u8) -> PathBuf {
     let mut name = path.as_os_str().to_os_string();
     name.push(format!(".{system_id}"));
     PathBuf::from(name)
@@ -326,7 +326,7 @@ fn fly_one(
         }
     }
     if let Some(progress) = progress {
-        progress.end();
+        progress.finish();
     }
     shell.finish();
     Ok(VehicleResult { digest: shell.core.digest(), late: shell.lateness() })

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Prints the location of a session and the address of its report.
-pub fn places(session: &Path) {
+pub fn print_locations(session: &Path) {
     println!("session       {}", session.display());
     let page = session.join(REPORT);
     if page.is_file() {
@@ -27,13 +27,13 @@ pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     let text = std::fs::read_to_string(&path)
         .map_err(|_| AppError::failed(format!("the session was not scored; the recorded data is in {}", session.display())))?;
     let assessment = serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
-    print!("{}", scores(&assessment));
-    places(session);
+    print!("{}", scores_text(&assessment));
+    print_locations(session);
     Ok(())
 }
 
 /// Returns the scores, tasks, crashes, pictures and the end of a session as text.
-pub fn scores(assessment: &Value) -> String {
+pub fn scores_text(assessment: &Value) -> String {
     let mut out = String::new();
     let scores = &assessment["scores"];
     let completion = Completion::deserialize(&assessment["completion"]).ok();
@@ -129,7 +129,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn exact_the_table_shows_every_number_rounded() {
+    fn exact_scores_table_rounds_numbers() {
         let assessment = json!({
             "completion": {"complete": true, "tasks_done": 2, "tasks": 2, "path_share": 0.914, "landed_at_home": true, "done_share": 0.8},
             "certification": {"passed": false, "unmet": ["12 % battery at landing, 20 % needed"]},
@@ -154,11 +154,11 @@ crashes       3 with structures or ground, 0 with people, 0 with vehicles (task 
 snapshots     5 taken, 3 with defects; 4 of 10 defects found
 end           landed after 12 min 30 s of flight, 0 frames missing
 ";
-        assert_eq!(scores(&assessment), expected);
+        assert_eq!(scores_text(&assessment), expected);
     }
 
     #[test]
-    fn regress_an_incomplete_attempt_leads_with_what_was_not_done_and_has_no_sum() {
+    fn regress_incomplete_sessions_have_no_overall_score() {
         let score = |pct: f64| json!({"raw": pct, "pct": pct});
         let assessment = json!({
             "completion": {"complete": false, "tasks_done": 0, "tasks": 2, "path_share": 0.31, "landed_at_home": true, "done_share": 0.8},
@@ -168,7 +168,7 @@ end           landed after 12 min 30 s of flight, 0 frames missing
             "tasks": [{"id": 1, "attempted": true, "state": "part", "covered": 0.64, "on_path": 0.5, "speeding": 0.0},
                 {"id": 2, "attempted": false, "state": "not_attempted", "covered": 0.0}],
         });
-        let text = scores(&assessment);
+        let text = scores_text(&assessment);
         let start = "Incomplete: 0 of 2 tasks, 31 % of the path\n\
             Not certified: task 1 not done: 64 % of its path, 80 % needed (and 1 more)\n\nfor the part that was flown:\n";
         assert!(text.starts_with(start), "{text}");

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 /// Longest delay of a screenshot, s.
 #[cfg(feature = "view")]
-const AFTER_MAX_S: f64 = 3_600.0;
+const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
@@ -133,8 +133,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 #[cfg(feature = "view")]
 fn picture(args: &Args) -> Result<Option<CaptureRequest>, AppError> {
     let (Some(path), Some(after)) = (&args.screenshot, args.after) else { return Ok(None) };
-    if !(0.0..=AFTER_MAX_S).contains(&after) {
-        return Err(AppError::wrong(format!("--after {after}: out of range (allowed: 0 to {AFTER_MAX_S} s)")));
+    if !(0.0..=MAX_SCREENSHOT_DELAY_S).contains(&after) {
+        return Err(AppError::wrong(format!("--after {after}: out of range (allowed: 0 to {MAX_SCREENSHOT_DELAY_S} s)")));
     }
     Ok(Some(CaptureRequest { path: path.clone(), after: std::time::Duration::from_secs_f64(after) }))
 }

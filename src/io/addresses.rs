@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_targets_and_ports_parse() {
+    fn exact_destinations_and_ports_parse() {
         assert_eq!("none".parse(), Ok(Destination::None));
         assert_eq!("127.0.0.1:14550".parse(), Ok(Destination::Address(SocketAddr::from(([127, 0, 0, 1], 14550)))));
         assert!("14550".parse::<Destination>().is_err());

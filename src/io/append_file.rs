@@ -6,27 +6,27 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// Maximum data kept in memory while the disk cannot be written, bytes: about 20 minutes of telemetry (50 kB/s, estimate).
-const PENDING_MOST: usize = 64 * 1024 * 1024;
+const MAX_PENDING_BYTES: usize = 64 * 1024 * 1024;
 
 /// A write that failed.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot write: {error}", path.display())]
-pub struct WriteRefused {
+pub struct WriteError {
     /// Path of the file.
     pub path: PathBuf,
     /// Error of the operating system.
     pub error: std::io::Error,
 }
 
-impl WriteRefused {
+impl WriteError {
     /// Returns true if the disk is full, rather than faulty.
     pub fn is_full(&self) -> bool {
         matches!(self.error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
     }
 }
 
-impl From<WriteRefused> for AppError {
-    fn from(refused: WriteRefused) -> Self {
+impl From<WriteError> for AppError {
+    fn from(refused: WriteError) -> Self {
         Self::failed(refused.to_string())
     }
 }
@@ -39,26 +39,28 @@ pub struct AppendFile {
     /// Length of the complete records on disk, bytes.
     len: u64,
     /// True if the file may contain a partial record beyond `len`.
-    torn: bool,
+    has_partial_record: bool,
     pending: Vec<u8>,
     dropped: u64,
-    whole: fn(&[u8]) -> usize,
+    complete_len: fn(&[u8]) -> usize,
 }
 
 impl AppendFile {
-    /// Opens or creates the file. `whole` returns the length of the complete records at the start of a buffer.
+    /// Opens or creates the file. `complete_len` returns the length of the complete records at the start of a buffer.
     ///
     /// # Errors
     /// If the file cannot be opened.
-    pub fn open(path: PathBuf, whole: fn(&[u8]) -> usize) -> Result<Self, WriteRefused> {
+    pub fn open(path: PathBuf, complete_len: fn(&[u8]) -> usize) -> Result<Self, WriteError> {
         let open = || {
             let file = OpenOptions::new().create(true).append(true).open(&path)?;
             let len = file.metadata()?.len();
             Ok((file, len))
         };
         match open() {
-            Ok((file, len)) => Ok(Self { file, path, len, torn: false, pending: Vec::new(), dropped: 0, whole }),
-            Err(error) => Err(WriteRefused { path, error }),
+            Ok((file, len)) => {
+                Ok(Self { file, path, len, has_partial_record: false, pending: Vec::new(), dropped: 0, complete_len })
+            }
+            Err(error) => Err(WriteError { path, error }),
         }
     }
 
@@ -89,16 +91,16 @@ impl AppendFile {
     ///
     /// # Errors
     /// If the disk cannot be written.
-    pub fn cut(&mut self, len: u64) -> Result<(), WriteRefused> {
+    pub fn cut(&mut self, len: u64) -> Result<(), WriteError> {
         self.file.set_len(len).map_err(|error| self.refused(error))?;
         self.len = len;
-        self.torn = false;
+        self.has_partial_record = false;
         Ok(())
     }
 
     /// Adds complete records, which are written with the next [`Self::flush`]. Above a limit they are dropped and counted.
     pub fn push(&mut self, records: &[u8]) {
-        if self.pending.len() > PENDING_MOST {
+        if self.pending.len() > MAX_PENDING_BYTES {
             self.dropped += 1;
         } else {
             self.pending.extend_from_slice(records);
@@ -119,21 +121,21 @@ impl AppendFile {
     ///
     /// # Errors
     /// If the disk cannot be written.
-    pub fn flush(&mut self) -> Result<(), WriteRefused> {
-        if self.torn {
+    pub fn flush(&mut self) -> Result<(), WriteError> {
+        if self.has_partial_record {
             self.cut(self.len)?;
         }
         let (written, result) = write_available(&mut self.file, &self.pending);
-        let kept = if result.is_ok() { written } else { (self.whole)(&self.pending[..written]) };
+        let kept = if result.is_ok() { written } else { (self.complete_len)(&self.pending[..written]) };
         self.len += kept as u64;
         self.pending.drain(..kept);
         if self.pending.is_empty() {
             // Frees the memory of a large buffer after a long disk failure.
-            self.pending.shrink_to(PENDING_MOST / 64);
+            self.pending.shrink_to(MAX_PENDING_BYTES / 64);
         }
         let Err(error) = result else { return Ok(()) };
-        self.torn = written > kept;
-        if self.torn {
+        self.has_partial_record = written > kept;
+        if self.has_partial_record {
             // If this fails, too, the next flush repeats it.
             let _ = self.cut(self.len);
         }
@@ -144,12 +146,12 @@ impl AppendFile {
     ///
     /// # Errors
     /// If the disk cannot be written.
-    pub fn sync(&self) -> Result<(), WriteRefused> {
+    pub fn sync(&self) -> Result<(), WriteError> {
         self.file.sync_all().map_err(|error| self.refused(error))
     }
 
-    fn refused(&self, error: std::io::Error) -> WriteRefused {
-        WriteRefused { path: self.path.clone(), error }
+    fn refused(&self, error: std::io::Error) -> WriteError {
+        WriteError { path: self.path.clone(), error }
     }
 }
 
@@ -171,9 +173,9 @@ fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Resu
 ///
 /// # Errors
 /// If the disk cannot be written. Missing files are skipped.
-pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteRefused> {
+pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteError> {
     let sync = |path: PathBuf| match File::open(&path).and_then(|file| file.sync_all()) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(WriteRefused { path, error }),
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(WriteError { path, error }),
         Ok(()) | Err(_) => Ok(()),
     };
     names.iter().try_for_each(|name| sync(folder.join(name)))?;
@@ -182,6 +184,6 @@ pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteRefused> {
 }
 
 /// Returns the length of the complete lines at the start of a buffer.
-pub fn whole_lines(bytes: &[u8]) -> usize {
+pub fn complete_lines_len(bytes: &[u8]) -> usize {
     bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1)
 }

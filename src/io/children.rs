@@ -10,11 +10,11 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Time limit for a child to open its sockets and load its site on a busy machine.
-const START_LIMIT: Duration = Duration::from_secs(60);
+const START_TIMEOUT: Duration = Duration::from_secs(60);
 /// Time limit for a child to finish cleanly.
-const END_LIMIT: Duration = Duration::from_secs(10);
+const FINISH_TIMEOUT: Duration = Duration::from_secs(10);
 /// Interval at which a finishing child is checked.
-const LOOK: Duration = Duration::from_millis(20);
+const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 
 /// A running child process.
 #[derive(Debug)]
@@ -31,14 +31,14 @@ impl Child {
     /// # Errors
     /// If the process cannot be started.
     pub fn start(name: &'static str, args: &[String]) -> Result<Self, AppError> {
-        Self::start_sibling(name, args, &[])
+        Self::start_with_env(name, args, &[])
     }
 
     /// Starts `spandrel NAME ARGS` with additional environment variables.
     ///
     /// # Errors
     /// If the process cannot be started.
-    pub fn start_sibling(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
+    pub fn start_with_env(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("cannot start the {name}: {error}"));
         let program = std::env::current_exe().map_err(failed)?;
         let mut process = Command::new(program)
@@ -67,20 +67,20 @@ impl Child {
     ///
     /// # Errors
     /// If the child exits first, or prints anything else.
-    pub fn announced(&mut self) -> Result<Value, AppError> {
+    pub fn read_announcement(&mut self) -> Result<Value, AppError> {
         let name = self.name;
-        let line = self.lines.recv_timeout(START_LIMIT).map_err(|error| match self.ended_after(error) {
+        let line = self.lines.recv_timeout(START_TIMEOUT).map_err(|error| match self.exit_status_after(error) {
             Some(status) => {
                 let why = format!("the {name} did not start ({status}); see its message in the terminal");
                 if status.code() == Some(2) { AppError::wrong(why) } else { AppError::failed(why) }
             }
-            None => AppError::failed(format!("the {name} has not started after {} s", START_LIMIT.as_secs())),
+            None => AppError::failed(format!("the {name} has not started after {} s", START_TIMEOUT.as_secs())),
         })?;
         serde_json::from_str(&line).map_err(|error| AppError::failed(format!("the {name} announced '{line}': {error}")))
     }
 
     /// Returns the exit status of a child that has announced nothing, if it has exited.
-    fn ended_after(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
+    fn exit_status_after(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
         match error {
             RecvTimeoutError::Timeout => self.ended(),
             // The child's output closes slightly before the process exits.
@@ -89,7 +89,7 @@ impl Child {
     }
 
     /// Returns the next line of the child's output, if one has arrived.
-    pub fn line(&self) -> Option<String> {
+    pub fn try_read_line(&self) -> Option<String> {
         self.lines.try_recv().ok()
     }
 
@@ -107,19 +107,19 @@ impl Child {
     }
 
     /// Closes the child's standard input, which asks it to finish.
-    pub fn detach(&mut self) {
+    pub fn close_stdin(&mut self) {
         self.stdin = None;
     }
 
     /// Asks the child to finish and waits; kills it after the time limit.
     pub fn finish(&mut self) -> Option<ExitStatus> {
-        self.detach();
+        self.close_stdin();
         let watch = Stopwatch::start();
-        while watch.elapsed() < END_LIMIT {
+        while watch.elapsed() < FINISH_TIMEOUT {
             if let Some(status) = self.ended() {
                 return Some(status);
             }
-            std::thread::sleep(LOOK);
+            std::thread::sleep(CHECK_INTERVAL);
         }
         tracing::warn!("the {} does not finish and is killed", self.name);
         // Both calls fail only if the child has just exited.
@@ -141,10 +141,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_child_that_does_not_start_is_reported_and_where_its_message_is() {
+    fn exact_a_child_that_does_not_start_is_reported() {
         // The test executable does not accept `--announce`: it prints an error and exits.
         let mut child = Child::start("view", &[]).unwrap();
-        let told = child.announced().unwrap_err().to_string();
+        let told = child.read_announcement().unwrap_err().to_string();
         assert!(told.starts_with("the view did not start (") && told.ends_with("see its message in the terminal"), "{told}");
     }
 }

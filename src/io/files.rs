@@ -53,7 +53,7 @@ pub fn vehicle_names() -> Vec<&'static str> {
 /// # Errors
 /// If it cannot be read or is invalid; all problems are listed.
 pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
-    scenario_from(source(argument, "scenario", shipped::SCENARIOS)?)
+    scenario_from(find_source(argument, "scenario", shipped::SCENARIOS)?)
 }
 
 /// Loads and validates a vehicle.
@@ -61,7 +61,7 @@ pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
 /// # Errors
 /// If it cannot be read or is invalid; all problems are listed.
 pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
-    let source = source(argument, "vehicle", shipped::VEHICLES)?;
+    let source = find_source(argument, "vehicle", shipped::VEHICLES)?;
     let vehicle = vehicle::read(&source.file, &source.text)?;
     Ok(VehicleFile { text: source.text, vehicle })
 }
@@ -70,7 +70,7 @@ pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
 ///
 /// # Errors
 /// Like [`vehicle`].
-pub fn vehicle_named(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
+pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     let text = read(path)?;
     let mut vehicle = vehicle::read(&path.display().to_string(), &text)?;
     vehicle.id = id.to_owned();
@@ -96,7 +96,7 @@ pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
 ///
 /// # Errors
 /// If there is no such file or name.
-pub fn source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
+pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
     let path = Path::new(argument);
     let looks_like_a_path = argument.contains(['/', '\\']) || path.extension().is_some_and(|end| end == "toml");
     if looks_like_a_path || path.is_file() {
@@ -116,7 +116,7 @@ pub fn source(argument: &str, what: &str, library: &[(&'static str, &'static str
 /// If there is no such file or name.
 pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
     let library: Vec<_> = shipped::SCENARIOS.iter().chain(shipped::VEHICLES).copied().collect();
-    source(argument, "scenario or vehicle", &library)
+    find_source(argument, "scenario or vehicle", &library)
 }
 
 /// Reads a text file (UTF-8).
@@ -174,13 +174,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_an_unknown_name_lists_what_there_is() {
+    fn exact_an_unknown_name_is_reported() {
         let Err(error) = vehicle("no-such-drone") else { panic!("found it") };
         assert!(matches!(&error, AppError::Wrong(message) if message.contains("no-such-drone")), "{error}");
     }
 
     #[test]
-    fn exact_files_beside_a_scenario_stay_beside_it() {
+    fn exact_siblings_outside_the_scenario_folder_are_rejected() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("heights.csv"), "1,2").unwrap();
         let source = SourceFile { file: "s.toml".into(), text: String::new(), folder: Some(folder.path().into()) };

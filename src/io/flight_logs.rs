@@ -4,14 +4,14 @@ use cap_std::fs::Dir;
 use std::collections::BTreeMap;
 
 /// Extensions of the files of a flight.
-const ENDINGS: [&str; 2] = [".ulg", ".mcap"];
+const EXTENSIONS: [&str; 2] = [".ulg", ".mcap"];
 
 /// Deletes the logs of the oldest flights until the rest takes at most `most` bytes. `folder` contains one folder per day with two files per flight,
 /// named by the time of day; other files are neither counted nor deleted. Returns the number of flights deleted.
 ///
 /// # Errors
 /// If a folder cannot be read or a file cannot be deleted.
-pub fn make_room(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
+pub fn delete_oldest(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
     let flights = flights(root, folder)?;
     let mut total: u64 = flights.values().map(|flight| flight.bytes).sum();
     let mut deleted = 0;
@@ -48,7 +48,7 @@ fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String
         for file in root.read_dir(&path)? {
             let file = file?;
             let Ok(name) = file.file_name().into_string() else { continue };
-            let Some(stem) = ENDINGS.iter().find_map(|ending| name.strip_suffix(ending)) else { continue };
+            let Some(stem) = EXTENSIONS.iter().find_map(|ending| name.strip_suffix(ending)) else { continue };
             let (time, number) = stem.split_once('-').map_or((stem, 0), |(time, number)| (time, number.parse().unwrap_or(0)));
             let flight = flights.entry((date.clone(), time.to_owned(), number)).or_default();
             flight.day.clone_from(&path);
@@ -65,7 +65,7 @@ mod tests {
     use cap_std::ambient_authority;
 
     #[test]
-    fn regress_old_logs_make_room_and_nothing_else_is_deleted() {
+    fn regress_only_the_oldest_logs_are_deleted() {
         let place = tempfile::tempdir().unwrap();
         let root = Dir::open_ambient_dir(place.path(), ambient_authority()).unwrap();
         for day in ["2026-09-20", "2026-09-21"] {
@@ -83,13 +83,13 @@ mod tests {
             std::fs::write(place.path().join("log").join(name), vec![0; bytes]).unwrap();
         }
         let there = || files.iter().filter(|(name, _)| place.path().join("log").join(name).is_file()).map(|(name, _)| *name);
-        assert_eq!(make_room(&root, "log", 450).unwrap(), 0);
+        assert_eq!(delete_oldest(&root, "log", 450).unwrap(), 0);
         assert_eq!(there().count(), files.len(), "all of them fit");
-        assert_eq!(make_room(&root, "log", 250).unwrap(), 2);
+        assert_eq!(delete_oldest(&root, "log", 250).unwrap(), 2);
         let left = ["2026-09-21/01_00_00-2.ulg", "2026-09-21/01_00_00-10.ulg", "2026-09-21/notes.txt"];
         assert_eq!(there().collect::<Vec<_>>(), left, "the oldest flights were deleted with both files");
         assert!(!place.path().join("log/2026-09-20").exists(), "folders of days without logs are removed");
-        assert_eq!(make_room(&root, "log", 0).unwrap(), 2);
+        assert_eq!(delete_oldest(&root, "log", 0).unwrap(), 2);
         assert_eq!(there().collect::<Vec<_>>(), ["2026-09-21/notes.txt"]);
     }
 }

@@ -5,7 +5,7 @@ use spandrel_mavlink::signing::SigningKey;
 use std::path::Path;
 
 /// Minimum length of a passphrase, characters.
-const SHORTEST: usize = 8;
+const MIN_PASSPHRASE_CHARS: usize = 8;
 
 /// Reads a signing key from a file with one line: 64 hexadecimal digits are the key, anything else is a passphrase.
 ///
@@ -14,35 +14,35 @@ const SHORTEST: usize = 8;
 pub fn read(path: &Path) -> Result<SigningKey, AppError> {
     let wrong = |what: &str| AppError::wrong(format!("--signing-key {}: {what}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;
-    if let Some(mode) = open_to_others(path) {
+    if let Some(mode) = mode_if_readable_by_others(path) {
         return Err(wrong(&format!("other users can read it (mode {mode:o}); allowed: 600 or stricter (chmod 600)")));
     }
     let text = text.trim_end_matches(['\r', '\n']);
     if text.contains('\n') {
         return Err(wrong("it has more than one line"));
     }
-    match hex(text) {
+    match parse_hex_key(text) {
         Some(key) => Ok(SigningKey(key)),
-        None if text.chars().count() >= SHORTEST => Ok(SigningKey::from_passphrase(text)),
-        None => {
-            Err(wrong(&format!("too short; allowed: 64 hexadecimal digits, or a passphrase of {SHORTEST} characters or more")))
-        }
+        None if text.chars().count() >= MIN_PASSPHRASE_CHARS => Ok(SigningKey::from_passphrase(text)),
+        None => Err(wrong(&format!(
+            "too short; allowed: 64 hexadecimal digits, or a passphrase of {MIN_PASSPHRASE_CHARS} characters or more"
+        ))),
     }
 }
 
 #[cfg(unix)]
-fn open_to_others(path: &Path) -> Option<u32> {
+fn mode_if_readable_by_others(path: &Path) -> Option<u32> {
     use std::os::unix::fs::PermissionsExt;
     let mode = std::fs::metadata(path).ok()?.permissions().mode() & 0o777;
     (mode & 0o077 != 0).then_some(mode)
 }
 
 #[cfg(not(unix))]
-fn open_to_others(_: &Path) -> Option<u32> {
+fn mode_if_readable_by_others(_: &Path) -> Option<u32> {
     None
 }
 
-fn hex(text: &str) -> Option<[u8; 32]> {
+fn parse_hex_key(text: &str) -> Option<[u8; 32]> {
     let digits: Vec<u8> = text.chars().map(|c| c.to_digit(16).map(|digit| digit as u8)).collect::<Option<_>>()?;
     let bytes: Vec<u8> = digits.chunks_exact(2).map(|pair| pair[0] << 4 | pair[1]).collect();
     if digits.len() == 64 { bytes.try_into().ok() } else { None }
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_digits_are_the_key_and_words_are_hashed() {
+    fn exact_hex_digits_are_the_key_and_passphrases_are_hashed() {
         assert_eq!(
             read(&file(&format!("{}\n", "0aFf".repeat(16)), 0o600)).unwrap(),
             SigningKey([0x0a, 0xff].repeat(16).try_into().unwrap())
@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_others_may_read_or_is_no_key_is_refused_without_being_shown() {
+    fn exact_readable_or_invalid_key_files_are_rejected_without_showing_the_key() {
         for (text, mode, said) in [
             ("bridge over water", 0o640, "other users can read"),
             ("hunter2", 0o600, "too short"),

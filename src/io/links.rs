@@ -11,9 +11,9 @@ use std::net::SocketAddr;
 use std::time::Duration;
 
 /// Time after which a silent learned peer is removed.
-const FORGET: Duration = Duration::from_secs(15);
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
 /// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor blocks the peers of another port.
-const LEARNED_MAX: usize = 64;
+const MAX_LEARNED_PEERS: usize = 64;
 
 /// A change of the links, or received data.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,11 +109,11 @@ impl Links {
                 links.add(socket, peer, None);
             }
         }
-        links.all_lockstep_peers_dialed()?;
+        links.check_lockstep_peers()?;
         Ok(links)
     }
 
-    fn all_lockstep_peers_dialed(&self) -> Result<(), AppError> {
+    fn check_lockstep_peers(&self) -> Result<(), AppError> {
         let called = |peer: &SocketAddr| self.by_peer.keys().any(|(_, known)| known == peer);
         match self.lockstep.iter().find(|peer| !called(peer)) {
             Some(peer) => Err(AppError::wrong(format!(
@@ -129,7 +129,7 @@ impl Links {
             return;
         }
         if let Some(arrival) = self.hub.next(wait) {
-            self.take(arrival, self.stopwatch.elapsed());
+            self.handle_event(arrival, self.stopwatch.elapsed());
         }
     }
 
@@ -143,18 +143,18 @@ impl Links {
 
     /// Removes learned peers that have been silent for too long.
     pub fn drop_silent_peers(&mut self) {
-        self.forget(self.stopwatch.elapsed());
+        self.drop_peers_silent_at(self.stopwatch.elapsed());
     }
 
-    fn forget(&mut self, wall: Duration) {
+    fn drop_peers_silent_at(&mut self, wall: Duration) {
         let silent = |(link, route): (&u32, &LinkRoute)| match route {
-            LinkRoute::Learned { heard, .. } if wall.saturating_sub(*heard) > FORGET => Some(*link),
+            LinkRoute::Learned { heard, .. } if wall.saturating_sub(*heard) > SILENCE_TIMEOUT => Some(*link),
             LinkRoute::Learned { .. } | LinkRoute::Fixed { .. } | LinkRoute::Stream { .. } => None,
         };
         let silent: Vec<u32> = self.routes.iter().filter_map(silent).collect();
         for link in silent {
             if let Some(LinkRoute::Learned { socket, peer, .. }) = self.routes.remove(&link) {
-                tracing::info!("{peer} disconnected after {} s of silence", FORGET.as_secs());
+                tracing::info!("{peer} disconnected after {} s of silence", SILENCE_TIMEOUT.as_secs());
                 self.by_peer.remove(&(socket, peer));
                 self.changes.push_back(LinkChange::Closed { link });
             }
@@ -182,14 +182,14 @@ impl Links {
         self.hub.dropped()
     }
 
-    fn number(&mut self) -> u32 {
+    fn next_number(&mut self) -> u32 {
         self.opened += 1;
         self.opened
     }
 
     /// Adds a configured peer, or a learned one if `heard` is the time of its first datagram.
     fn add(&mut self, socket: SocketId, peer: SocketAddr, heard: Option<Duration>) -> u32 {
-        let link = self.number();
+        let link = self.next_number();
         let route = heard.map_or(LinkRoute::Fixed { socket, peer }, |heard| LinkRoute::Learned { socket, peer, heard });
         self.routes.insert(link, route);
         self.by_peer.insert((socket, peer), link);
@@ -200,10 +200,10 @@ impl Links {
         link
     }
 
-    fn take(&mut self, arrival: NetEvent, wall: Duration) {
+    fn handle_event(&mut self, arrival: NetEvent, wall: Duration) {
         match arrival {
-            NetEvent::Datagram { socket, from, bytes } => self.take_datagram(socket, from, bytes, wall),
-            NetEvent::Connected(stream, origin) => self.take_stream(stream, &origin),
+            NetEvent::Datagram { socket, from, bytes } => self.handle_datagram(socket, from, bytes, wall),
+            NetEvent::Connected(stream, origin) => self.add_stream(stream, &origin),
             NetEvent::Bytes(stream, bytes) => {
                 let Some(link) = self.by_stream.get(&stream).copied() else { return };
                 let Some(LinkRoute::Stream { decoder, .. }) = self.routes.get_mut(&link) else { return };
@@ -220,17 +220,17 @@ impl Links {
         }
     }
 
-    fn take_stream(&mut self, stream: StreamId, origin: &StreamOrigin) {
-        if self.by_stream.len() >= LEARNED_MAX {
-            tracing::warn!("rejected {origin}: {LEARNED_MAX} clients are connected");
+    fn add_stream(&mut self, stream: StreamId, origin: &StreamOrigin) {
+        if self.by_stream.len() >= MAX_LEARNED_PEERS {
+            tracing::warn!("rejected {origin}: {MAX_LEARNED_PEERS} clients are connected");
             self.hub.drop_stream(stream);
             return;
         }
-        let link = self.number();
+        let link = self.next_number();
         tracing::info!("{origin} has connected");
         let (kind, limit) = match origin {
             StreamOrigin::Tcp(_) => (LinkKind::Tcp, self.limit),
-            StreamOrigin::Serial(device) => (LinkKind::Serial, Some(device.bytes_s())),
+            StreamOrigin::Serial(device) => (LinkKind::Serial, Some(device.capacity_bytes_s())),
         };
         self.routes.insert(link, LinkRoute::Stream { stream, decoder: Decoder::new() });
         self.by_stream.insert(stream, link);
@@ -245,15 +245,15 @@ impl Links {
             return None;
         }
         let on_socket = |route: &&LinkRoute| matches!(route, LinkRoute::Learned { socket: other, .. } if *other == socket);
-        if self.routes.values().filter(on_socket).count() >= LEARNED_MAX {
-            tracing::debug!("rejected {from}: {LEARNED_MAX} peers are connected to this port");
+        if self.routes.values().filter(on_socket).count() >= MAX_LEARNED_PEERS {
+            tracing::debug!("rejected {from}: {MAX_LEARNED_PEERS} peers are connected to this port");
             return None;
         }
         tracing::info!("{from} has connected");
         Some(self.add(socket, from, Some(wall)))
     }
 
-    fn take_datagram(&mut self, socket: SocketId, from: SocketAddr, bytes: Vec<u8>, wall: Duration) {
+    fn handle_datagram(&mut self, socket: SocketId, from: SocketAddr, bytes: Vec<u8>, wall: Duration) {
         let link = match self.by_peer.get(&(socket, from)) {
             Some(link) => *link,
             None => {
@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn wire_a_stranger_is_learned_by_its_address_and_answered() {
+    fn wire_new_peers_are_learned_and_answered() {
         let mut links = Links::open(&ephemeral(&[]), &[]).unwrap();
         let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
         let sidecar = UdpSocket::bind(local(0)).unwrap();
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_lockstep_peer_that_was_not_dialed_is_refused() {
+    fn exact_lockstep_peers_must_be_destinations() {
         let Err(error) = Links::open(&ephemeral(&[]), &[local(9)]) else { panic!("accepted") };
         assert!(error.to_string().contains("--lockstep 127.0.0.1:9"));
         let args = ephemeral(&[local(9)]);
@@ -342,62 +342,65 @@ mod tests {
 
     /// Simulates a datagram from a port. Returns its link, and whether the link is new.
     fn note_received(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
-        links.take(NetEvent::Datagram { socket, from: local(port), bytes: send_hello() }, Duration::from_secs(at_s));
+        links.handle_event(NetEvent::Datagram { socket, from: local(port), bytes: send_hello() }, Duration::from_secs(at_s));
         let new = matches!(links.changes.front(), Some(LinkChange::Opened { .. }));
         let changes = std::mem::take(&mut links.changes);
         changes.iter().find_map(|change| if let LinkChange::Bytes { link, .. } = change { Some((*link, new)) } else { None })
     }
 
     #[test]
-    fn exact_a_silent_peer_is_forgotten_one_that_speaks_is_not_and_one_that_is_called_never() {
+    fn exact_only_silent_learned_peers_are_removed() {
         let (mut links, socket) = called("127.0.0.1:9");
         let (silent, speaking) = (4_001, 4_002);
         assert_eq!(note_received(&mut links, socket, silent, 100), Some((2, true)));
         assert_eq!(note_received(&mut links, socket, speaking, 100), Some((3, true)));
         assert_eq!(note_received(&mut links, socket, speaking, 110), Some((3, false)));
-        links.forget(Duration::from_secs(100) + FORGET);
+        links.drop_peers_silent_at(Duration::from_secs(100) + SILENCE_TIMEOUT);
         assert!(links.changes.is_empty(), "not yet");
-        links.forget(Duration::from_secs(101) + FORGET);
+        links.drop_peers_silent_at(Duration::from_secs(101) + SILENCE_TIMEOUT);
         assert_eq!(std::mem::take(&mut links.changes), [LinkChange::Closed { link: 2 }]);
         assert_eq!(note_received(&mut links, socket, silent, 120), Some((4, true)), "a new link");
-        links.forget(Duration::from_secs(1_000_000));
+        links.drop_peers_silent_at(Duration::from_secs(1_000_000));
         let closed = [3, 4].map(|link| LinkChange::Closed { link });
         assert_eq!(std::mem::take(&mut links.changes), closed, "but not the configured destination");
         assert_eq!(note_received(&mut links, socket, 9, 2_000_000), Some((1, false)));
     }
 
     #[test]
-    fn regress_a_flood_on_one_port_keeps_nobody_off_another_and_rubbish_takes_no_place() {
+    fn regress_a_flood_on_one_port_does_not_block_another() {
         let mut links = Links::open(&ephemeral(&[local(9)]), &[]).unwrap();
         assert!(matches!(links.poll(), Some(LinkChange::Opened { link: 1, .. })));
         let of = |links: &Links, kind| *links.kinds.iter().find(|(_, other)| **other == kind).unwrap().0;
         let (stations, sidecars) = (of(&links, LinkKind::GroundStation), of(&links, LinkKind::Payload));
-        for port in 10_000..10_000 + 2 * LEARNED_MAX as u16 {
-            links.take(NetEvent::Datagram { socket: sidecars, from: local(port), bytes: vec![0xFD] }, Duration::from_secs(1));
+        for port in 10_000..10_000 + 2 * MAX_LEARNED_PEERS as u16 {
+            links.handle_event(
+                NetEvent::Datagram { socket: sidecars, from: local(port), bytes: vec![0xFD] },
+                Duration::from_secs(1),
+            );
         }
-        assert_eq!((links.changes.len(), links.bad_bytes()), (0, 2 * LEARNED_MAX as u64));
+        assert_eq!((links.changes.len(), links.bad_bytes()), (0, 2 * MAX_LEARNED_PEERS as u64));
         assert_eq!(note_received(&mut links, sidecars, 4_001, 1), Some((2, true)));
         let taken = (10_000..11_000).filter_map(|port| note_received(&mut links, stations, port, 1)).count();
-        assert_eq!(taken, LEARNED_MAX);
+        assert_eq!(taken, MAX_LEARNED_PEERS);
         assert!(note_received(&mut links, sidecars, 4_002, 1).is_some_and(|(_, new)| new));
         assert_eq!(note_received(&mut links, stations, 4_003, 1), None);
     }
 
     #[test]
-    fn exact_a_flood_of_new_peers_is_bounded_and_keeps_nobody_out_for_ever() {
+    fn exact_new_peers_are_limited_and_time_out() {
         let (mut links, socket) = called("127.0.0.1:9");
         assert_eq!(note_received(&mut links, socket, 4_000, 1), Some((2, true)));
         let taken: usize = (10_000..60_000).filter_map(|port| note_received(&mut links, socket, port, 2)).count();
-        let all = LEARNED_MAX + 1;
+        let all = MAX_LEARNED_PEERS + 1;
         assert_eq!(
             (taken, links.routes.len(), links.by_peer.len()),
-            (LEARNED_MAX - 1, all, all),
+            (MAX_LEARNED_PEERS - 1, all, all),
             "including the configured destination"
         );
         assert_eq!(note_received(&mut links, socket, 4_000, 3), Some((2, false)), "known peers are still received");
         assert_eq!(note_received(&mut links, socket, 9, 3), Some((1, false)), "and so is the configured destination");
         assert_eq!(note_received(&mut links, socket, 4_003, 3), None, "new peers are not");
-        links.forget(Duration::from_secs(3) + FORGET);
+        links.drop_peers_silent_at(Duration::from_secs(3) + SILENCE_TIMEOUT);
         links.changes.clear();
         assert_eq!((links.routes.len(), links.by_peer.len()), (2, 2), "the flood's peers have been removed");
         assert!(note_received(&mut links, socket, 4_003, 19).is_some_and(|(_, new)| new));

@@ -10,9 +10,9 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Size of a chunk, bytes.
-const PIECE: usize = 256 * 1024;
+const CHUNK_BYTES: usize = 256 * 1024;
 /// Number of bytes at the start of the file that contain the first record.
-const HEAD: u64 = 64 * 1024;
+const HEAD_BYTES: u64 = 64 * 1024;
 
 /// A telemetry log. Reads end where the file ended when it was opened, because the session may still be recording.
 #[derive(Debug, Clone)]
@@ -40,13 +40,13 @@ impl LogFile {
     ///
     /// # Errors
     /// If the file cannot be read.
-    pub fn whole_len(&self) -> Result<u64, AppError> {
+    pub fn complete_len(&self) -> Result<u64, AppError> {
         let mut splitter = RecordSplitter::default();
         let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
-        self.pieces(&mut |piece| splitter.feed(piece, &mut skip)).map_err(|error| unreadable(&self.path, &error))?;
+        self.for_each_chunk(&mut |piece| splitter.feed(piece, &mut skip)).map_err(|error| unreadable(&self.path, &error))?;
         // The last record is complete only at the end of the file.
         let _ = splitter.end(&mut skip);
-        Ok(splitter.end_of_whole())
+        Ok(splitter.complete_bytes())
     }
 
     /// Returns the Unix time of simulation time zero, µs; `None` for an empty log.
@@ -54,7 +54,7 @@ impl LogFile {
     /// # Errors
     /// If the file cannot be read.
     pub fn session_start_us(&self) -> Result<Option<u64>, AppError> {
-        Ok(tlog::session_start_us(&self.read(HEAD)?))
+        Ok(tlog::session_start_us(&self.read(HEAD_BYTES)?))
     }
 
     /// Returns the SHA-256 of the log, hexadecimal.
@@ -67,7 +67,7 @@ impl LogFile {
             hash.update(piece);
             ControlFlow::Continue(())
         };
-        self.pieces(&mut update).map_err(|error| unreadable(&self.path, &error))?;
+        self.for_each_chunk(&mut update).map_err(|error| unreadable(&self.path, &error))?;
         Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
     }
 
@@ -86,9 +86,9 @@ impl LogFile {
         read.map(|_| bytes).map_err(|error| unreadable(&self.path, &error))
     }
 
-    fn pieces(&self, take: &mut dyn FnMut(&[u8]) -> ControlFlow<()>) -> std::io::Result<()> {
+    fn for_each_chunk(&self, take: &mut dyn FnMut(&[u8]) -> ControlFlow<()>) -> std::io::Result<()> {
         let mut file = File::open(&self.path)?.take(self.len);
-        let mut piece = vec![0; PIECE];
+        let mut piece = vec![0; CHUNK_BYTES];
         loop {
             let length = match file.read(&mut piece) {
                 Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
@@ -105,7 +105,7 @@ impl TelemetryLog for LogFile {
     fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
         let mut splitter = RecordSplitter::default();
         let mut broken = false;
-        self.pieces(&mut |piece| {
+        self.for_each_chunk(&mut |piece| {
             let flow = splitter.feed(piece, take);
             broken = flow.is_break();
             flow

@@ -12,13 +12,13 @@ use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
 /// Size of a chunk, bytes.
-const CHUNK: u64 = 16 * 1024;
+const CHUNK_BYTES: u64 = 16 * 1024;
 /// Maximum flight time in a chunk, ns.
 const FLUSH_AFTER_NS: u64 = 1_000_000_000;
 
 fn options() -> WriteOptions {
     // Without seeking, chunks are never on disk before their length is known.
-    WriteOptions::new().compression(None).library("spandrel").chunk_size(Some(CHUNK)).disable_seeking(true)
+    WriteOptions::new().compression(None).library("spandrel").chunk_size(Some(CHUNK_BYTES)).disable_seeking(true)
 }
 
 /// A recording in progress.
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_written_is_read_and_its_index_counts_it() {
+    fn exact_recordings_round_trip_with_an_index() {
         let file = recorded(2_000);
         let expected: Vec<_> = (0..2_000).map(|k| format!("message {k}")).collect();
         assert_eq!(status_texts(&file), expected);
@@ -159,7 +159,7 @@ mod tests {
 
     /// Wherever the file is truncated, only the chunk that was being written is lost.
     #[test]
-    fn exact_a_file_that_broke_off_anywhere_is_recovered_to_its_last_whole_chunk() {
+    fn exact_truncated_files_are_recovered_to_the_last_complete_chunk() {
         let file = recorded(600);
         let summary = mcap::Summary::read(&file).unwrap().unwrap();
         let count = |chunk| summary.stream_chunk(&file, chunk).unwrap().count();

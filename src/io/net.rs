@@ -12,13 +12,13 @@ use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::Duration;
 
 /// Maximum number of events that wait for the core: about ten seconds of a busy link.
-const QUEUE: usize = 16_384;
+const EVENT_QUEUE_LEN: usize = 16_384;
 /// Maximum number of frames that wait for a slow TCP client; further ones are dropped.
-const STREAM_QUEUE: usize = 2_048;
+const STREAM_QUEUE_LEN: usize = 2_048;
 /// Delay after an unexpected socket error, so that a broken network interface does not cause a busy loop.
-const REST: Duration = Duration::from_millis(50);
+const ERROR_DELAY: Duration = Duration::from_millis(50);
 /// Buffer size, larger than any UDP payload.
-const DATAGRAM_MAX: usize = 65_536;
+const MAX_DATAGRAM: usize = 65_536;
 
 /// Number of a UDP socket.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -68,7 +68,7 @@ pub enum NetEvent {
 
 /// An entry of the event queue.
 enum QueuedEvent {
-    Plain(NetEvent),
+    Event(NetEvent),
     Client(StreamId, StreamOrigin, StreamWriter),
 }
 
@@ -87,13 +87,13 @@ impl Drop for StreamWriter {
 }
 
 /// Reports a new stream to the core. Returns the frames to send; `None` if the core has stopped.
-fn announce(
+fn register_stream(
     stream: StreamId,
     origin: StreamOrigin,
     socket: Option<TcpStream>,
     queue: &SyncSender<QueuedEvent>,
 ) -> Option<Receiver<Vec<u8>>> {
-    let (sender, frames) = sync_channel(STREAM_QUEUE);
+    let (sender, frames) = sync_channel(STREAM_QUEUE_LEN);
     queue.send(QueuedEvent::Client(stream, origin, StreamWriter { queue: sender, socket })).ok()?;
     Some(frames)
 }
@@ -105,7 +105,7 @@ pub struct SocketHub {
     receiver: Receiver<QueuedEvent>,
     sockets: Vec<UdpSocket>,
     streams: BTreeMap<StreamId, StreamWriter>,
-    devices: u32,
+    serial_count: u32,
     dropped: Arc<AtomicU64>,
     reported_errors: BTreeMap<SocketAddr, ErrorKind>,
 }
@@ -113,7 +113,7 @@ pub struct SocketHub {
 impl std::fmt::Debug for QueuedEvent {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Plain(arrival) => arrival.fmt(f),
+            Self::Event(arrival) => arrival.fmt(f),
             Self::Client(stream, from, _) => write!(f, "Client({stream:?}, {from})"),
         }
     }
@@ -122,14 +122,14 @@ impl std::fmt::Debug for QueuedEvent {
 impl SocketHub {
     /// Creates a hub without sockets.
     pub fn new() -> Self {
-        let (sender, receiver) = sync_channel(QUEUE);
+        let (sender, receiver) = sync_channel(EVENT_QUEUE_LEN);
         let dropped = Arc::new(AtomicU64::new(0));
         Self {
             sender,
             receiver,
             sockets: Vec::new(),
             streams: BTreeMap::new(),
-            devices: 0,
+            serial_count: 0,
             dropped,
             reported_errors: BTreeMap::new(),
         }
@@ -168,14 +168,14 @@ impl SocketHub {
     pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
         let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
         // Numbered downward from the maximum, so that the numbers differ from those of TCP clients.
-        let stream = StreamId(u32::MAX - self.devices);
-        self.devices += 1;
+        let stream = StreamId(u32::MAX - self.serial_count);
+        self.serial_count += 1;
         let (queue, device) = (self.sender.clone(), device.clone());
         std::thread::spawn(move || {
-            let give = |bytes: &[u8]| queue.send(QueuedEvent::Plain(NetEvent::Bytes(stream, bytes.to_vec()))).is_ok();
-            let begin = || announce(stream, StreamOrigin::Serial(device.clone()), None, &queue);
-            let end = || queue.send(QueuedEvent::Plain(NetEvent::Closed(stream))).is_ok();
-            serial::keep(&device, port, begin, give, end);
+            let give = |bytes: &[u8]| queue.send(QueuedEvent::Event(NetEvent::Bytes(stream, bytes.to_vec()))).is_ok();
+            let begin = || register_stream(stream, StreamOrigin::Serial(device.clone()), None, &queue);
+            let end = || queue.send(QueuedEvent::Event(NetEvent::Closed(stream))).is_ok();
+            serial::run_with_reconnect(&device, port, begin, give, end);
         });
         Ok(())
     }
@@ -194,7 +194,7 @@ impl SocketHub {
     pub fn next(&mut self, wait: Duration) -> Option<NetEvent> {
         let inner = if wait.is_zero() { self.receiver.try_recv().ok() } else { self.receiver.recv_timeout(wait).ok() };
         match inner? {
-            QueuedEvent::Plain(arrival) => {
+            QueuedEvent::Event(arrival) => {
                 if let NetEvent::Closed(stream) = arrival {
                     self.streams.remove(&stream);
                 }
@@ -244,12 +244,12 @@ fn port_in_use(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::E
 }
 
 fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEvent>, dropped: &AtomicU64) {
-    let mut buffer = vec![0u8; DATAGRAM_MAX];
+    let mut buffer = vec![0u8; MAX_DATAGRAM];
     loop {
         match socket.recv_from(&mut buffer) {
             Ok((len, from)) => {
                 let arrival = NetEvent::Datagram { socket: id, from, bytes: buffer[..len].to_vec() };
-                match queue.try_send(QueuedEvent::Plain(arrival)) {
+                match queue.try_send(QueuedEvent::Event(arrival)) {
                     Ok(()) => {}
                     Err(TrySendError::Full(_)) => {
                         dropped.fetch_add(1, Ordering::Relaxed);
@@ -260,7 +260,7 @@ fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEve
             // ICMP "port unreachable" for an earlier datagram: the peer is not listening.
             Err(error) if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset) => {}
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(_) => std::thread::sleep(REST),
+            Err(_) => std::thread::sleep(ERROR_DELAY),
         }
     }
 }
@@ -268,7 +268,7 @@ fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEve
 fn accept_clients(listener: &TcpListener, queue: &SyncSender<QueuedEvent>) {
     for number in 0.. {
         let Ok((socket, from)) = listener.accept() else {
-            std::thread::sleep(REST);
+            std::thread::sleep(ERROR_DELAY);
             continue;
         };
         if serve_client(StreamId(number), socket, from, queue).is_err() {
@@ -280,7 +280,7 @@ fn accept_clients(listener: &TcpListener, queue: &SyncSender<QueuedEvent>) {
 fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &SyncSender<QueuedEvent>) -> std::io::Result<()> {
     socket.set_nodelay(true)?;
     let (mut to_read, mut to_write) = (socket.try_clone()?, socket.try_clone()?);
-    let Some(frames) = announce(stream, StreamOrigin::Tcp(from), Some(socket), queue) else { return Ok(()) };
+    let Some(frames) = register_stream(stream, StreamOrigin::Tcp(from), Some(socket), queue) else { return Ok(()) };
     std::thread::spawn(move || {
         for frame in frames {
             if to_write.write_all(&frame).is_err() {
@@ -292,12 +292,12 @@ fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &S
     std::thread::spawn(move || {
         let mut buffer = [0u8; 4096];
         while let Ok(len @ 1..) = to_read.read(&mut buffer) {
-            if queue.send(QueuedEvent::Plain(NetEvent::Bytes(stream, buffer[..len].to_vec()))).is_err() {
+            if queue.send(QueuedEvent::Event(NetEvent::Bytes(stream, buffer[..len].to_vec()))).is_err() {
                 return;
             }
         }
         // Fails if the core has stopped; there is nothing to report in that case.
-        let _ = queue.send(QueuedEvent::Plain(NetEvent::Closed(stream)));
+        let _ = queue.send(QueuedEvent::Event(NetEvent::Closed(stream)));
     });
     Ok(())
 }
@@ -309,7 +309,7 @@ mod tests {
 
     const LOOPBACK: IpAddr = IpAddr::V4(Ipv4Addr::LOCALHOST);
     /// Keeps a failing test from hanging.
-    const LONG: Duration = Duration::from_secs(60);
+    const TEST_TIMEOUT: Duration = Duration::from_secs(60);
 
     #[test]
     fn wire_datagrams_pass_between_two_hubs() {
@@ -317,11 +317,11 @@ mod tests {
         let (from, to) = (a.bind(LOOPBACK, 0, "--a").unwrap(), b.bind(LOOPBACK, 0, "--b").unwrap());
         a.send(from, (LOOPBACK, b.port(to)).into(), b"hello");
         let expected = NetEvent::Datagram { socket: to, from: (LOOPBACK, a.port(from)).into(), bytes: b"hello".to_vec() };
-        assert_eq!(b.next(LONG), Some(expected));
+        assert_eq!(b.next(TEST_TIMEOUT), Some(expected));
     }
 
     #[test]
-    fn wire_a_port_in_use_is_named_with_its_flag() {
+    fn wire_port_in_use_error_mentions_the_option() {
         let mut hub = SocketHub::new();
         let first = hub.bind(LOOPBACK, 0, "--a").unwrap();
         let port = hub.port(first);
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn wire_sending_to_nobody_is_no_error_and_the_socket_lives_on() {
+    fn wire_sending_to_a_closed_port_is_no_error() {
         let mut hub = SocketHub::new();
         let gone = { UdpSocket::bind((LOOPBACK, 0)).unwrap().local_addr().unwrap() };
         let socket = hub.bind(LOOPBACK, 0, "--a").unwrap();
@@ -340,22 +340,22 @@ mod tests {
         }
         let itself = (LOOPBACK, hub.port(socket)).into();
         hub.send(socket, itself, b"still here");
-        assert!(matches!(hub.next(LONG), Some(NetEvent::Datagram { bytes, .. }) if bytes == b"still here"));
+        assert!(matches!(hub.next(TEST_TIMEOUT), Some(NetEvent::Datagram { bytes, .. }) if bytes == b"still here"));
     }
 
     #[test]
-    fn wire_a_tcp_client_comes_speaks_receives_and_goes() {
+    fn wire_tcp_client_connects_exchanges_bytes_and_disconnects() {
         let mut hub = SocketHub::new();
         let port = hub.serve(LOOPBACK, 0, "--tcp-port").unwrap();
         let mut client = TcpStream::connect((LOOPBACK, port)).unwrap();
-        let Some(NetEvent::Connected(stream, StreamOrigin::Tcp(_))) = hub.next(LONG) else { panic!("nobody connected") };
+        let Some(NetEvent::Connected(stream, StreamOrigin::Tcp(_))) = hub.next(TEST_TIMEOUT) else { panic!("nobody connected") };
         client.write_all(b"in").unwrap();
-        assert_eq!(hub.next(LONG), Some(NetEvent::Bytes(stream, b"in".to_vec())));
+        assert_eq!(hub.next(TEST_TIMEOUT), Some(NetEvent::Bytes(stream, b"in".to_vec())));
         hub.send_stream(stream, b"out".to_vec());
         let mut heard = [0u8; 3];
         client.read_exact(&mut heard).unwrap();
         assert_eq!(&heard, b"out");
         drop(client);
-        assert_eq!(hub.next(LONG), Some(NetEvent::Closed(stream)));
+        assert_eq!(hub.next(TEST_TIMEOUT), Some(NetEvent::Closed(stream)));
     }
 }

@@ -5,11 +5,11 @@ use std::str::FromStr;
 use std::time::Duration;
 
 /// Longest step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md, "One simulation step").
-pub const STEP: SimTime = SimTime::from_ms(20);
+pub const LOCKSTEP_STEP: SimTime = SimTime::from_ms(20);
 /// Wall time after which a lockstep peer that does not answer ends the run.
-pub const PATIENCE: Duration = Duration::from_secs(10);
+pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall-clock delay above which the simulation does not catch up: the clock slips, and the slip is reported.
-const SLACK: Duration = Duration::from_millis(250);
+const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
 
 /// Speed of the simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +21,7 @@ pub enum SimulationSpeed {
 }
 
 /// Highest speed, as a multiple of real time.
-const FASTEST: f64 = 100.0;
+const MAX_SPEED: f64 = 100.0;
 
 impl SimulationSpeed {
     /// Returns the simulation seconds per second of a client outside lockstep, at least 1. At `max` the speed is unknown; the highest multiple is
@@ -29,7 +29,7 @@ impl SimulationSpeed {
     pub fn client_speed_factor(self) -> f64 {
         match self {
             Self::Times(times) => times.max(1.0),
-            Self::Max => FASTEST,
+            Self::Max => MAX_SPEED,
         }
     }
 }
@@ -42,7 +42,7 @@ impl FromStr for SimulationSpeed {
         }
         let allowed = || format!("'{text}' is not a speed (allowed: 0.1 to 100, or max)");
         let times: f64 = text.parse().map_err(|_| allowed())?;
-        if (0.1..=FASTEST).contains(&times) { Ok(Self::Times(times)) } else { Err(allowed()) }
+        if (0.1..=MAX_SPEED).contains(&times) { Ok(Self::Times(times)) } else { Err(allowed()) }
     }
 }
 
@@ -81,20 +81,20 @@ impl WallPacer {
         Self { speed, wall, sim: SimTime::ZERO, late: Lateness::default() }
     }
 
-    /// Returns the simulation time to run to, at most [`STEP`] past `reached`.
+    /// Returns the simulation time to run to, at most [`LOCKSTEP_STEP`] past `reached`.
     pub fn target(&mut self, wall: Duration, reached: SimTime) -> SimTime {
-        let SimulationSpeed::Times(times) = self.speed else { return reached + STEP };
+        let SimulationSpeed::Times(times) = self.speed else { return reached + LOCKSTEP_STEP };
         let due = self.due(wall, times);
         let behind = Duration::from_secs_f64(due.saturating_sub(reached).s() / times);
         self.late.latest = self.late.latest.max(behind);
-        if behind > SLACK {
+        if behind > SLIP_THRESHOLD {
             self.late.slips += 1;
             self.late.slipped += behind;
             self.wall = wall;
             self.sim = reached;
-            return reached + STEP;
+            return reached + LOCKSTEP_STEP;
         }
-        due.min(reached + STEP)
+        due.min(reached + LOCKSTEP_STEP)
     }
 
     /// Changes the speed from now on.
@@ -128,14 +128,14 @@ impl WallPacer {
 }
 
 /// Time after which a peer that sends data but does not answer TIMESYNC is served in real time.
-const FIRST_ANSWER: Duration = Duration::from_secs(3);
+const FIRST_ANSWER_TIMEOUT: Duration = Duration::from_secs(3);
 
 /// Pauses the simulation until a peer's first answer. No simulation time passes until then, so a peer that answers soon is in lockstep from the first
 /// tick.
 #[derive(Debug, Clone, Default)]
 pub struct FirstAnswerWait {
     since: Option<Duration>,
-    first_heard: Option<Duration>,
+    first_received: Option<Duration>,
     last_announced: Option<Duration>,
 }
 
@@ -152,13 +152,13 @@ pub enum FirstAnswerAction {
 
 impl FirstAnswerWait {
     /// Returns the action at wall time `wall`; `heard` is true once data has arrived from the peer, `every` is the announcement interval.
-    pub fn action_due(&mut self, heard: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
+    pub fn next_action(&mut self, heard: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
         let since = *self.since.get_or_insert(wall);
         let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
         if heard {
-            self.first_heard.get_or_insert(wall);
+            self.first_received.get_or_insert(wall);
         }
-        if over(since, PATIENCE) || self.first_heard.is_some_and(|heard| over(heard, FIRST_ANSWER)) {
+        if over(since, LOCKSTEP_PEER_TIMEOUT) || self.first_received.is_some_and(|heard| over(heard, FIRST_ANSWER_TIMEOUT)) {
             *self = Self::default();
             return FirstAnswerAction::Proceed;
         }
@@ -177,10 +177,10 @@ pub struct LockstepTimeout {
 }
 
 impl LockstepTimeout {
-    /// Returns true if simulation time, now `reached`, has not advanced for more than [`PATIENCE`] at wall time `wall`.
+    /// Returns true if simulation time, now `reached`, has not advanced for more than [`LOCKSTEP_PEER_TIMEOUT`] at wall time `wall`.
     pub fn is_over(&mut self, reached: SimTime, wall: Duration) -> bool {
         match self.stalled_since {
-            Some((at, since)) if at == reached => wall.saturating_sub(since) > PATIENCE,
+            Some((at, since)) if at == reached => wall.saturating_sub(since) > LOCKSTEP_PEER_TIMEOUT,
             _ => {
                 self.stalled_since = Some((reached, wall));
                 false
@@ -194,7 +194,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_four_times_real_time_runs_four_seconds_in_one() {
+    fn exact_speed_four_runs_four_seconds_per_second() {
         let mut pace = WallPacer::new(SimulationSpeed::Times(4.0), Duration::from_secs(10));
         let mut reached = SimTime::ZERO;
         for ms in 1..=1000 {
@@ -205,16 +205,16 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_stalled_host_slips_and_does_not_race() {
+    fn exact_clock_slips_after_a_host_stall() {
         let mut pace = WallPacer::new(SimulationSpeed::Times(1.0), Duration::ZERO);
-        assert_eq!(pace.target(Duration::from_secs(5), SimTime::ZERO), STEP);
+        assert_eq!(pace.target(Duration::from_secs(5), SimTime::ZERO), LOCKSTEP_STEP);
         let five = Duration::from_secs(5);
         assert_eq!(pace.lateness(), Lateness { latest: five, slips: 1, slipped: five });
-        assert_eq!(pace.target(Duration::from_millis(5010), STEP), SimTime::from_ms(10));
+        assert_eq!(pace.target(Duration::from_millis(5010), LOCKSTEP_STEP), SimTime::from_ms(10));
     }
 
     #[test]
-    fn exact_time_that_stood_still_does_not_count() {
+    fn exact_paused_time_does_not_count_as_delay() {
         let mut pace = WallPacer::new(SimulationSpeed::Times(2.0), Duration::ZERO);
         assert_eq!(pace.target(Duration::from_millis(5), SimTime::ZERO), SimTime::from_ms(10));
         pace.hold(Duration::from_secs(60), SimTime::from_ms(10));
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_latest_is_reported_in_wall_time_and_a_little_late_is_no_slip() {
+    fn exact_longest_delay_is_wall_time_and_short_delays_do_not_slip() {
         let mut pace = WallPacer::new(SimulationSpeed::Times(4.0), Duration::ZERO);
         for ms in [2, 102] {
             pace.target(Duration::from_millis(ms), SimTime::from_ms(8));
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_flat_out_goes_step_by_step_and_never_sleeps() {
+    fn exact_max_speed_runs_single_steps_without_sleep() {
         let mut pace = WallPacer::new(SimulationSpeed::Max, Duration::ZERO);
         assert_eq!(pace.target(Duration::ZERO, SimTime::from_ms(40)), SimTime::from_ms(60));
         assert_eq!(pace.sleep(Duration::ZERO, SimTime::from_s(9.0)), Duration::ZERO);
@@ -255,7 +255,7 @@ mod tests {
             assert!(!patience.is_over(reached, wall), "a long run in lockstep is not a timeout");
         }
         let (stuck, since) = (SimTime::from_ms(20 * 99), Duration::from_secs(99));
-        assert!(!patience.is_over(stuck, since + PATIENCE));
-        assert!(patience.is_over(stuck, since + PATIENCE + Duration::from_millis(1)));
+        assert!(!patience.is_over(stuck, since + LOCKSTEP_PEER_TIMEOUT));
+        assert!(patience.is_over(stuck, since + LOCKSTEP_PEER_TIMEOUT + Duration::from_millis(1)));
     }
 }

@@ -32,7 +32,7 @@ impl ParamFile {
     }
 
     /// Combines the problems of the file into one error.
-    pub fn wrong(&self, problems: &[ParamFileProblem]) -> AppError {
+    pub fn parse_error(&self, problems: &[ParamFileProblem]) -> AppError {
         let lines: Vec<String> =
             problems.iter().map(|problem| format!("{}:{}: {}", self.path.display(), problem.line, problem.what)).collect();
         AppError::wrong(lines.join("\n"))
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_missing_file_is_none_and_a_written_one_reads_back_with_nothing_beside_it() {
+    fn exact_parameter_files_round_trip_without_leftovers() {
         let folder = tempfile::tempdir().unwrap();
         let file = ParamFile::new(folder.path().join("drone.params"));
         assert_eq!(file.text(), Ok(None));

@@ -24,7 +24,7 @@ const ARROW_SCHEMA: &str = "ARROW:schema";
 ///
 /// # Errors
 /// Does not happen in practice, because the file is written to memory.
-pub fn frames(rows: &[FrameRow]) -> Result<Vec<u8>, AppError> {
+pub fn frames_to_parquet(rows: &[FrameRow]) -> Result<Vec<u8>, AppError> {
     write(rows).map_err(|error| AppError::failed(format!("cannot create the Parquet file: {error}")))
 }
 
@@ -47,10 +47,10 @@ fn write(rows: &[FrameRow]) -> Result<Vec<u8>, ParquetError> {
 fn message_type() -> String {
     let line = |column: &Column| {
         let (kind, annotation) = match column.read {
-            Read::Whole(_) => ("int64", ""),
-            Read::Real(_) => ("double", ""),
-            Read::Flag(_) => ("boolean", ""),
-            Read::Word(_) => ("binary", " (utf8)"),
+            Read::Integer(_) => ("int64", ""),
+            Read::Float(_) => ("double", ""),
+            Read::Boolean(_) => ("boolean", ""),
+            Read::Text(_) => ("binary", " (utf8)"),
         };
         let repetition = if column.optional { "optional" } else { "required" };
         format!("{repetition} {kind} {}{annotation};", column.name)
@@ -64,10 +64,10 @@ fn arrow_metadata() -> String {
         name: column.name,
         nullable: column.optional,
         kind: match column.read {
-            Read::Whole(_) => Kind::Int64,
-            Read::Real(_) => Kind::Double,
-            Read::Flag(_) => Kind::Bool,
-            Read::Word(_) => Kind::Utf8,
+            Read::Integer(_) => Kind::Int64,
+            Read::Float(_) => Kind::Double,
+            Read::Boolean(_) => Kind::Bool,
+            Read::Text(_) => Kind::Utf8,
         },
         metadata: [("unit", column.unit), ("frame", column.frame), ("description", column.description)]
             .into_iter()
@@ -82,15 +82,17 @@ type Group<'a> = SerializedRowGroupWriter<'a, Vec<u8>>;
 
 fn write_column(group: &mut Group<'_>, column: &Column, rows: &[FrameRow]) -> Result<(), ParquetError> {
     match column.read {
-        Read::Whole(value) => next::<Int64Type>(group, column, rows.iter().map(value)),
-        Read::Real(value) => next::<DoubleType>(group, column, rows.iter().map(value)),
-        Read::Flag(value) => next::<BoolType>(group, column, rows.iter().map(|row| Some(value(row)))),
-        Read::Word(value) => next::<ByteArrayType>(group, column, rows.iter().map(|row| Some(ByteArray::from(value(row))))),
+        Read::Integer(value) => write_next_column::<Int64Type>(group, column, rows.iter().map(value)),
+        Read::Float(value) => write_next_column::<DoubleType>(group, column, rows.iter().map(value)),
+        Read::Boolean(value) => write_next_column::<BoolType>(group, column, rows.iter().map(|row| Some(value(row)))),
+        Read::Text(value) => {
+            write_next_column::<ByteArrayType>(group, column, rows.iter().map(|row| Some(ByteArray::from(value(row)))))
+        }
     }
 }
 
 /// Writes the next column. Definition level 1 marks a value, 0 a null.
-fn next<T: DataType>(
+fn write_next_column<T: DataType>(
     group: &mut Group<'_>,
     column: &Column,
     values: impl Iterator<Item = Option<T::T>>,

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Line that pauses the simulation.
-pub const PAUSE: &str = "pause";
+pub const PAUSE_LINE: &str = "pause";
 /// Line that resumes the simulation.
-pub const RESUME: &str = "resume";
+pub const RESUME_LINE: &str = "resume";
 
 /// Pause flag, shared by all vehicles of a process.
 #[derive(Debug, Clone, Default)]
@@ -21,9 +21,9 @@ impl PauseSwitch {
         std::thread::spawn(move || {
             for line in lines {
                 match line.trim() {
-                    PAUSE => heeding.0.store(true, Ordering::Relaxed),
-                    RESUME => heeding.0.store(false, Ordering::Relaxed),
-                    other => tracing::warn!("ignored '{other}' on standard input (allowed: {PAUSE}, {RESUME})"),
+                    PAUSE_LINE => heeding.0.store(true, Ordering::Relaxed),
+                    RESUME_LINE => heeding.0.store(false, Ordering::Relaxed),
+                    other => tracing::warn!("ignored '{other}' on standard input (allowed: {PAUSE_LINE}, {RESUME_LINE})"),
                 }
             }
         });

@@ -6,7 +6,7 @@ use std::io::{IsTerminal, stderr};
 use std::time::Duration;
 
 /// Interval between log lines when standard error is not a terminal.
-const LINE_EVERY: Duration = Duration::from_secs(15);
+const LOG_INTERVAL: Duration = Duration::from_secs(15);
 
 /// Progress display of a long operation.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ impl ProgressLog {
     pub fn report(&mut self, message: impl FnOnce() -> String) {
         match &self.bar {
             Some(bar) => bar.set_message(message()),
-            None if self.stopwatch.elapsed() >= LINE_EVERY * (self.lines + 1) => {
+            None if self.stopwatch.elapsed() >= LOG_INTERVAL * (self.lines + 1) => {
                 self.lines += 1;
                 tracing::info!("{}", message());
             }
@@ -44,7 +44,7 @@ impl ProgressLog {
     }
 
     /// Removes the spinner from the terminal.
-    pub fn end(&self) {
+    pub fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }

@@ -1,6 +1,6 @@
 //! Replaces a file as a whole.
 
-use super::append_file::WriteRefused;
+use super::append_file::WriteError;
 use crate::errors::AppError;
 use std::fs::File;
 use std::io::Write;
@@ -19,15 +19,15 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
 ///
 /// # Errors
 /// If the disk cannot be written.
-pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteRefused> {
+pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     replaced(path, bytes, File::sync_data)
 }
 
-fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteRefused> {
+fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteError> {
     // The temporary name is unique: two writers of the same file must not rename each other's partial file.
-    static WRITTEN: AtomicU64 = AtomicU64::new(0);
+    static TEMP_FILE_COUNTER: AtomicU64 = AtomicU64::new(0);
     let mut beside = path.to_path_buf().into_os_string();
-    beside.push(format!(".{}-{}.new", std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed)));
+    beside.push(format!(".{}-{}.new", std::process::id(), TEMP_FILE_COUNTER.fetch_add(1, Ordering::Relaxed)));
     let write = || {
         let mut file = File::create(&beside)?;
         file.write_all(bytes)?;
@@ -38,6 +38,6 @@ fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>)
     write().map_err(|error| {
         // No later write reuses this name, so the file would remain.
         let _ = std::fs::remove_file(&beside);
-        WriteRefused { path: path.to_path_buf(), error }
+        WriteError { path: path.to_path_buf(), error }
     })
 }

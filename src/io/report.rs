@@ -6,13 +6,13 @@ use super::session_folder::StoredSession;
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
 use spandrel_monitor::folder::{REPORT, SMALL, SNAPSHOTS, sha256_hex};
-use spandrel_training::report::{Jpeg, Review, SessionFacts, page, scorm};
+use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
 use std::path::{Path, PathBuf};
 
 /// Maximum size of a photograph in the page, bytes; larger ones are replaced by a sketch.
-const PICTURE_MOST: u64 = 400_000;
+const MAX_PICTURE_BYTES: u64 = 400_000;
 /// Maximum total size of photographs in a page, bytes; keeps the page below 10 MB.
-const PICTURES_MOST: u64 = 4_000_000;
+const MAX_PICTURES_BYTES: u64 = 4_000_000;
 
 /// Writes the report into a session folder.
 ///
@@ -46,14 +46,14 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
     // The caller is about to draw the photographs.
-    Ok(reviewed(session, Vec::new())?.pictures)
+    Ok(review_with_pictures(session, Vec::new())?.pictures)
 }
 
 /// Returns the maximum size of each photograph, bytes, for a page with `count` photographs.
 #[cfg(feature = "view")]
-pub fn max_pictures(count: usize) -> usize {
-    let share = PICTURES_MOST / (count.max(1) as u64);
-    share.min(PICTURE_MOST) as usize
+pub fn max_picture_bytes(count: usize) -> usize {
+    let share = MAX_PICTURES_BYTES / (count.max(1) as u64);
+    share.min(MAX_PICTURE_BYTES) as usize
 }
 
 /// Returns the URL of a file for a browser.
@@ -75,12 +75,12 @@ pub fn address(path: &Path) -> String {
 /// # Errors
 /// If files are invalid, or the session has no data to report.
 pub fn review(session: &Path) -> Result<Review, AppError> {
-    reviewed(session, photographs(&session.join(SNAPSHOTS)))
+    review_with_pictures(session, photographs(&session.join(SNAPSHOTS)))
 }
 
-fn reviewed(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
+fn review_with_pictures(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
     let stored = StoredSession::read(session)?;
-    let about = SessionFacts { pictures, ..session_facts(session, &stored)? };
+    let about = SessionMetadata { pictures, ..session_facts(session, &stored)? };
     Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::wrong(error.to_string()),
         AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
@@ -89,10 +89,10 @@ fn reviewed(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppErr
     })
 }
 
-fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionFacts, AppError> {
+fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetadata, AppError> {
     let name =
         std::path::absolute(session).ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
-    Ok(SessionFacts {
+    Ok(SessionMetadata {
         trainee: stored.trainee.clone(),
         started_unix_us: stored.started_unix_us,
         purpose: stored.purpose.clone(),
@@ -108,11 +108,11 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionFacts,
 /// Returns the photographs that fit into the page, keyed by the number at the end of their file names. Uses the small copy of a photograph if there
 /// is one.
 fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
-    let files = numbered(folder);
-    let (mut left, mut found) = (PICTURES_MOST, Vec::new());
+    let files = numbered_photographs(folder);
+    let (mut left, mut found) = (MAX_PICTURES_BYTES, Vec::new());
     for (number, path) in &files {
         let size = path.metadata().map_or(u64::MAX, |about| about.len());
-        if size <= PICTURE_MOST.min(left)
+        if size <= MAX_PICTURE_BYTES.min(left)
             && let Ok(bytes) = std::fs::read(path)
         {
             left -= size;
@@ -126,25 +126,25 @@ fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
              SESSION --snapshots` creates copies that fit",
             folder.display(),
             files.len(),
-            PICTURE_MOST / 1000,
-            PICTURES_MOST / 1000
+            MAX_PICTURE_BYTES / 1000,
+            MAX_PICTURES_BYTES / 1000
         );
     }
     found
 }
 
 /// Returns the photographs or their copies, keyed by the number at the end of their names.
-fn numbered(folder: &Path) -> Vec<(u32, PathBuf)> {
+fn numbered_photographs(folder: &Path) -> Vec<(u32, PathBuf)> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut names: Vec<_> = entries.flatten().map(|entry| entry.file_name()).collect();
     names.sort();
     let small = |name| Some(folder.join(SMALL).join(name)).filter(|copy| copy.is_file());
     let file = |name| small(name).unwrap_or_else(|| folder.join(name));
-    names.iter().filter_map(|name| Some((number_of(Path::new(name))?, file(name)))).collect()
+    names.iter().filter_map(|name| Some((photograph_number(Path::new(name))?, file(name)))).collect()
 }
 
 /// Returns the number at the end of a JPEG file's name.
-fn number_of(path: &Path) -> Option<u32> {
+fn photograph_number(path: &Path) -> Option<u32> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
     let stem = path.file_stem()?.to_str()?;
     let digits = stem.len() - stem.bytes().rev().take_while(u8::is_ascii_digit).count();
@@ -156,25 +156,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_photographs_are_known_by_the_number_that_ends_their_name() {
+    fn exact_photographs_are_numbered_by_their_file_names() {
         for (name, number) in
             [("0007.jpg", Some(7)), ("snap-12.JPEG", Some(12)), ("snap.jpg", None), ("7.png", None), ("7", None)]
         {
-            assert_eq!(number_of(Path::new(name)), number, "{name}");
+            assert_eq!(photograph_number(Path::new(name)), number, "{name}");
         }
     }
 
     #[test]
-    fn exact_a_page_holds_copies_and_leaves_what_is_too_large() {
+    fn exact_page_uses_small_copies_and_skips_large_photographs() {
         let folder = tempfile::tempdir().unwrap();
         let put = |name: &str, bytes: u64| std::fs::write(folder.path().join(name), vec![0; bytes as usize]).unwrap();
         std::fs::create_dir(folder.path().join(SMALL)).unwrap();
-        put("0001.jpg", 3 * PICTURE_MOST);
+        put("0001.jpg", 3 * MAX_PICTURE_BYTES);
         put("small/0001.jpg", 70);
-        put("0002.jpg", PICTURE_MOST + 1);
-        (3..14).for_each(|k| put(&format!("{k:04}.jpg"), PICTURE_MOST));
+        put("0002.jpg", MAX_PICTURE_BYTES + 1);
+        (3..14).for_each(|k| put(&format!("{k:04}.jpg"), MAX_PICTURE_BYTES));
         let found: Vec<(u32, u64)> = photographs(folder.path()).iter().map(|(k, file)| (*k, file.bytes.len() as u64)).collect();
-        let whole = (3..=11).map(|k| (k, PICTURE_MOST));
+        let whole = (3..=11).map(|k| (k, MAX_PICTURE_BYTES));
         assert_eq!(
             found,
             [(1, 70)].into_iter().chain(whole).collect::<Vec<_>>(),
@@ -184,8 +184,8 @@ mod tests {
 
     #[test]
     #[cfg(feature = "view")]
-    fn exact_every_photograph_has_its_share() {
-        assert_eq!([0, 1, 10, 100].map(max_pictures), [400_000, 400_000, 400_000, 40_000]);
+    fn exact_photographs_share_the_size_limit() {
+        assert_eq!([0, 1, 10, 100].map(max_picture_bytes), [400_000, 400_000, 400_000, 40_000]);
     }
 
     #[test]

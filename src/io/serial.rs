@@ -9,11 +9,11 @@ use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
 /// Bits per byte on the wire: one start bit, eight data bits, one stop bit.
-const BITS_A_BYTE: f64 = 10.0;
+const BITS_PER_BYTE: f64 = 10.0;
 /// Interval between attempts to reopen a disconnected port.
-const AGAIN: Duration = Duration::from_secs(1);
+const REOPEN_INTERVAL: Duration = Duration::from_secs(1);
 /// Baud rates in use by radios and cables. The system rejects rates that its hardware does not support.
-const BAUD: std::ops::RangeInclusive<u32> = 1_200..=4_000_000;
+const BAUD_RANGE: std::ops::RangeInclusive<u32> = 1_200..=4_000_000;
 
 /// A serial port and its speed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,8 +24,8 @@ pub struct SerialDevice {
 
 impl SerialDevice {
     /// Returns the capacity, bytes/s.
-    pub fn bytes_s(&self) -> f64 {
-        f64::from(self.baud) / BITS_A_BYTE
+    pub fn capacity_bytes_s(&self) -> f64 {
+        f64::from(self.baud) / BITS_PER_BYTE
     }
 
     /// Opens the port in raw mode, without flow control or parity.
@@ -48,20 +48,20 @@ impl FromStr for SerialDevice {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
             format!(
-                "'{text}' is not DEVICE:BAUD, for example /dev/ttyUSB0:57600 (allowed: {} to {} baud)",
-                BAUD.start(),
-                BAUD.end()
+                "'{text}' is not DEVICE:BAUD_RANGE, for example /dev/ttyUSB0:57600 (allowed: {} to {} baud)",
+                BAUD_RANGE.start(),
+                BAUD_RANGE.end()
             )
         };
         let (path, baud) = text.rsplit_once(':').ok_or_else(wrong)?;
-        let baud = baud.parse().ok().filter(|baud| BAUD.contains(baud)).ok_or_else(wrong)?;
+        let baud = baud.parse().ok().filter(|baud| BAUD_RANGE.contains(baud)).ok_or_else(wrong)?;
         if path.is_empty() { Err(wrong()) } else { Ok(Self { path: path.to_owned(), baud }) }
     }
 }
 
 /// Reads a port until its bytes are no longer needed. `begin` returns the frames to write, `give` receives the bytes read, and `end` is called when
 /// the port disconnects; the port is then reopened as soon as possible.
-pub fn keep(
+pub fn run_with_reconnect(
     device: &SerialDevice,
     mut port: SerialPort,
     begin: impl Fn() -> Option<Receiver<Vec<u8>>>,
@@ -70,12 +70,12 @@ pub fn keep(
 ) {
     loop {
         let Some(frames) = begin() else { return };
-        if !read(port, frames, &give) || !end() {
+        if !read_until_disconnect(port, frames, &give) || !end() {
             return;
         }
         tracing::warn!("serial port {device} disconnected; it is reopened when it is back");
         port = loop {
-            std::thread::sleep(AGAIN);
+            std::thread::sleep(REOPEN_INTERVAL);
             if let Ok(port) = device.open() {
                 break port;
             }
@@ -84,7 +84,7 @@ pub fn keep(
 }
 
 /// Reads the port while a thread writes `frames` to it. Returns false if the bytes are no longer needed, true if the port disconnected.
-fn read(port: SerialPort, frames: Receiver<Vec<u8>>, give: &impl Fn(&[u8]) -> bool) -> bool {
+fn read_until_disconnect(port: SerialPort, frames: Receiver<Vec<u8>>, give: &impl Fn(&[u8]) -> bool) -> bool {
     let port = Arc::new(port);
     let to_write = Arc::clone(&port);
     std::thread::spawn(move || {
@@ -110,9 +110,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_device_has_a_name_and_a_speed() {
+    fn exact_serial_devices_parse_with_path_and_baud_rate() {
         let radio: SerialDevice = "/dev/ttyUSB0:57600".parse().unwrap();
-        assert_eq!((radio.to_string().as_str(), radio.bytes_s()), ("/dev/ttyUSB0:57600", 5_760.0));
+        assert_eq!((radio.to_string().as_str(), radio.capacity_bytes_s()), ("/dev/ttyUSB0:57600", 5_760.0));
         for bad in ["/dev/ttyUSB0", ":57600", "/dev/ttyUSB0:fast", "/dev/ttyUSB0:5", "/dev/ttyUSB0:99999999"] {
             assert!(bad.parse::<SerialDevice>().unwrap_err().contains("1200 to 4000000"), "{bad}");
         }

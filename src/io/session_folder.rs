@@ -1,6 +1,6 @@
 //! Session folder on disk: created once, appended to and flushed. A monitor that was killed can resume in it.
 
-use super::append_file::{AppendFile, WriteRefused, sync_folder, whole_lines};
+use super::append_file::{AppendFile, WriteError, complete_lines_len, sync_folder};
 use super::clock;
 use super::files::{self, ScenarioFile, VehicleFile};
 use super::log_file::LogFile;
@@ -86,10 +86,10 @@ impl SessionFolder {
         if folder.telemetry.len() != stored.log.len() {
             return Err(AppError::failed(format!("{}: the session grew while it was being read; try again", path.display())));
         }
-        folder.telemetry.cut(stored.log.whole_len()?)?;
+        folder.telemetry.cut(stored.log.complete_len()?)?;
         let events_path = path.join(EVENTS);
         let events = std::fs::read(&events_path).map_err(|error| io_error(&events_path, &error))?;
-        folder.events.cut(whole_lines(&events) as u64)?;
+        folder.events.cut(complete_lines_len(&events) as u64)?;
         Ok(folder)
     }
 
@@ -102,7 +102,7 @@ impl SessionFolder {
     ) -> Result<Self, AppError> {
         let telemetry = AppendFile::open(path.join(TELEMETRY), tlog::complete_len)?;
         telemetry.lock()?;
-        let events = AppendFile::open(path.join(EVENTS), whole_lines)?;
+        let events = AppendFile::open(path.join(EVENTS), complete_lines_len)?;
         Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, starts })
     }
 
@@ -123,7 +123,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// If the disk cannot be written. The files then contain complete records only, and the next call retries.
-    pub fn flush(&mut self) -> Result<(), WriteRefused> {
+    pub fn flush(&mut self) -> Result<(), WriteError> {
         let telemetry = self.telemetry.flush();
         self.events.flush().and(telemetry)
     }
@@ -142,7 +142,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// If the disk cannot be written.
-    pub fn sync(&self) -> Result<(), WriteRefused> {
+    pub fn sync(&self) -> Result<(), WriteError> {
         self.telemetry.sync()?;
         self.events.sync()?;
         sync_folder(&self.path, &[SCENARIO, VEHICLE, SESSION, ASSESSMENT, REPORT])?;
@@ -153,7 +153,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// If the disk cannot be written; the next call retries.
-    pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), WriteRefused> {
+    pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), WriteError> {
         let resolved = scenario::resolve(&self.scenario_toml, seed, placed);
         replace_durably(&self.path.join(SCENARIO), resolved.as_bytes())?;
         self.scenario_toml = resolved;
@@ -164,7 +164,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// If the disk cannot be written.
-    pub fn describe(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), WriteRefused> {
+    pub fn write_session_json(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), WriteError> {
         let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
         let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
         replace_durably(&self.path.join(SESSION), export::json_text(&info).as_bytes())
@@ -174,7 +174,7 @@ impl SessionFolder {
     ///
     /// # Errors
     /// If the disk cannot be written.
-    pub fn assessment(&self, json: &str) -> Result<(), WriteRefused> {
+    pub fn write_assessment(&self, json: &str) -> Result<(), WriteError> {
         replace_durably(&self.path.join(ASSESSMENT), json.as_bytes())
     }
 }
@@ -184,9 +184,9 @@ impl StoredSession {
     ///
     /// # Errors
     /// If this is not a session folder, or the file is invalid.
-    pub fn scenario_of(path: &Path) -> Result<ScenarioFile, AppError> {
+    pub fn read_scenario(path: &Path) -> Result<ScenarioFile, AppError> {
         if !is_session(path) {
-            return Err(no_session(path));
+            return Err(not_a_session_folder(path));
         }
         files::scenario(&path.join(SCENARIO).display().to_string())
     }
@@ -198,9 +198,9 @@ impl StoredSession {
     /// If one of these files is missing or invalid.
     pub fn read(path: &Path) -> Result<Self, AppError> {
         if !is_session(path) {
-            return Err(no_session(path));
+            return Err(not_a_session_folder(path));
         }
-        let session = described(&path.join(SESSION))?;
+        let session = read_session_json(&path.join(SESSION))?;
         let text = |key: &str| session.get(key).and_then(serde_json::Value::as_str).map(str::to_owned);
         let number = |key: &str| session.get(key).and_then(serde_json::Value::as_u64);
         let log = LogFile::open(&path.join(TELEMETRY))?;
@@ -212,10 +212,10 @@ impl StoredSession {
         let vehicle_path = path.join(VEHICLE);
         Ok(Self {
             vehicle: match text("vehicle") {
-                Some(id) => files::vehicle_named(&vehicle_path, &id)?,
+                Some(id) => files::vehicle_with_id(&vehicle_path, &id)?,
                 None => files::vehicle(&vehicle_path.display().to_string())?,
             },
-            trainee: text("trainee").or_else(|| trainee_of(path, &scenario.scenario.name)).unwrap_or_default(),
+            trainee: text("trainee").or_else(|| trainee_from_folder_name(path, &scenario.scenario.name)).unwrap_or_default(),
             purpose: text("purpose"),
             started_unix_us: started_unix_us.unwrap_or_default(),
             spandrel_version: text("spandrel_version").unwrap_or_default(),
@@ -230,8 +230,8 @@ impl StoredSession {
 ///
 /// # Errors
 /// If this is not a session folder, or a file is invalid.
-pub fn session_owner(path: &Path) -> Result<(String, u64), AppError> {
-    let session = described(&path.join(SESSION))?;
+pub fn trainee_and_start(path: &Path) -> Result<(String, u64), AppError> {
+    let session = read_session_json(&path.join(SESSION))?;
     match (session["trainee"].as_str(), session["started_unix_us"].as_u64()) {
         (Some(trainee), Some(started_unix_us)) => Ok((trainee.to_owned(), started_unix_us)),
         (_, _) => StoredSession::read(path).map(|stored| (stored.trainee, stored.started_unix_us)),
@@ -240,7 +240,7 @@ pub fn session_owner(path: &Path) -> Result<(String, u64), AppError> {
 
 /// Returns the purpose of a session, if one was chosen and `session.json` is readable. Faster than reading the whole session.
 pub fn purpose(path: &Path) -> Option<String> {
-    described(&path.join(SESSION)).ok()?["purpose"].as_str().map(str::to_owned)
+    read_session_json(&path.join(SESSION)).ok()?["purpose"].as_str().map(str::to_owned)
 }
 
 /// A session that is being recorded.
@@ -261,7 +261,7 @@ pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> 
     if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
         return None;
     }
-    let session = described(&path.join(SESSION)).ok()?;
+    let session = read_session_json(&path.join(SESSION)).ok()?;
     let crc = u32::from_str_radix(session["scenario_crc"].as_str()?, 16).ok()?;
     Some(OngoingSession { trainee: session["trainee"].as_str()?.to_owned(), crc, seed: session["seed"].as_u64()? })
 }
@@ -271,12 +271,12 @@ pub fn is_session(path: &Path) -> bool {
     path.join(TELEMETRY).is_file()
 }
 
-fn no_session(path: &Path) -> AppError {
+fn not_a_session_folder(path: &Path) -> AppError {
     AppError::wrong(format!("{}: not a session folder (it has no {TELEMETRY})", path.display()))
 }
 
 /// Returns the contents of `session.json`, or null if there is no such file.
-fn described(path: &Path) -> Result<serde_json::Value, AppError> {
+fn read_session_json(path: &Path) -> Result<serde_json::Value, AppError> {
     if !path.is_file() {
         return Ok(serde_json::Value::Null);
     }
@@ -285,7 +285,7 @@ fn described(path: &Path) -> Result<serde_json::Value, AppError> {
 }
 
 /// Returns the trainee part of the folder name `<utc>-<trainee>-<scenario>-<short id>`.
-fn trainee_of(path: &Path, scenario: &str) -> Option<String> {
+fn trainee_from_folder_name(path: &Path, scenario: &str) -> Option<String> {
     let name = path.file_name()?.to_str()?;
     let (_, rest) = name.split_once('-')?;
     let (rest, _) = rest.rsplit_once('-')?;
@@ -315,7 +315,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_two_sessions_of_one_instant_get_two_folders() {
+    fn exact_sessions_with_the_same_start_time_get_separate_folders() {
         let sessions = tempfile::tempdir().unwrap();
         let make = || new_folder(sessions.path(), "20231114T221320Z-anna-two-bridges", 5).unwrap();
         let (a, b) = (make(), make());
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_chosen_purpose_is_reported() {
+    fn exact_purpose_is_read_from_session_json() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(purpose(folder.path()), None, "nothing describes it");
         for (text, told) in
@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_no_session_is_refused_by_name() {
+    fn exact_other_folders_are_rejected() {
         let folder = tempfile::tempdir().unwrap();
         let Err(error) = StoredSession::read(folder.path()) else { panic!("read it") };
         assert!(error.to_string().contains("not a session folder"));

@@ -2,7 +2,9 @@
 
 use super::clock::{self, Stopwatch};
 use super::links::{LinkChange, Links};
-use super::pacing::{FirstAnswerAction, FirstAnswerWait, Lateness, LockstepTimeout, PATIENCE, SimulationSpeed, WallPacer};
+use super::pacing::{
+    FirstAnswerAction, FirstAnswerWait, LOCKSTEP_PEER_TIMEOUT, Lateness, LockstepTimeout, SimulationSpeed, WallPacer,
+};
 use super::params::ParamFile;
 use super::pause::PauseSwitch;
 use super::signing_store::SigningStore;
@@ -16,11 +18,11 @@ use spandrel_sitl::sim::{Sim, SimEvent};
 use std::time::Duration;
 
 /// Longest wait on the sockets, so that stop requests and silent peers are noticed.
-const LOOK: Duration = Duration::from_millis(100);
+const MAX_WAIT: Duration = Duration::from_millis(100);
 /// Shortest sleep. Waking every millisecond would only load the processor, and incoming data ends the sleep anyway.
-const REST: Duration = Duration::from_millis(2);
+const MIN_SLEEP: Duration = Duration::from_millis(2);
 /// Wall-clock interval of heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3 to 5 s without one.
-const BEAT: Duration = Duration::from_secs(1);
+const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Files that belong to one vehicle.
 #[derive(Debug)]
@@ -81,7 +83,7 @@ impl VehicleShell {
         if let Some(file) = &mut params {
             core.enable_param_storage();
             if let Some(text) = file.text()? {
-                core.read_parameters(&text).map_err(|problems| file.wrong(&problems))?;
+                core.read_parameters(&text).map_err(|problems| file.parse_error(&problems))?;
             }
             file.saved_changes = core.parameter_changes();
         }
@@ -124,7 +126,7 @@ impl VehicleShell {
         }
         self.links.drop_silent_peers();
         let wall = self.stopwatch.elapsed();
-        if self.paused_for.is_none_or(|last| wall.saturating_sub(last) >= BEAT) {
+        if self.paused_for.is_none_or(|last| wall.saturating_sub(last) >= HEARTBEAT_INTERVAL) {
             self.core.pause(self.paused_for.is_none());
             self.paused_for = Some(wall);
         }
@@ -132,7 +134,7 @@ impl VehicleShell {
             self.links.send(datagram.link.0, datagram.bytes);
         }
         self.pacer.hold(wall, self.core.now());
-        self.links.wait(LOOK);
+        self.links.wait(MAX_WAIT);
     }
 
     /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data and waits for the next tick.
@@ -187,7 +189,7 @@ impl VehicleShell {
     /// Carries out the clients' file requests and appends to the flight log.
     fn serve_file_jobs(&mut self) {
         while let Some(job) = self.core.poll_file_job() {
-            let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.work(&job.action));
+            let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.run_action(&job.action));
             self.core.file_job_done(job.ticket, outcome);
         }
         while let Some(piece) = self.core.poll_log() {
@@ -202,9 +204,9 @@ impl VehicleShell {
         let Some(file) = &mut self.params else { return };
         let wish = self.core.poll_storage();
         let told = match wish {
-            Some(StorageRequest::Load) => file
-                .text()
-                .and_then(|text| self.core.read_parameters(&text.unwrap_or_default()).map_err(|problems| file.wrong(&problems))),
+            Some(StorageRequest::Load) => file.text().and_then(|text| {
+                self.core.read_parameters(&text.unwrap_or_default()).map_err(|problems| file.parse_error(&problems))
+            }),
             _ if wish == Some(StorageRequest::Save) || self.core.parameter_changes() != file.saved_changes => {
                 file.write(&self.core.parameter_text())
             }
@@ -253,16 +255,16 @@ impl VehicleShell {
             if self.lockstep_timeout.is_over(self.core.now(), wall) {
                 return Err(AppError::failed(format!(
                     "a lockstep peer has not answered TIMESYNC for {} s (simulation time {}) and seems to be gone",
-                    PATIENCE.as_secs(),
+                    LOCKSTEP_PEER_TIMEOUT.as_secs(),
                     self.core.now()
                 )));
             }
-            self.links.wait(LOOK);
+            self.links.wait(MAX_WAIT);
             return Ok(());
         }
         let sleep = self.pacer.sleep(wall, self.core.poll_timeout());
         if !sleep.is_zero() {
-            self.links.wait(sleep.clamp(REST, LOOK));
+            self.links.wait(sleep.clamp(MIN_SLEEP, MAX_WAIT));
         }
         Ok(())
     }
@@ -270,7 +272,7 @@ impl VehicleShell {
     /// Waits for a peer's first TIMESYNC answer. The vehicle announces itself meanwhile, because a peer has to find it before it can answer.
     fn await_first_answer(&mut self, heard: bool, wall: Duration) {
         self.pacer.hold(wall, self.core.now());
-        match self.first_answer.action_due(heard, wall, BEAT) {
+        match self.first_answer.next_action(heard, wall, HEARTBEAT_INTERVAL) {
             FirstAnswerAction::Wait => {}
             FirstAnswerAction::Announce => self.core.send_first_contact(),
             FirstAnswerAction::Proceed => {
@@ -282,7 +284,7 @@ impl VehicleShell {
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
-        self.links.wait(LOOK);
+        self.links.wait(MAX_WAIT);
     }
 
     fn log_event(&self, event: &SimEvent) {

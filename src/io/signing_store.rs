@@ -7,23 +7,23 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Interval at which the timestamps are saved. Messages received after the last save before a kill could be replayed within one minute.
-const EVERY: Duration = Duration::from_secs(1);
+const SAVE_INTERVAL: Duration = Duration::from_secs(1);
 
 /// File of the signing timestamps of one vehicle.
 #[derive(Debug)]
 pub struct SigningStore {
     path: PathBuf,
     saved_text: String,
-    written: Duration,
+    last_saved: Duration,
     error_reported: bool,
 }
 
 impl SigningStore {
     /// Returns the store of a vehicle, next to the key file.
-    pub fn of(key: &Path, system_id: u8) -> Self {
+    pub fn for_vehicle(key: &Path, system_id: u8) -> Self {
         let mut name = key.file_name().unwrap_or_default().to_os_string();
         name.push(format!(".heard.{system_id}"));
-        Self { path: key.with_file_name(name), saved_text: String::new(), written: Duration::ZERO, error_reported: false }
+        Self { path: key.with_file_name(name), saved_text: String::new(), last_saved: Duration::ZERO, error_reported: false }
     }
 
     /// Returns the contents; `None` if the file does not exist.
@@ -49,12 +49,12 @@ impl SigningStore {
 
     /// Returns true if the file should be saved again.
     pub fn is_due(&self, wall: Duration) -> bool {
-        wall.saturating_sub(self.written) >= EVERY
+        wall.saturating_sub(self.last_saved) >= SAVE_INTERVAL
     }
 
     /// Saves the timestamps if they have changed. A failure is logged once.
     pub fn save(&mut self, memory: String, wall: Duration) {
-        self.written = wall;
+        self.last_saved = wall;
         if memory == self.saved_text {
             return;
         }
@@ -76,19 +76,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_memory_lies_beside_its_key_one_for_each_vehicle_and_is_written_once_a_second() {
+    fn exact_each_vehicle_saves_its_timestamps_once_a_second() {
         let folder = tempfile::tempdir().unwrap();
-        let mut first = SigningStore::of(&folder.path().join("key"), 1);
-        let second = SigningStore::of(&folder.path().join("key"), 2);
+        let mut first = SigningStore::for_vehicle(&folder.path().join("key"), 1);
+        let second = SigningStore::for_vehicle(&folder.path().join("key"), 2);
         assert_eq!(first.text(), Ok(None));
-        assert!(!first.is_due(EVERY / 2) && first.is_due(EVERY));
-        first.save("5\n".into(), EVERY);
-        assert!(!first.is_due(EVERY));
+        assert!(!first.is_due(SAVE_INTERVAL / 2) && first.is_due(SAVE_INTERVAL));
+        first.save("5\n".into(), SAVE_INTERVAL);
+        assert!(!first.is_due(SAVE_INTERVAL));
         assert_eq!((first.text(), second.text()), (Ok(Some("5\n".to_owned())), Ok(None)));
         assert!(folder.path().join("key.heard.1").exists());
         assert!(first.parse_error(3).to_string().contains("key.heard.1:3"));
-        let mut nowhere = SigningStore::of(&folder.path().join("none").join("key"), 1);
-        nowhere.save("5\n".into(), EVERY);
+        let mut nowhere = SigningStore::for_vehicle(&folder.path().join("none").join("key"), 1);
+        nowhere.save("5\n".into(), SAVE_INTERVAL);
         assert!(nowhere.error_reported);
     }
 }

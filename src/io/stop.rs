@@ -68,9 +68,9 @@ impl StopRequest {
 
     async fn signals(self) {
         // The first signal requests a stop, the second exits immediately.
-        if one_signal().await.is_ok() {
+        if next_signal().await.is_ok() {
             self.request();
-            if one_signal().await.is_ok() {
+            if next_signal().await.is_ok() {
                 std::process::exit(1);
             }
         }
@@ -78,7 +78,7 @@ impl StopRequest {
 }
 
 #[cfg(unix)]
-async fn one_signal() -> std::io::Result<()> {
+async fn next_signal() -> std::io::Result<()> {
     use tokio::signal::unix::{SignalKind, signal};
     let mut interrupt = signal(SignalKind::interrupt())?;
     let mut terminate = signal(SignalKind::terminate())?;
@@ -90,6 +90,6 @@ async fn one_signal() -> std::io::Result<()> {
 }
 
 #[cfg(not(unix))]
-async fn one_signal() -> std::io::Result<()> {
+async fn next_signal() -> std::io::Result<()> {
     tokio::signal::ctrl_c().await
 }

@@ -15,12 +15,12 @@ use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Quota for the files of all clients, bytes.
-const QUOTA_BYTES: u64 = 256 * 1024 * 1024;
+const CLIENT_QUOTA_BYTES: u64 = 256 * 1024 * 1024;
 /// Maximum number of files and directories of all clients, because a listing reads each of them.
-const QUOTA_ENTRIES: u64 = 1_000;
+const CLIENT_QUOTA_ENTRIES: u64 = 1_000;
 /// Folder of the flight logs, with one folder per day, as in PX4. The logs belong to the vehicle: clients can read and remove them, and they do not
 /// count toward the quota.
-const LOGS: &str = "log";
+const LOG_FOLDER: &str = "log";
 
 /// Folder of the vehicle's files, with the log of the current flight.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ pub struct FileStore {
     root: Dir,
     path: PathBuf,
     /// Maximum size of all flight logs, bytes; the oldest are deleted first.
-    log_room: u64,
+    max_log_bytes: u64,
     /// Site geometry as binary glTF in base64, written at the start of every recording.
     site: Option<String>,
     /// Space used by the clients' files.
@@ -63,17 +63,17 @@ impl FileStore {
     ///
     /// # Errors
     /// If the folder can neither be opened nor created.
-    pub fn open(path: &Path, log_room: u64) -> Result<Self, AppError> {
+    pub fn open(path: &Path, max_log_bytes: u64) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--files {}: {error}", path.display()));
         std::fs::create_dir_all(path).map_err(failed)?;
         let root = Dir::open_ambient_dir(path, ambient_authority()).map_err(failed)?;
-        root.create_dir_all(LOGS).map_err(failed)?;
-        let used = StorageUsage::resolve(&root);
-        Ok(Self { root, path: path.to_owned(), log_room, site: None, used, log: None, recording: None })
+        root.create_dir_all(LOG_FOLDER).map_err(failed)?;
+        let used = StorageUsage::measure(&root);
+        Ok(Self { root, path: path.to_owned(), max_log_bytes, site: None, used, log: None, recording: None })
     }
 
     /// Sets the site geometry (binary glTF) for future recordings.
-    pub fn show_site(&mut self, glb: &[u8]) {
+    pub fn set_site(&mut self, glb: &[u8]) {
         self.site = Some(base64(glb));
     }
 
@@ -81,7 +81,7 @@ impl FileStore {
     ///
     /// # Errors
     /// The reason as a MAVLink FTP error.
-    pub fn work(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
+    pub fn run_action(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
         self.act(action).map_err(|error| match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => FileError::NotFound,
             ErrorKind::AlreadyExists => FileError::Exists,
@@ -114,7 +114,7 @@ impl FileStore {
                 if self.root.symlink_metadata(to.as_str()).is_ok() {
                     return Err(ErrorKind::AlreadyExists.into());
                 }
-                client_file(from).and(client_file(to))?;
+                check_client_path(from).and(check_client_path(to))?;
                 self.root.rename(from.as_str(), &self.root, to.as_str()).map(|()| FileJobResult::Nothing)
             }
         }
@@ -122,8 +122,8 @@ impl FileStore {
 
     /// Creates a file or a directory, unless the clients' quota is exhausted.
     fn make(&mut self, path: &FilePath, act: impl FnOnce(&Dir) -> std::io::Result<()>) -> std::io::Result<FileJobResult> {
-        client_file(path)?;
-        if self.used.entries >= QUOTA_ENTRIES && StorageUsage::of(&self.root, path).entries == 0 {
+        check_client_path(path)?;
+        if self.used.entries >= CLIENT_QUOTA_ENTRIES && StorageUsage::of(&self.root, path).entries == 0 {
             return Err(ErrorKind::QuotaExceeded.into());
         }
         self.change(path, act)
@@ -136,9 +136,9 @@ impl FileStore {
         length: u64,
         act: impl FnOnce(&mut File) -> std::io::Result<()>,
     ) -> std::io::Result<FileJobResult> {
-        client_file(path)?;
+        check_client_path(path)?;
         let more = length.saturating_sub(StorageUsage::of(&self.root, path).bytes);
-        if more > 0 && self.used.bytes + more > QUOTA_BYTES {
+        if more > 0 && self.used.bytes + more > CLIENT_QUOTA_BYTES {
             return Err(ErrorKind::QuotaExceeded.into());
         }
         self.change(path, |root| act(&mut root.open_with(path.as_str(), OpenOptions::new().write(true))?))
@@ -202,24 +202,26 @@ impl FileStore {
             }
             LogOutput::Message(message) => {
                 let Some(recording) = &mut self.recording else { return Ok(()) };
-                let written = recording.write(message).map_err(|error| io_error(&self.path, LOGS, &error));
+                let written = recording.write(message).map_err(|error| io_error(&self.path, LOG_FOLDER, &error));
                 written.inspect_err(|_| self.recording = None)
             }
-            LogOutput::Begin(_) | LogOutput::End => self.rotate_logs(piece).map_err(|error| io_error(&self.path, LOGS, &error)),
+            LogOutput::Begin(_) | LogOutput::End => {
+                self.begin_or_end_log(piece).map_err(|error| io_error(&self.path, LOG_FOLDER, &error))
+            }
         }
     }
 
     /// Starts or ends a flight's log.
-    fn rotate_logs(&mut self, piece: &LogOutput) -> std::io::Result<()> {
+    fn begin_or_end_log(&mut self, piece: &LogOutput) -> std::io::Result<()> {
         match piece {
             LogOutput::Begin(unix_us) => {
                 let (readable, _) = super::clock::utc(*unix_us);
                 let (date, time) = readable.split_at(10);
-                let deleted = flight_logs::make_room(&self.root, LOGS, self.log_room)?;
+                let deleted = flight_logs::delete_oldest(&self.root, LOG_FOLDER, self.max_log_bytes)?;
                 if deleted > 0 {
                     tracing::info!("deleted the logs of {deleted} old flights to make space for a new one");
                 }
-                let folder = format!("{LOGS}/{date}");
+                let folder = format!("{LOG_FOLDER}/{date}");
                 self.root.create_dir_all(&folder)?;
                 let stem = time.trim_matches(|c: char| !c.is_ascii_digit()).replace(':', "_");
                 self.begin_log(&format!("{folder}/{stem}"), *unix_us)?;
@@ -266,11 +268,11 @@ fn io_error(root: &Path, name: &str, error: &dyn std::fmt::Display) -> AppError 
 
 /// Returns true for a path in the vehicle's log folder.
 fn is_log(path: &FilePath) -> bool {
-    path.as_str() == LOGS || path.as_str().strip_prefix(LOGS).is_some_and(|rest| rest.starts_with('/'))
+    path.as_str() == LOG_FOLDER || path.as_str().strip_prefix(LOG_FOLDER).is_some_and(|rest| rest.starts_with('/'))
 }
 
 /// Rejects paths that clients must not write.
-fn client_file(path: &FilePath) -> std::io::Result<()> {
+fn check_client_path(path: &FilePath) -> std::io::Result<()> {
     if is_log(path) { Err(ErrorKind::PermissionDenied.into()) } else { Ok(()) }
 }
 
@@ -283,7 +285,7 @@ struct StorageUsage {
 
 impl StorageUsage {
     /// Measures a folder without its logs. A folder over the quota can still be read and emptied.
-    fn resolve(root: &Dir) -> Self {
+    fn measure(root: &Dir) -> Self {
         let mut used = Self::default();
         used.count(root, true);
         used
@@ -292,9 +294,9 @@ impl StorageUsage {
     /// Adds the contents of a directory. Stops at the quota, so that a large folder does not delay the start.
     fn count(&mut self, directory: &Dir, is_root: bool) {
         let Ok(entries) = directory.entries() else { return };
-        for entry in entries.flatten().filter(|entry| !(is_root && entry.file_name() == LOGS)) {
-            if self.entries > QUOTA_ENTRIES {
-                self.bytes = self.bytes.max(QUOTA_BYTES);
+        for entry in entries.flatten().filter(|entry| !(is_root && entry.file_name() == LOG_FOLDER)) {
+            if self.entries > CLIENT_QUOTA_ENTRIES {
+                self.bytes = self.bytes.max(CLIENT_QUOTA_BYTES);
                 return;
             }
             self.entries += 1;
@@ -338,93 +340,97 @@ mod tests {
     }
 
     #[test]
-    fn exact_no_link_leads_out() {
+    fn exact_links_cannot_leave_the_folder() {
         let (base, mut store) = place("links");
         for (name, target) in [("up", "../secret"), ("sibling", "../root-of-another/secret"), ("absolute", "/etc/passwd")] {
             std::os::unix::fs::symlink(target, base.join("root").join(name)).unwrap();
-            assert!(store.work(&FileAction::Size(path(name))).is_err(), "{name}");
-            assert!(store.work(&FileAction::Read(path(name), 0, 10)).is_err(), "{name}");
-            assert!(store.work(&FileAction::Checksum { path: path(name), from: 0, sum: 0 }).is_err(), "{name}");
-            assert!(store.work(&FileAction::Write(path(name), 0, vec![1])).is_err(), "{name}");
+            assert!(store.run_action(&FileAction::Size(path(name))).is_err(), "{name}");
+            assert!(store.run_action(&FileAction::Read(path(name), 0, 10)).is_err(), "{name}");
+            assert!(store.run_action(&FileAction::Checksum { path: path(name), from: 0, sum: 0 }).is_err(), "{name}");
+            assert!(store.run_action(&FileAction::Write(path(name), 0, vec![1])).is_err(), "{name}");
         }
         std::os::unix::fs::symlink("..", base.join("root/above")).unwrap();
-        assert!(store.work(&FileAction::List(path("above"))).is_err());
-        assert!(store.work(&FileAction::Read(path("above/secret"), 0, 10)).is_err());
-        assert!(store.work(&FileAction::Create(path("above/new"))).is_err());
-        assert!(store.work(&FileAction::Rename(path("log"), path("above/log"))).is_err());
+        assert!(store.run_action(&FileAction::List(path("above"))).is_err());
+        assert!(store.run_action(&FileAction::Read(path("above/secret"), 0, 10)).is_err());
+        assert!(store.run_action(&FileAction::Create(path("above/new"))).is_err());
+        assert!(store.run_action(&FileAction::Rename(path("log"), path("above/log"))).is_err());
         assert_eq!(std::fs::read_to_string(base.join("secret")).unwrap(), "s");
-        let listed = store.work(&FileAction::List(path("/"))).unwrap();
+        let listed = store.run_action(&FileAction::List(path("/"))).unwrap();
         assert_eq!(listed, FileJobResult::Entries(vec![DirectoryEntry::Directory("log".into())]), "links are not shown");
         std::fs::remove_dir_all(base).unwrap();
     }
 
     #[test]
-    fn exact_files_are_written_read_cut_renamed_and_removed() {
+    fn exact_file_operations() {
         let (base, mut store) = place("work");
-        store.work(&FileAction::Create(path("a"))).unwrap();
-        store.work(&FileAction::Write(path("a"), 2, b"xyz".to_vec())).unwrap();
-        assert_eq!(store.work(&FileAction::Read(path("a"), 1, 3)), Ok(FileJobResult::Bytes(b"\0xy".to_vec())));
+        store.run_action(&FileAction::Create(path("a"))).unwrap();
+        store.run_action(&FileAction::Write(path("a"), 2, b"xyz".to_vec())).unwrap();
+        assert_eq!(store.run_action(&FileAction::Read(path("a"), 1, 3)), Ok(FileJobResult::Bytes(b"\0xy".to_vec())));
         let whole = FileAction::Checksum { path: path("a"), from: 0, sum: 0 };
-        assert_eq!(store.work(&whole), Ok(FileJobResult::Checksum { sum: checksum(0, b"\0\0xyz"), bytes: 5 }));
-        store.work(&FileAction::Truncate(path("a"), 3)).unwrap();
-        assert_eq!(store.work(&FileAction::Size(path("a"))), Ok(FileJobResult::Size(3)));
-        assert_eq!(store.work(&FileAction::Rename(path("a"), path("log"))), Err(FileError::Exists));
-        store.work(&FileAction::Rename(path("a"), path("b"))).unwrap();
-        assert_eq!(store.work(&FileAction::Size(path("a"))), Err(FileError::NotFound));
-        assert_eq!(store.work(&FileAction::Size(path("log"))), Err(FileError::NotFound), "a directory is no file");
-        assert_eq!(store.work(&FileAction::Write(path("b"), u32::MAX, vec![1])), Err(FileError::Other), "longer than allowed");
-        store.work(&FileAction::MakeDirectory(path("d"))).unwrap();
-        assert_eq!(store.work(&FileAction::MakeDirectory(path("d"))), Err(FileError::Exists));
-        store.work(&FileAction::RemoveDirectory(path("d"))).unwrap();
-        store.work(&FileAction::Remove(path("b"))).unwrap();
+        assert_eq!(store.run_action(&whole), Ok(FileJobResult::Checksum { sum: checksum(0, b"\0\0xyz"), bytes: 5 }));
+        store.run_action(&FileAction::Truncate(path("a"), 3)).unwrap();
+        assert_eq!(store.run_action(&FileAction::Size(path("a"))), Ok(FileJobResult::Size(3)));
+        assert_eq!(store.run_action(&FileAction::Rename(path("a"), path("log"))), Err(FileError::Exists));
+        store.run_action(&FileAction::Rename(path("a"), path("b"))).unwrap();
+        assert_eq!(store.run_action(&FileAction::Size(path("a"))), Err(FileError::NotFound));
+        assert_eq!(store.run_action(&FileAction::Size(path("log"))), Err(FileError::NotFound), "a directory is no file");
         assert_eq!(
-            store.work(&FileAction::List(path(""))),
+            store.run_action(&FileAction::Write(path("b"), u32::MAX, vec![1])),
+            Err(FileError::Other),
+            "longer than allowed"
+        );
+        store.run_action(&FileAction::MakeDirectory(path("d"))).unwrap();
+        assert_eq!(store.run_action(&FileAction::MakeDirectory(path("d"))), Err(FileError::Exists));
+        store.run_action(&FileAction::RemoveDirectory(path("d"))).unwrap();
+        store.run_action(&FileAction::Remove(path("b"))).unwrap();
+        assert_eq!(
+            store.run_action(&FileAction::List(path(""))),
             Ok(FileJobResult::Entries(vec![DirectoryEntry::Directory("log".into())]))
         );
         std::fs::remove_dir_all(base).unwrap();
     }
 
     #[test]
-    fn regress_clients_files_have_a_quota_and_logs_are_the_vehicles() {
+    fn regress_client_quota_and_protected_logs() {
         let (base, mut store) = place("quota");
-        let most = QUOTA_BYTES as u32;
+        let most = CLIENT_QUOTA_BYTES as u32;
         for name in ["a", "b"] {
-            store.work(&FileAction::Create(path(name))).unwrap();
+            store.run_action(&FileAction::Create(path(name))).unwrap();
         }
-        store.work(&FileAction::Truncate(path("a"), most - 10)).unwrap();
-        assert_eq!(store.work(&FileAction::Truncate(path("b"), 11)), Err(FileError::Other));
-        assert_eq!(store.work(&FileAction::Write(path("b"), 8, vec![1; 3])), Err(FileError::Other));
-        store.work(&FileAction::Write(path("b"), 0, vec![1; 10])).unwrap();
-        store.work(&FileAction::Write(path("b"), 5, vec![1; 5])).unwrap();
-        assert_eq!(StorageUsage::resolve(&store.root), store.used);
+        store.run_action(&FileAction::Truncate(path("a"), most - 10)).unwrap();
+        assert_eq!(store.run_action(&FileAction::Truncate(path("b"), 11)), Err(FileError::Other));
+        assert_eq!(store.run_action(&FileAction::Write(path("b"), 8, vec![1; 3])), Err(FileError::Other));
+        store.run_action(&FileAction::Write(path("b"), 0, vec![1; 10])).unwrap();
+        store.run_action(&FileAction::Write(path("b"), 5, vec![1; 5])).unwrap();
+        assert_eq!(StorageUsage::measure(&store.root), store.used);
         let again = FileStore::open(&base.join("root"), u64::MAX).unwrap();
-        assert_eq!(again.used, StorageUsage { bytes: QUOTA_BYTES, entries: 2 }, "the next start measures the same");
-        store.work(&FileAction::Remove(path("a"))).unwrap();
-        store.work(&FileAction::Truncate(path("b"), 11)).unwrap();
-        for k in 1..QUOTA_ENTRIES {
-            store.work(&FileAction::MakeDirectory(path(&format!("d{k}")))).unwrap();
+        assert_eq!(again.used, StorageUsage { bytes: CLIENT_QUOTA_BYTES, entries: 2 }, "the next start measures the same");
+        store.run_action(&FileAction::Remove(path("a"))).unwrap();
+        store.run_action(&FileAction::Truncate(path("b"), 11)).unwrap();
+        for k in 1..CLIENT_QUOTA_ENTRIES {
+            store.run_action(&FileAction::MakeDirectory(path(&format!("d{k}")))).unwrap();
         }
-        assert_eq!(store.work(&FileAction::Create(path("one-more"))), Err(FileError::Other));
-        store.work(&FileAction::Create(path("b"))).unwrap();
-        store.work(&FileAction::RemoveDirectory(path("d1"))).unwrap();
-        store.work(&FileAction::Create(path("one-more"))).unwrap();
-        assert_eq!(StorageUsage::resolve(&store.root), store.used);
+        assert_eq!(store.run_action(&FileAction::Create(path("one-more"))), Err(FileError::Other));
+        store.run_action(&FileAction::Create(path("b"))).unwrap();
+        store.run_action(&FileAction::RemoveDirectory(path("d1"))).unwrap();
+        store.run_action(&FileAction::Create(path("one-more"))).unwrap();
+        assert_eq!(StorageUsage::measure(&store.root), store.used);
         for action in [
             FileAction::Create(path("log/x.ulg")),
             FileAction::MakeDirectory(path("log/2026-01-01")),
             FileAction::Rename(path("one-more"), path("log/x")),
             FileAction::Rename(path("log"), path("other")),
         ] {
-            assert_eq!(store.work(&action), Err(FileError::Protected), "{action:?}");
+            assert_eq!(store.run_action(&action), Err(FileError::Protected), "{action:?}");
         }
         std::fs::write(base.join("root/log/x.ulg"), "log").unwrap();
-        assert_eq!(store.work(&FileAction::Truncate(path("log/x.ulg"), 0)), Err(FileError::Protected));
-        store.work(&FileAction::Remove(path("log/x.ulg"))).unwrap();
+        assert_eq!(store.run_action(&FileAction::Truncate(path("log/x.ulg"), 0)), Err(FileError::Protected));
+        store.run_action(&FileAction::Remove(path("log/x.ulg"))).unwrap();
         std::fs::remove_dir_all(base).unwrap();
     }
 
     #[test]
-    fn regress_a_log_that_the_disk_refuses_ends_whole_and_is_reported_once() {
+    fn regress_log_write_failure_keeps_complete_messages_and_is_reported_once() {
         let (base, mut store) = place("refused");
         store.log(&LogOutput::Begin(1_790_000_000_000_000)).unwrap();
         store.log(&LogOutput::Bytes("one".into())).unwrap();
@@ -443,7 +449,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_two_flights_of_one_second_have_two_logs() {
+    fn exact_flights_in_the_same_second_get_separate_logs() {
         let (base, mut store) = place("logs");
         for text in ["one", "two"] {
             for piece in [LogOutput::Begin(1_790_000_000_000_000), LogOutput::Bytes(text.into()), LogOutput::End] {
@@ -451,7 +457,7 @@ mod tests {
             }
         }
         let day = path("log/2026-09-21");
-        let FileJobResult::Entries(entries) = store.work(&FileAction::List(day)).unwrap() else { panic!("no list") };
+        let FileJobResult::Entries(entries) = store.run_action(&FileAction::List(day)).unwrap() else { panic!("no list") };
         let logs: Vec<_> =
             entries.iter().filter(|e| matches!(e, DirectoryEntry::File(name, _) if name.ends_with(".ulg"))).collect();
         assert_eq!(logs, [&DirectoryEntry::File("14_13_20-1.ulg".into(), 3), &DirectoryEntry::File("14_13_20.ulg".into(), 3)]);

@@ -32,7 +32,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_trainee_ids_stay_harmless_in_paths() {
+    fn exact_trainee_ids_are_safe_in_paths() {
         for good in ["anna", "t-07", "A_1", "7"] {
             assert_eq!(good.parse::<TraineeId>().map(|id| id.0), Ok(good.to_owned()));
         }

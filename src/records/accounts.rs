@@ -1,11 +1,11 @@
 //! Accounts that can log in to `spandrel serve`.
 
 use super::database::Database;
-use super::trainees::{set_given, trainee};
+use super::trainees::{trainee, update_details};
 use crate::errors::AppError;
 use sha2::{Digest, Sha256};
 use spandrel_training::trainee::{Role, Trainee};
-use spandrel_training::web::visits::CredentialHash;
+use spandrel_training::web::browser_sessions::CredentialHash;
 use sqlx::Row;
 
 const ACCOUNT: &str = "SELECT trainees.pseudonym, role, age_band, drone_experience, gaming_experience, hash FROM trainees \
@@ -50,7 +50,7 @@ impl Database {
     pub fn set_login(&self, name: &str, role: Role, hash: &str) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
-            set_given(&mut change, name, Some(role), [None; 3]).await?;
+            update_details(&mut change, name, Some(role), [None; 3]).await?;
             let query = sqlx::query(SET_PASSWORD).bind(name.to_owned()).bind(hash.to_owned());
             query.execute(&mut *change).await?;
             change.commit().await
@@ -74,7 +74,7 @@ impl Database {
     ///
     /// # Errors
     /// If the database fails.
-    pub fn drop_password(&self, name: &str) -> Result<bool, AppError> {
+    pub fn remove_password(&self, name: &str) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
             let query = sqlx::query("DELETE FROM passwords WHERE pseudonym = $1").bind(name.to_owned());
@@ -87,7 +87,7 @@ impl Database {
     ///
     /// # Errors
     /// If the database fails.
-    pub fn with_password(&self) -> Result<Vec<String>, AppError> {
+    pub fn names_with_password(&self) -> Result<Vec<String>, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT pseudonym FROM passwords ORDER BY pseudonym").fetch_all(&self.pool).await?;
             rows.iter().map(|row| row.try_get(0)).collect()

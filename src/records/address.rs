@@ -7,9 +7,9 @@ use std::path::Path;
 
 /// Allowed values of `sslmode`. `allow` is excluded because the driver would treat it as `disable`, and `verify-ca` because the driver (sqlx 0.8.6
 /// with rustls) verifies the host name anyway, with a misleading error message.
-const MODES: [&str; 4] = ["disable", "prefer", "require", "verify-full"];
+const SSL_MODES: [&str; 4] = ["disable", "prefer", "require", "verify-full"];
 /// The only mode that verifies PostgreSQL's certificate.
-const VERIFYING: &str = "verify-full";
+const VERIFYING_MODE: &str = "verify-full";
 
 /// Returns true for a PostgreSQL URL, false for a file.
 pub fn is_url(target: &str) -> bool {
@@ -20,29 +20,29 @@ pub fn is_url(target: &str) -> bool {
 ///
 /// # Errors
 /// If an option is invalid: its name, its value and the allowed values.
-pub fn check(target: &str) -> Result<(), String> {
+pub fn check_tls_options(target: &str) -> Result<(), String> {
     let Some((_, query)) = target.split_once('?').filter(|_| is_url(target)) else { return Ok(()) };
     let said: Vec<(String, String)> = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
     let value = |key: &str| said.iter().rev().find(|(name, _)| name == key).map(|(_, value)| value.as_str());
     let known = ["sslmode", "sslrootcert", "sslcert", "sslkey"];
     // The driver ignores unknown options; a misspelled security option must not be ignored.
-    if let Some((name, _)) = said.iter().find(|(name, _)| is_of_tls(name) && !known.contains(&name.as_str())) {
+    if let Some((name, _)) = said.iter().find(|(name, _)| is_tls_option(name) && !known.contains(&name.as_str())) {
         return Err(format!("{name}: unknown (allowed: {})", known.join(", ")));
     }
     let mode = value("sslmode");
-    if let Some(mode) = mode.filter(|mode| !MODES.contains(mode)) {
-        return Err(format!("sslmode = '{mode}' (allowed: {})", MODES.join(", ")));
+    if let Some(mode) = mode.filter(|mode| !SSL_MODES.contains(mode)) {
+        return Err(format!("sslmode = '{mode}' (allowed: {})", SSL_MODES.join(", ")));
     }
     if let Some(file) = value("sslrootcert") {
-        if mode != Some(VERIFYING) {
-            return Err(format!("sslrootcert = '{file}' requires sslmode={VERIFYING}"));
+        if mode != Some(VERIFYING_MODE) {
+            return Err(format!("sslrootcert = '{file}' requires sslmode={VERIFYING_MODE}"));
         }
-        certificates("sslrootcert", file)?;
+        check_certificate_file("sslrootcert", file)?;
     }
     match (value("sslcert"), value("sslkey")) {
         (None, None) => Ok(()),
         (Some(chain), Some(key)) => {
-            certificates("sslcert", chain)?;
+            check_certificate_file("sslcert", chain)?;
             let read = PrivateKeyDer::from_pem_file(Path::new(key));
             read.map(|_| ()).map_err(|error| format!("sslkey = '{key}': {error}"))
         }
@@ -51,12 +51,12 @@ pub fn check(target: &str) -> Result<(), String> {
 }
 
 /// Returns true if an option concerns TLS, in upper or lower case: the driver ignores `SSLMODE`.
-fn is_of_tls(key: &str) -> bool {
+fn is_tls_option(key: &str) -> bool {
     key.to_ascii_lowercase().starts_with("ssl")
 }
 
 /// Checks that a file contains at least one certificate.
-fn certificates(key: &str, file: &str) -> Result<(), String> {
+fn check_certificate_file(key: &str, file: &str) -> Result<(), String> {
     let read = CertificateDer::pem_file_iter(Path::new(file)).and_then(Iterator::collect::<Result<Vec<_>, _>>);
     match read {
         Ok(found) if found.is_empty() => Err(format!("{key} = '{file}' contains no certificate (PEM)")),
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_what_is_wrong_about_tls_is_named() {
+    fn exact_invalid_tls_options_are_reported() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("empty.pem").display().to_string();
         std::fs::write(&file, "no certificate\n").unwrap();
@@ -127,13 +127,13 @@ mod tests {
             (empty.as_str(), "contains no certificate (PEM)"),
             ("sslcert=/none.pem", "sslcert and sslkey must be used together"),
         ] {
-            let wrong = check(&format!("postgres://spandrel@db/training?{query}")).unwrap_err();
+            let wrong = check_tls_options(&format!("postgres://spandrel@db/training?{query}")).unwrap_err();
             assert!(wrong.contains(said), "{query}: {wrong}");
         }
         for good in
             ["postgres://db/t", "postgres://db/t?sslmode=require", "postgres://db/t?host=/run", "records.sqlite?sslmode=on"]
         {
-            assert_eq!(check(good), Ok(()), "{good}");
+            assert_eq!(check_tls_options(good), Ok(()), "{good}");
         }
     }
 }

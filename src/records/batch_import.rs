@@ -60,6 +60,6 @@ pub fn import_into(database: &Database, folders: &[PathBuf]) -> Result<ImportCou
         }
         taken.changed += database.put(&records)?;
     }
-    progress.end();
+    progress.finish();
     Ok(taken)
 }

@@ -11,9 +11,9 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Time that SQLite waits for other writers, ms.
-const PATIENCE: &str = "PRAGMA busy_timeout = 60000";
+const BUSY_TIMEOUT: &str = "PRAGMA busy_timeout = 60000";
 /// SQLite overwrites deleted data with zeros.
-const FORGET: &str = "PRAGMA secure_delete = ON";
+const SECURE_DELETE: &str = "PRAGMA secure_delete = ON";
 /// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without it, two stations that add the same new trainees in different
 /// orders would deadlock, and one transaction would be aborted.
 const WRITE_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
@@ -44,7 +44,7 @@ impl Database {
         sqlx::any::install_default_drivers();
         let kind = if address::is_url(target) { SqlDialect::Postgres } else { SqlDialect::Sqlite };
         let name = without_password(target);
-        address::check(target).map_err(|wrong| AppError::wrong(format!("{name}: {wrong}")))?;
+        address::check_tls_options(target).map_err(|wrong| AppError::wrong(format!("{name}: {wrong}")))?;
         if let (SqlDialect::Sqlite, Some(folder)) = (kind, Path::new(target).parent()) {
             std::fs::create_dir_all(folder)
                 .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", folder.display())))?;
@@ -76,7 +76,7 @@ impl Database {
 
     /// Sets the stored version of the tables.
     #[cfg(test)]
-    pub fn pretend_version(&self, version: i64) -> Result<(), AppError> {
+    pub fn set_schema_version(&self, version: i64) -> Result<(), AppError> {
         self.run(async {
             let change = sqlx::query("UPDATE schema_version SET version = $1").bind(version).execute(&self.pool).await;
             change.map(|_| ())
@@ -85,7 +85,7 @@ impl Database {
 
     /// Starts a write transaction and leaves it open.
     #[cfg(test)]
-    pub fn keep_writing(&self) -> Result<(), AppError> {
+    pub fn start_endless_write(&self) -> Result<(), AppError> {
         self.run(async {
             match self.kind {
                 SqlDialect::Sqlite => self.pool.execute("BEGIN IMMEDIATE").await.map(|_| ()),
@@ -140,7 +140,7 @@ impl Database {
     }
 
     /// Removes deleted data from SQLite's write-ahead log as well.
-    pub(super) async fn forget(&self) -> Result<(), sqlx::Error> {
+    pub(super) async fn truncate_journal(&self) -> Result<(), sqlx::Error> {
         match self.kind {
             SqlDialect::Sqlite => self.pool.execute("PRAGMA wal_checkpoint(TRUNCATE)").await.map(|_| ()),
             SqlDialect::Postgres => Ok(()),
@@ -158,7 +158,7 @@ impl Drop for Database {
 }
 
 async fn prepare(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
-    for pragma in [PATIENCE, FORGET] {
+    for pragma in [BUSY_TIMEOUT, SECURE_DELETE] {
         connection.execute(pragma).await?;
     }
     // The write-ahead log lets readers work while another process writes. SQLite may reject the switch while another station has the file open; that

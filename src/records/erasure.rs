@@ -2,7 +2,7 @@
 //! each folder is then renamed, so that nothing reads it anymore, and deleted. The next start finishes interrupted removals.
 
 use super::database::Database;
-use super::erasure_marks::{self, ErasedKind, name_of};
+use super::erasure_marks::{self, ErasedKind, folder_name};
 use crate::errors::AppError;
 use sqlx::Row;
 use std::collections::BTreeSet;
@@ -10,7 +10,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Prefix of the name of a folder that is being deleted.
-const ASIDE: &str = ".erasing-";
+const ERASING_PREFIX: &str = ".erasing-";
 
 impl Database {
     /// Returns the hashes of the folders that are marked for removal.
@@ -37,8 +37,8 @@ impl Database {
 /// If the disk or the database fails; the next start tries again.
 pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result<(), AppError> {
     for folder in folders {
-        let name = name_of(folder);
-        let aside = folder.with_file_name(format!("{ASIDE}{name}"));
+        let name = folder_name(folder);
+        let aside = folder.with_file_name(format!("{ERASING_PREFIX}{name}"));
         delete(&aside)?;
         match std::fs::rename(folder, &aside) {
             // Another process is finishing the same erasure.
@@ -60,8 +60,8 @@ pub(super) fn finish(database: &Database, sessions: &[PathBuf]) -> Result<(), Ap
     let marked = database.erasing()?;
     for entry in sessions.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().flatten() {
         let path = entry.path();
-        let name = name_of(&path);
-        if let Some(original) = name.strip_prefix(ASIDE) {
+        let name = folder_name(&path);
+        if let Some(original) = name.strip_prefix(ERASING_PREFIX) {
             delete(&path)?;
             database.removed(original)?;
         } else if marked.contains(&erasure_marks::hash(&name)) {
@@ -101,15 +101,16 @@ mod tests {
         folder
     }
 
-    fn left(sessions: &Path) -> Vec<String> {
-        let mut names: Vec<String> = std::fs::read_dir(sessions).unwrap().flatten().map(|entry| name_of(&entry.path())).collect();
+    fn remaining_folders(sessions: &Path) -> Vec<String> {
+        let mut names: Vec<String> =
+            std::fs::read_dir(sessions).unwrap().flatten().map(|entry| folder_name(&entry.path())).collect();
         names.retain(|name| !name.starts_with("records"));
         names.sort();
         names
     }
 
     #[test]
-    fn regress_an_erasure_cut_off_anywhere_is_finished_at_the_next_start() {
+    fn regress_interrupted_erasures_are_finished_at_the_next_start() {
         let place = tempfile::tempdir().unwrap();
         let here = [place.path().to_path_buf()];
         let database = Database::open(&place.path().join("records.sqlite").display().to_string()).unwrap();
@@ -118,15 +119,15 @@ mod tests {
         let [marked, renamed, half] = ["a-anna", "c-anna", "d-anna"].map(|name| session(place.path(), name));
         database.erase("anna", &[marked, renamed.clone(), half.clone()]).unwrap();
         for folder in [&renamed, &half] {
-            std::fs::rename(folder, folder.with_file_name(format!("{ASIDE}{}", name_of(folder)))).unwrap();
+            std::fs::rename(folder, folder.with_file_name(format!("{ERASING_PREFIX}{}", folder_name(folder)))).unwrap();
         }
-        std::fs::remove_file(place.path().join(format!("{ASIDE}d-anna")).join("telemetry.tlog")).unwrap();
+        std::fs::remove_file(place.path().join(format!("{ERASING_PREFIX}d-anna")).join("telemetry.tlog")).unwrap();
         finish(&database, &here).unwrap();
-        assert_eq!(left(place.path()), ["b-ben"]);
+        assert_eq!(remaining_folders(place.path()), ["b-ben"]);
         assert_eq!(database.erasing(), Ok(BTreeSet::new()));
         // A folder that is copied back later is not removed without a request.
         session(place.path(), "a-anna");
         finish(&database, &here).unwrap();
-        assert_eq!(left(place.path()), ["a-anna", "b-ben"]);
+        assert_eq!(remaining_folders(place.path()), ["a-anna", "b-ben"]);
     }
 }

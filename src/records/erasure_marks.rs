@@ -11,7 +11,7 @@ use std::path::Path;
 
 const MARK: &str = "INSERT INTO erased (what, sha256, erased_unix_us) VALUES ($1, $2, $3) \
     ON CONFLICT (what, sha256) DO UPDATE SET erased_unix_us = excluded.erased_unix_us";
-const HOLDS: &str = "SELECT COUNT(*) FROM erased WHERE (what = 'trainee' AND sha256 = $1 AND erased_unix_us >= $2) \
+const CONTAINS: &str = "SELECT COUNT(*) FROM erased WHERE (what = 'trainee' AND sha256 = $1 AND erased_unix_us >= $2) \
     OR (what = 'session' AND sha256 = $3)";
 
 /// Kind of an erasure mark.
@@ -49,7 +49,7 @@ impl ErasureMarks {
 }
 
 /// Returns the last component of a folder's path.
-pub(super) fn name_of(folder: &Path) -> String {
+pub(super) fn folder_name(folder: &Path) -> String {
     folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
@@ -89,7 +89,7 @@ pub(super) async fn unmark(change: &mut Transaction<'static, Any>, what: ErasedK
 
 /// Like [`ErasureMarks::contains`], but within a transaction: nothing can be erased between this check and the commit.
 pub(super) async fn contains(change: &mut Transaction<'static, Any>, record: &SessionRecord) -> Result<bool, sqlx::Error> {
-    let query = sqlx::query(HOLDS).bind(hash(&record.trainee)).bind(signed(record.started_unix_us)).bind(hash(&record.id));
+    let query = sqlx::query(CONTAINS).bind(hash(&record.trainee)).bind(signed(record.started_unix_us)).bind(hash(&record.id));
     let count: i64 = query.fetch_one(&mut **change).await?.try_get(0)?;
     Ok(count > 0)
 }

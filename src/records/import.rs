@@ -5,7 +5,7 @@ use crate::errors::AppError;
 use crate::io::answers;
 use crate::io::log_file::LogFile;
 use crate::io::scoring;
-use crate::io::session_folder::{StoredSession, is_session, session_owner};
+use crate::io::session_folder::{StoredSession, is_session, trainee_and_start};
 use spandrel_monitor::folder::{SCENARIO, TELEMETRY, VEHICLE};
 use spandrel_monitor::sidecar::build_site;
 use spandrel_training::questionnaire::ANSWERS;
@@ -60,7 +60,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     // A monitor that was killed early has not saved the positions of the defects; the seed gives the same ones.
     let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
-    let answers = answers::stored(session, scenario)?;
+    let answers = answers::read_answers_of(session, scenario)?;
     Ok(Some(record(&RecordSource {
         id: &id,
         trainee: &stored.trainee,
@@ -79,7 +79,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
 /// Returns true if the session of a folder was erased, or its trainee was erased after it had started. Unreadable folders return false, because
 /// [`read`] reports them.
 pub fn is_erased(session: &Path, erased: &ErasureMarks) -> bool {
-    let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), session_owner(session)) else { return false };
+    let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), trainee_and_start(session)) else { return false };
     erased.contains(&id, &trainee, started_unix_us)
 }
 

@@ -18,7 +18,7 @@ pub fn lines(records: &[SessionRecord]) -> Result<String, AppError> {
 ///
 /// # Errors
 /// If the file cannot be read or a line is not a valid record.
-pub fn from_lines(path: &Path) -> Result<Vec<SessionRecord>, AppError> {
+pub fn read_json_lines(path: &Path) -> Result<Vec<SessionRecord>, AppError> {
     let text = files::read(path)?;
     let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let read = |(k, line): (usize, &str)| {

@@ -22,6 +22,6 @@ pub use accounts::Account;
 pub use batch_import::{ImportCounts, import_into};
 pub use database::Database;
 pub use import::{id as session_id, is_erased, read as read_session, session_folders};
-pub use json_lines::{from_lines, lines};
+pub use json_lines::{lines, read_json_lines};
 pub use location::RecordsLocation;
-pub use people::{erase_older, erase_person, find, folders_of, folders_older, kept};
+pub use people::{erase_older_than, erase_person, find, folders_of_trainee, folders_older_than, stored_data};

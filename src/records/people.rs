@@ -4,7 +4,7 @@ use super::database::Database;
 use super::location::RecordsLocation;
 use super::{erasure, import};
 use crate::errors::AppError;
-use crate::io::session_folder::session_owner;
+use crate::io::session_folder::trainee_and_start;
 use serde::Serialize;
 use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::Trainee;
@@ -22,7 +22,7 @@ impl TraineeData {
     /// Returns the same data with folder names instead of full paths, so that web responses do not reveal the server's file
     /// system.
     #[must_use]
-    pub fn without_places(mut self) -> Self {
+    pub fn with_folder_names(mut self) -> Self {
         for folder in &mut self.folders {
             let name = Path::new(folder).file_name().map(|name| name.to_string_lossy().into_owned());
             *folder = name.unwrap_or_default();
@@ -36,9 +36,9 @@ impl TraineeData {
 ///
 /// # Errors
 /// If the database or a folder cannot be read.
-pub fn kept(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<Option<TraineeData>, AppError> {
+pub fn stored_data(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<Option<TraineeData>, AppError> {
     let sessions = database.records(Some(trainee))?;
-    let folders = folders_of(place, trainee)?;
+    let folders = folders_of_trainee(place, trainee)?;
     let known = find(database, trainee)?;
     if known.is_none() && sessions.is_empty() && folders.is_empty() {
         return Ok(None);
@@ -52,7 +52,7 @@ pub fn kept(database: &Database, place: &RecordsLocation, trainee: &str) -> Resu
 /// # Errors
 /// If a folder or the database cannot be changed.
 pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
-    let folders = folders_of(place, trainee)?;
+    let folders = folders_of_trainee(place, trainee)?;
     let (known, sessions) = database.erase(trainee, &folders)?;
     erasure::remove_folders(database, &folders)?;
     Ok((known || !folders.is_empty(), sessions))
@@ -70,7 +70,7 @@ pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppEr
 ///
 /// # Errors
 /// If the folder of sessions cannot be read.
-pub fn folders_of(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
+pub fn folders_of_trainee(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |owner, _| owner == trainee)
 }
 
@@ -83,7 +83,7 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
     for path in import::session_folders(&here)? {
-        match session_owner(&path) {
+        match trainee_and_start(&path) {
             Ok((trainee, started_unix_us)) if is(&trainee, started_unix_us) => found.push(path),
             Ok(_) => {}
             Err(error) => tracing::warn!("cannot determine the trainee of a session folder: {error}"),
@@ -97,8 +97,8 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
 ///
 /// # Errors
 /// If a folder or the database cannot be changed.
-pub fn erase_older(database: &Database, place: &RecordsLocation, limit_us: u64) -> Result<(u64, usize), AppError> {
-    let folders = folders_older(place, limit_us)?;
+pub fn erase_older_than(database: &Database, place: &RecordsLocation, limit_us: u64) -> Result<(u64, usize), AppError> {
+    let folders = folders_older_than(place, limit_us)?;
     let ids: Vec<String> = database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
     let deleted = database.delete_sessions(&ids, &folders)?;
     erasure::remove_folders(database, &folders)?;
@@ -109,6 +109,6 @@ pub fn erase_older(database: &Database, place: &RecordsLocation, limit_us: u64) 
 ///
 /// # Errors
 /// If the folder of sessions cannot be read.
-pub fn folders_older(place: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
+pub fn folders_older_than(place: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

@@ -14,9 +14,9 @@ use std::time::Duration;
 /// Name of the file with a session's statements, in the session folder.
 pub const STATEMENTS: &str = "xapi.jsonl";
 /// Maximum number of statements per request.
-const PARCEL: usize = 50;
+const BATCH_SIZE: usize = 50;
 /// Delays before retries if the store does not respond or is temporarily unavailable.
-const WAITS: [Duration; 5] = [
+const RETRY_DELAYS: [Duration; 5] = [
     Duration::from_millis(200),
     Duration::from_secs(1),
     Duration::from_secs(3),
@@ -24,7 +24,7 @@ const WAITS: [Duration; 5] = [
     Duration::from_secs(30),
 ];
 /// Timeout of a request.
-const PATIENCE: Duration = Duration::from_secs(60);
+const REQUEST_TIMEOUT: Duration = Duration::from_secs(60);
 /// Environment variables with user name and password, so that process lists do not show them.
 const USER: &str = "SPANDREL_LRS_USER";
 const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
@@ -35,7 +35,7 @@ pub struct PushCounts {
     /// Statements that were new to the store.
     pub sent: usize,
     /// Statements that the store had already.
-    pub there_already: usize,
+    pub already_there: usize,
 }
 
 /// Checks the URL of an endpoint and removes slashes at its end.
@@ -63,18 +63,18 @@ pub fn push(place: &RecordsLocation, records: &[SessionRecord], url: &str, home:
     for (k, record) in records.iter().enumerate() {
         progress.report(|| format!("session {} of {}", k + 1, records.len()));
         let statements = xapi::statements(record, home);
-        keep(place, record, &statements)?;
-        for parcel in statements.chunks(PARCEL) {
-            let done = store.take(parcel)?;
-            all = PushCounts { sent: all.sent + done.sent, there_already: all.there_already + done.there_already };
+        save_statements(place, record, &statements)?;
+        for parcel in statements.chunks(BATCH_SIZE) {
+            let done = store.send_batch(parcel)?;
+            all = PushCounts { sent: all.sent + done.sent, already_there: all.already_there + done.already_there };
         }
     }
-    progress.end();
+    progress.finish();
     Ok(all)
 }
 
 /// Writes the statements into the session folder, if it is on this machine.
-fn keep(place: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
+fn save_statements(place: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
     let here = |folder: &Path| crate::io::session_folder::is_session(&folder.join(&record.id));
     match place.sessions.iter().find(|folder| here(folder)) {
         Some(folder) => replace(&folder.join(&record.id).join(STATEMENTS), xapi::lines(statements).as_bytes()),
@@ -91,8 +91,11 @@ struct LearningRecordStore {
 
 impl LearningRecordStore {
     fn new(url: &str) -> Result<Self, AppError> {
-        let config =
-            ureq::Agent::config_builder().http_status_as_error(false).timeout_global(Some(PATIENCE)).max_redirects(0).build();
+        let config = ureq::Agent::config_builder()
+            .http_status_as_error(false)
+            .timeout_global(Some(REQUEST_TIMEOUT))
+            .max_redirects(0)
+            .build();
         let authorization = match (std::env::var(USER), std::env::var(PASSWORD)) {
             (Ok(user), Ok(password)) => {
                 Some(format!("Basic {}", spandrel_training::report::assets::base64(format!("{user}:{password}").as_bytes())))
@@ -106,29 +109,29 @@ impl LearningRecordStore {
     }
 
     /// Sends statements. On a conflict (at least one already exists), sends each one separately.
-    fn take(&self, statements: &[Value]) -> Result<PushCounts, AppError> {
+    fn send_batch(&self, statements: &[Value]) -> Result<PushCounts, AppError> {
         match self.send(statements)? {
-            SentCount::Taken => Ok(PushCounts { sent: statements.len(), there_already: 0 }),
-            SentCount::Conflict if statements.len() == 1 => Ok(PushCounts { sent: 0, there_already: 1 }),
-            SentCount::Conflict => statements.iter().try_fold(PushCounts::default(), |sum, one| {
-                let done = self.take(std::slice::from_ref(one))?;
-                Ok(PushCounts { sent: sum.sent + done.sent, there_already: sum.there_already + done.there_already })
+            StoreAnswer::Accepted => Ok(PushCounts { sent: statements.len(), already_there: 0 }),
+            StoreAnswer::Conflict if statements.len() == 1 => Ok(PushCounts { sent: 0, already_there: 1 }),
+            StoreAnswer::Conflict => statements.iter().try_fold(PushCounts::default(), |sum, one| {
+                let done = self.send_batch(std::slice::from_ref(one))?;
+                Ok(PushCounts { sent: sum.sent + done.sent, already_there: sum.already_there + done.already_there })
             }),
         }
     }
 
-    fn send(&self, statements: &[Value]) -> Result<SentCount, AppError> {
+    fn send(&self, statements: &[Value]) -> Result<StoreAnswer, AppError> {
         let address = format!("{}/statements", self.url);
         let body = Value::from(statements.to_vec()).to_string();
-        let mut waits = WAITS.iter();
+        let mut waits = RETRY_DELAYS.iter();
         loop {
-            let why = match self.once(&address, &body) {
+            let why = match self.send_once(&address, &body) {
                 Ok(PushOutcome::Done(sent)) => return Ok(sent),
-                Ok(PushOutcome::Refused(words)) => return Err(AppError::failed(format!("{address}: {words}"))),
-                Ok(PushOutcome::Later(words)) | Err(words) => words,
+                Ok(PushOutcome::Rejected(words)) => return Err(AppError::failed(format!("{address}: {words}"))),
+                Ok(PushOutcome::Retry(words)) | Err(words) => words,
             };
             let Some(wait) = waits.next() else {
-                return Err(AppError::failed(format!("{address}: {why}, after {} tries", WAITS.len() + 1)));
+                return Err(AppError::failed(format!("{address}: {why}, after {} tries", RETRY_DELAYS.len() + 1)));
             };
             tracing::info!("{address}: {why}; retrying in {:.1} s", wait.as_secs_f64());
             std::thread::sleep(*wait);
@@ -136,7 +139,7 @@ impl LearningRecordStore {
     }
 
     /// Sends one request. Connection errors can be retried.
-    fn once(&self, address: &str, body: &str) -> Result<PushOutcome, String> {
+    fn send_once(&self, address: &str, body: &str) -> Result<PushOutcome, String> {
         let mut request =
             self.agent.post(address).header("Content-Type", "application/json").header("X-Experience-API-Version", xapi::VERSION);
         if let Some(authorization) = &self.authorization {
@@ -150,24 +153,24 @@ impl LearningRecordStore {
             format!("status {status} {short}")
         };
         Ok(match status {
-            200..=299 => PushOutcome::Done(SentCount::Taken),
-            409 => PushOutcome::Done(SentCount::Conflict),
-            408 | 425 | 429 | 500..=599 => PushOutcome::Later(words()),
-            _ => PushOutcome::Refused(words()),
+            200..=299 => PushOutcome::Done(StoreAnswer::Accepted),
+            409 => PushOutcome::Done(StoreAnswer::Conflict),
+            408 | 425 | 429 | 500..=599 => PushOutcome::Retry(words()),
+            _ => PushOutcome::Rejected(words()),
         })
     }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum SentCount {
-    Taken,
+enum StoreAnswer {
+    Accepted,
     Conflict,
 }
 
 enum PushOutcome {
-    Done(SentCount),
-    Later(String),
-    Refused(String),
+    Done(StoreAnswer),
+    Retry(String),
+    Rejected(String),
 }
 
 #[cfg(test)]
@@ -175,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_only_plain_addresses_are_endpoints() {
+    fn exact_endpoint_urls_are_validated() {
         assert_eq!(endpoint("https://lrs.example/xapi/"), Ok("https://lrs.example/xapi".into()));
         for bad in ["lrs.example", "ftp://x", "https://", "https:///x", "https://user:secret@x/", "https://x/?a", "https://x/#a"]
         {

@@ -1,7 +1,7 @@
 //! Sessions in the database: import, list, delete.
 
 use super::database::{Database, signed};
-use super::erasure_marks::{self, ErasedKind, name_of};
+use super::erasure_marks::{self, ErasedKind, folder_name};
 use crate::errors::AppError;
 use spandrel_monitor::score::completion::Completion;
 use spandrel_training::record::{SessionListEntry, SessionRecord};
@@ -26,9 +26,9 @@ const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     WHERE sessions.fingerprint <> excluded.fingerprint";
 const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
 // The subquery needs only an index; complete rows are read only for the sessions that are shown.
-const LIST: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
+const LIST_ALL: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
-const LIST_OF_ONE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
+const LIST_OF_TRAINEE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
@@ -40,7 +40,7 @@ impl Database {
     pub fn put(&self, records: &[SessionRecord]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
-            let changed = put_all(&mut change, records).await?;
+            let changed = upsert_all(&mut change, records).await?;
             change.commit().await.map(|()| changed)
         })
     }
@@ -56,7 +56,7 @@ impl Database {
             for id in records.iter().map(|record| &record.id).chain(gone) {
                 delete(&mut change, id).await?;
             }
-            let made = put_all(&mut change, records).await?;
+            let made = upsert_all(&mut change, records).await?;
             change.commit().await.map(|()| made)
         })
     }
@@ -65,7 +65,7 @@ impl Database {
     ///
     /// # Errors
     /// If the database fails.
-    pub fn of_telemetry(&self, sha256: &str) -> Result<Option<(String, String)>, AppError> {
+    pub fn find_by_telemetry(&self, sha256: &str) -> Result<Option<(String, String)>, AppError> {
         self.run(async {
             let query = sqlx::query("SELECT id, trainee FROM sessions WHERE telemetry_sha256 = $1 ORDER BY id LIMIT 1");
             let row = query.bind(sha256.to_owned()).fetch_optional(&self.pool).await?;
@@ -138,7 +138,7 @@ impl Database {
     /// # Errors
     /// If the database fails.
     pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<SessionListEntry>, AppError> {
-        let query = if trainee.is_some() { LIST_OF_ONE } else { LIST };
+        let query = if trainee.is_some() { LIST_OF_TRAINEE } else { LIST_ALL };
         self.run(async {
             let query = sqlx::query(query).bind(i64::from(most)).bind(i64::from(skip));
             let query = if let Some(trainee) = trainee { query.bind(trainee.to_owned()) } else { query };
@@ -173,7 +173,7 @@ impl Database {
                 deleted += delete(&mut change, id).await?;
             }
             change.commit().await?;
-            self.forget().await.map(|()| deleted)
+            self.truncate_journal().await.map(|()| deleted)
         })
     }
 
@@ -194,19 +194,19 @@ impl Database {
             by("DELETE FROM passwords WHERE pseudonym = $1").execute(&mut *change).await?;
             let known = by("DELETE FROM trainees WHERE pseudonym = $1").execute(&mut *change).await?.rows_affected() > 0;
             change.commit().await?;
-            self.forget().await.map(|()| (known, sessions))
+            self.truncate_journal().await.map(|()| (known, sessions))
         })
     }
 }
 
 async fn mark_folders(change: &mut Transaction<'static, Any>, folders: &[PathBuf]) -> Result<(), sqlx::Error> {
     for folder in folders {
-        erasure_marks::mark(change, ErasedKind::Folder, &name_of(folder)).await?;
+        erasure_marks::mark(change, ErasedKind::Folder, &folder_name(folder)).await?;
     }
     Ok(())
 }
 
-async fn put_all(change: &mut Transaction<'static, Any>, records: &[SessionRecord]) -> Result<usize, sqlx::Error> {
+async fn upsert_all(change: &mut Transaction<'static, Any>, records: &[SessionRecord]) -> Result<usize, sqlx::Error> {
     let mut changed = 0;
     for record in records {
         changed += usize::from(put(change, record).await?);

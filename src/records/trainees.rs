@@ -7,7 +7,7 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
 /// Empty values keep the stored ones, so that no concurrent change is lost.
-const SET_GIVEN: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
+const UPSERT_DETAILS: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
     VALUES ($1, CASE WHEN $2 = '' THEN 'trainee' ELSE $2 END, NULLIF($3, ''), NULLIF($4, ''), NULLIF($5, '')) \
     ON CONFLICT (pseudonym) DO UPDATE SET role = CASE WHEN $2 = '' THEN trainees.role ELSE excluded.role END, \
     age_band = COALESCE(excluded.age_band, trainees.age_band), \
@@ -35,10 +35,10 @@ impl Database {
     ///
     /// # Errors
     /// If the database fails.
-    pub fn set_given(&self, name: &str, role: Option<Role>, details: [Option<&str>; 3]) -> Result<(), AppError> {
+    pub fn update_details(&self, name: &str, role: Option<Role>, details: [Option<&str>; 3]) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
-            set_given(&mut change, name, role, details).await?;
+            update_details(&mut change, name, role, details).await?;
             change.commit().await
         })
     }
@@ -60,13 +60,13 @@ impl Database {
 }
 
 /// Adds a trainee or sets the given details, within a transaction.
-pub(super) async fn set_given(
+pub(super) async fn update_details(
     change: &mut Transaction<'static, Any>,
     name: &str,
     role: Option<Role>,
     details: [Option<&str>; 3],
 ) -> Result<(), sqlx::Error> {
-    let query = sqlx::query(SET_GIVEN).bind(name.to_owned()).bind(role.map_or("", Role::word).to_owned());
+    let query = sqlx::query(UPSERT_DETAILS).bind(name.to_owned()).bind(role.map_or("", Role::word).to_owned());
     let query = details.into_iter().fold(query, |query, detail| query.bind(detail.unwrap_or_default().to_owned()));
     query.execute(&mut **change).await.map(|_| ())
 }

@@ -13,15 +13,15 @@ use crate::records::{Account, Database};
 use axum::http::{HeaderMap, header};
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::access::Visitor;
-use spandrel_training::web::devices::KnownBrowsers;
-use spandrel_training::web::throttle::{LoginOrigin, LoginThrottle};
-use spandrel_training::web::visits::{BrowserSession, BrowserSessions, TokenBytes, constant_time_eq};
+use spandrel_training::web::browser_sessions::{BrowserSession, BrowserSessions, TokenBytes, constant_time_eq};
+use spandrel_training::web::known_browsers::KnownBrowsers;
+use spandrel_training::web::login_throttle::{LoginOrigin, LoginThrottle};
 use std::net::IpAddr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Lifetime of the cookie that identifies a browser; the server forgets the browser after the same time.
-const DEVICE_KEPT: cookie::time::Duration = cookie::time::Duration::days(90);
+const BROWSER_COOKIE_LIFETIME: cookie::time::Duration = cookie::time::Duration::days(90);
 
 /// Keeps the browser sessions, the known browsers and the failed logins.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ pub struct Authenticator {
     devices: Mutex<KnownBrowsers>,
     /// Queue for password hashing.
     pub hashing: HashingQueue,
-    somebody_has_a_password: AtomicBool,
+    login_required: AtomicBool,
     secure: bool,
     reach: AllowedOrigins,
 }
@@ -53,18 +53,18 @@ pub struct Identified {
     /// Value of the session cookie.
     pub cookie: String,
     /// True if the cookie is new and must be set.
-    pub fresh: bool,
+    pub is_new: bool,
 }
 
 impl Authenticator {
     /// Creates an authenticator; `secure` is true if all requests use TLS.
-    pub fn new(somebody_has_a_password: bool, secure: bool, reach: AllowedOrigins) -> Self {
+    pub fn new(login_required: bool, secure: bool, reach: AllowedOrigins) -> Self {
         Self {
             visits: Mutex::default(),
             throttle: Mutex::default(),
             devices: Mutex::default(),
             hashing: HashingQueue::default(),
-            somebody_has_a_password: AtomicBool::new(somebody_has_a_password),
+            login_required: AtomicBool::new(login_required),
             secure,
             reach,
         }
@@ -93,7 +93,7 @@ impl Authenticator {
 
     /// Requires a login from now on.
     pub fn require_login(&self) {
-        self.somebody_has_a_password.store(true, Ordering::SeqCst);
+        self.login_required.store(true, Ordering::SeqCst);
     }
 
     /// Returns true if there is no password, so that every visitor has full access.
@@ -101,11 +101,11 @@ impl Authenticator {
     /// # Errors
     /// If the database fails.
     pub fn is_open(&self, database: &Database) -> Result<bool, AppError> {
-        if self.somebody_has_a_password.load(Ordering::SeqCst) {
+        if self.login_required.load(Ordering::SeqCst) {
             return Ok(false);
         }
         // The command line may have set the first password meanwhile. Once logins are required, they stay required until a restart.
-        if !database.with_password()?.is_empty() {
+        if !database.names_with_password()?.is_empty() {
             self.require_login();
             return Ok(false);
         }
@@ -135,10 +135,10 @@ impl Authenticator {
         };
         let Some((cookie, visit)) = found else {
             let (cookie, visit) = lock(&self.visits).begin(None, secrets()?, now_us);
-            return Ok(Identified { visitor: visitor(open, None, visit), cookie, fresh: true });
+            return Ok(Identified { visitor: visitor(open, None, visit), cookie, is_new: true });
         };
         let person = account.map(|account| account.person);
-        Ok(Identified { visitor: visitor(open, person, visit), cookie, fresh: false })
+        Ok(Identified { visitor: visitor(open, person, visit), cookie, is_new: false })
     }
 
     /// Logs in: checks name and password, ends the previous browser session and starts a new one. Returns the new session cookie and the cookie of
@@ -224,24 +224,24 @@ impl Authenticator {
     }
 
     /// Returns the name of the cookie that identifies a browser.
-    fn device_name(&self) -> &'static str {
+    fn browser_cookie_name(&self) -> &'static str {
         if self.secure { "__Host-spandrel-device" } else { "spandrel-device" }
     }
 
     /// Returns the value of the session cookie in a request.
     pub fn cookie_of(&self, headers: &HeaderMap) -> Option<String> {
-        value_of(headers, self.cookie_name())
+        cookie_value(headers, self.cookie_name())
     }
 
     /// Returns the value of the browser cookie in a request.
-    pub fn device_of(&self, headers: &HeaderMap) -> Option<String> {
-        value_of(headers, self.device_name())
+    pub fn browser_cookie_of(&self, headers: &HeaderMap) -> Option<String> {
+        cookie_value(headers, self.browser_cookie_name())
     }
 
     /// Returns the Set-Cookie value for a known browser. It grants no access; failed logins of known browsers are only counted separately.
-    pub fn device_cookie(&self, value: &str) -> String {
-        let built = cookie::Cookie::build((self.device_name(), value)).path("/").http_only(true).secure(self.secure);
-        built.same_site(cookie::SameSite::Strict).max_age(DEVICE_KEPT).build().to_string()
+    pub fn browser_cookie(&self, value: &str) -> String {
+        let built = cookie::Cookie::build((self.browser_cookie_name(), value)).path("/").http_only(true).secure(self.secure);
+        built.same_site(cookie::SameSite::Strict).max_age(BROWSER_COOKIE_LIFETIME).build().to_string()
     }
 
     /// Returns the Set-Cookie value of the session. The policy is Lax: with Strict, a link in an e-mail would arrive without the cookie, and the new
@@ -252,7 +252,7 @@ impl Authenticator {
     }
 }
 
-fn value_of(headers: &HeaderMap, name: &str) -> Option<String> {
+fn cookie_value(headers: &HeaderMap, name: &str) -> Option<String> {
     let all = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
     let mut pairs = all.flat_map(cookie::Cookie::split_parse).flatten();
     pairs.find(|cookie| cookie.name() == name).map(|cookie| cookie.value().to_owned())
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_cookies_are_out_of_scripts_reach_and_stay_with_a_link() {
+    fn exact_cookies_are_http_only_and_lax() {
         let plain = Authenticator::new(true, false, AllowedOrigins::default()).cookie("v");
         assert_eq!(plain, "spandrel=v; HttpOnly; SameSite=Lax; Path=/");
         let guard = Authenticator::new(true, true, AllowedOrigins::default());
@@ -293,7 +293,7 @@ mod tests {
         assert!(cookie.starts_with("__Host-spandrel=v;") && cookie.contains("Secure"), "{cookie}");
         assert_eq!(guard.cookie_of(&headers(&[("cookie", "a=b; __Host-spandrel=xyz; spandrel=no")])), Some("xyz".into()));
         assert_eq!(guard.cookie_of(&headers(&[])), None);
-        let device = guard.device_cookie("v");
+        let device = guard.browser_cookie("v");
         assert!(device.starts_with("__Host-spandrel-device=v; HttpOnly; SameSite=Strict; Secure;"), "{device}");
         assert!(device.contains("Max-Age=7776000"), "{device}");
     }

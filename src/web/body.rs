@@ -3,7 +3,7 @@
 use super::auth::Authenticator;
 use super::request::{UploadedFile, WebRequest};
 use super::response::WebError;
-use super::routes::{FORM_MOST, RouteKind};
+use super::routes::{MAX_FORM_BYTES, RouteKind};
 use super::spool::{SpooledUpload, UploadSpool};
 use axum::body::to_bytes;
 use axum::extract::multipart::{Field, MultipartError};
@@ -12,9 +12,9 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Time limit for a form without a file.
-const FORM_WAIT: Duration = Duration::from_secs(30);
+const FORM_TIMEOUT: Duration = Duration::from_secs(30);
 /// Time limit for an uploaded file, over a slow line.
-const UPLOAD_WAIT: Duration = Duration::from_secs(600);
+const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 
 /// Reads the body and checks the form token. Large files are written to `spool` while they arrive.
 ///
@@ -25,20 +25,20 @@ pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spoo
     match how {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
         RouteKind::Change => {
-            let bytes = tokio::time::timeout(FORM_WAIT, to_bytes(request.into_body(), FORM_MOST)).await.map_err(late)?;
-            let bytes = bytes.map_err(|_| WebError::TooLarge(FORM_MOST))?;
+            let bytes = tokio::time::timeout(FORM_TIMEOUT, to_bytes(request.into_body(), MAX_FORM_BYTES)).await.map_err(late)?;
+            let bytes = bytes.map_err(|_| WebError::TooLarge(MAX_FORM_BYTES))?;
             asked.form = form_urlencoded::parse(&bytes).into_owned().collect();
             Authenticator::check_token(&asked.visitor, asked.form_field("token"))
         }
         RouteKind::Upload(most) => {
-            tokio::time::timeout(UPLOAD_WAIT, read_parts(asked, most, request, spool)).await.map_err(late)?
+            tokio::time::timeout(UPLOAD_TIMEOUT, read_parts(asked, most, request, spool)).await.map_err(late)?
         }
     }
 }
 
 /// Reads a form with a file. The token must come first; without it, nothing else is read.
 async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool: &Path) -> Result<(), WebError> {
-    let mut parts = Multipart::from_request(request, &()).await.map_err(|_| no_form())?;
+    let mut parts = Multipart::from_request(request, &()).await.map_err(|_| not_a_form())?;
     let too_large = |error: MultipartError| unreadable(&error, most);
     while let Some(mut part) = parts.next_field().await.map_err(too_large)? {
         let name = part.name().unwrap_or_default().to_owned();
@@ -53,8 +53,8 @@ async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool
             }
             None => {
                 let bytes = part.bytes().await.map_err(too_large)?;
-                if bytes.len() > FORM_MOST {
-                    return Err(WebError::TooLarge(FORM_MOST));
+                if bytes.len() > MAX_FORM_BYTES {
+                    return Err(WebError::TooLarge(MAX_FORM_BYTES));
                 }
                 asked.form.push((name, String::from_utf8_lossy(&bytes).into_owned()));
             }
@@ -66,18 +66,18 @@ async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool
 /// Reads a file while it arrives.
 async fn arrive(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<SpooledUpload, WebError> {
     let begun = tokio::time::Instant::now();
-    let most = spool.most();
+    let most = spool.max_bytes();
     while let Some(chunk) = part.chunk().await.map_err(|error| unreadable(&error, most))? {
         // Usually only a write to the page cache; if the disk is slow, the runtime's other threads continue.
-        tokio::task::block_in_place(|| spool.take(&chunk, begun.elapsed()))?;
+        tokio::task::block_in_place(|| spool.append(&chunk, begun.elapsed()))?;
     }
-    Ok(spool.end())
+    Ok(spool.finish())
 }
 
-fn no_form() -> WebError {
+fn not_a_form() -> WebError {
     WebError::BadRequest("this is not a form with a file".into())
 }
 
 fn unreadable(error: &MultipartError, most: usize) -> WebError {
-    if error.status() == axum::http::StatusCode::PAYLOAD_TOO_LARGE { WebError::TooLarge(most) } else { no_form() }
+    if error.status() == axum::http::StatusCode::PAYLOAD_TOO_LARGE { WebError::TooLarge(most) } else { not_a_form() }
 }

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
 /// Maximum number of cached selections; the oldest is removed first. Estimate: more than an instructor compares.
-const SELECTIONS: usize = 8;
+const MAX_SELECTIONS: usize = 8;
 
 /// Figures of one selection.
 #[derive(Debug)]
@@ -49,14 +49,14 @@ impl FigureCache {
     ///
     /// # Errors
     /// If the database fails or contains an invalid record.
-    pub fn of(&self, selection: &Selection) -> Result<Arc<CohortFigures>, AppError> {
+    pub fn get(&self, selection: &Selection) -> Result<Arc<CohortFigures>, AppError> {
         let mut kept = lock(&self.cache);
         let version = self.database.version()?;
-        kept.get(&version, selection, || Ok(figured(&self.database.records(None)?, selection)))
+        kept.get(&version, selection, || Ok(compute_figures(&self.database.records(None)?, selection)))
     }
 }
 
-fn figured(records: &[SessionRecord], selection: &Selection) -> CohortFigures {
+fn compute_figures(records: &[SessionRecord], selection: &Selection) -> CohortFigures {
     let flown: BTreeSet<&str> = records.iter().map(|record| record.scenario.as_str()).collect();
     CohortFigures { cohort: cohort(records, selection), flown_scenarios: flown.into_iter().map(str::to_owned).collect() }
 }
@@ -84,7 +84,7 @@ impl<K: Clone + PartialEq, V> VersionedCache<K, V> {
             return Ok(value.clone());
         }
         let value = Arc::new(compute()?);
-        if self.values.len() >= SELECTIONS {
+        if self.values.len() >= MAX_SELECTIONS {
             self.values.remove(0);
         }
         self.values.push((key.clone(), value.clone()));
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn regress_figures_are_computed_once_for_each_version_and_selection() {
+    fn regress_figures_are_cached_per_version_and_selection() {
         let mut kept = VersionedCache::<u32, u32>::default();
         let mut computed = 0;
         let mut ask = |version: &str, key: u32| {
@@ -112,15 +112,15 @@ mod tests {
         assert_eq!(ask("1", 8), Ok(2), "another selection");
         assert_eq!(ask("1", 7), Ok(1), "both are cached");
         assert_eq!(ask("2", 7), Ok(3), "the database has changed");
-        for key in 100..100 + u32::try_from(SELECTIONS).unwrap() {
+        for key in 100..100 + u32::try_from(MAX_SELECTIONS).unwrap() {
             ask("2", key).unwrap();
         }
-        assert_eq!(ask("2", 7), Ok(4 + u32::try_from(SELECTIONS).unwrap()), "the oldest was removed");
-        assert!(kept.values.len() <= SELECTIONS);
+        assert_eq!(ask("2", 7), Ok(4 + u32::try_from(MAX_SELECTIONS).unwrap()), "the oldest was removed");
+        assert!(kept.values.len() <= MAX_SELECTIONS);
     }
 
     #[test]
-    fn regress_a_failure_is_not_kept() {
+    fn regress_failures_are_not_cached() {
         let mut kept = VersionedCache::<u32, u32>::default();
         assert!(kept.get("1", &1, || Err(AppError::failed("no"))).is_err());
         assert_eq!(kept.get("1", &1, || Ok(5)).map(|value| *value), Ok(5));

@@ -7,9 +7,9 @@ use super::response::WebError;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Maximum number of requests that hash or wait at the same time. Each occupies one of the server's threads (`server::WAITING_THREADS`), so this is
+/// Maximum number of requests that hash or wait at the same time. Each occupies one of the server's threads (`server::BLOCKING_THREADS`), so this is
 /// well below their number.
-const MOST_WAITING: usize = 6;
+const MAX_WAITING: usize = 6;
 /// Time after which a rejected client may retry, s.
 const RETRY_AFTER_S: u64 = 2;
 
@@ -40,7 +40,7 @@ impl HashingQueue {
     /// # Errors
     /// [`WebError::Busy`] if the queue is full.
     pub fn acquire(&self) -> Result<HashingSlot<'_>, WebError> {
-        let enter = |waiting| (waiting < MOST_WAITING).then_some(waiting + 1);
+        let enter = |waiting| (waiting < MAX_WAITING).then_some(waiting + 1);
         let entered = self.waiting.fetch_update(Ordering::AcqRel, Ordering::Acquire, enter);
         entered.map(|_| HashingSlot(self)).map_err(|_| WebError::Busy(RETRY_AFTER_S))
     }
@@ -77,9 +77,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn regress_a_full_queue_refuses_and_a_turn_that_ends_makes_room() {
+    fn regress_full_queue_rejects_until_a_slot_is_released() {
         let hashing = HashingQueue::default();
-        let mut turns: Vec<_> = (0..MOST_WAITING).map(|_| hashing.acquire().unwrap()).collect();
+        let mut turns: Vec<_> = (0..MAX_WAITING).map(|_| hashing.acquire().unwrap()).collect();
         assert_eq!(hashing.acquire().err(), Some(WebError::Busy(RETRY_AFTER_S)));
         turns.pop();
         assert!(hashing.acquire().is_ok());

@@ -18,4 +18,4 @@ pub use own_flight::{camera as own_camera, current as own_now, page as own_page}
 pub use page::page;
 pub use stream::stream;
 pub use vehicle::{LiveVehicle, WatchedVehicle};
-pub use vehicle_choice::chosen;
+pub use vehicle_choice::select_vehicle;

@@ -5,18 +5,18 @@ use argon2::password_hash::phc::{Output, PasswordHash, Salt};
 use argon2::{ARGON2ID_IDENT, Algorithm, Argon2, Block, Params, Version};
 
 /// Verified for a name without a password, so that the response takes as long as for a name with one.
-const NOBODY: &str = "$argon2id$v=19$m=19456,t=2,p=1$c3BhbmRyZWxzcGFuZHJlbA$lpYT1oVDUN5U6kPGGjEw5xOVQbQTkgO2xbCVrTQEzDM";
+const DUMMY_HASH: &str = "$argon2id$v=19$m=19456,t=2,p=1$c3BhbmRyZWxzcGFuZHJlbA$lpYT1oVDUN5U6kPGGjEw5xOVQbQTkgO2xbCVrTQEzDM";
 /// Maximum memory cost of a stored hash, KiB, so that a foreign database cannot exhaust the memory. Estimate: about three times the default.
-const MOST_MEMORY_KIB: u32 = 65_536;
+const MAX_MEMORY_KIB: u32 = 65_536;
 /// Maximum number of passes of a stored hash, for the same reason. Estimate.
-const MOST_PASSES: u32 = 10;
+const MAX_PASSES: u32 = 10;
 
 /// Working memory for hashing, allocated once and reused.
 #[derive(Debug, Default)]
 pub struct HashingMemory(Vec<Block>);
 
 impl HashingMemory {
-    fn output(&mut self, argon2: &Argon2<'_>, password: &str, salt: &[u8], out: &mut [u8]) -> argon2::Result<()> {
+    fn hash_into(&mut self, argon2: &Argon2<'_>, password: &str, salt: &[u8], out: &mut [u8]) -> argon2::Result<()> {
         let needed = argon2.params().block_count();
         if self.0.len() < needed {
             self.0.resize(needed, Block::default());
@@ -35,7 +35,7 @@ pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppErr
     getrandom::fill(&mut salt).map_err(|error| failed(&error))?;
     let argon2 = Argon2::default();
     let mut out = [0; Params::DEFAULT_OUTPUT_LEN];
-    memory.output(&argon2, password, &salt, &mut out).map_err(|error| failed(&error))?;
+    memory.hash_into(&argon2, password, &salt, &mut out).map_err(|error| failed(&error))?;
     let params = argon2.params().try_into().map_err(|error: argon2::password_hash::Error| failed(&error))?;
     let parsed = PasswordHash {
         algorithm: ARGON2ID_IDENT,
@@ -49,21 +49,21 @@ pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppErr
 
 /// Returns true if the password matches the hash. Without a hash, takes the same time and returns false.
 pub fn verify(password: &str, hash: Option<&str>, memory: &mut HashingMemory) -> bool {
-    let stored = PasswordHash::new(hash.unwrap_or(NOBODY));
+    let stored = PasswordHash::new(hash.unwrap_or(DUMMY_HASH));
     let fits = stored.ok().and_then(|stored| matches(password, &stored, memory)).unwrap_or(false);
     fits && hash.is_some()
 }
 
 /// Computes the hash and compares it. Returns `None` for a hash that is not supported or too costly.
 fn matches(password: &str, stored: &PasswordHash, memory: &mut HashingMemory) -> Option<bool> {
-    let params = Params::try_from(stored).ok().filter(|p| p.m_cost() <= MOST_MEMORY_KIB && p.t_cost() <= MOST_PASSES)?;
+    let params = Params::try_from(stored).ok().filter(|p| p.m_cost() <= MAX_MEMORY_KIB && p.t_cost() <= MAX_PASSES)?;
     let algorithm = Algorithm::try_from(stored.algorithm.as_str()).ok()?;
     let version = stored.version.map_or(Ok(Version::default()), Version::try_from).ok()?;
     let expected = stored.hash?;
     let salt = stored.salt?;
     let mut out = [0; Output::MAX_LENGTH];
     let out = out.get_mut(..expected.len())?;
-    memory.output(&Argon2::new(algorithm, version, params), password, &salt, out).ok()?;
+    memory.hash_into(&Argon2::new(algorithm, version, params), password, &salt, out).ok()?;
     // `Output` compares in constant time.
     Some(Output::new(out).ok()? == expected)
 }
@@ -74,7 +74,7 @@ mod tests {
     use argon2::password_hash::{PasswordHasher, PasswordVerifier};
 
     #[test]
-    fn exact_a_hash_fits_its_password_alone_and_never_twice_the_same() {
+    fn exact_hashes_match_only_their_password_and_are_salted() {
         let memory = &mut HashingMemory::default();
         let first = hash("correct horse battery", memory).unwrap();
         assert!(first.starts_with("$argon2id$v=19$m=19456,t=2,p=1$"), "{first}");
@@ -84,11 +84,11 @@ mod tests {
         assert!(!verify("correct horse battery", None, memory));
         assert!(!verify("x", Some("no hash"), memory));
         // The dummy hash must be valid, so that the response time does not reveal whether a name exists.
-        assert!(PasswordHash::new(NOBODY).is_ok());
+        assert!(PasswordHash::new(DUMMY_HASH).is_ok());
     }
 
     #[test]
-    fn val_the_library_s_own_hasher_and_verifier_agree() {
+    fn val_hashes_agree_with_the_library_verifier() {
         let memory = &mut HashingMemory::default();
         let ours = hash("correct horse battery", memory).unwrap();
         let parsed = PasswordHash::new(&ours).unwrap();
@@ -99,6 +99,6 @@ mod tests {
         assert!(verify("correct horse battery", Some(&theirs), memory) && !verify("another", Some(&theirs), memory));
         let greedy = theirs.replace("m=8192", "m=4194304");
         assert!(!verify("correct horse battery", Some(&greedy), memory));
-        assert!(memory.0.len() <= MOST_MEMORY_KIB as usize);
+        assert!(memory.0.len() <= MAX_MEMORY_KIB as usize);
     }
 }

@@ -5,14 +5,14 @@ use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::sessions;
 use super::state::ServerState;
-use crate::io::answers::{stored, task_ids};
+use crate::io::answers::{read_answers_of, task_ids};
 use crate::io::replace::replace;
 use crate::io::session_folder::StoredSession;
 use serde_json::json;
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::export::json_text;
 use spandrel_training::questionnaire::{ANSWERS, Answers, QuestionnaireItem, Wording};
-use spandrel_training::web::form;
+use spandrel_training::web::questionnaire_form;
 
 /// Shows the questionnaire of a session.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
@@ -22,13 +22,13 @@ pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 fn render_form(state: &ServerState, asked: &WebRequest, saved: bool) -> HandlerResult {
     let id = asked.path_part("id");
     let folder = sessions::folder(state, asked, id)?;
-    let scenario = StoredSession::scenario_of(&folder)?.scenario;
-    let answers = stored(&folder, &scenario)?.unwrap_or_default();
+    let scenario = StoredSession::read_scenario(&folder)?.scenario;
+    let answers = read_answers_of(&folder, &scenario)?.unwrap_or_default();
     let wording = language(state, asked, &answers)?;
-    let tasks = names(&scenario);
+    let tasks = task_names(&scenario);
     let languages = state.languages.all();
-    let about = form::FormContext { id, tasks: &tasks, wording, languages, answers: &answers, saved };
-    Ok(WebResponse::page(form::page(&asked.visitor, &about)))
+    let about = questionnaire_form::FormContext { id, tasks: &tasks, wording, languages, answers: &answers, saved };
+    Ok(WebResponse::page(questionnaire_form::page(&asked.visitor, &about)))
 }
 
 /// Returns the wording in the requested language, that of the saved answers, or the browser's preferred one.
@@ -37,17 +37,17 @@ fn language<'a>(state: &'a ServerState, asked: &WebRequest, answers: &Answers) -
         return state
             .languages
             .of(tag)
-            .ok_or_else(|| WebError::BadRequest(format!("language: unknown (allowed: {})", names_of(state))));
+            .ok_or_else(|| WebError::BadRequest(format!("language: unknown (allowed: {})", language_tags(state))));
     }
     let begun = state.languages.of(&answers.language).filter(|_| !answers.language.is_empty());
     Ok(begun.unwrap_or_else(|| state.languages.accepted(&asked.languages)))
 }
 
-fn names_of(state: &ServerState) -> String {
+fn language_tags(state: &ServerState) -> String {
     state.languages.all().iter().map(|wording| wording.language.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-fn names(scenario: &Scenario) -> Vec<(u32, String)> {
+fn task_names(scenario: &Scenario) -> Vec<(u32, String)> {
     scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect()
 }
 
@@ -55,18 +55,19 @@ fn names(scenario: &Scenario) -> Vec<(u32, String)> {
 pub fn save(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let id = asked.path_part("id");
     let folder = sessions::folder(state, asked, id)?;
-    let scenario = StoredSession::scenario_of(&folder)?.scenario;
+    let scenario = StoredSession::read_scenario(&folder)?.scenario;
     let tasks = task_ids(&scenario);
     let answers = {
         let _others_wait = lock(&state.answers);
-        let mut answers = stored(&folder, &scenario)?.unwrap_or_default();
-        form::parse_answers(&mut answers, &asked.form, &tasks).map_err(|wrong| WebError::BadRequest(wrong.to_string()))?;
+        let mut answers = read_answers_of(&folder, &scenario)?.unwrap_or_default();
+        questionnaire_form::parse_answers(&mut answers, &asked.form, &tasks)
+            .map_err(|wrong| WebError::BadRequest(wrong.to_string()))?;
         answers.language.clone_from(&language(state, asked, &answers)?.language);
         replace(&folder.join(ANSWERS), json_text(&answers).as_bytes())?;
         answers
     };
-    state.importer.rescan(folder);
-    if asked.by_script {
+    state.importer.import_again(folder);
+    if asked.expects_json {
         let all = QuestionnaireItem::all(&tasks).len();
         return Ok(WebResponse::json(&json!({ "answered": answered_count(&answers, &tasks, all), "all": all })));
     }

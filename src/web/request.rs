@@ -38,7 +38,7 @@ pub struct WebRequest {
     /// Preferred languages of the browser (Accept-Language).
     pub languages: String,
     /// True for requests of the pages' scripts, which expect JSON.
-    pub by_script: bool,
+    pub expects_json: bool,
 }
 
 impl WebRequest {

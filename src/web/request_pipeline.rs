@@ -6,21 +6,21 @@ use super::body;
 use super::live;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse, set_security_headers};
-use super::routes::{Route, RouteKind, STREAM};
+use super::routes::{Route, RouteKind, STREAM_PATH};
 use super::state::ServerState;
 use axum::RequestExt;
 use axum::body::Body;
 use axum::extract::{ConnectInfo, Path, Request};
 use axum::http::{HeaderMap, Method, Response, header};
 use spandrel_training::web::access::AccessLevel;
-use spandrel_training::web::frame;
+use spandrel_training::web::layout;
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
 use std::sync::Arc;
 use tokio::sync::Semaphore;
 
 /// Retry-After for a client that was rejected for lack of capacity, s.
-const BUSY_S: u64 = 5;
+const RETRY_AFTER_S: u64 = 5;
 
 /// State shared by the tasks that handle requests.
 #[derive(Debug, Clone)]
@@ -34,9 +34,9 @@ pub struct PipelineState {
 }
 
 /// Handles a request for a route in the table.
-pub async fn through(shared: PipelineState, route: &'static Route, request: Request) -> Response<Body> {
+pub async fn handle_route(shared: PipelineState, route: &'static Route, request: Request) -> Response<Body> {
     let secure = shared.state.auth.is_secure();
-    let mut response = asked(shared, route, request).await;
+    let mut response = run_route(shared, route, request).await;
     set_security_headers(response.headers_mut(), secure);
     response
 }
@@ -47,18 +47,18 @@ struct RequestHead {
     identity: Option<Identified>,
 }
 
-async fn asked(shared: PipelineState, route: &'static Route, mut request: Request) -> Response<Body> {
-    let head = match head(&shared, route, &mut request).await {
+async fn run_route(shared: PipelineState, route: &'static Route, mut request: Request) -> Response<Body> {
+    let head = match parse_head(&shared, route, &mut request).await {
         Ok(head) => head,
         Err(refusal) => return error_response(&shared, None, &refusal),
     };
     let RequestHead { request: mut asked, identity: recognised } = head;
-    let cookie = recognised.filter(|recognised| recognised.fresh).map(|recognised| shared.state.auth.cookie(&recognised.cookie));
+    let cookie = recognised.filter(|recognised| recognised.is_new).map(|recognised| shared.state.auth.cookie(&recognised.cookie));
     let visitor = asked.visitor.clone();
     let answered = async {
         authorize(&asked, route)?;
         let _room = match route.how {
-            RouteKind::Upload(_) => Some(shared.uploads.try_acquire().map_err(|_| WebError::Busy(BUSY_S))?),
+            RouteKind::Upload(_) => Some(shared.uploads.try_acquire().map_err(|_| WebError::Busy(RETRY_AFTER_S))?),
             RouteKind::File | RouteKind::Show | RouteKind::Compute | RouteKind::Change => None,
         };
         body::read(&mut asked, route.how, request, &shared.state.spool()).await?;
@@ -89,7 +89,7 @@ async fn asked(shared: PipelineState, route: &'static Route, mut request: Reques
     response
 }
 
-async fn head(shared: &PipelineState, route: &'static Route, request: &mut Request) -> Result<RequestHead, WebError> {
+async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut Request) -> Result<RequestHead, WebError> {
     let path = request.extract_parts::<Path<BTreeMap<String, String>>>().await;
     let path = path.map_err(|_| WebError::NotFound)?.0;
     let headers = request.headers().clone();
@@ -107,11 +107,11 @@ async fn head(shared: &PipelineState, route: &'static Route, request: &mut Reque
         let recognised = if file { None } else { Some(state.auth.identify(&state.database, state.auth.cookie_of(&headers))?) };
         let visitor = recognised.as_ref().map_or_else(anonymous_visitor, |recognised| recognised.visitor.clone());
         let cookie = recognised.as_ref().map(|recognised| recognised.cookie.clone());
-        let device = state.auth.device_of(&headers);
-        let by_script = accepts_json(&headers);
+        let device = state.auth.browser_cookie_of(&headers);
+        let expects_json = accepts_json(&headers);
         let languages = headers.get(header::ACCEPT_LANGUAGE).and_then(|value| value.to_str().ok()).unwrap_or_default().to_owned();
         let asked =
-            WebRequest { visitor, cookie, from, device, path, query, form: Vec::new(), upload: None, languages, by_script };
+            WebRequest { visitor, cookie, from, device, path, query, form: Vec::new(), upload: None, languages, expects_json };
         Ok(RequestHead { request: asked, identity: recognised })
     })
     .await
@@ -161,14 +161,14 @@ fn error_response(
     }
     let (status, title, words) = refusal.status_and_text();
     let visitor = visitor.cloned().unwrap_or_else(anonymous_visitor);
-    let page = WebResponse::page(frame::refusal(&visitor, title, &words)).with_status(status);
+    let page = WebResponse::page(layout::refusal(&visitor, title, &words)).with_status(status);
     let mut response = page.retry_after(refusal.retry_after_s()).into_response();
     set_security_headers(response.headers_mut(), shared.state.auth.is_secure());
     response
 }
 
 /// Handles a request for a path that is not in the table.
-pub async fn nothing(shared: PipelineState, request: Request) -> Response<Body> {
+pub async fn handle_unknown_path(shared: PipelineState, request: Request) -> Response<Body> {
     let status = if request.method() == Method::GET || request.method() == Method::HEAD {
         WebError::NotFound
     } else {
@@ -180,8 +180,8 @@ pub async fn nothing(shared: PipelineState, request: Request) -> Response<Body> 
 /// Streams live values while the browser is connected and the visitor has access.
 pub async fn live_stream(shared: PipelineState, mut request: Request) -> Response<Body> {
     static ROUTE: Route =
-        Route { path: STREAM, how: RouteKind::Show, needs: AccessLevel::Instructor, handler: unreachable_handler };
-    let head = match head(&shared, &ROUTE, &mut request).await {
+        Route { path: STREAM_PATH, how: RouteKind::Show, needs: AccessLevel::Instructor, handler: unreachable_handler };
+    let head = match parse_head(&shared, &ROUTE, &mut request).await {
         Ok(head) => head,
         Err(refusal) => return error_response(&shared, None, &refusal),
     };
@@ -191,7 +191,7 @@ pub async fn live_stream(shared: PipelineState, mut request: Request) -> Respons
         return error_response(&shared, Some(&head.request.visitor), &refusal);
     }
     let cookie = head.request.cookie.clone();
-    let mut response = match live::chosen(&shared.state, head.request.query_value("vehicle")) {
+    let mut response = match live::select_vehicle(&shared.state, head.request.query_value("vehicle")) {
         Ok((_, live)) => live::stream(shared.state.clone(), live, cookie),
         Err(refusal) => return error_response(&shared, Some(&head.request.visitor), &refusal),
     };

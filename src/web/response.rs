@@ -6,7 +6,7 @@ use axum::http::{HeaderName, HeaderValue, Response, StatusCode, header};
 use maud::Markup;
 
 /// Content security policy of the pages: only the server's own files, no inline code, no requests to other sites.
-const PAGES: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; connect-src 'self'; \
+const PAGE_POLICY: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; connect-src 'self'; \
     form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
 
 /// HTTP response of a handler.
@@ -17,7 +17,7 @@ pub struct WebResponse {
     policy: String,
     location: Option<String>,
     download: Option<String>,
-    keep: bool,
+    cacheable: bool,
     retry_after_s: Option<u64>,
     /// Complete values of Set-Cookie headers.
     pub cookies: Vec<String>,
@@ -53,10 +53,10 @@ impl WebResponse {
         Self {
             status: StatusCode::OK,
             kind,
-            policy: PAGES.to_owned(),
+            policy: PAGE_POLICY.to_owned(),
             location: None,
             download: None,
-            keep: false,
+            cacheable: false,
             retry_after_s: None,
             cookies: Vec::new(),
             body,
@@ -91,7 +91,7 @@ impl WebResponse {
 
     /// Responds with a file that browsers may cache until its URL changes.
     pub fn asset(kind: &'static str, text: String) -> Self {
-        Self { keep: true, ..Self::new(kind, text.into_bytes()) }
+        Self { cacheable: true, ..Self::new(kind, text.into_bytes()) }
     }
 
     /// Redirects to another page.
@@ -124,7 +124,7 @@ impl WebResponse {
         };
         set(header::CONTENT_TYPE, self.kind);
         set(header::CONTENT_SECURITY_POLICY, &self.policy);
-        set(header::CACHE_CONTROL, if self.keep { "public, max-age=31536000, immutable" } else { "no-store" });
+        set(header::CACHE_CONTROL, if self.cacheable { "public, max-age=31536000, immutable" } else { "no-store" });
         if let Some(location) = &self.location {
             set(header::LOCATION, location);
         }
@@ -153,7 +153,7 @@ pub fn set_security_headers(headers: &mut axum::http::HeaderMap, secure: bool) {
     if secure {
         set(header::STRICT_TRANSPORT_SECURITY, "max-age=31536000");
     }
-    headers.entry(header::CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(PAGES));
+    headers.entry(header::CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(PAGE_POLICY));
 }
 
 impl WebError {
@@ -199,8 +199,8 @@ impl WebError {
     }
 }
 
-impl From<crate::io::append_file::WriteRefused> for WebError {
-    fn from(refused: crate::io::append_file::WriteRefused) -> Self {
+impl From<crate::io::append_file::WriteError> for WebError {
+    fn from(refused: crate::io::append_file::WriteError) -> Self {
         Self::Failed(refused.to_string())
     }
 }

@@ -10,11 +10,11 @@ use spandrel_training::web::access::AccessLevel;
 pub type Handler = fn(&ServerState, &WebRequest) -> HandlerResult;
 
 /// Maximum size of a form without a file, bytes.
-pub const FORM_MOST: usize = 64 * 1024;
+pub const MAX_FORM_BYTES: usize = 64 * 1024;
 /// Maximum size of an uploaded scenario, bytes; the shipped ones have about ten thousand.
-pub const SCENARIO_MOST: usize = 256 * 1024;
+pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
 /// Maximum size of an uploaded recording, bytes; an hour of telemetry is about a third of this.
-pub const RECORDING_MOST: usize = 96 * 1024 * 1024;
+pub const MAX_RECORDING_BYTES: usize = 96 * 1024 * 1024;
 
 /// Kind of a route.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,15 +68,15 @@ const fn upload(path: &'static str, most: usize, needs: AccessLevel, handler: Ha
 }
 
 /// Path of the stream of live values. It is not in the table, because its response does not end.
-pub const STREAM: &str = "/live/stream";
+pub const STREAM_PATH: &str = "/live/stream";
 
 /// All routes except the stream. Handlers of a trainee's data also check whether the visitor may access that trainee.
 pub const ROUTES: &[Route] = &[
-    show("/", AccessLevel::Nothing, sessions::start),
-    Route { path: "/assets/{name}", how: RouteKind::File, needs: AccessLevel::Nothing, handler: assets::file },
-    show("/login", AccessLevel::Nothing, settings::login_page),
-    change("/login", AccessLevel::Nothing, settings::log_in),
-    change("/logout", AccessLevel::Nothing, settings::log_out),
+    show("/", AccessLevel::Public, sessions::start),
+    Route { path: "/assets/{name}", how: RouteKind::File, needs: AccessLevel::Public, handler: assets::file },
+    show("/login", AccessLevel::Public, settings::login_page),
+    change("/login", AccessLevel::Public, settings::log_in),
+    change("/logout", AccessLevel::Public, settings::log_out),
     show("/account", AccessLevel::Login, settings::account_page),
     change("/account", AccessLevel::Login, settings::change_password),
     show("/sessions", AccessLevel::Login, sessions::session_list),
@@ -97,10 +97,10 @@ pub const ROUTES: &[Route] = &[
     compute("/cohort/tables/{name}", AccessLevel::Instructor, trainees::cohort_table),
     show("/scenarios", AccessLevel::Login, scenarios::scenario_list),
     show("/scenarios/{name}", AccessLevel::Login, scenarios::scenario_page),
-    upload("/scenarios", SCENARIO_MOST, AccessLevel::Instructor, scenarios::upload),
+    upload("/scenarios", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenarios::upload),
     change("/scenarios/{name}/remove", AccessLevel::Instructor, scenarios::remove),
     show("/upload", AccessLevel::Instructor, uploads::page),
-    upload("/upload", RECORDING_MOST, AccessLevel::Instructor, uploads::recording),
+    upload("/upload", MAX_RECORDING_BYTES, AccessLevel::Instructor, uploads::recording),
     show("/live", AccessLevel::Instructor, live::page),
     show("/live/camera.jpg", AccessLevel::Instructor, live::camera),
     change("/live/act", AccessLevel::Instructor, live::run_action),
@@ -109,7 +109,7 @@ pub const ROUTES: &[Route] = &[
     show("/flight/camera.jpg", AccessLevel::Login, live::own_camera),
     show("/settings", AccessLevel::Administrator, settings::page),
     change("/settings/login", AccessLevel::Administrator, settings::set_login),
-    change("/settings/no-login", AccessLevel::Administrator, settings::drop_login),
+    change("/settings/no-login", AccessLevel::Administrator, settings::remove_login),
     change("/settings/retention", AccessLevel::Administrator, settings::retention),
 ];
 
@@ -118,8 +118,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_strangers_reach_the_login_and_nothing_else() {
-        let open: Vec<&str> = ROUTES.iter().filter(|route| route.needs == AccessLevel::Nothing).map(|route| route.path).collect();
+    fn exact_anonymous_visitors_reach_only_the_login() {
+        let open: Vec<&str> = ROUTES.iter().filter(|route| route.needs == AccessLevel::Public).map(|route| route.path).collect();
         assert_eq!(open, ["/", "/assets/{name}", "/login", "/login", "/logout"]);
     }
 

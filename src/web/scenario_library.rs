@@ -5,7 +5,7 @@ use super::safe_names::is_plain;
 use crate::errors::AppError;
 use crate::io::files;
 use spandrel_model::scenario::{self, Scenario};
-use spandrel_training::web::job::ScenarioEntry;
+use spandrel_training::web::scenarios::ScenarioEntry;
 use std::path::{Path, PathBuf};
 
 /// A scenario with its source text.

@@ -10,10 +10,10 @@ use crate::io::files;
 use crate::io::replace::replace;
 use axum::http::StatusCode;
 use spandrel_model::site::Site;
-use spandrel_training::web::job::{self as pages, ScenarioEntry};
+use spandrel_training::web::scenarios::{self as pages, ScenarioEntry};
 
 /// Maximum number of uploaded scenarios.
-const UPLOADS_MOST: usize = 200;
+const MAX_UPLOADS: usize = 200;
 /// Seed for drawing the site; the geometry is the same for every seed.
 const ANY_SEED: u64 = 0;
 
@@ -60,8 +60,8 @@ fn save_upload(state: &ServerState, asked: &WebRequest) -> Result<String, AppErr
         return Err(AppError::wrong(format!("{shown}: '{}' is the name of a shipped scenario; choose another", scenario.name)));
     }
     let target = place(&state.scenarios, &scenario.name);
-    if !target.is_file() && uploaded(&state.scenarios).len() >= UPLOADS_MOST {
-        return Err(AppError::wrong(format!("there are already {UPLOADS_MOST} uploaded scenarios: remove one first")));
+    if !target.is_file() && uploaded(&state.scenarios).len() >= MAX_UPLOADS {
+        return Err(AppError::wrong(format!("there are already {MAX_UPLOADS} uploaded scenarios: remove one first")));
     }
     std::fs::create_dir_all(&state.scenarios)
         .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", state.scenarios.display())))?;

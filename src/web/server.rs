@@ -3,7 +3,7 @@
 use super::auth::AllowedOrigins;
 use super::listening::ListenConfig;
 use super::request_pipeline::{self, PipelineState};
-use super::routes::{FORM_MOST, ROUTES, Route, RouteKind, STREAM};
+use super::routes::{MAX_FORM_BYTES, ROUTES, Route, RouteKind, STREAM_PATH};
 use super::state::{ServerSetup, ServerState};
 use super::tls;
 use crate::errors::AppError;
@@ -19,15 +19,15 @@ use std::time::Duration;
 use tokio::sync::Semaphore;
 
 /// Time limit for a client to send the header of a request.
-const HEAD_WAIT: Duration = Duration::from_secs(30);
-/// Maximum number of simultaneous uploads; each takes up to `RECORDING_MOST` of disk space. Estimate: a class of thirty.
-const UPLOADS: usize = 32;
+const HEADER_TIMEOUT: Duration = Duration::from_secs(30);
+/// Maximum number of simultaneous uploads; each takes up to `MAX_RECORDING_BYTES` of disk space. Estimate: a class of thirty.
+const MAX_UPLOADS: usize = 32;
 /// Time that requests in progress get when the server stops.
-const FAREWELL: Duration = Duration::from_secs(2);
+const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(2);
 /// Interval at which stop requests are checked.
-const LOOK: Duration = Duration::from_millis(50);
+const STOP_CHECK_INTERVAL: Duration = Duration::from_millis(50);
 /// Number of threads for blocking disk and database access.
-const WAITING_THREADS: usize = 16;
+const BLOCKING_THREADS: usize = 16;
 
 /// A running server, stopped when it is dropped.
 #[derive(Debug)]
@@ -46,12 +46,12 @@ impl WebServer {
         let secure = args.tls_cert.is_some() || args.behind_proxy;
         let tls = tls::config(args)?;
         let reach = if args.behind_proxy {
-            AllowedOrigins::behind(&args.trusted_proxy, &args.host)
+            AllowedOrigins::behind_proxies(&args.trusted_proxy, &args.host)
         } else {
             AllowedOrigins { hosts: args.host.clone(), ..AllowedOrigins::default() }
         };
         let state = ServerState::open(setup, secure, reach)?;
-        tls::check(args, !state.database.with_password()?.is_empty())?;
+        tls::check(args, !state.database.names_with_password()?.is_empty())?;
         let taken = |error: std::io::Error| AppError::failed(format!("--listen {}: cannot open: {error}", args.listen));
         let listener = TcpListener::bind(args.listen).map_err(taken)?;
         listener.set_nonblocking(true).map_err(taken)?;
@@ -59,14 +59,14 @@ impl WebServer {
         let address = format!("{}://{bound}", if tls.is_some() { "https" } else { "http" });
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(2)
-            .max_blocking_threads(WAITING_THREADS)
+            .max_blocking_threads(BLOCKING_THREADS)
             .enable_all()
             .build()
             .map_err(|error| AppError::failed(format!("cannot start the server runtime: {error}")))?;
         let handle = Handle::new();
         let shared = PipelineState {
             state: Arc::new(state),
-            uploads: Arc::new(Semaphore::new(UPLOADS)),
+            uploads: Arc::new(Semaphore::new(MAX_UPLOADS)),
             working: Arc::new(Semaphore::new(1)),
         };
         let (router, own) = (router(&shared), handle.clone());
@@ -89,14 +89,14 @@ impl WebServer {
     /// Serves until a stop is requested.
     pub fn serve_until(&self, stop: &StopRequest) {
         while !stop.is_requested() && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
-            std::thread::sleep(LOOK);
+            std::thread::sleep(STOP_CHECK_INTERVAL);
         }
     }
 }
 
 impl Drop for WebServer {
     fn drop(&mut self) {
-        self.handle.graceful_shutdown(Some(FAREWELL));
+        self.handle.graceful_shutdown(Some(SHUTDOWN_TIMEOUT));
         if let Some(thread) = self.thread.take()
             && thread.join().is_err()
         {
@@ -128,7 +128,7 @@ async fn serve(
 
 /// Closes connections that send no complete header in time.
 fn limit(builder: &mut hyper_util::server::conn::auto::Builder<hyper_util::rt::TokioExecutor>) {
-    builder.http1().timer(hyper_util::rt::TokioTimer::new()).header_read_timeout(HEAD_WAIT);
+    builder.http1().timer(hyper_util::rt::TokioTimer::new()).header_read_timeout(HEADER_TIMEOUT);
 }
 
 fn router(shared: &PipelineState) -> Router {
@@ -137,20 +137,20 @@ fn router(shared: &PipelineState) -> Router {
         router = router.route(route.path, method(route, shared));
     }
     let stream = shared.clone();
-    router = router.route(STREAM, get(move |request: Request| request_pipeline::live_stream(stream.clone(), request)));
+    router = router.route(STREAM_PATH, get(move |request: Request| request_pipeline::live_stream(stream.clone(), request)));
     let (lost, wrong) = (shared.clone(), shared.clone());
     router
-        .fallback(move |request: Request| request_pipeline::nothing(lost.clone(), request))
-        .method_not_allowed_fallback(move |request: Request| request_pipeline::nothing(wrong.clone(), request))
+        .fallback(move |request: Request| request_pipeline::handle_unknown_path(lost.clone(), request))
+        .method_not_allowed_fallback(move |request: Request| request_pipeline::handle_unknown_path(wrong.clone(), request))
 }
 
 fn method(route: &'static Route, shared: &PipelineState) -> MethodRouter {
     let shared = shared.clone();
-    let handle = move |request: Request| request_pipeline::through(shared.clone(), route, request);
+    let handle = move |request: Request| request_pipeline::handle_route(shared.clone(), route, request);
     match route.how {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => get(handle),
         RouteKind::Change => post(handle),
         // The other fields of the form need space, too.
-        RouteKind::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + FORM_MOST)),
+        RouteKind::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + MAX_FORM_BYTES)),
     }
 }

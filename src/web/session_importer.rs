@@ -12,7 +12,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
 /// Interval between scans of the folders.
-const LOOK: Duration = Duration::from_secs(2);
+const SCAN_INTERVAL: Duration = Duration::from_secs(2);
 
 /// Handle of the importer thread.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ impl SessionImporter {
             let mut looked = ImportProgress::default();
             loop {
                 looked.scan(&database, &sessions);
-                match changed.recv_timeout(LOOK) {
+                match changed.recv_timeout(SCAN_INTERVAL) {
                     Ok(folder) => {
                         // Answers are saved in quick succession; the session is imported once for all pending requests.
                         let mut folders = BTreeSet::from([folder]);
@@ -47,7 +47,7 @@ impl SessionImporter {
     }
 
     /// Requests that a changed session be imported again.
-    pub fn rescan(&self, folder: PathBuf) {
+    pub fn import_again(&self, folder: PathBuf) {
         if self.0.send(folder).is_err() {
             tracing::warn!("new sessions are no longer imported: restart the server");
         }
@@ -58,11 +58,11 @@ impl SessionImporter {
 #[derive(Debug, Default)]
 struct ImportProgress {
     /// True once changed answers from before the start have been looked for.
-    caught_up: bool,
+    answers_checked: bool,
     /// Unreadable folders, each logged once.
     unreadable: BTreeSet<PathBuf>,
     /// Sessions that the database did not accept; retried at every scan.
-    refused: BTreeSet<PathBuf>,
+    rejected: BTreeSet<PathBuf>,
     /// Folders of erased sessions, each logged once.
     erased: BTreeSet<PathBuf>,
 }
@@ -82,16 +82,16 @@ impl ImportProgress {
         for folder in folders {
             let is_known = session_id(&folder).is_ok_and(|id| known.contains_key(&id));
             let is_new = !is_known && folder.join(ASSESSMENT).is_file() && !self.unreadable.contains(&folder);
-            let may_differ = is_known && !self.caught_up && folder.join(ANSWERS).is_file();
+            let may_differ = is_known && !self.answers_checked && folder.join(ANSWERS).is_file();
             if is_new && (self.erased.contains(&folder) || is_erased(&folder, &erased)) {
                 self.skip(folder);
                 continue;
             }
-            if is_new || may_differ || self.refused.contains(&folder) {
+            if is_new || may_differ || self.rejected.contains(&folder) {
                 self.import(database, &folder, &known);
             }
         }
-        self.caught_up = true;
+        self.answers_checked = true;
     }
 
     fn skip(&mut self, folder: PathBuf) {
@@ -113,7 +113,7 @@ impl ImportProgress {
             }
             // The folder was erased meanwhile, or is unreadable.
             Err(error) => {
-                self.refused.remove(folder);
+                self.rejected.remove(folder);
                 if self.unreadable.insert(folder.to_path_buf()) && folder.is_dir() {
                     tracing::warn!("skipped: {error}");
                 }
@@ -124,10 +124,10 @@ impl ImportProgress {
     fn save_record(&mut self, database: &Database, folder: &Path, record: Option<SessionRecord>) {
         match database.put(&Vec::from_iter(record)) {
             Ok(_) => {
-                self.refused.remove(folder);
+                self.rejected.remove(folder);
             }
             Err(error) => {
-                if self.refused.insert(folder.to_path_buf()) {
+                if self.rejected.insert(folder.to_path_buf()) {
                     tracing::warn!("not imported yet: {error}");
                 }
             }

@@ -15,9 +15,9 @@ use spandrel_training::web::sessions as pages;
 use std::path::{Path, PathBuf};
 
 /// Sessions per page of the list.
-const PAGE: u32 = 50;
+const SESSIONS_PER_PAGE: u32 = 50;
 /// Maximum number of other sessions offered for comparison.
-const OTHERS: u32 = 50;
+const MAX_COMPARISONS: u32 = 50;
 
 /// Redirects the start page to the sessions, or to the login.
 pub fn start(_: &ServerState, asked: &WebRequest) -> HandlerResult {
@@ -27,13 +27,13 @@ pub fn start(_: &ServerState, asked: &WebRequest) -> HandlerResult {
 /// Shows a list of sessions of all trainees, or of one.
 pub fn session_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let wanted = asked.query_value("trainee");
-    let trainee = asked.visitor.limited_to().or(wanted);
+    let trainee = asked.visitor.restricted_to().or(wanted);
     let count = state.database.count(trainee)?;
-    let last = u32::try_from(count.div_ceil(u64::from(PAGE))).unwrap_or(u32::MAX).max(1);
+    let last = u32::try_from(count.div_ceil(u64::from(SESSIONS_PER_PAGE))).unwrap_or(u32::MAX).max(1);
     let page = asked.query_value("page").and_then(|page| page.parse().ok()).unwrap_or(1).clamp(1, last);
-    let lines = state.database.list(trainee, PAGE, (page - 1).saturating_mul(PAGE))?;
+    let lines = state.database.list(trainee, SESSIONS_PER_PAGE, (page - 1).saturating_mul(SESSIONS_PER_PAGE))?;
     // Links contain the name, so an invalid one is shown as empty.
-    let trainee = wanted.filter(|name| asked.visitor.limited_to().is_none() && name.parse::<TraineeId>().is_ok());
+    let trainee = wanted.filter(|name| asked.visitor.restricted_to().is_none() && name.parse::<TraineeId>().is_ok());
     let listing = pages::SessionList { lines: &lines, trainee, page, last, count };
     Ok(WebResponse::page(pages::list(&asked.visitor, &listing)))
 }
@@ -60,7 +60,7 @@ pub fn folder(state: &ServerState, asked: &WebRequest, id: &str) -> Result<PathB
 /// Shows the page of one session.
 pub fn session_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let record = record(state, asked, asked.path_part("id"))?;
-    let mut others = state.database.list(Some(&record.trainee), OTHERS, 0)?;
+    let mut others = state.database.list(Some(&record.trainee), MAX_COMPARISONS, 0)?;
     others.retain(|other| other.id != record.id && state.folder(&other.id).is_some());
     let folder = state.folder(&record.id).is_some();
     Ok(WebResponse::page(pages::session(&asked.visitor, &record, &pages::SessionPageData { folder, others: &others })))
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_report_of_another_version_is_known_by_its_policy() {
+    fn exact_reports_of_other_versions_have_another_policy() {
         let policy = "script-src 'sha256-abc'";
         assert!(has_current_policy(b"<meta content=\"script-src 'sha256-abc'\">", policy));
         assert!(!has_current_policy(b"<meta content=\"script-src 'sha256-xyz'\">", policy));

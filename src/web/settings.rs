@@ -5,12 +5,12 @@ use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
 use crate::io::clock;
 use crate::io::trainee_id::TraineeId;
-use crate::records::{Account, erase_older};
+use crate::records::{Account, erase_older_than};
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::{login, settings as pages};
 
 /// Microseconds in one day.
-const DAY_US: u64 = 86_400_000_000;
+const US_PER_DAY: u64 = 86_400_000_000;
 
 /// Shows the login form.
 pub fn login_page(_: &ServerState, asked: &WebRequest) -> HandlerResult {
@@ -27,7 +27,7 @@ pub fn log_in(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     match state.auth.log_in(&state.database, (name, password), asked.cookie.as_deref(), &asked.client()) {
         Ok((cookie, device)) => {
             let mut answer = WebResponse::redirect("/sessions");
-            answer.cookies = vec![state.auth.cookie(&cookie), state.auth.device_cookie(&device)];
+            answer.cookies = vec![state.auth.cookie(&cookie), state.auth.browser_cookie(&device)];
             Ok(answer)
         }
         Err(refusal @ (WebError::Forbidden(_) | WebError::RateLimited(_) | WebError::Busy(_))) => {
@@ -85,11 +85,11 @@ pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 }
 
 fn render_settings(state: &ServerState, asked: &WebRequest, told: Option<(&str, &str)>) -> HandlerResult {
-    let (people, with_password) = (state.database.trainees()?, state.database.with_password()?);
+    let (people, names_with_password) = (state.database.trainees()?, state.database.names_with_password()?);
     let folders: Vec<String> = state.place.sessions.iter().map(|folder| folder.display().to_string()).collect();
     let database = state.database.name();
     let settings =
-        pages::SettingsPage { people: &people, with_password: &with_password, database, folders: &folders, notice: told };
+        pages::SettingsPage { people: &people, with_password: &names_with_password, database, folders: &folders, notice: told };
     Ok(WebResponse::page(pages::settings(&asked.visitor, &settings)))
 }
 
@@ -126,12 +126,12 @@ pub fn set_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 }
 
 /// Removes a person's password.
-pub fn drop_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+pub fn remove_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let name = asked.required_field("name")?;
     if asked.visitor.name.as_deref() == Some(name) {
         return Err(WebError::BadRequest("you would lock yourself out".into()));
     }
-    let had = state.database.drop_password(name)?;
+    let had = state.database.remove_password(name)?;
     state.auth.end_other_sessions(name, None);
     if had { Ok(WebResponse::redirect("/settings")) } else { Err(WebError::BadRequest("this person has no password".into())) }
 }
@@ -147,7 +147,7 @@ pub fn retention(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     if asked.required_field("sure")? != "yes" {
         return Err(WebError::BadRequest("sure: not confirmed (allowed: yes)".into()));
     }
-    let limit_us = clock::unix_us().saturating_sub(days * DAY_US);
-    let (deleted, folders) = erase_older(&state.database, &state.place, limit_us)?;
+    let limit_us = clock::unix_us().saturating_sub(days * US_PER_DAY);
+    let (deleted, folders) = erase_older_than(&state.database, &state.place, limit_us)?;
     render_settings(state, asked, Some(("good", &format!("Erased {deleted} sessions and {folders} folders."))))
 }

@@ -11,11 +11,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 /// Maximum size of a file that stays in memory, bytes.
-const IN_MEMORY: usize = 512 * 1024;
+const MAX_IN_MEMORY: usize = 512 * 1024;
 /// Time before the minimum rate applies to an upload.
-const GRACE: Duration = Duration::from_secs(30);
+const GRACE_PERIOD: Duration = Duration::from_secs(30);
 /// Minimum rate after that, bytes/s. Estimate: one sixteenth of a 1 Mbit/s line.
-const LEAST_RATE: u64 = 8 * 1024;
+const MIN_RATE: u64 = 8 * 1024;
 
 /// A complete uploaded file.
 #[derive(Debug)]
@@ -68,7 +68,7 @@ impl<'a> UploadSpool<'a> {
     }
 
     /// Returns the maximum size, bytes.
-    pub fn most(&self) -> usize {
+    pub fn max_bytes(&self) -> usize {
         self.max_bytes
     }
 
@@ -76,16 +76,16 @@ impl<'a> UploadSpool<'a> {
     ///
     /// # Errors
     /// If the file is too large, the client is too slow, or the disk cannot be written.
-    pub fn take(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), WebError> {
+    pub fn append(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), WebError> {
         self.size += bytes.len();
         if self.size > self.max_bytes {
             return Err(WebError::TooLarge(self.max_bytes));
         }
         if is_below_min_rate(self.size, elapsed) {
-            return Err(WebError::BadRequest(format!("the upload was too slow (allowed: {} KiB/s or more)", LEAST_RATE / 1024)));
+            return Err(WebError::BadRequest(format!("the upload was too slow (allowed: {} KiB/s or more)", MIN_RATE / 1024)));
         }
-        if self.disk.is_none() && self.head.len() + bytes.len() > IN_MEMORY {
-            self.disk = Some(self.begin()?);
+        if self.disk.is_none() && self.head.len() + bytes.len() > MAX_IN_MEMORY {
+            self.disk = Some(self.create_file()?);
         }
         match &mut self.disk {
             Some((file, on_disk)) => file.write_all(bytes).map_err(|error| failed(&on_disk.0, &error)),
@@ -96,9 +96,9 @@ impl<'a> UploadSpool<'a> {
         }
     }
 
-    fn begin(&mut self) -> Result<(File, SpoolFile), WebError> {
-        static BEGUN: AtomicU64 = AtomicU64::new(0);
-        let name = format!("upload-{}-{}", std::process::id(), BEGUN.fetch_add(1, Ordering::Relaxed));
+    fn create_file(&mut self) -> Result<(File, SpoolFile), WebError> {
+        static FILE_COUNTER: AtomicU64 = AtomicU64::new(0);
+        let name = format!("upload-{}-{}", std::process::id(), FILE_COUNTER.fetch_add(1, Ordering::Relaxed));
         let path = self.folder.join(name);
         let begun = std::fs::create_dir_all(self.folder).and_then(|()| File::create(&path));
         let (mut file, on_disk) = (begun.map_err(|error| failed(&path, &error))?, SpoolFile(path));
@@ -107,7 +107,7 @@ impl<'a> UploadSpool<'a> {
     }
 
     /// Completes the upload and returns the file.
-    pub fn end(self) -> SpooledUpload {
+    pub fn finish(self) -> SpooledUpload {
         match self.disk {
             Some((_, on_disk)) => SpooledUpload::Disk(on_disk),
             None => SpooledUpload::Memory(self.head),
@@ -116,8 +116,8 @@ impl<'a> UploadSpool<'a> {
 }
 
 fn is_below_min_rate(size: usize, elapsed: Duration) -> bool {
-    let counted_s = elapsed.saturating_sub(GRACE).as_secs();
-    (size as u64) < counted_s.saturating_mul(LEAST_RATE)
+    let counted_s = elapsed.saturating_sub(GRACE_PERIOD).as_secs();
+    (size as u64) < counted_s.saturating_mul(MIN_RATE)
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> AppError {
@@ -133,30 +133,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_large_file_lies_on_disk_until_it_is_read_or_dropped() {
+    fn exact_large_uploads_are_on_disk_until_dropped() {
         let folder = tempfile::tempdir().unwrap();
         let files = || std::fs::read_dir(folder.path()).unwrap().count();
         let chunk: Vec<u8> = (0..100_000u32).map(|k| k as u8).collect();
         let mut spool = UploadSpool::new(folder.path(), 10 * chunk.len());
         for _ in 0..10 {
-            spool.take(&chunk, Duration::ZERO).unwrap();
+            spool.append(&chunk, Duration::ZERO).unwrap();
         }
         assert_eq!(files(), 1);
-        assert_eq!(spool.end().bytes().as_deref(), Ok(&chunk.repeat(10)[..]));
+        assert_eq!(spool.finish().bytes().as_deref(), Ok(&chunk.repeat(10)[..]));
         assert_eq!(files(), 0);
         let mut small = UploadSpool::new(folder.path(), 10);
-        small.take(b"0123456789", Duration::ZERO).unwrap();
-        assert_eq!(small.take(b"x", Duration::ZERO), Err(WebError::TooLarge(10)));
+        small.append(b"0123456789", Duration::ZERO).unwrap();
+        assert_eq!(small.append(b"x", Duration::ZERO), Err(WebError::TooLarge(10)));
         let mut dropped = UploadSpool::new(folder.path(), usize::MAX);
-        dropped.take(&vec![0; 2 * IN_MEMORY], Duration::ZERO).unwrap();
+        dropped.append(&vec![0; 2 * MAX_IN_MEMORY], Duration::ZERO).unwrap();
         drop(dropped);
         assert_eq!(files(), 0);
     }
 
     #[test]
-    fn regress_a_sender_that_trickles_is_put_out() {
-        assert!(!is_below_min_rate(1, GRACE), "the grace");
-        assert!(is_below_min_rate(1, GRACE + Duration::from_secs(1)));
+    fn regress_slow_uploads_are_below_the_minimum_rate() {
+        assert!(!is_below_min_rate(1, GRACE_PERIOD), "the grace");
+        assert!(is_below_min_rate(1, GRACE_PERIOD + Duration::from_secs(1)));
         assert!(!is_below_min_rate(96 * 1024 * 1024, Duration::from_secs(600)), "a recording over a slow line");
     }
 }

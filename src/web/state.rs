@@ -66,7 +66,7 @@ impl ServerState {
         let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
         temp_files::remove_stale(&place.sessions, &scenarios);
         let (database, figures) = (place.open()?, FigureCache::open(&place)?);
-        let guard = Authenticator::new(!database.with_password()?.is_empty(), secure, reach);
+        let guard = Authenticator::new(!database.names_with_password()?.is_empty(), secure, reach);
         let start = |watched: &WatchedVehicle| LiveVehicle::start(watched, &place.sessions, &scenarios);
         let live = watched.iter().map(start).collect::<Result<Vec<_>, _>>()?;
         let taking_in = SessionImporter::start(&place)?;
@@ -76,7 +76,7 @@ impl ServerState {
 
     /// Returns the folder for uploads and imports in progress.
     pub fn spool(&self) -> PathBuf {
-        self.default_folder().join(temp_files::ASIDE)
+        self.default_folder().join(temp_files::IMPORT_FOLDER)
     }
 
     /// Returns the folder for new sessions.

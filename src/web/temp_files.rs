@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Folder of sessions that are being imported; the name cannot be that of a session.
-pub const ASIDE: &str = ".taking-in";
+pub const IMPORT_FOLDER: &str = ".taking-in";
 /// Age above which a temporary file counts as abandoned. A process on another computer that shares the disk may have any process ID, so the age must
 /// be longer than any write takes.
-const ABANDONED: Duration = Duration::from_secs(600);
+const STALE_AGE: Duration = Duration::from_secs(600);
 
 /// Removes stale temporary files from the folders of sessions, from the session folders in them, and from the folder of scenarios. Files that cannot
 /// be checked or removed stay; they do no harm.
@@ -32,7 +32,7 @@ pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
 /// # Errors
 /// If the disk cannot be written.
 pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
-    let aside = sessions.join(ASIDE);
+    let aside = sessions.join(IMPORT_FOLDER);
     match std::fs::remove_dir_all(&aside) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
             Err(AppError::failed(format!("{}: cannot remove: {error}", aside.display())))
@@ -45,7 +45,7 @@ pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
 fn is_stale(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let Some(writer) = writer_pid(name) else { return false };
-    let old = path.metadata().and_then(|about| about.modified()).is_ok_and(|at| at.elapsed().is_ok_and(|age| age > ABANDONED));
+    let old = path.metadata().and_then(|about| about.modified()).is_ok_and(|at| at.elapsed().is_ok_and(|age| age > STALE_AGE));
     old && path.is_file() && !is_alive(writer)
 }
 
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    fn put(path: &Path, age: Duration) {
+    fn write_with_age(path: &Path, age: Duration) {
         fs::write(path, "half").unwrap();
         let file = fs::File::options().write(true).open(path).unwrap();
         let now = file.metadata().unwrap().modified().unwrap();
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_only_what_a_dead_program_left_long_ago_is_removed() {
+    fn exact_only_old_files_of_dead_processes_are_removed() {
         let (sessions, scenarios) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         let session = sessions.path().join("a-session");
         fs::create_dir(&session).unwrap();
@@ -95,9 +95,9 @@ mod tests {
             session.join(format!("answers.json.{dead}-seven.new")),
             session.join("answers.json"),
         ];
-        gone.iter().chain(&kept).for_each(|path| put(path, 2 * ABANDONED));
+        gone.iter().chain(&kept).for_each(|path| write_with_age(path, 2 * STALE_AGE));
         let young = session.join(format!("answers.json.{dead}-8.new"));
-        put(&young, Duration::ZERO);
+        write_with_age(&young, Duration::ZERO);
         remove_stale(&[sessions.path().to_path_buf(), PathBuf::from("/none")], scenarios.path());
         assert!(gone.iter().all(|path| !path.exists()));
         assert!(kept.iter().chain([&young]).all(|path| path.exists()));

@@ -6,19 +6,19 @@ use super::state::ServerState;
 use crate::io::clock;
 use crate::io::plan_rules;
 use crate::io::trainee_id::TraineeId;
-use crate::records::{erase_person, kept};
+use crate::records::{erase_person, stored_data};
 use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Selection, TABLES, table};
-use spandrel_training::plan::plan_counting;
+use spandrel_training::plan::plan_for_policy;
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::{assets, page::cohort as report};
 use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
-use spandrel_training::web::{group, trainees as pages};
+use spandrel_training::web::{cohort_page, trainees as pages};
 
 /// Maximum number of sessions on a trainee's page.
-const SESSIONS: u32 = 200;
+const MAX_SESSIONS: u32 = 200;
 /// Default number of repetitions to compare.
-const REPETITIONS: usize = 3;
+const DEFAULT_REPETITIONS: usize = 3;
 
 /// Shows the list of all trainees.
 pub fn trainee_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
@@ -36,9 +36,9 @@ fn person(state: &ServerState, asked: &WebRequest) -> Result<Trainee, WebError> 
 pub fn trainee_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let person = person(state, asked)?;
     let records = state.database.records(Some(&person.pseudonym))?;
-    let listed = state.database.list(Some(&person.pseudonym), SESSIONS, 0)?;
+    let listed = state.database.list(Some(&person.pseudonym), MAX_SESSIONS, 0)?;
     let incomplete = incomplete(asked);
-    let plan = plan_counting(records.clone(), incomplete, &plan_rules::rules(None)?, clock::unix_us());
+    let plan = plan_for_policy(records.clone(), incomplete, &plan_rules::rules(None)?, clock::unix_us());
     let about = pages::TraineeProfile { person: &person, records: &records, listed: &listed, plan: plan.as_ref(), incomplete };
     Ok(WebResponse::page(pages::trainee_page(&asked.visitor, &about)))
 }
@@ -46,9 +46,9 @@ pub fn trainee_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 /// Responds with all stored data of a trainee.
 pub fn export(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let person = person(state, asked)?;
-    let kept = kept(&state.database, &state.place, &person.pseudonym)?.ok_or(WebError::NotFound)?;
+    let kept = stored_data(&state.database, &state.place, &person.pseudonym)?.ok_or(WebError::NotFound)?;
     let name = format!("{}.json", person.pseudonym.parse::<TraineeId>().as_ref().map_or("trainee", TraineeId::as_str));
-    Ok(WebResponse::download(&name, "application/json", json_text(&kept.without_places()).into_bytes()))
+    Ok(WebResponse::download(&name, "application/json", json_text(&kept.with_folder_names()).into_bytes()))
 }
 
 /// Detail fields of a person, with their allowed values.
@@ -65,7 +65,7 @@ pub fn details(state: &ServerState, asked: &WebRequest) -> HandlerResult {
             let short: String = given.chars().take(60).collect();
             return Err(WebError::BadRequest(format!("{field} = {short}: unknown (allowed: {})", allowed.join(", "))));
         }
-        let shown = format!("{}{field}", pages::BEFORE);
+        let shown = format!("{}{field}", pages::ORIGINAL_VALUE_PREFIX);
         before[k] = asked.form_field(&shown).ok_or_else(|| WebError::BadRequest(format!("{shown}: missing")))?;
         after[k] = given;
     }
@@ -99,9 +99,9 @@ fn incomplete(asked: &WebRequest) -> IncompletePolicy {
     IncompletePolicy::included(asked.query_value("incomplete").is_some())
 }
 
-fn chosen(asked: &WebRequest) -> Result<Selection, WebError> {
+fn selection_from_query(asked: &WebRequest) -> Result<Selection, WebError> {
     let repetitions = match asked.query_value("repetitions") {
-        None => REPETITIONS,
+        None => DEFAULT_REPETITIONS,
         Some(text) => text
             .parse()
             .ok()
@@ -114,31 +114,31 @@ fn chosen(asked: &WebRequest) -> Result<Selection, WebError> {
 
 /// Shows the cohort page.
 pub fn cohort_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let selection = chosen(asked)?;
-    let figured = state.figures.of(&selection)?;
+    let selection = selection_from_query(asked)?;
+    let figured = state.figures.get(&selection)?;
     let counted = figured.non_empty();
     let scenarios = counted.map_or(selection.scenarios, |cohort| cohort.scenarios.clone());
-    let chosen = group::GroupSelection {
+    let chosen = cohort_page::CohortPageSelection {
         flown_scenarios: &figured.flown_scenarios,
         scenarios: &scenarios,
         repetitions: selection.repetitions,
         incomplete: selection.incomplete,
         left_out: figured.cohort.left_out,
     };
-    Ok(WebResponse::page(group::group(&asked.visitor, &chosen, counted)))
+    Ok(WebResponse::page(cohort_page::group(&asked.visitor, &chosen, counted)))
 }
 
 /// Responds with one of the cohort's tables as CSV.
 pub fn cohort_table(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let name = TABLES.into_iter().find(|name| *name == asked.path_part("name")).ok_or(WebError::NotFound)?;
-    let figured = state.figures.of(&chosen(asked)?)?;
+    let figured = state.figures.get(&selection_from_query(asked)?)?;
     let csv = figured.non_empty().and_then(|cohort| table(cohort, name)).ok_or(WebError::NotFound)?;
     Ok(WebResponse::download(name, "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
 /// Responds with the cohort report as a single page that works offline.
 pub fn cohort_report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let figured = state.figures.of(&chosen(asked)?)?;
+    let figured = state.figures.get(&selection_from_query(asked)?)?;
     let nothing = || WebError::BadRequest("no session of these scenarios counts".into());
     let cohort = figured.non_empty().ok_or_else(nothing)?;
     Ok(WebResponse::sandboxed_page(report::cohort(cohort).into_bytes(), &assets::page_policy()))

@@ -17,15 +17,15 @@ use spandrel_monitor::export::json_text;
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
-use spandrel_training::web::job as pages;
+use spandrel_training::web::scenarios as pages;
 use std::path::{Path, PathBuf};
 
 /// Shows the upload form.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    shown(state, asked, None)
+    render_form(state, asked, None)
 }
 
-fn shown(state: &ServerState, asked: &WebRequest, told: Option<pages::UploadMessage<'_>>) -> HandlerResult {
+fn render_form(state: &ServerState, asked: &WebRequest, told: Option<pages::UploadMessage<'_>>) -> HandlerResult {
     let named: Vec<_> = scenarios::all(&state.scenarios).into_iter().map(|job| job.named).collect();
     let vehicles: Vec<String> = files::vehicle_names().into_iter().map(str::to_owned).collect();
     Ok(WebResponse::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
@@ -51,11 +51,12 @@ pub fn recording(state: &ServerState, asked: &WebRequest) -> HandlerResult {
             Ok(WebResponse::redirect(&format!("/sessions/{id}")))
         }
         Ok(UploadOutcome::There(id, trainee)) => {
-            let told = pages::UploadMessage::There { id: &id, trainee: &trainee };
-            Ok(shown(state, asked, Some(told))?.with_status(StatusCode::CONFLICT))
+            let told = pages::UploadMessage::AlreadyImported { id: &id, trainee: &trainee };
+            Ok(render_form(state, asked, Some(told))?.with_status(StatusCode::CONFLICT))
         }
         Err(WebError::BadRequest(words)) => {
-            Ok(shown(state, asked, Some(pages::UploadMessage::Wrong(&words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+            Ok(render_form(state, asked, Some(pages::UploadMessage::Invalid(&words)))?
+                .with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
         Err(other) => Err(other),
     }
@@ -73,7 +74,7 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
     let log = &*asked.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?.file.bytes()?;
     // The telemetry is stored unmodified, up to its last complete record.
     let kept = &log[..tlog::complete_len(log)];
-    if let Some((id, trainee)) = state.database.of_telemetry(&sha256_hex(kept))? {
+    if let Some((id, trainee)) = state.database.find_by_telemetry(&sha256_hex(kept))? {
         return Ok(UploadOutcome::There(id, trainee));
     }
     // A recording that cannot be scored is an error of the file, whatever kind of error the scorer reports.
@@ -113,11 +114,11 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
     if let Some(survey) = monitor.survey() {
         folder.resolve(graded.seed, survey.defects())?;
     }
-    folder.describe(|scenario, vehicle, utc, starts| monitor.session_info(scenario, vehicle, utc, starts))?;
+    folder.write_session_json(|scenario, vehicle, utc, starts| monitor.session_info(scenario, vehicle, utc, starts))?;
     if let Err(error) = report::write(folder.path()) {
         tracing::warn!("cannot write the report: {error}");
     }
-    folder.assessment(&json_text(&graded.assessment))?;
+    folder.write_assessment(&json_text(&graded.assessment))?;
     // The complete folder is moved to the others; if the server is killed before that, nothing appears there.
     let place = free_folder(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
     let moved = std::fs::rename(folder.path(), &place);
@@ -138,7 +139,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_taken_name_gives_way_to_one_like_it() {
+    fn exact_a_taken_folder_name_gets_another_suffix() {
         let sessions = tempfile::tempdir().unwrap();
         let name = "20231114T221320Z-anna-two-bridges-1a2b3c";
         assert_eq!(free_folder(sessions.path(), name), sessions.path().join(name));

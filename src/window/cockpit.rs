@@ -28,13 +28,13 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::window::WindowId;
 
 /// Maximum frame rates of the views, 1/s: with a graphics card, that of fast screens; without one, a rate that still looks fluid.
-const MOST_HZ: (f64, f64) = (120.0, 25.0);
+const MAX_FRAME_HZ: (f64, f64) = (120.0, 25.0);
 /// Frame rate of pages, which only change by keys and sticks, 1/s.
-const PAGES_HZ: f64 = 20.0;
+const PAGE_HZ: f64 = 20.0;
 /// Pause after each frame without a graphics card, as a share of the frame time, so that other processes can run.
 const REST: f64 = 0.25;
 /// Zoom factor per notch of the mouse wheel.
-const ZOOM_NOTCH: f64 = 1.15;
+const ZOOM_PER_NOTCH: f64 = 1.15;
 
 /// Threads and connections of the window.
 pub struct WindowThreads {
@@ -53,7 +53,7 @@ pub struct Cockpit {
     pub(super) plan: WindowConfig,
     pub(super) keys: KeyBindings,
     pub(super) flow: WindowFlow,
-    pub(super) crew: WindowThreads,
+    pub(super) threads: WindowThreads,
     pub(super) keeper: Option<PictureWriter>,
     pub(super) speaker: AudioOutput,
     pub(super) stop: StopRequest,
@@ -63,12 +63,12 @@ pub struct Cockpit {
     pub(super) map: bool,
     pub(super) held: HeldKeys,
     /// Pause state that was last sent to the pilot thread.
-    pub(super) stood: bool,
+    pub(super) was_paused: bool,
     mouse: Option<(f64, f64)>,
     dragging: bool,
     pub(super) notices: Vec<(String, Duration)>,
     pub(super) stopwatch: Stopwatch,
-    pub(super) frame_at: Duration,
+    pub(super) last_frame_at: Duration,
     due: Duration,
     failed: Option<AppError>,
 }
@@ -79,29 +79,29 @@ impl Cockpit {
         plan: WindowConfig,
         keys: KeyBindings,
         flow: WindowFlow,
-        crew: WindowThreads,
+        threads: WindowThreads,
         speaker: AudioOutput,
         stop: StopRequest,
     ) -> Self {
         Self {
             map: plan.map,
-            keeper: crew.flight.as_ref().and(plan.keep.clone()).map(PictureWriter::start),
+            keeper: threads.flight.as_ref().and(plan.keep.clone()).map(PictureWriter::start),
             plan,
             keys,
             flow,
-            crew,
+            threads,
             speaker,
             stop,
             screen: None,
             pictures: PageTextures::default(),
             gaze: InspectorCamera::default(),
             held: HeldKeys::default(),
-            stood: false,
+            was_paused: false,
             mouse: None,
             dragging: false,
             notices: Vec::new(),
             stopwatch: Stopwatch::start(),
-            frame_at: Duration::ZERO,
+            last_frame_at: Duration::ZERO,
             due: Duration::ZERO,
             failed: None,
         }
@@ -111,19 +111,19 @@ impl Cockpit {
     pub fn run(mut self) -> Result<(), AppError> {
         let events = display::open()?;
         events.run_app(&mut self).map_err(|error| AppError::failed(format!("the window failed: {error}")))?;
-        self.handle_release();
+        self.end_flight();
         self.failed.map_or(Ok(()), Err)
     }
 
     pub(super) fn quality(&self, screen: &WindowSurface) -> Quality {
         let usual = if screen.gpu.software { "low" } else { "high" };
-        self.plan.quality.or_else(|| Quality::named(usual)).unwrap_or(PRESETS[0])
+        self.plan.quality.or_else(|| Quality::by_name(usual)).unwrap_or(PRESETS[0])
     }
 
     /// Stops showing the current flight.
-    pub(super) fn handle_release(&mut self) {
+    pub(super) fn end_flight(&mut self) {
         self.keeper = None;
-        if let Some(flight) = self.crew.flight.take() {
+        if let Some(flight) = self.threads.flight.take() {
             let wall = flight.listener.wall();
             flight.listener.live().set_video_status(None, wall);
             let watch = self.stopwatch;
@@ -140,7 +140,7 @@ impl Cockpit {
         if self.held.pressed_elsewhere(event, made_up) {
             return;
         }
-        let change = self.held.take(event);
+        let change = self.held.handle(event);
         if !self.flies() {
             self.key_on_page(event, change);
             return;
@@ -149,10 +149,10 @@ impl Cockpit {
             Some(KeyChange::Down(key)) => {
                 self.handle_action(&key);
                 if self.flies() {
-                    self.forward_key(PilotCommand::Down(key));
+                    self.send_to_pilot(PilotCommand::Down(key));
                 }
             }
-            Some(KeyChange::Up(key)) => self.forward_key(PilotCommand::Up(key)),
+            Some(KeyChange::Up(key)) => self.send_to_pilot(PilotCommand::Up(key)),
             None => {}
         }
     }
@@ -165,8 +165,8 @@ impl Cockpit {
                 return;
             }
             // The controller page shows the stick positions of the keyboard.
-            Some(KeyChange::Down(key)) if trying => self.forward_key(PilotCommand::Down(key)),
-            Some(KeyChange::Up(key)) => self.forward_key(PilotCommand::Up(key)),
+            Some(KeyChange::Down(key)) if trying => self.send_to_pilot(PilotCommand::Down(key)),
+            Some(KeyChange::Up(key)) => self.send_to_pilot(PilotCommand::Up(key)),
             _ => {}
         }
         // Keys that are being tested there have no other effect.
@@ -196,8 +196,8 @@ impl Cockpit {
         }
     }
 
-    pub(super) fn forward_key(&self, ask: PilotCommand) {
-        if let Some(pilot) = &self.crew.pilot {
+    pub(super) fn send_to_pilot(&self, ask: PilotCommand) {
+        if let Some(pilot) = &self.threads.pilot {
             pilot.send_command(ask);
         }
     }
@@ -212,19 +212,19 @@ impl Cockpit {
     }
 
     fn moved(&mut self, x: f64, y: f64) {
-        if let (true, Some((from_x, from_y)), Some(flight)) = (self.dragging, self.mouse, &self.crew.flight)
+        if let (true, Some((from_x, from_y)), Some(flight)) = (self.dragging, self.mouse, &self.threads.flight)
             && let (Some(panes), Some(now)) = (flight.panes(), flight.now())
         {
             // The scene is dragged along, so that the object under the pointer stays there.
-            let to = panes.to_aircraft(&now);
-            let rad_px = self.gaze.rad_px(self.eyes_px(), to);
-            self.gaze.turn(rad_px * (from_x - x), rad_px * (y - from_y), to);
+            let to = panes.inspector_to_aircraft(&now);
+            let rad_per_px = self.gaze.rad_per_px(self.inspector_view_height_px(), to);
+            self.gaze.turn(rad_per_px * (from_x - x), rad_per_px * (y - from_y), to);
         }
         self.mouse = Some((x, y));
     }
 
     /// Returns the height of the inspector's view on the screen, px.
-    fn eyes_px(&self) -> f64 {
+    fn inspector_view_height_px(&self) -> f64 {
         let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
         let eyes = self.flow.arrangement.places().into_iter().find(|place| place.which == ViewKind::Inspector);
         window * eyes.map_or(1.0, |place| place.height)
@@ -238,8 +238,8 @@ impl Cockpit {
         }
         let software = self.screen.as_ref().is_some_and(|screen| screen.gpu.software);
         let took = self.stopwatch.elapsed().saturating_sub(started);
-        let shown = if software { MOST_HZ.1 } else { MOST_HZ.0 };
-        let most_hz = if self.flies() { shown } else { PAGES_HZ };
+        let shown = if software { MAX_FRAME_HZ.1 } else { MAX_FRAME_HZ.0 };
+        let most_hz = if self.flies() { shown } else { PAGE_HZ };
         let rest = if software { took.mul_f64(REST) } else { Duration::ZERO };
         self.due = started + Duration::from_secs_f64(1.0 / most_hz).max(took + rest);
     }
@@ -250,11 +250,12 @@ impl ApplicationHandler for Cockpit {
         if self.screen.is_some() {
             return;
         }
-        let title = self.crew.flight.as_ref().map_or("Spandrel".to_owned(), |flight| format!("Spandrel: {}", flight.job.0.title));
+        let title =
+            self.threads.flight.as_ref().map_or("Spandrel".to_owned(), |flight| format!("Spandrel: {}", flight.job.0.title));
         match WindowSurface::open(events, &title, self.plan.size_px) {
             Ok(screen) => {
                 self.screen = Some(screen);
-                if let Some(lead) = &self.crew.lead {
+                if let Some(lead) = &self.threads.lead {
                     lead.send(&FromWindow::Ready);
                 }
             }
@@ -267,15 +268,15 @@ impl ApplicationHandler for Cockpit {
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         if let Some(screen) = &mut self.screen {
-            screen.take(&event);
+            screen.handle_event(&event);
         }
         match event {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::RedrawRequested => self.redraw(events),
             WindowEvent::KeyboardInput { event, is_synthetic, .. } => self.key(&event, is_synthetic),
             WindowEvent::Focused(false) => {
-                self.held.let_go();
-                self.forward_key(PilotCommand::LetGo);
+                self.held.clear();
+                self.send_to_pilot(PilotCommand::ReleaseKeys);
             }
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => self.click(state == ElementState::Pressed),
             WindowEvent::CursorMoved { position, .. } => self.moved(position.x, position.y),
@@ -285,7 +286,7 @@ impl ApplicationHandler for Cockpit {
                     // A notch of common mouse wheels is about 50 px (estimate).
                     MouseScrollDelta::PixelDelta(px) => px.y / 50.0,
                 };
-                self.gaze.zoom(spandrel_model::math::pow(ZOOM_NOTCH, notches.clamp(-10.0, 10.0)));
+                self.gaze.zoom(spandrel_model::math::pow(ZOOM_PER_NOTCH, notches.clamp(-10.0, 10.0)));
             }
             _ => {}
         }

@@ -13,9 +13,9 @@ enum DeviceState {
     /// No controller; the watcher detects a new one.
     Nothing(DeviceWatcher),
     /// Connected, but not calibrated.
-    Raw(EventSource, RawInput),
+    Uncalibrated(EventSource, RawInput),
     /// Calibrated and used for flying.
-    Hand(Box<CalibratedController>),
+    Calibrated(Box<CalibratedController>),
     /// In the calibration wizard.
     Calibrating(EventSource, Box<CalibrationWizard>),
 }
@@ -26,7 +26,7 @@ pub struct ControllerSlot {
     profiles: ProfileFolder,
     held: DeviceState,
     /// Watches for another device while the current one is disconnected.
-    away: Option<DeviceWatcher>,
+    replacement_watcher: Option<DeviceWatcher>,
     mode: StickMode,
     note: String,
 }
@@ -38,7 +38,7 @@ impl ControllerSlot {
             requested_device: wanted,
             profiles,
             held: DeviceState::Nothing(DeviceWatcher::default()),
-            away: None,
+            replacement_watcher: None,
             mode: StickMode::Two,
             note: String::new(),
         };
@@ -62,8 +62,8 @@ impl ControllerSlot {
     }
 
     /// Opens a newly connected device. Returns true if there is one, whether calibrated or not.
-    pub fn load_profile(&mut self) -> bool {
-        let DeviceState::Nothing(watch) = &mut self.held else { return self.take_over() };
+    pub fn open_new_device(&mut self) -> bool {
+        let DeviceState::Nothing(watch) = &mut self.held else { return self.replace_disconnected() };
         if !watch.is_available() {
             return false;
         }
@@ -72,16 +72,16 @@ impl ControllerSlot {
     }
 
     /// Opens a device that was connected while the current one is disconnected, unless the current one is calibrated and the new one is not.
-    fn take_over(&mut self) -> bool {
+    fn replace_disconnected(&mut self) -> bool {
         if !self.lost() || matches!(self.held, DeviceState::Calibrating(..)) {
-            self.away = None;
+            self.replacement_watcher = None;
             return false;
         }
-        if !self.away.get_or_insert_with(DeviceWatcher::start).is_available() {
+        if !self.replacement_watcher.get_or_insert_with(DeviceWatcher::start).is_available() {
             return false;
         }
         let Ok(source) = EventSource::device(self.requested_device.as_deref()) else { return false };
-        if self.flies() && !matches!(self.profiles.find(source.of()), Ok(Some(_))) {
+        if self.flies() && !matches!(self.profiles.find(source.device_info()), Ok(Some(_))) {
             return false;
         }
         self.open_controller(source);
@@ -89,30 +89,32 @@ impl ControllerSlot {
     }
 
     fn open_controller(&mut self, source: EventSource) {
-        let device = source.of().clone();
+        let device = source.device_info().clone();
         (self.held, self.note) = match self.profiles.find(&device) {
             Ok(Some(profile)) => {
                 self.mode = profile.mode;
                 let place = self.profiles.path(&device);
                 let note = place.map_or(String::new(), |path| format!("Profile: {}.", path.display()));
-                (DeviceState::Hand(Box::new(CalibratedController::with(source, profile))), note)
+                (DeviceState::Calibrated(Box::new(CalibratedController::new(source, profile))), note)
             }
-            Ok(None) => (DeviceState::Raw(source, RawInput::default()), format!("'{}' is not calibrated yet.", device.name)),
-            Err(error) => (DeviceState::Raw(source, RawInput::default()), error.to_string()),
+            Ok(None) => {
+                (DeviceState::Uncalibrated(source, RawInput::default()), format!("'{}' is not calibrated yet.", device.name))
+            }
+            Err(error) => (DeviceState::Uncalibrated(source, RawInput::default()), error.to_string()),
         };
     }
 
     /// Returns true if the controller is calibrated, even if it is disconnected.
     pub fn flies(&self) -> bool {
-        matches!(self.held, DeviceState::Hand(_))
+        matches!(self.held, DeviceState::Calibrated(_))
     }
 
     /// Returns true if the device has been disconnected.
     pub fn lost(&self) -> bool {
         match &self.held {
             DeviceState::Nothing(_) => false,
-            DeviceState::Raw(_, raw) => raw.lost,
-            DeviceState::Hand(hand) => hand.raw().lost,
+            DeviceState::Uncalibrated(_, raw) => raw.lost,
+            DeviceState::Calibrated(hand) => hand.raw().lost,
             DeviceState::Calibrating(_, wizard) => wizard.lost(),
         }
     }
@@ -121,8 +123,8 @@ impl ControllerSlot {
     pub fn name(&self) -> Option<&str> {
         match &self.held {
             DeviceState::Nothing(_) => None,
-            DeviceState::Raw(source, _) | DeviceState::Calibrating(source, _) => Some(&source.of().name),
-            DeviceState::Hand(hand) => Some(&hand.profile().device.name),
+            DeviceState::Uncalibrated(source, _) | DeviceState::Calibrating(source, _) => Some(&source.device_info().name),
+            DeviceState::Calibrated(hand) => Some(&hand.profile().device.name),
         }
     }
 
@@ -144,19 +146,19 @@ impl ControllerSlot {
         if self.lost() {
             self.find_device();
         }
-        self.held = match self.take() {
+        self.held = match self.take_device() {
             DeviceState::Nothing(watch) => DeviceState::Nothing(watch),
-            DeviceState::Raw(source, _) | DeviceState::Calibrating(source, _) => self.start_wizard(source),
-            DeviceState::Hand(hand) => self.start_wizard(hand.release()),
+            DeviceState::Uncalibrated(source, _) | DeviceState::Calibrating(source, _) => self.start_wizard(source),
+            DeviceState::Calibrated(hand) => self.start_wizard(hand.release()),
         };
     }
 
-    fn take(&mut self) -> DeviceState {
+    fn take_device(&mut self) -> DeviceState {
         std::mem::replace(&mut self.held, DeviceState::Nothing(DeviceWatcher::default()))
     }
 
     fn start_wizard(&self, source: EventSource) -> DeviceState {
-        let wizard = CalibrationWizard::new(source.of().clone(), self.mode);
+        let wizard = CalibrationWizard::new(source.device_info().clone(), self.mode);
         DeviceState::Calibrating(source, Box::new(wizard))
     }
 
@@ -171,26 +173,26 @@ impl ControllerSlot {
     /// its sticks at rest.
     pub fn cancel(&mut self) {
         let lost = self.lost();
-        match self.take() {
+        match self.take_device() {
             DeviceState::Calibrating(..) if lost => self.find_device(),
             DeviceState::Calibrating(source, _) => self.open_controller(source),
-            held @ (DeviceState::Nothing(_) | DeviceState::Raw(..) | DeviceState::Hand(_)) => self.held = held,
+            held @ (DeviceState::Nothing(_) | DeviceState::Uncalibrated(..) | DeviceState::Calibrated(_)) => self.held = held,
         }
     }
 
     /// Changes the profile and saves it.
     pub fn adjust_profile(&mut self, tune: ProfileChange) {
         if let ProfileChange::Mode(number) = tune {
-            self.mode = StickMode::numbered(number).unwrap_or(self.mode);
+            self.mode = StickMode::from_number(number).unwrap_or(self.mode);
         }
-        let DeviceState::Hand(hand) = &mut self.held else { return };
+        let DeviceState::Calibrated(hand) = &mut self.held else { return };
         let profile = adjusted_profile(hand.profile(), tune);
-        hand.set(profile.clone());
-        self.keep(&profile);
+        hand.set_profile(profile.clone());
+        self.save_profile(&profile);
     }
 
-    fn keep(&mut self, profile: &ControllerProfile) {
-        self.note = match self.profiles.keep(profile) {
+    fn save_profile(&mut self, profile: &ControllerProfile) {
+        self.note = match self.profiles.save(profile) {
             Ok(path) => format!("Saved in {}.", path.display()),
             Err(error) => format!("Not saved: {error}."),
         };
@@ -203,18 +205,18 @@ impl ControllerSlot {
     pub fn sticks(&mut self, link: &mut ControllerLink, now: SimTime) -> Result<Option<Sticks>, AppError> {
         match &mut self.held {
             DeviceState::Nothing(_) => Ok(None),
-            DeviceState::Raw(source, raw) => {
+            DeviceState::Uncalibrated(source, raw) => {
                 std::iter::from_fn(|| source.next(now)).for_each(|event| raw.apply(event));
                 Ok(None)
             }
-            DeviceState::Hand(hand) => Ok(hand.poll(link, now, now).sticks),
+            DeviceState::Calibrated(hand) => Ok(hand.poll(link, now, now).sticks),
             DeviceState::Calibrating(source, wizard) => {
                 std::iter::from_fn(|| source.next(now)).for_each(|event| wizard.handle(event, now));
                 wizard.handle_timeout(now);
                 if let Some(profile) = wizard.profile() {
-                    self.keep(&profile);
-                    if let DeviceState::Calibrating(source, _) = self.take() {
-                        self.held = DeviceState::Hand(Box::new(CalibratedController::with(source, profile)));
+                    self.save_profile(&profile);
+                    if let DeviceState::Calibrating(source, _) = self.take_device() {
+                        self.held = DeviceState::Calibrated(Box::new(CalibratedController::new(source, profile)));
                     }
                 }
                 Ok(None)
@@ -223,7 +225,7 @@ impl ControllerSlot {
     }
 
     /// Disables the controller and notes the reason.
-    pub fn cancel_wizard(&mut self, why: &AppError) {
+    pub fn disable(&mut self, why: &AppError) {
         self.held = DeviceState::Nothing(DeviceWatcher::start());
         self.note = format!("Controller disabled: {why}.");
     }
@@ -244,18 +246,18 @@ impl ControllerSlot {
                 ControllerStatus { axes: wizard.axes().collect(), wizard: Some(wizard.prompt()), ..plain }
             }
             _ if plain.device.is_none() || plain.lost => {
-                ControllerStatus { mode: 2, sticks: StickMode::Two.sticks_by_hand(keyboard), calibrated: self.flies(), ..plain }
+                ControllerStatus { mode: 2, sticks: StickMode::Two.physical_sticks(keyboard), calibrated: self.flies(), ..plain }
             }
             DeviceState::Nothing(_) => plain,
-            DeviceState::Raw(_, raw) => ControllerStatus { axes: raw.axes.iter().map(from_rest).collect(), ..plain },
-            DeviceState::Hand(hand) => {
+            DeviceState::Uncalibrated(_, raw) => ControllerStatus { axes: raw.axes.iter().map(from_rest).collect(), ..plain },
+            DeviceState::Calibrated(hand) => {
                 let profile = hand.profile();
                 let axis = profile.axes.values().next();
                 ControllerStatus {
                     calibrated: true,
                     dead_band: axis.map_or(0.0, |axis| axis.dead_band),
                     expo: axis.map_or(0.0, |axis| axis.expo),
-                    sticks: profile.mode.sticks_by_hand(profile.sticks(hand.raw())),
+                    sticks: profile.mode.physical_sticks(profile.sticks(hand.raw())),
                     ..plain
                 }
             }
@@ -267,7 +269,7 @@ impl ControllerSlot {
 fn adjusted_profile(profile: &ControllerProfile, tune: ProfileChange) -> ControllerProfile {
     let mut profile = profile.clone();
     match tune {
-        ProfileChange::Mode(number) => profile.mode = StickMode::numbered(number).unwrap_or(profile.mode),
+        ProfileChange::Mode(number) => profile.mode = StickMode::from_number(number).unwrap_or(profile.mode),
         ProfileChange::DeadBand(part) => profile.axes.values_mut().for_each(|axis| axis.dead_band = part),
         ProfileChange::Expo(expo) => profile.axes.values_mut().for_each(|axis| axis.expo = expo),
     }
@@ -278,13 +280,13 @@ fn adjusted_profile(profile: &ControllerProfile, tune: ProfileChange) -> Control
 mod tests {
     use super::*;
     use spandrel_clients::rc::axis::AxisCalibration;
-    use spandrel_clients::rc::profile::WAYS;
+    use spandrel_clients::rc::profile::STICK_AXES;
     use spandrel_clients::rc::{Device, DeviceEvent, input_recording};
 
     /// Creates a slot with a calibrated device that reports these events.
     fn held(events: &[(f64, DeviceEvent)]) -> ControllerSlot {
         let axis = |n: u32| AxisCalibration { axis: n, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 };
-        let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let ways = STICK_AXES.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
         let device = Device { name: "Pad".into(), id: "1:2".into() };
         let lines = events.iter().map(|(s, event)| input_recording::line(SimTime::from_s(*s), *event));
         let text: Vec<String> = std::iter::once(input_recording::head(&device)).chain(lines).collect();
@@ -294,41 +296,41 @@ mod tests {
             // A name that matches none of the computer's devices.
             requested_device: Some("no device is called so".into()),
             profiles: ProfileFolder::at(None),
-            held: DeviceState::Hand(Box::new(CalibratedController::with(source, profile))),
-            away: None,
+            held: DeviceState::Calibrated(Box::new(CalibratedController::new(source, profile))),
+            replacement_watcher: None,
             mode: StickMode::Two,
             note: String::new(),
         }
     }
 
-    fn close_controller(desk: &mut ControllerSlot, s: f64) -> Option<Sticks> {
-        desk.load_profile();
+    fn poll_sticks(desk: &mut ControllerSlot, s: f64) -> Option<Sticks> {
+        desk.open_new_device();
         desk.sticks(&mut ControllerLink::default(), SimTime::from_s(s)).unwrap()
     }
 
     #[test]
-    fn exact_a_lost_device_holds_no_sticks_is_reported_lost_and_flies_when_it_is_back() {
+    fn exact_a_disconnected_device_sends_no_sticks_until_it_is_back() {
         let pushed = DeviceEvent::Axis { axis: 0, value: 1.0 };
         let mut desk = held(&[(0.0, pushed), (1.0, DeviceEvent::Lost), (2.0, DeviceEvent::Found)]);
-        assert!(close_controller(&mut desk, 0.5).is_some() && desk.keyboard_reason().is_none());
-        assert_eq!(close_controller(&mut desk, 1.5), None);
+        assert!(poll_sticks(&mut desk, 0.5).is_some() && desk.keyboard_reason().is_none());
+        assert_eq!(poll_sticks(&mut desk, 1.5), None);
         let keys = Sticks { up: 1.0, ..Sticks::default() };
         let shown = desk.controls(keys, "");
-        assert!(shown.lost && !shown.is_connected() && shown.sticks == StickMode::Two.sticks_by_hand(keys), "{shown:?}");
+        assert!(shown.lost && !shown.is_connected() && shown.sticks == StickMode::Two.physical_sticks(keys), "{shown:?}");
         assert_eq!(desk.keyboard_reason().as_deref(), Some("'Pad' is not connected."));
-        assert_eq!(close_controller(&mut desk, 2.5), Some(Sticks::default()));
+        assert_eq!(poll_sticks(&mut desk, 2.5), Some(Sticks::default()));
         assert!(!desk.controls(keys, "").lost);
     }
 
     #[test]
-    fn regress_a_device_that_is_lost_in_the_wizard_does_not_come_back_from_it_holding_still() {
+    fn regress_a_device_disconnected_in_the_wizard_stays_disconnected() {
         for lost_s in [1.0, 3.0] {
             let mut desk = held(&[(lost_s, DeviceEvent::Lost)]);
-            close_controller(&mut desk, 2.0);
+            poll_sticks(&mut desk, 2.0);
             desk.calibrate();
-            close_controller(&mut desk, 4.0);
+            poll_sticks(&mut desk, 4.0);
             desk.cancel();
-            assert_eq!(close_controller(&mut desk, 5.0), None, "lost at {lost_s} s");
+            assert_eq!(poll_sticks(&mut desk, 5.0), None, "lost at {lost_s} s");
             assert!(!desk.flies() && !desk.note().is_empty(), "the reason is shown");
         }
         let mut desk = held(&[]);
@@ -337,12 +339,12 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_not_asked_for_stays_as_every_axis_has_it() {
+    fn exact_profile_changes_keep_other_axis_settings() {
         let axis = |n: u32| {
             let own = f64::from(n) / 10.0;
             AxisCalibration { axis: n, low: -1.0, centre: 0.0, high: 1.0, dead_band: own, expo: 2.0 * own }
         };
-        let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let ways = STICK_AXES.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
         let device = Device { name: "Pad".into(), id: "1:2".into() };
         let before = ControllerProfile { device, mode: StickMode::Two, axes: ways, buttons: [].into() };
         let of = |profile: &ControllerProfile| profile.axes.values().map(|axis| (axis.dead_band, axis.expo)).collect::<Vec<_>>();

@@ -21,7 +21,7 @@ pub enum SceneLoading {
     /// Building site and light.
     Building(Receiver<RenderJob>),
     /// Ready to be rendered.
-    Drawn(Box<ViewPanes>),
+    Ready(Box<ViewPanes>),
 }
 
 /// Seed of the defects and traffic in the scene.
@@ -42,12 +42,12 @@ impl SceneKey {
     }
 
     /// Returns the seed of the scene and that of the simulator if they differ.
-    fn is_outdated(&self, said: Option<u64>) -> Option<(u64, u64)> {
+    fn built_seed_mismatch(&self, said: Option<u64>) -> Option<(u64, u64)> {
         self.built_seed.zip(said).filter(|(built, said)| built != said)
     }
 
     /// Returns the requested seed and that of the simulator the first time they differ.
-    fn is_other_session(&mut self, said: Option<u64>) -> Option<(u64, u64)> {
+    fn requested_seed_mismatch(&mut self, said: Option<u64>) -> Option<(u64, u64)> {
         let differ = self.requested_seed.zip(said).filter(|(given, said)| !self.mismatch_reported && given != said);
         self.mismatch_reported |= differ.is_some();
         differ
@@ -64,9 +64,9 @@ pub struct FlightView {
     pub scene: SceneLoading,
     session: SceneKey,
     /// Views of an earlier session, kept until their textures can be freed.
-    former: Option<Box<ViewPanes>>,
+    previous_panes: Option<Box<ViewPanes>>,
     /// Time of the first rendered frame.
-    pub first_drawn: Option<Duration>,
+    pub first_frame_at: Option<Duration>,
     /// Number of rendered frames.
     pub drawn: u32,
 }
@@ -79,7 +79,7 @@ impl FlightView {
     pub fn begin(listen: IpAddr, vehicle: SocketAddr, job: (Scenario, Vehicle), seed: Option<u64>) -> Result<Self, AppError> {
         let listener = TelemetryListener::dial(listen, vehicle, &job.0)?;
         let session = SceneKey { requested_seed: seed, ..SceneKey::default() };
-        Ok(Self { job, listener, scene: SceneLoading::Waiting, session, former: None, first_drawn: None, drawn: 0 })
+        Ok(Self { job, listener, scene: SceneLoading::Waiting, session, previous_panes: None, first_frame_at: None, drawn: 0 })
     }
 
     /// Returns the current state to render.
@@ -94,14 +94,14 @@ impl FlightView {
     pub fn prepare(&mut self, screen: &WindowSurface, quality: Quality, now: Option<&LiveMoment>) -> Result<(), AppError> {
         let (said, crc, real) = {
             let (wall, live) = (self.listener.wall(), self.listener.live());
-            (live.seed(), live.scenario_crc(), live.lacks_truth(wall))
+            (live.seed(), live.scenario_crc(), live.has_no_truth(wall))
         };
         if crc.is_some_and(|crc| crc != self.job.0.crc) {
             return Err(AppError::wrong(
                 "the simulator uses another scenario than this window: start both with the same --scenario",
             ));
         }
-        self.follow(said);
+        self.follow_seed(said);
         match &self.scene {
             SceneLoading::Waiting => {
                 // The seed reported by the simulator takes precedence over the scenario's. A real vehicle reports none.
@@ -118,27 +118,27 @@ impl FlightView {
                 self.scene = SceneLoading::Building(receiver);
             }
             SceneLoading::Building(receiver) => match receiver.try_recv() {
-                Ok(job) => self.scene = SceneLoading::Drawn(Box::new(ViewPanes::new(screen, quality, job))),
+                Ok(job) => self.scene = SceneLoading::Ready(Box::new(ViewPanes::new(screen, quality, job))),
                 Err(TryRecvError::Empty) => {}
                 Err(TryRecvError::Disconnected) => {
                     return Err(AppError::failed("the scene could not be built (see the message in the terminal)"));
                 }
             },
-            SceneLoading::Drawn(_) => {}
+            SceneLoading::Ready(_) => {}
         }
         Ok(())
     }
 
     /// Follows the simulator's seed, which takes precedence over the requested one and over that of an earlier session.
-    fn follow(&mut self, said: Option<u64>) {
-        if let Some((given, said)) = self.session.is_other_session(said) {
+    fn follow_seed(&mut self, said: Option<u64>) {
+        if let Some((given, said)) = self.session.requested_seed_mismatch(said) {
             tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the latter");
         }
-        if let Some((built, said)) = self.session.is_outdated(said) {
+        if let Some((built, said)) = self.session.built_seed_mismatch(said) {
             tracing::info!("the simulator now uses seed {said} instead of {built}; rebuilding defects and traffic");
             self.session.built_seed = None;
-            if let SceneLoading::Drawn(panes) = std::mem::replace(&mut self.scene, SceneLoading::Waiting) {
-                self.former = Some(panes);
+            if let SceneLoading::Ready(panes) = std::mem::replace(&mut self.scene, SceneLoading::Waiting) {
+                self.previous_panes = Some(panes);
             }
         }
     }
@@ -155,10 +155,10 @@ impl FlightView {
         gaze: &InspectorCamera,
         map: bool,
     ) -> Result<Vec<PaneContent>, AppError> {
-        if let Some(former) = self.former.take() {
-            former.close(screen);
+        if let Some(previous_panes) = self.previous_panes.take() {
+            previous_panes.close(screen);
         }
-        let (SceneLoading::Drawn(panes), Some(now)) = (&mut self.scene, now) else { return Ok(Vec::new()) };
+        let (SceneLoading::Ready(panes), Some(now)) = (&mut self.scene, now) else { return Ok(Vec::new()) };
         let feed = self.listener.live().feed().clone();
         panes.draw(screen, places, now, &feed, gaze, map)
     }
@@ -166,14 +166,14 @@ impl FlightView {
     /// Returns both views, once the scene is ready.
     pub fn panes(&self) -> Option<&ViewPanes> {
         match &self.scene {
-            SceneLoading::Drawn(panes) => Some(panes),
+            SceneLoading::Ready(panes) => Some(panes),
             SceneLoading::Waiting | SceneLoading::Building(_) => None,
         }
     }
 
     /// Frees the textures and logs the frame rate.
     pub fn end(self, screen: Option<&mut WindowSurface>, lasted_since: impl Fn(Duration) -> Duration) {
-        if let Some(first) = self.first_drawn {
+        if let Some(first) = self.first_frame_at {
             let seconds = lasted_since(first).as_secs_f64();
             tracing::info!(
                 "rendered {} frames of both views, {:.1} per second",
@@ -182,11 +182,11 @@ impl FlightView {
             );
         }
         let Some(screen) = screen else { return };
-        if let SceneLoading::Drawn(panes) = self.scene {
+        if let SceneLoading::Ready(panes) = self.scene {
             panes.close(screen);
         }
-        if let Some(former) = self.former {
-            former.close(screen);
+        if let Some(previous_panes) = self.previous_panes {
+            previous_panes.close(screen);
         }
     }
 }
@@ -196,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_simulators_seed_goes_before_all_others() {
+    fn exact_the_simulators_seed_takes_precedence() {
         let given = SceneKey { requested_seed: Some(5), ..SceneKey::default() };
         assert_eq!((given.seed(None, None), given.seed(Some(7), Some(1))), (Some(5), Some(7)));
         let free = SceneKey::default();
@@ -204,14 +204,29 @@ mod tests {
     }
 
     #[test]
-    fn exact_another_seed_is_another_session_and_a_contradiction_is_reported_once() {
+    fn exact_seed_mismatches_are_reported_once() {
         let mut session = SceneKey { requested_seed: Some(5), ..SceneKey::default() };
-        assert_eq!((session.is_outdated(Some(5)), session.is_other_session(Some(5))), (None, None), "nothing built yet");
+        assert_eq!(
+            (session.built_seed_mismatch(Some(5)), session.requested_seed_mismatch(Some(5))),
+            (None, None),
+            "nothing built yet"
+        );
         session.built_seed = Some(5);
-        assert_eq!((session.is_outdated(None), session.is_outdated(Some(5))), (None, None), "no seed is not another session");
-        assert_eq!((session.is_outdated(Some(7)), session.is_other_session(Some(7))), (Some((5, 7)), Some((5, 7))));
+        assert_eq!(
+            (session.built_seed_mismatch(None), session.built_seed_mismatch(Some(5))),
+            (None, None),
+            "no seed is not another session"
+        );
+        assert_eq!(
+            (session.built_seed_mismatch(Some(7)), session.requested_seed_mismatch(Some(7))),
+            (Some((5, 7)), Some((5, 7)))
+        );
         session.built_seed = Some(7);
-        assert_eq!((session.is_outdated(Some(7)), session.is_other_session(Some(7))), (None, None));
-        assert_eq!((session.is_outdated(Some(8)), session.is_other_session(Some(8))), (Some((7, 8)), None), "reported once");
+        assert_eq!((session.built_seed_mismatch(Some(7)), session.requested_seed_mismatch(Some(7))), (None, None));
+        assert_eq!(
+            (session.built_seed_mismatch(Some(8)), session.requested_seed_mismatch(Some(8))),
+            (Some((7, 8)), None),
+            "reported once"
+        );
     }
 }

@@ -4,7 +4,7 @@ use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
 use super::panes::PaneContent;
 use super::pilot::{PilotCommand, PilotThread};
-use super::window_text::{WindowText, compose_text, help, waiting};
+use super::window_text::{WindowText, help, paint_flight, waiting};
 use crate::errors::AppError;
 use crate::io::files;
 use crate::io::png::png;
@@ -18,10 +18,10 @@ use spandrel_view::sound::SoundInputs;
 
 /// Turn rate of the inspector's view by keys, rad/s, and zoom factor per second (estimates: comfortable on a laptop).
 const TURN_RAD_S: f64 = 1.0;
-const ZOOM_S: f64 = 2.0;
+const ZOOM_PER_S: f64 = 2.0;
 /// Duration of messages and of the initial key help on the screen, s.
-const WORDS_S: f64 = 7.0;
-const HELP_S: f64 = 25.0;
+const MESSAGE_S: f64 = 7.0;
+const KEY_HELP_S: f64 = 25.0;
 
 impl Cockpit {
     /// Handles messages from `train`, carries out the pages' requests, and renders a frame.
@@ -29,11 +29,11 @@ impl Cockpit {
         if let Some(fault) = self.screen.as_ref().and_then(|screen| screen.gpu.fault()) {
             return Err(fault.into());
         }
-        while let Some(message) = self.crew.lead.as_mut().and_then(super::train_pipe::TrainPipe::poll) {
+        while let Some(message) = self.threads.lead.as_mut().and_then(super::train_pipe::TrainPipe::poll) {
             self.flow.handle_message(message);
         }
         if matches!(self.flow.page(), Page::Controls | Page::Calibrating)
-            && let Some(pilot) = &self.crew.pilot
+            && let Some(pilot) = &self.threads.pilot
         {
             self.flow.update_controls(pilot.controls());
         }
@@ -41,8 +41,8 @@ impl Cockpit {
             self.apply_requests(order)?;
         }
         let stands = self.flow.is_paused();
-        if std::mem::replace(&mut self.stood, stands) != stands {
-            self.forward_key(PilotCommand::Stand(stands));
+        if std::mem::replace(&mut self.was_paused, stands) != stands {
+            self.send_to_pilot(PilotCommand::SetPaused(stands));
         }
         match self.flow.page() {
             Page::Flight | Page::Paused | Page::Leaving => self.fly(),
@@ -53,7 +53,7 @@ impl Cockpit {
             | Page::Tutorial(..)
             | Page::Waiting
             | Page::Over => {
-                self.speaker.stop_speech();
+                self.speaker.silence();
                 self.page()
             }
         }
@@ -62,9 +62,9 @@ impl Cockpit {
     /// Passes rotor speeds, distance and warnings to the sound output.
     fn sound(&mut self, now: Option<&LiveMoment>) {
         // Without recent telemetry, the rotor speeds are unknown, so no sound is played.
-        let now = now.filter(|now| now.hud.silent_s <= hud::SILENT_S && !self.flow.is_paused());
-        let (Some(flight), Some(now)) = (&self.crew.flight, now) else {
-            self.speaker.stop_speech();
+        let now = now.filter(|now| now.hud.telemetry_age_s <= hud::LINK_TIMEOUT_S && !self.flow.is_paused());
+        let (Some(flight), Some(now)) = (&self.threads.flight, now) else {
+            self.speaker.silence();
             return;
         };
         let team = &flight.job.0.ground_team;
@@ -82,21 +82,21 @@ impl Cockpit {
 
     fn apply_requests(&mut self, order: WindowRequest) -> Result<(), AppError> {
         match order {
-            WindowRequest::Tell(message) => {
-                if let Some(lead) = &self.crew.lead {
+            WindowRequest::Send(message) => {
+                if let Some(lead) = &self.threads.lead {
                     lead.send(&message);
                 }
             }
-            WindowRequest::Fly(flying) => self.show(&flying)?,
-            WindowRequest::Land => {
-                self.handle_release();
-                self.forward_key(PilotCommand::Land);
+            WindowRequest::ShowFlight(flying) => self.show(&flying)?,
+            WindowRequest::LeaveFlight => {
+                self.end_flight();
+                self.send_to_pilot(PilotCommand::Disconnect);
             }
-            WindowRequest::Look => self.forward_key(PilotCommand::Look),
-            WindowRequest::Calibrate => self.forward_key(PilotCommand::Calibrate),
-            WindowRequest::Confirm => self.forward_key(PilotCommand::Confirm),
-            WindowRequest::Cancel => self.forward_key(PilotCommand::Cancel),
-            WindowRequest::Tune(tune) => self.forward_key(PilotCommand::Tune(tune)),
+            WindowRequest::FindController => self.send_to_pilot(PilotCommand::FindController),
+            WindowRequest::Calibrate => self.send_to_pilot(PilotCommand::Calibrate),
+            WindowRequest::Confirm => self.send_to_pilot(PilotCommand::Confirm),
+            WindowRequest::Cancel => self.send_to_pilot(PilotCommand::Cancel),
+            WindowRequest::ChangeProfile(tune) => self.send_to_pilot(PilotCommand::ChangeProfile(tune)),
             WindowRequest::Open(address) => {
                 if let Err(error) = open::that_detached(&address) {
                     self.flow.show_notice(format!("Cannot open a browser ({error}). Open the address above yourself."));
@@ -113,21 +113,21 @@ impl Cockpit {
 
     /// Shows a flight that has started.
     fn show(&mut self, flying: &FlightStarted) -> Result<(), AppError> {
-        self.handle_release();
+        self.end_flight();
         let scenario = files::scenario(&flying.choice.scenario)?.scenario;
         let vehicle = files::vehicle(&flying.vehicle)?.vehicle;
         if let Some(screen) = &self.screen {
             screen.window.set_title(&format!("Spandrel: {}", scenario.title));
         }
-        self.crew.flight = Some(FlightView::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
+        self.threads.flight = Some(FlightView::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
         self.keeper = self.plan.keep.clone().map(super::picture_writer::PictureWriter::start);
         (self.map, self.gaze) = (self.plan.map, spandrel_view::inspector_camera::InspectorCamera::default());
         // Discard messages from before the flight.
-        while self.crew.pilot.as_ref().and_then(PilotThread::poll_message).is_some() {}
+        while self.threads.pilot.as_ref().and_then(PilotThread::poll_message).is_some() {}
         self.notices.clear();
-        self.forward_key(PilotCommand::LetGo);
+        self.send_to_pilot(PilotCommand::ReleaseKeys);
         if let Some(vehicle) = flying.fly {
-            self.forward_key(PilotCommand::Fly(vehicle));
+            self.send_to_pilot(PilotCommand::Fly(vehicle));
         }
         Ok(())
     }
@@ -137,56 +137,56 @@ impl Cockpit {
         let size = screen.window.inner_size();
         let sheet = self.flow.sheet(f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
         let pictures = &mut self.pictures;
-        screen.show(|ui| is_over(ui, &sheet, pictures))
+        screen.show(|ui| paint_page(ui, &sheet, pictures))
     }
 
     fn fly(&mut self) -> Result<(), AppError> {
         let started = self.stopwatch.elapsed();
-        let step_s = started.saturating_sub(self.frame_at).as_secs_f64();
-        self.frame_at = started;
+        let step_s = started.saturating_sub(self.last_frame_at).as_secs_f64();
+        self.last_frame_at = started;
         let stands = self.flow.is_paused();
-        let mut now = self.crew.flight.as_ref().and_then(FlightView::now);
+        let mut now = self.threads.flight.as_ref().and_then(FlightView::now);
         if let (Some(now), true) = (&mut now, stands) {
             // No telemetry arrives while the simulation is paused, but the link is not lost.
-            now.hud.silent_s = 0.0;
+            now.hud.telemetry_age_s = 0.0;
         }
         if let Some(screen) = &self.screen {
             let quality = self.quality(screen);
-            if let Some(flight) = &mut self.crew.flight {
+            if let Some(flight) = &mut self.threads.flight {
                 flight.prepare(screen, quality, now.as_ref())?;
             }
         }
-        self.render_views(now.as_ref(), step_s);
+        self.turn_inspector_view(now.as_ref(), step_s);
         self.sound(now.as_ref());
         self.listen(started);
         let text = self.text(now.is_some(), started);
         let map = self.map && self.plan.map && self.flow.shows_map();
-        let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.crew.flight) else { return Ok(()) };
+        let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.threads.flight) else { return Ok(()) };
         let shown = flight.draw(screen, &self.flow.arrangement.places(), now.as_ref(), &self.gaze, map)?;
         let size = screen.window.inner_size();
         let sheet = self.flow.sheet(f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
         let (pictures, arrangement) = (&mut self.pictures, self.flow.arrangement);
         screen.show(|ui| {
-            compose_text(ui, &shown, &text, arrangement);
-            is_over(ui, &sheet, pictures);
+            paint_flight(ui, &shown, &text, arrangement);
+            paint_page(ui, &sheet, pictures);
         })?;
         if shown.is_empty() {
             return Ok(());
         }
         flight.drawn += 1;
-        if flight.first_drawn.is_none() {
-            flight.first_drawn = Some(self.stopwatch.elapsed());
+        if flight.first_frame_at.is_none() {
+            flight.first_frame_at = Some(self.stopwatch.elapsed());
             self.announce();
         }
         self.publish_frame()?;
-        self.keep_picture(&shown, &text)
+        self.save_screenshot(&shown, &text)
     }
 
     /// Passes the camera's view to the stream and the picture file; reads it back only once for both.
     fn publish_frame(&mut self) -> Result<(), AppError> {
-        let (Some(screen), Some(flight)) = (&self.screen, &self.crew.flight) else { return Ok(()) };
+        let (Some(screen), Some(flight)) = (&self.screen, &self.threads.flight) else { return Ok(()) };
         let Some(panes) = flight.panes() else { return Ok(()) };
-        let stream = self.crew.stream.as_mut().filter(|stream| stream.is_due());
+        let stream = self.threads.stream.as_mut().filter(|stream| stream.is_due());
         let now = self.stopwatch.elapsed();
         let keeper = self.keeper.as_mut().and_then(|keeper| keeper.is_due(now).then_some(keeper));
         if stream.is_none() && keeper.is_none() {
@@ -194,7 +194,7 @@ impl Cockpit {
         }
         let Some(picture) = panes.camera(screen)? else { return Ok(()) };
         if let Some(keeper) = keeper {
-            keeper.take(picture.clone());
+            keeper.save(picture.clone());
         }
         if let Some(stream) = stream {
             let (video, wall) = (stream.push(picture), flight.listener.wall());
@@ -205,7 +205,7 @@ impl Cockpit {
 
     /// Collects messages of the pilot thread and the pages.
     fn listen(&mut self, now: std::time::Duration) {
-        while let Some(text) = self.crew.pilot.as_ref().and_then(PilotThread::poll_message) {
+        while let Some(text) = self.threads.pilot.as_ref().and_then(PilotThread::poll_message) {
             tracing::info!("{text}");
             self.notices.push((text, now));
         }
@@ -213,31 +213,33 @@ impl Cockpit {
             tracing::info!("{text}");
             self.notices.push((text, now));
         }
-        self.notices.retain(|(_, since)| now.saturating_sub(*since).as_secs_f64() < WORDS_S);
+        self.notices.retain(|(_, since)| now.saturating_sub(*since).as_secs_f64() < MESSAGE_S);
     }
 
     fn text(&self, heard: bool, now: std::time::Duration) -> WindowText {
-        let Some(flight) = &self.crew.flight else { return WindowText::default() };
+        let Some(flight) = &self.threads.flight else { return WindowText::default() };
         WindowText {
             waiting: waiting(&flight.scene, heard, &flight.listener),
             lines: self.notices.iter().map(|(words, _)| words.clone()).collect(),
-            help: match flight.first_drawn {
-                Some(first) if now.saturating_sub(first).as_secs_f64() < HELP_S => help(&self.keys, self.crew.pilot.is_some()),
+            help: match flight.first_frame_at {
+                Some(first) if now.saturating_sub(first).as_secs_f64() < KEY_HELP_S => {
+                    help(&self.keys, self.threads.pilot.is_some())
+                }
                 _ => String::new(),
             },
         }
     }
 
     /// Turns and zooms the inspector's view while keys are held.
-    fn render_views(&mut self, now: Option<&LiveMoment>, step_s: f64) {
-        let (Some(panes), Some(now)) = (self.crew.flight.as_ref().and_then(FlightView::panes), now) else { return };
+    fn turn_inspector_view(&mut self, now: Option<&LiveMoment>, step_s: f64) {
+        let (Some(panes), Some(now)) = (self.threads.flight.as_ref().and_then(FlightView::panes), now) else { return };
         let held = |wish: &str| self.keys.of(wish).is_some_and(|key| self.held.is_down(key));
         let way = |plus: &str, minus: &str| f64::from(i8::from(held(plus)) - i8::from(held(minus)));
         let (right, up) = (way("look_right", "look_left"), way("look_up", "look_down"));
         if right != 0.0 || up != 0.0 {
-            self.gaze.turn(TURN_RAD_S * step_s * right, TURN_RAD_S * step_s * up, panes.to_aircraft(now));
+            self.gaze.turn(TURN_RAD_S * step_s * right, TURN_RAD_S * step_s * up, panes.inspector_to_aircraft(now));
         }
-        self.gaze.zoom(spandrel_model::math::pow(ZOOM_S, step_s * way("zoom_in", "zoom_out")));
+        self.gaze.zoom(spandrel_model::math::pow(ZOOM_PER_S, step_s * way("zoom_in", "zoom_out")));
     }
 
     fn announce(&self) {
@@ -247,8 +249,8 @@ impl Cockpit {
         println!("{}", json!({ "device": screen.gpu.name, "quality": quality, "width": size.width, "height": size.height }));
     }
 
-    fn keep_picture(&mut self, shown: &[PaneContent], text: &WindowText) -> Result<(), AppError> {
-        let first = self.crew.flight.as_ref().and_then(|flight| flight.first_drawn);
+    fn save_screenshot(&mut self, shown: &[PaneContent], text: &WindowText) -> Result<(), AppError> {
+        let first = self.threads.flight.as_ref().and_then(|flight| flight.first_frame_at);
         let (Some(plan), Some(first), Some(screen)) = (&self.plan.picture, first, &mut self.screen) else {
             return Ok(());
         };
@@ -256,7 +258,7 @@ impl Cockpit {
             return Ok(());
         }
         let arrangement = self.flow.arrangement;
-        let picture = screen.picture(|ui| compose_text(ui, shown, text, arrangement))?;
+        let picture = screen.picture(|ui| paint_flight(ui, shown, text, arrangement))?;
         files::write(&plan.path.display().to_string(), &png(&picture)?)?;
         self.stop.request();
         Ok(())
@@ -264,7 +266,7 @@ impl Cockpit {
 }
 
 /// Paints a page on top of the window.
-fn is_over(ui: &mut egui::Ui, sheet: &PageLayout, pictures: &mut PageTextures) {
+fn paint_page(ui: &mut egui::Ui, sheet: &PageLayout, pictures: &mut PageTextures) {
     let painter = ui.ctx().layer_painter(egui::LayerId::background());
     paint_sheet(&painter, sheet, ui.ctx().content_rect(), pictures);
 }

@@ -24,7 +24,7 @@ fn key_name(event: &KeyEvent) -> Option<KeyPress> {
         Key::Named(NamedKey::Enter) => KeyPress::Enter,
         Key::Named(NamedKey::Escape) => KeyPress::Escape,
         Key::Named(NamedKey::Backspace) => KeyPress::Backspace,
-        Key::Character(signs) => KeyPress::Sign(signs.chars().next()?),
+        Key::Character(signs) => KeyPress::Char(signs.chars().next()?),
         _ => return None,
     })
 }
@@ -49,10 +49,10 @@ pub struct HeldKeys {
 impl HeldKeys {
     /// Returns true for a key that was pressed for another window. `made_up` is true if the window system reports a key that was already pressed.
     pub fn pressed_elsewhere(&mut self, event: &KeyEvent, made_up: bool) -> bool {
-        self.elsewhere(place(&event.physical_key), event.state, made_up)
+        self.update_foreign(key_id(&event.physical_key), event.state, made_up)
     }
 
-    fn elsewhere(&mut self, place: String, state: ElementState, made_up: bool) -> bool {
+    fn update_foreign(&mut self, place: String, state: ElementState, made_up: bool) -> bool {
         match state {
             ElementState::Pressed if made_up => {
                 self.others.insert(place);
@@ -65,8 +65,8 @@ impl HeldKeys {
     }
 
     /// Handles a key event.
-    pub fn take(&mut self, event: &KeyEvent) -> Option<KeyChange> {
-        let place = place(&event.physical_key);
+    pub fn handle(&mut self, event: &KeyEvent) -> Option<KeyChange> {
+        let place = key_id(&event.physical_key);
         match event.state {
             ElementState::Pressed if event.repeat => None,
             ElementState::Pressed => {
@@ -79,7 +79,7 @@ impl HeldKeys {
     }
 
     /// Forgets all pressed keys.
-    pub fn let_go(&mut self) {
+    pub fn clear(&mut self) {
         *self = Self::default();
     }
 
@@ -89,7 +89,7 @@ impl HeldKeys {
     }
 }
 
-fn place(key: &PhysicalKey) -> String {
+fn key_id(key: &PhysicalKey) -> String {
     format!("{key:?}")
 }
 
@@ -118,13 +118,13 @@ mod tests {
     use ElementState::{Pressed, Released};
 
     #[test]
-    fn exact_a_key_that_was_down_before_the_window_had_it_does_nothing_until_it_comes_up() {
+    fn exact_keys_pressed_for_another_window_are_ignored_until_released() {
         let mut held = HeldKeys::default();
-        let mut told = |state, made_up| held.elsewhere("w".into(), state, made_up);
+        let mut told = |state, made_up| held.update_foreign("w".into(), state, made_up);
         assert!(told(Pressed, true) && told(Pressed, false), "synthetic, then its first repetition");
         assert!(told(Released, false) && !told(Pressed, false) && !told(Released, false), "then a normal key");
-        held.elsewhere("w".into(), Pressed, true);
-        held.let_go();
-        assert!(!held.elsewhere("w".into(), Pressed, false));
+        held.update_foreign("w".into(), Pressed, true);
+        held.clear();
+        assert!(!held.update_foreign("w".into(), Pressed, false));
     }
 }

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Longest wait for a datagram, so that heartbeats are sent on time.
-const WAIT: Duration = Duration::from_millis(50);
+const MAX_WAIT: Duration = Duration::from_millis(50);
 
 /// Received telemetry, shared with the render loop.
 #[derive(Debug, Clone)]
@@ -34,7 +34,7 @@ impl TelemetryListener {
         std::thread::spawn(move || {
             // Ends when no other owner of the telemetry is left.
             while Arc::strong_count(&heard.live) > 1 {
-                let arrival = hub.next(WAIT);
+                let arrival = hub.next(MAX_WAIT);
                 let wall = heard.wall();
                 let mut live = heard.live();
                 if let Some(NetEvent::Datagram { from, bytes, .. }) = arrival

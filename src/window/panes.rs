@@ -7,7 +7,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_view::arrange::{ViewKind, ViewRect, drawn_px};
+use spandrel_view::arrange::{ViewKind, ViewRect, render_size_px};
 use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::feed::Feed;
 use spandrel_view::gpu::{Renderer, fill, picture_texture, read};
@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Number of pixels of a view without a graphics card, whatever its size on the screen (issue: 640 x 360 each on two cores).
-const SOFTWARE_PX: f64 = 640.0 * 360.0;
+const SOFTWARE_VIEW_PX: f64 = 640.0 * 360.0;
 
 /// A flight whose scene has been built.
 pub struct RenderJob {
@@ -64,7 +64,7 @@ pub struct ViewPanes {
     secondary: Option<SecondaryRenderer>,
     panes: BTreeMap<u8, ViewPane>,
     /// Last image of the second device.
-    last_picture: Option<Picture>,
+    last_image: Option<Picture>,
     /// Exposure meters of the inspector's view and the camera's.
     meters: [ExposureMeter; 2],
 }
@@ -88,11 +88,11 @@ impl ViewPanes {
         };
         let aside = if screen.gpu.software { open().ok() } else { None };
         let renderer = Renderer::new(&screen.gpu, quality, &job.scene);
-        Self { renderer, secondary: aside, job, panes: BTreeMap::new(), last_picture: None, meters: Default::default() }
+        Self { renderer, secondary: aside, job, panes: BTreeMap::new(), last_image: None, meters: Default::default() }
     }
 
     /// Returns the vector from the inspector to the aircraft, m.
-    pub fn to_aircraft(&self, now: &LiveMoment) -> spandrel_model::frames::Vec3<spandrel_model::frames::Enu> {
+    pub fn inspector_to_aircraft(&self, now: &LiveMoment) -> spandrel_model::frames::Vec3<spandrel_model::frames::Enu> {
         now.moment.drone.pose.position_m - self.job.scenario.ground_team.inspector_m
     }
 
@@ -114,7 +114,7 @@ impl ViewPanes {
         gaze: &InspectorCamera,
         map: bool,
     ) -> Result<Vec<PaneContent>, AppError> {
-        if self.job.site.traffic().gates() != &now.closures {
+        if self.job.site.traffic().closures() != &now.closures {
             self.job.site = self.job.site.with_closures(now.closures.clone());
         }
         // The camera's view starts first, because the second device renders it while this one renders the other view.
@@ -122,7 +122,7 @@ impl ViewPanes {
         order.sort_by_key(|place| place.which != ViewKind::Camera);
         let (mut shown, mut begun) = (Vec::new(), false);
         for place in order {
-            let place = self.framed(screen, *place);
+            let place = self.fit_view(screen, *place);
             let (shot, items) = self.render(screen, &place, now, feed, gaze, map);
             let pane = pane(&mut self.panes, screen, place.which, shot.size_px);
             shown.push(PaneContent { place, picture: pane.id, items });
@@ -135,33 +135,33 @@ impl ViewPanes {
             }
         }
         if begun {
-            self.take_secondary(screen)?;
+            self.copy_secondary_image(screen)?;
         }
         // Restores the stacking order of the views.
         shown.sort_by_key(|view| places.iter().position(|place| place.which == view.place.which));
         Ok(shown)
     }
 
-    fn take_secondary(&mut self, screen: &WindowSurface) -> Result<(), AppError> {
+    fn copy_secondary_image(&mut self, screen: &WindowSurface) -> Result<(), AppError> {
         let Some(aside) = &self.secondary else { return Ok(()) };
         let (picture, _) = aside.picture()?;
         if let Some(pane) = self.panes.get(&(ViewKind::Camera as u8)) {
             fill(&screen.gpu, &pane.whole, &picture);
         }
-        self.last_picture = Some(picture);
+        self.last_image = Some(picture);
         Ok(())
     }
 
     /// Returns the last image of the camera, without the head-up display.
     pub fn camera(&self, screen: &WindowSurface) -> Result<Option<Picture>, AppError> {
         if self.secondary.is_some() {
-            return Ok(self.last_picture.clone());
+            return Ok(self.last_image.clone());
         }
         Ok(self.panes.get(&(ViewKind::Camera as u8)).map(|pane| read(&screen.gpu, &pane.whole)).transpose()?)
     }
 
     /// Returns the rectangle of a view; the camera's has the aspect ratio of its sensor.
-    fn framed(&self, screen: &WindowSurface, place: ViewRect) -> ViewRect {
+    fn fit_view(&self, screen: &WindowSurface, place: ViewRect) -> ViewRect {
         let window = screen.window.inner_size();
         match place.which {
             ViewKind::Inspector => place,
@@ -184,7 +184,7 @@ impl ViewPanes {
     ) -> (Shot, Vec<DrawItem>) {
         let window = screen.window.inner_size();
         let on_screen = (place.width * f64::from(window.width), place.height * f64::from(window.height));
-        let size_px = drawn_px(on_screen, screen.gpu.software.then_some(SOFTWARE_PX));
+        let size_px = render_size_px(on_screen, screen.gpu.software.then_some(SOFTWARE_VIEW_PX));
         let moment = &now.moment;
         let (stage, [eyes, film]) = (self.job.stage(), &mut self.meters);
         match place.which {

@@ -11,9 +11,9 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// Interval between two images.
-const EVERY: Duration = Duration::from_secs(1);
+const SAVE_INTERVAL: Duration = Duration::from_secs(1);
 /// Maximum file size, bytes; a phone connection transfers it in a second.
-const MOST: usize = 150_000;
+const MAX_BYTES: usize = 150_000;
 
 /// Passes images to the thread that saves them. The file is deleted at the end.
 pub struct PictureWriter {
@@ -27,7 +27,7 @@ impl PictureWriter {
     pub fn start(path: PathBuf) -> Self {
         // At most one image waits; further ones are dropped meanwhile.
         let (sender, receiver) = sync_channel(1);
-        let thread = std::thread::spawn(move || keep(&path, &receiver));
+        let thread = std::thread::spawn(move || save_images(&path, &receiver));
         Self { sender: Some(sender), thread: Some(thread), due: Duration::ZERO }
     }
 
@@ -36,12 +36,12 @@ impl PictureWriter {
         if now < self.due {
             return false;
         }
-        self.due = now + EVERY;
+        self.due = now + SAVE_INTERVAL;
         true
     }
 
     /// Saves an image, unless the previous one is still waiting.
-    pub fn take(&self, picture: Picture) {
+    pub fn save(&self, picture: Picture) {
         if let Some(sender) = &self.sender {
             let _ = sender.try_send(picture);
         }
@@ -57,7 +57,7 @@ impl Drop for PictureWriter {
     }
 }
 
-fn keep(path: &Path, pictures: &Receiver<Picture>) {
+fn save_images(path: &Path, pictures: &Receiver<Picture>) {
     let mut told = false;
     for picture in pictures {
         if let Err(error) = write(path, &picture) {
@@ -72,7 +72,7 @@ fn keep(path: &Path, pictures: &Receiver<Picture>) {
 }
 
 fn write(path: &Path, picture: &Picture) -> Result<(), AppError> {
-    let jpeg = photo::plain(picture, MOST).map_err(|error| AppError::failed(error.to_string()))?;
+    let jpeg = photo::plain(picture, MAX_BYTES).map_err(|error| AppError::failed(error.to_string()))?;
     replace(path, &jpeg)
 }
 
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_pictures_are_kept_one_a_second_and_go_with_the_window() {
+    fn exact_images_are_saved_once_a_second_and_deleted_at_the_end() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("camera.jpg");
         let mut keeper = PictureWriter::start(path.clone());
@@ -92,11 +92,11 @@ mod tests {
             write(&path, &grey(value)).unwrap();
             let bytes = std::fs::read(&path).unwrap();
             assert_eq!(image::load_from_memory(&bytes).unwrap().to_luma8().dimensions(), (64, 48));
-            assert!(bytes.len() <= MOST);
+            assert!(bytes.len() <= MAX_BYTES);
         }
-        keeper.take(grey(90));
-        keeper.take(grey(91));
-        keeper.take(grey(92));
+        keeper.save(grey(90));
+        keeper.save(grey(91));
+        keeper.save(grey(92));
         drop(keeper);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "the file is deleted");
     }

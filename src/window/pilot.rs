@@ -17,9 +17,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Longest wait for a datagram: a quarter of the interval between stick samples.
-const WAIT: Duration = Duration::from_millis(5);
+const MAX_WAIT: Duration = Duration::from_millis(5);
 /// Interval at which the controller's status is updated on the ground (a tenth of a person's reaction time; estimate).
-const SHOW: SimTime = SimTime::from_ms(30);
+const STATUS_INTERVAL: SimTime = SimTime::from_ms(30);
 
 /// A command from the window to the pilot thread.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,15 +29,15 @@ pub enum PilotCommand {
     /// A key with this name was released.
     Up(String),
     /// Release all keys, because the window lost the focus or shows a page.
-    LetGo,
+    ReleaseKeys,
     /// Connect to this vehicle's ground station port.
     Fly(SocketAddr),
     /// Disconnect from the vehicle.
-    Land,
+    Disconnect,
     /// Pause or resume: no actions are sent while the simulation is paused.
-    Stand(bool),
+    SetPaused(bool),
     /// Search for a controller again.
-    Look,
+    FindController,
     /// Start the calibration wizard.
     Calibrate,
     /// Confirm a step of the wizard.
@@ -45,7 +45,7 @@ pub enum PilotCommand {
     /// Leave the calibration wizard without saving.
     Cancel,
     /// Change the controller's profile and save it.
-    Tune(ProfileChange),
+    ChangeProfile(ProfileChange),
 }
 
 /// The window's handle of the pilot thread.
@@ -84,7 +84,7 @@ impl PilotThread {
                 link: ControllerLink::default(),
                 keyboard: board,
                 controller: desk,
-                touched: false,
+                keyboard_in_use: false,
                 paused: false,
                 lost: false,
                 shown,
@@ -114,7 +114,7 @@ impl PilotThread {
 }
 
 /// Sends a message to the user. Fails if the window has been closed, which also ends the thread.
-fn tell(teller: &Sender<String>, words: String) {
+fn send_message(teller: &Sender<String>, words: String) {
     let _ = teller.send(words);
 }
 
@@ -125,7 +125,7 @@ struct PilotLoop {
     link: ControllerLink,
     keyboard: KeyboardState,
     controller: ControllerSlot,
-    touched: bool,
+    keyboard_in_use: bool,
     paused: bool,
     lost: bool,
     shown: Arc<Mutex<ControllerStatus>>,
@@ -137,7 +137,7 @@ impl PilotLoop {
     fn fly(&mut self, asked: &Receiver<PilotCommand>, teller: &Sender<String>) {
         let watch = Stopwatch::start();
         loop {
-            if let Some(NetEvent::Datagram { from, bytes, .. }) = self.hub.next(WAIT)
+            if let Some(NetEvent::Datagram { from, bytes, .. }) = self.hub.next(MAX_WAIT)
                 && Some(from) == self.vehicle
             {
                 self.link.receive(&bytes);
@@ -145,26 +145,26 @@ impl PilotLoop {
             let now = SimTime::from_s(watch.elapsed().as_secs_f64());
             loop {
                 match asked.try_recv() {
-                    Ok(ask) => self.take(ask, now, teller),
+                    Ok(ask) => self.run_command(ask, now, teller),
                     Err(TryRecvError::Empty) => break,
                     Err(TryRecvError::Disconnected) => return,
                 }
             }
-            if self.controller.load_profile() {
+            if self.controller.open_new_device() {
                 self.lost = false;
                 let flies = if self.controller.flies() { "Flying with it." } else { "Use the keyboard until it is calibrated." };
-                tell(teller, format!("Controller connected. {} {flies}", self.controller.note()));
+                send_message(teller, format!("Controller connected. {} {flies}", self.controller.note()));
             }
             let (sticks, news) = self.sticks(now);
             // On the ground, the controller page shows it.
             if let Some(news) = news.filter(|_| self.vehicle.is_some()) {
-                tell(teller, news);
+                send_message(teller, news);
             }
             match self.vehicle {
                 Some(vehicle) => {
                     self.link.set_sticks(sticks, now);
                     self.send(vehicle, now);
-                    std::iter::from_fn(|| self.link.poll_message()).for_each(|text| tell(teller, text));
+                    std::iter::from_fn(|| self.link.poll_message()).for_each(|text| send_message(teller, text));
                 }
                 None => self.show(now),
             }
@@ -182,42 +182,42 @@ impl PilotLoop {
     fn show(&mut self, now: SimTime) {
         while self.link.poll_message().is_some() {}
         if now >= self.next {
-            self.next = now + SHOW;
+            self.next = now + STATUS_INTERVAL;
             let controls = self.controller.controls(self.keyboard.sticks(now), &self.status_text);
             *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = controls;
         }
     }
 
-    fn take(&mut self, ask: PilotCommand, now: SimTime, teller: &Sender<String>) {
+    fn run_command(&mut self, ask: PilotCommand, now: SimTime, teller: &Sender<String>) {
         match ask {
             PilotCommand::Down(key) => {
                 let action = self.keyboard.press(&key, true, now);
                 if let Some(action) = action.filter(|_| self.vehicle.is_some()) {
-                    self.link.act(action, now);
+                    self.link.request_action(action, now);
                 }
                 // Sticks are sent only after the user has started to fly, because another ground station or a script may be in control. Arming counts
                 // as flying; otherwise the vehicle would detect a lost control link.
                 let flies =
                     matches!(action, Some(ControllerAction::Arm | ControllerAction::TakeOff | ControllerAction::Position));
-                self.touched |= self.vehicle.is_some() && (flies || self.keyboard.sticks(now) != Sticks::default());
+                self.keyboard_in_use |= self.vehicle.is_some() && (flies || self.keyboard.sticks(now) != Sticks::default());
             }
             PilotCommand::Up(key) => self.keyboard.release(&key),
-            PilotCommand::LetGo => self.keyboard.release_all(),
+            PilotCommand::ReleaseKeys => self.keyboard.release_all(),
             PilotCommand::Fly(vehicle) => {
-                (self.vehicle, self.link, self.touched) = (Some(vehicle), ControllerLink::default(), false);
+                (self.vehicle, self.link, self.keyboard_in_use) = (Some(vehicle), ControllerLink::default(), false);
                 self.link.set_arm_key(&self.keyboard.keys().label("arm"));
                 self.paused = false;
                 if let Some(why) = self.controller.keyboard_reason() {
-                    tell(teller, format!("{why} Use the keyboard."));
+                    send_message(teller, format!("{why} Use the keyboard."));
                 }
             }
-            PilotCommand::Stand(stands) => self.paused = stands,
-            PilotCommand::Land => (self.vehicle, self.link) = (None, ControllerLink::default()),
-            PilotCommand::Look => self.controller.find_device(),
+            PilotCommand::SetPaused(stands) => self.paused = stands,
+            PilotCommand::Disconnect => (self.vehicle, self.link) = (None, ControllerLink::default()),
+            PilotCommand::FindController => self.controller.find_device(),
             PilotCommand::Calibrate => self.controller.calibrate(),
             PilotCommand::Confirm => self.controller.confirm(now),
             PilotCommand::Cancel => self.controller.cancel(),
-            PilotCommand::Tune(tune) => self.controller.adjust_profile(tune),
+            PilotCommand::ChangeProfile(tune) => self.controller.adjust_profile(tune),
         }
     }
 
@@ -235,14 +235,14 @@ impl PilotLoop {
         }
         let lost = matches!(flown, Ok(None)) && self.controller.flies() || flown.is_err();
         let news = self.set_device_lost(lost);
-        let own = self.touched.then_some(keys);
+        let own = self.keyboard_in_use.then_some(keys);
         match flown {
             Ok(Some(sticks)) if keys == Sticks::default() => (Some(sticks), news),
             Ok(Some(_)) => (Some(keys), news),
             Ok(None) => (own, news),
             Err(error) => {
                 tracing::warn!("controller disabled: {error}");
-                self.controller.cancel_wizard(&error);
+                self.controller.disable(&error);
                 (None, Some(self.controller.note().to_owned()))
             }
         }
@@ -256,7 +256,7 @@ impl PilotLoop {
             (false, true) => {
                 // If the controller is disconnected, no sticks are sent, whatever keys were pressed before, so that the vehicle's failsafe acts until
                 // a key is used again.
-                self.touched = false;
+                self.keyboard_in_use = false;
                 Some(format!("'{name}' disconnected: sticks centered, then no longer sent. Press a key to take over."))
             }
             (true, false) if self.controller.flies() => Some(format!("'{name}' reconnected.")),

@@ -64,7 +64,7 @@ impl WindowSurface {
     }
 
     /// Passes an event to egui. Returns true if egui has consumed it.
-    pub fn take(&mut self, event: &WindowEvent) -> bool {
+    pub fn handle_event(&mut self, event: &WindowEvent) -> bool {
         if let WindowEvent::Resized(size) = event {
             (self.config.width, self.config.height) = (size.width.max(1), size.height.max(1));
             self.surface.configure(&self.gpu.device, &self.config);

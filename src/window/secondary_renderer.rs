@@ -20,7 +20,7 @@ pub struct SecondaryRenderer {
     /// Set to `None` to end the thread.
     shots: Option<Sender<Shot>>,
     pictures: Receiver<Result<RenderedShot, GpuError>>,
-    painter: Option<JoinHandle<()>>,
+    render_thread: Option<JoinHandle<()>>,
 }
 
 impl SecondaryRenderer {
@@ -32,8 +32,8 @@ impl SecondaryRenderer {
         let gpu = Gpu::open_software()?;
         let (shots, ordered) = channel();
         let (done, pictures) = channel();
-        let painter = thread::spawn(move || work(&gpu, quality, scene, &ordered, &done));
-        Ok(Self { shots: Some(shots), pictures, painter: Some(painter) })
+        let render_thread = thread::spawn(move || render_loop(&gpu, quality, scene, &ordered, &done));
+        Ok(Self { shots: Some(shots), pictures, render_thread: Some(render_thread) })
     }
 
     /// Starts rendering an image.
@@ -57,8 +57,8 @@ impl Drop for SecondaryRenderer {
     fn drop(&mut self) {
         drop(self.shots.take());
         // A driver that is still rendering when the program exits can crash. A panic in the thread has already been reported.
-        if let Some(painter) = self.painter.take() {
-            let _ = painter.join();
+        if let Some(render_thread) = self.render_thread.take() {
+            let _ = render_thread.join();
         }
     }
 }
@@ -67,7 +67,13 @@ fn ended() -> GpuError {
     GpuError::Failed("the thread that renders the second view has ended".to_owned())
 }
 
-fn work(gpu: &Gpu, quality: Quality, scene: Arc<Scene>, shots: &Receiver<Shot>, done: &Sender<Result<RenderedShot, GpuError>>) {
+fn render_loop(
+    gpu: &Gpu,
+    quality: Quality,
+    scene: Arc<Scene>,
+    shots: &Receiver<Shot>,
+    done: &Sender<Result<RenderedShot, GpuError>>,
+) {
     let mut renderer = Renderer::new(gpu, quality, &scene);
     drop(scene);
     let mut canvas = picture_texture(gpu, (1, 1));

@@ -2,7 +2,7 @@
 
 use crate::io::clock::Stopwatch;
 use spandrel_clients::rc::keyboard::SoundPreferences;
-use spandrel_view::sound::{FlightSound, RATE_HZ, SoundInputs, SoundSettings, spoken};
+use spandrel_view::sound::{FlightSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings, spoken};
 use std::io::Write;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -16,11 +16,11 @@ const PLAYERS: [(&str, &[&str]); 2] = [
 /// Programs that speak their last argument.
 const VOICES: [&str; 2] = ["spd-say", "espeak-ng"];
 /// Number of samples in a chunk: 10 ms.
-const PIECE: usize = RATE_HZ as usize / 100;
+const CHUNK_SAMPLES: usize = SAMPLE_RATE_HZ as usize / 100;
 /// Playback lead: a longer one delays the sound, a shorter one causes dropouts on a busy machine (estimate).
-const AHEAD: Duration = Duration::from_millis(80);
+const PLAYBACK_LEAD: Duration = Duration::from_millis(80);
 /// Pause between checks whether another chunk is needed.
-const REST: Duration = Duration::from_millis(5);
+const CHUNK_INTERVAL: Duration = Duration::from_millis(5);
 
 /// Sound output of the window; its thread starts with the first sound.
 pub struct AudioOutput {
@@ -47,12 +47,12 @@ impl AudioOutput {
     pub fn set_on(&mut self, on: bool) {
         self.on = on;
         if !on {
-            self.stop_speech();
+            self.silence();
         }
     }
 
     /// Silences the output until the next inputs.
-    pub fn stop_speech(&self) {
+    pub fn silence(&self) {
         locked(&self.inputs).silent = true;
     }
 
@@ -78,7 +78,7 @@ fn locked(heard: &Mutex<SoundInputs>) -> MutexGuard<'_, SoundInputs> {
 fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut tried = Vec::new();
     for (name, args) in PLAYERS {
-        match run_output(name, args, heard, settings) {
+        match play_with(name, args, heard, settings) {
             Ok(()) => return,
             Err(why) => tried.push(format!("{name}: {why}")),
         }
@@ -95,7 +95,7 @@ fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut voice = SpeechVoice::new(settings.speech);
     while Arc::strong_count(heard) > 1 && voice.on {
         voice.update_inputs(&locked(heard).clone());
-        std::thread::sleep(REST);
+        std::thread::sleep(CHUNK_INTERVAL);
     }
 }
 
@@ -103,7 +103,7 @@ fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
 ///
 /// # Errors
 /// If this player does not work.
-fn run_output(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) -> std::io::Result<()> {
+fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) -> std::io::Result<()> {
     let mut command = Command::new(name);
     let mut player = command.args(args).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
     let Some(mut stdin) = player.stdin.take() else { return Err(std::io::ErrorKind::BrokenPipe.into()) };
@@ -115,21 +115,21 @@ fn run_output(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settin
         sound.set(now);
         // After a delay of the computer, does not catch up on the missed sound.
         made = made.max(watch.elapsed());
-        while made < watch.elapsed() + AHEAD {
-            if stdin.write_all(&piece(&mut sound)).is_err() {
+        while made < watch.elapsed() + PLAYBACK_LEAD {
+            if stdin.write_all(&next_chunk(&mut sound)).is_err() {
                 return Err(std::io::Error::other(format!("it exited ({})", player.wait()?)));
             }
-            made += Duration::from_secs_f64(PIECE as f64 / f64::from(RATE_HZ));
+            made += Duration::from_secs_f64(CHUNK_SAMPLES as f64 / f64::from(SAMPLE_RATE_HZ));
         }
-        std::thread::sleep(REST);
+        std::thread::sleep(CHUNK_INTERVAL);
     }
     drop(stdin);
     // The player plays the rest of its buffer and exits.
     player.wait().map(|_| ())
 }
 
-fn piece(sound: &mut FlightSound) -> Vec<u8> {
-    let mut samples = [0.0_f32; PIECE];
+fn next_chunk(sound: &mut FlightSound) -> Vec<u8> {
+    let mut samples = [0.0_f32; CHUNK_SAMPLES];
     sound.fill(&mut samples);
     samples.iter().flat_map(|sample| ((sample * f32::from(i16::MAX)) as i16).to_le_bytes()).collect()
 }
@@ -147,10 +147,10 @@ impl SpeechVoice {
     }
 
     fn update_inputs(&mut self, now: &SoundInputs) {
-        self.follow(if now.silent { 0 } else { now.cues });
+        self.speak_new_cues(if now.silent { 0 } else { now.cues });
     }
 
-    fn follow(&mut self, cues: i32) {
+    fn speak_new_cues(&mut self, cues: i32) {
         let words = spoken(std::mem::replace(&mut self.cues, cues), cues);
         let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
         let (Some(words), true, false) = (words, self.on, busy) else { return };

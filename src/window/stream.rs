@@ -17,20 +17,20 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// Bits per pixel (estimate: 2 Mbit/s at 720p25, which wireless networks carry).
-const BITS_PX: f64 = 0.1;
+const BITS_PER_PIXEL: f64 = 0.1;
 /// Number of frames between key frames: the longest wait of a receiver that joins.
-const KEY_EVERY: u32 = 25;
+const KEY_FRAME_INTERVAL: u32 = 25;
 /// Shortest interval between frames: 30 a second, as drones' cameras send (estimate; docs/src/reference/wire.md, "Camera, gimbal and lamp"). The
 /// window may have a higher frame rate.
-const LEAST: Duration = Duration::from_nanos(33_000_000);
+const MIN_FRAME_INTERVAL: Duration = Duration::from_nanos(33_000_000);
 
 /// A video stream to a receiver.
 pub struct StreamSender {
     /// Set to `None` to end the stream.
     pictures: Option<SyncSender<Picture>>,
-    sender: Option<JoinHandle<StreamReportItem>>,
+    sender: Option<JoinHandle<StreamStatistics>>,
     /// True if the last frame could not be encoded.
-    fails: Arc<AtomicBool>,
+    encoding_fails: Arc<AtomicBool>,
     stopwatch: Stopwatch,
     rate: PictureRate,
     last: Option<Stopwatch>,
@@ -38,7 +38,7 @@ pub struct StreamSender {
 
 /// Statistics of the stream.
 #[derive(Debug, Clone, Copy, Default)]
-struct StreamReportItem {
+struct StreamStatistics {
     pictures: u64,
     /// Total wall time of encoding.
     encoding: Duration,
@@ -56,19 +56,19 @@ impl StreamSender {
         }
         // At most one frame waits while another is encoded; further ones are dropped.
         let (pictures, wanted) = sync_channel(1);
-        let fails = Arc::new(AtomicBool::new(false));
+        let encoding_fails = Arc::new(AtomicBool::new(false));
         let line = Line { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
         let sender = std::thread::spawn({
-            let fails = Arc::clone(&fails);
-            move || send(&wanted, line, &fails)
+            let encoding_fails = Arc::clone(&encoding_fails);
+            move || send(&wanted, line, &encoding_fails)
         });
         let (watch, rate) = (Stopwatch::start(), PictureRate::default());
-        Ok(Self { pictures: Some(pictures), sender: Some(sender), fails, stopwatch: watch, rate, last: None })
+        Ok(Self { pictures: Some(pictures), sender: Some(sender), encoding_fails, stopwatch: watch, rate, last: None })
     }
 
     /// Returns true if another frame is due.
     pub fn is_due(&self) -> bool {
-        self.last.is_none_or(|last| last.elapsed() >= LEAST)
+        self.last.is_none_or(|last| last.elapsed() >= MIN_FRAME_INTERVAL)
     }
 
     /// Passes a frame to the encoder if it is ready. Returns the status of the stream after the first frames, while encoding works.
@@ -80,7 +80,7 @@ impl StreamSender {
             Err(TrySendError::Full(_)) => {}
             Err(TrySendError::Disconnected(_)) => return None,
         }
-        if self.fails.load(Ordering::Relaxed) {
+        if self.encoding_fails.load(Ordering::Relaxed) {
             return None;
         }
         Some(VideoStatus { width_px, height_px, rate_hz: self.rate.hz()?, bits_s: bits_s((width_px, height_px)) })
@@ -108,7 +108,7 @@ fn socket(to: SocketAddr) -> std::io::Result<UdpSocket> {
 }
 
 fn bits_s((width, height): (u32, u32)) -> u32 {
-    (BITS_PX * f64::from(width) * f64::from(height) * f64::from(KEY_EVERY)) as u32
+    (BITS_PER_PIXEL * f64::from(width) * f64::from(height) * f64::from(KEY_FRAME_INTERVAL)) as u32
 }
 
 /// Destination of the packets.
@@ -138,14 +138,14 @@ impl Line {
 
 /// Encoder for frames of varying size.
 #[derive(Default)]
-struct StreamSize(Option<(H264Encoder, (u32, u32))>);
+struct ResizingEncoder(Option<(H264Encoder, (u32, u32))>);
 
-impl StreamSize {
+impl ResizingEncoder {
     fn encode(&mut self, picture: &Picture) -> Result<EncodedPicture, VideoError> {
         let size = (picture.width, picture.height);
         let (mut encoder, of) = match self.0.take().filter(|(_, of)| *of == size) {
             Some(made) => made,
-            None => (H264Encoder::new(size, f64::from(KEY_EVERY), bits_s(size), KEY_EVERY)?, size),
+            None => (H264Encoder::new(size, f64::from(KEY_FRAME_INTERVAL), bits_s(size), KEY_FRAME_INTERVAL)?, size),
         };
         let encoded = encoder.encode(picture);
         self.0 = Some((encoder, of));
@@ -169,12 +169,12 @@ impl LastError {
 }
 
 /// Encodes and sends until the window is closed.
-fn send(wanted: &Receiver<Picture>, mut line: Line, fails: &AtomicBool) -> StreamReportItem {
-    let (mut encoder, mut complaint, mut sent) = (StreamSize::default(), LastError::default(), StreamReportItem::default());
+fn send(wanted: &Receiver<Picture>, mut line: Line, encoding_fails: &AtomicBool) -> StreamStatistics {
+    let (mut encoder, mut complaint, mut sent) = (ResizingEncoder::default(), LastError::default(), StreamStatistics::default());
     while let Ok(picture) = wanted.recv() {
         let began = Stopwatch::start();
         let encoded = encoder.encode(&picture);
-        fails.store(encoded.is_err(), Ordering::Relaxed);
+        encoding_fails.store(encoded.is_err(), Ordering::Relaxed);
         if let Some(error) = complaint.new_error(encoded.as_ref().err().cloned()) {
             tracing::warn!("frames are missing in the stream: {error}");
         }
@@ -192,7 +192,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_fault_is_reported_once_until_it_is_another_or_comes_again() {
+    fn exact_errors_are_reported_once_until_they_change() {
         let (odd, even) = (VideoError::Encoder("odd".into()), VideoError::Encoder("even".into()));
         let mut complaint = LastError::default();
         let told = [Some(&odd), Some(&odd), Some(&even), None, None, Some(&even)]
@@ -201,9 +201,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_pictures_of_another_size_have_an_encoder_of_their_own() {
+    fn exact_each_frame_size_gets_a_new_encoder() {
         let grey = |width, height| Picture { width, height, rgba: vec![90; 4 * (width * height) as usize] };
-        let mut encoder = StreamSize::default();
+        let mut encoder = ResizingEncoder::default();
         let keys =
             [(64, 48), (64, 48), (96, 64), (95, 64), (96, 64)].map(|(w, h)| encoder.encode(&grey(w, h)).map(|one| one.key).ok());
         assert_eq!(keys, [Some(true), Some(false), Some(true), None, Some(true)], "each size starts with a key frame");

@@ -9,13 +9,13 @@ use std::sync::mpsc::Receiver;
 #[derive(Debug)]
 pub struct TrainPipe {
     lines: Receiver<String>,
-    complained: bool,
+    error_reported: bool,
 }
 
 impl TrainPipe {
     /// Reads messages from standard input. When it closes, the window closes, too.
     pub fn listen(stop: &StopRequest) -> Self {
-        Self { lines: stop.lines(), complained: false }
+        Self { lines: stop.lines(), error_reported: false }
     }
 
     /// Returns the next message from `train`. The first invalid line is logged, further ones are ignored.
@@ -23,8 +23,8 @@ impl TrainPipe {
         while let Ok(line) = self.lines.try_recv() {
             match pipe::read(&line) {
                 Ok(message) => return Some(message),
-                Err(error) if !self.complained => {
-                    self.complained = true;
+                Err(error) if !self.error_reported => {
+                    self.error_reported = true;
                     tracing::warn!("{error}; further invalid lines are ignored");
                 }
                 Err(_) => {}

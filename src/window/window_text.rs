@@ -21,7 +21,7 @@ pub struct WindowText {
 /// Returns the status while the scene is not ready.
 pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener) -> String {
     match scene {
-        SceneLoading::Drawn(_) => String::new(),
+        SceneLoading::Ready(_) => String::new(),
         SceneLoading::Building(_) => "Loading scene ...".to_owned(),
         SceneLoading::Waiting if heard => "Connected to the vehicle. Waiting for the session's seed ...".to_owned(),
         SceneLoading::Waiting => format!("Waiting for the vehicle at {} ...", listener.vehicle()),
@@ -61,7 +61,7 @@ pub fn help(keys: &KeyBindings, flies: bool) -> String {
 }
 
 /// Paints a flight: both views with their displays, and the window's texts.
-pub fn compose_text(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText, arrangement: ViewLayout) {
+pub fn paint_flight(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText, arrangement: ViewLayout) {
     let area = ui.ctx().content_rect();
     let painter = ui.ctx().layer_painter(egui::LayerId::background());
     for view in shown {
@@ -86,10 +86,10 @@ pub fn compose_text(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText,
     if !lines.is_empty() {
         let font = egui::FontId::proportional(0.75 * size);
         let stand = arrangement.words();
-        let corner = area.min + egui::vec2(stand.left_aligned as f32 * area.width(), stand.edge as f32 * area.height());
+        let corner = area.min + egui::vec2(stand.left_edge as f32 * area.width(), stand.edge as f32 * area.height());
         let room = stand.width as f32 * area.width() - 1.2 * size;
         let galley = painter.layout(lines.join("\n"), font, egui::Color32::from_gray(235), room);
-        let down = if stand.hang { 0.6 * size } else { -0.6 * size - galley.size().y };
+        let down = if stand.extends_down { 0.6 * size } else { -0.6 * size - galley.size().y };
         let rect = egui::Rect::from_min_size(corner + egui::vec2(0.6 * size, down), galley.size());
         painter.rect_filled(rect.expand(0.3 * size), 0.2 * size, egui::Color32::from_black_alpha(160));
         painter.galley(rect.min, galley, egui::Color32::WHITE);

@@ -37,16 +37,16 @@ ITEMS, FILE_BYTES, LOG_BYTES = 200, 50_000, 50_000
 # Wall seconds after which a client that is still trying counts as failed.
 LIMIT_S = 300
 # Wall seconds after which a client that exceeds its own limit is killed: start, LIMIT_S and end of a run.
-HANGS_S = LIMIT_S + 120
+HANG_LIMIT_S = LIMIT_S + 120
 # Maximum number of times that a user repeats a command without response, or refreshes a list.
-PRESSES = 5
+MAX_RETRIES = 5
 
 
 class Failed(Exception):
     """The client gave up, or got a wrong result."""
 
 
-def why(error):
+def error_text(error):
     """Returns the result in a plug-in's error, without the arguments of the call."""
     return str(error).split(";", maxsplit=1)[0]
 
@@ -70,12 +70,12 @@ def ended(start, *args, next_result, success):
 
 def pressed(act):
     """Runs an action again if there is no response, as a user would press a button again."""
-    for k in range(PRESSES):
+    for k in range(MAX_RETRIES):
         try:
             return act()
         except (ActionError, LogFilesError) as error:
-            if k == PRESSES - 1:
-                raise Failed(why(error)) from None
+            if k == MAX_RETRIES - 1:
+                raise Failed(error_text(error)) from None
     return None
 
 
@@ -143,7 +143,7 @@ def mission(bench):
     try:
         MissionRaw(bench.system).upload_mission(items)
     except MissionRawError as error:
-        raise Failed(why(error)) from None
+        raise Failed(error_text(error)) from None
 
 
 def parameters(bench):
@@ -260,7 +260,7 @@ def run_in_process(results, this, slot):
             spandrel.end(bench.process)
         os._exit(1)
 
-    timer = threading.Timer(HANGS_S, end)
+    timer = threading.Timer(HANG_LIMIT_S, end)
     timer.start()
     try:
         result = run(this.name, this.link, this.seed, this.vehicle, slot, benches.append)

@@ -26,7 +26,7 @@ RATE_HZ = 10
 STICK_RATE_HZ = 25
 # The vehicle in these flights can reach the speeds that the autotest requires.
 VEHICLE = "m30"
-IGNORE_ALL_BUT_PLACE, IGNORE_ALL_BUT_VELOCITY = 0x0DF8, 0x0DC7
+POSITION_ONLY_MASK, IGNORE_ALL_BUT_VELOCITY = 0x0DF8, 0x0DC7
 
 
 class Copter:
@@ -147,7 +147,7 @@ class Copter:
     def place(self):
         """Returns the position north and east of the first home, m."""
         here = self.last["GLOBAL_POSITION_INT"]
-        return self.metres(here.lat / 1e7, here.lon / 1e7)
+        return self.offset_m(here.lat / 1e7, here.lon / 1e7)
 
     @property
     def item(self):
@@ -171,7 +171,7 @@ class Copter:
         home = self.last["HOME_POSITION"]
         return home.latitude / 1e7, home.longitude / 1e7
 
-    def metres(self, latitude, longitude):
+    def offset_m(self, latitude, longitude):
         """Converts a geographic position to meters north and east of home."""
         north, east = (latitude - self.home()[0]) * DEGREE_M, (longitude - self.home()[1]) * DEGREE_M
         return north, east * math.cos(math.radians(latitude))
@@ -276,6 +276,6 @@ class Copter:
 
     def target(self, north=0.0, east=0.0, up=0.0, velocity=None):
         """Sends a setpoint in the local frame: a position or a velocity."""
-        mask = IGNORE_ALL_BUT_VELOCITY if velocity else IGNORE_ALL_BUT_PLACE
+        mask = IGNORE_ALL_BUT_VELOCITY if velocity else POSITION_ONLY_MASK
         vx, vy, vz = velocity or (0, 0, 0)
         self.link.mav.set_position_target_local_ned_send(0, 1, 1, M.MAV_FRAME_LOCAL_NED, mask, north, east, -up, vx, vy, vz, 0, 0, 0, 0, 0)

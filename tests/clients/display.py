@@ -71,6 +71,6 @@ class Display:
         self.log.close()
 
 
-def pixels_of(photograph, colour, tolerance=3):
+def pixels_of(photograph, color, tolerance=3):
     """Returns the rows and columns of the pixels with a color."""
-    return numpy.argwhere(numpy.abs(photograph - numpy.array(colour)).max(axis=2) <= tolerance)
+    return numpy.argwhere(numpy.abs(photograph - numpy.array(color)).max(axis=2) <= tolerance)

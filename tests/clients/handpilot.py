@@ -45,7 +45,7 @@ def distance(a, b):
     return math.dist(a, b)
 
 
-def thin(path, step_m=4.0):
+def simplify(path, step_m=4.0):
     """Returns the path with points at least `step_m` apart, including its ends."""
     kept = [path[0]]
     for point in path[1:-1]:
@@ -65,11 +65,11 @@ def defect_to_photograph(job, path):
     """Returns the defect that is most visible from a task's path, and the path point to view it from: near,
     perpendicular, large."""
 
-    def worth(item):
+    def visibility(item):
         defect, point = item
         return max(0.0, squareness(defect, point)) * defect["size_m"] / distance(defect["position_enu_m"], point)
 
-    return max(((d, p) for d in job["defects"] for p in path), key=worth)
+    return max(((d, p) for d in job["defects"] for p in path), key=visibility)
 
 
 def aim(here, target):
@@ -92,7 +92,7 @@ def first_task_plan(job, pad):
 
     return {
         "out": [above(pad), above(path[0])],
-        "path": thin(path),
+        "path": simplify(path),
         "back": [above(stop), above(pad)],
         "stop": stop,
         "defect": defect,

@@ -11,7 +11,7 @@ import time
 
 # Minimum and maximum delay of a reordered datagram, wall seconds; later ones overtake it (estimate: Wi-Fi
 # retransmissions).
-HELD_BACK_S = (0.005, 0.05)
+REORDER_DELAY_S = (0.005, 0.05)
 # Interval at which the relay checks whether to stop, wall seconds.
 LOOK_S = 0.1
 
@@ -71,7 +71,7 @@ class Relay:
             return
         for _ in range(2 if self.random.random() < self.link.duplicates else 1):
             if self.random.random() < self.link.reordered:
-                due = time.monotonic() + self.random.uniform(*HELD_BACK_S)
+                due = time.monotonic() + self.random.uniform(*REORDER_DELAY_S)
                 heapq.heappush(self.late, (due, self.passed, onward, datagram))
             else:
                 self._send(onward, datagram)

@@ -7,14 +7,14 @@ from mavsdk.plugins.telemetry import Telemetry
 from spandrel import wait_for
 
 # Time limit for finding a vehicle on a busy machine, wall seconds (ten times the usual).
-FOUND_S = 60.0
+DISCOVERY_LIMIT_S = 60.0
 
 
 def connect(port):
     """Returns MAVSDK and the vehicle that it has found."""
     mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
     mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
-    system = mavsdk.first_autopilot(FOUND_S)
+    system = mavsdk.first_autopilot(DISCOVERY_LIMIT_S)
     assert system is not None, "no vehicle discovered"
     return mavsdk, system
 

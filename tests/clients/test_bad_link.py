@@ -8,7 +8,7 @@ import relay
 
 # Tasks that succeed at this loss with a probability of more than 99.9 % (because of the clients' own retries,
 # docs/src/measured/bad-link.md).
-SURE = [
+RELIABLE_TASKS = [
     ("Mission of 200 items, upload", relay.LOSS_10),
     ("All parameters", relay.LOSS_30),
     ("FTP, 50 kB, burst", relay.LOSS_30),
@@ -18,8 +18,8 @@ SURE = [
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize(("name", "link"), SURE)
-def test_wire_stock_clients_finish_over_a_bad_link(name, link, measured):
+@pytest.mark.parametrize(("name", "link"), RELIABLE_TASKS)
+def test_wire_stock_clients_succeed_over_a_bad_link(name, link, measured):
     """MAVSDK and MAVProxy behind a relay that loses datagrams in both directions, from a seed."""
     measured(f"{name}, {link.name}: {bad_link.run(name, link, 1):.1f} s")
 
@@ -27,7 +27,7 @@ def test_wire_stock_clients_finish_over_a_bad_link(name, link, measured):
 @pytest.mark.skipif(not px4.BUILD, reason="SPANDREL_PX4 names no build folder of PX4")
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("name", ["Mission of 200 items, upload", "All parameters", "FTP, 50 kB, burst", "Log of 50 kB"])
-def test_wire_the_same_clients_finish_with_a_real_px4(name, measured):
+def test_wire_stock_clients_succeed_with_a_real_px4(name, measured):
     """Basis of the comparison in docs/src/measured/bad-link.md: without losses, the clients succeed with both
     vehicles."""
     measured(f"{name}, PX4 {px4.version()}: {bad_link.run(name, relay.CLEAN, 1, bad_link.PX4):.1f} s")

@@ -33,7 +33,7 @@ def bad_radio(folder, *more):
 
 
 @pytest.mark.timeout(600)
-def test_wire_a_pymavlink_script_moves_a_plan_and_parameters_over_a_bad_radio(tmp_path):
+def test_wire_pymavlink_transfers_plan_and_parameters_over_a_bad_radio(tmp_path):
     """Every item arrives once and in order, and every parameter is read, although some requests must be repeated
     because of real losses."""
     process, port = bad_radio(tmp_path)
@@ -68,7 +68,7 @@ def test_wire_a_pymavlink_script_moves_a_plan_and_parameters_over_a_bad_radio(tm
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_loads_a_plan_and_parameters_over_a_bad_radio(tmp_path):
+def test_wire_mavproxy_transfers_plan_and_parameters_over_a_bad_radio(tmp_path):
     """User commands succeed, through MAVProxy's own retries or by entering them again."""
     process, port = bad_radio(tmp_path)
     typed = mavproxy.Console(port, tmp_path)
@@ -87,7 +87,7 @@ def test_wire_mavproxy_loads_a_plan_and_parameters_over_a_bad_radio(tmp_path):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_moves_plans_parameters_and_files_over_a_bad_radio(tmp_path):
+def test_wire_mavsdk_transfers_plan_parameters_and_file_over_a_bad_radio(tmp_path):
     """Uploads and downloads a mission, all parameters and a file; MAVSDK's own retries and the vehicle's responses
     must suffice."""
     files = tmp_path / "files"

@@ -44,7 +44,7 @@ def check(book):
     return done.returncode, done.stdout + done.stderr
 
 
-def test_exact_a_whole_book_has_no_problem(book):
+def test_exact_valid_book_has_no_problems(book):
     """A book in which every page, anchor and picture exists has no problems. Links to other sites are not checked;
     the repository's Markdown is."""
     code, printed = check(book)
@@ -52,7 +52,7 @@ def test_exact_a_whole_book_has_no_problem(book):
 
 
 @pytest.mark.parametrize("fault", FAULTS)
-def test_exact_a_link_that_leads_nowhere_is_found(book, fault):
+def test_exact_broken_link_is_found(book, fault):
     """Each fault causes one message that describes it."""
     page, old, new, words = FAULTS[fault]
     path = book[1] / page
@@ -63,7 +63,7 @@ def test_exact_a_link_that_leads_nowhere_is_found(book, fault):
     assert code == 1 and words in printed, printed
 
 
-def test_exact_pages_and_the_summary_match(book):
+def test_exact_pages_match_the_summary(book):
     """Finds unlisted pages, listed pages that are missing or empty, pages listed twice, and unused pictures."""
     source, _built = book
     (source / "orphan.md").write_text("# Orphan\n", encoding="utf-8")

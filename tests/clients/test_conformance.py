@@ -8,7 +8,7 @@ import sys
 import spandrel
 
 
-def test_val_the_table_of_answers_is_true():
+def test_val_conformance_table_matches_the_vehicle():
     """tools/conformance sends all requests again and compares the responses."""
     environment = {**os.environ, "SPANDREL": spandrel.PROGRAM}
     tool = spandrel.ROOT / "tools" / "conformance"

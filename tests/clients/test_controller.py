@@ -58,7 +58,7 @@ def events():
 
 
 @pytest.mark.timeout(300)
-def test_wire_a_transmitter_flies_the_vehicle_and_its_loss_is_the_vehicles_to_handle(tmp_path):
+def test_wire_transmitter_flies_the_vehicle_and_its_loss_triggers_the_failsafe(tmp_path):
     """Sticks follow the calibration, buttons send commands, and the loss leads to centered sticks, silence and the
     failsafe."""
     profiles = tmp_path / "profiles"
@@ -104,7 +104,7 @@ def test_wire_a_transmitter_flies_the_vehicle_and_its_loss_is_the_vehicles_to_ha
         spandrel.end(process)
 
 
-def test_wire_a_device_that_is_not_calibrated_or_a_wrong_file_is_told(tmp_path):
+def test_wire_uncalibrated_device_and_invalid_file_are_reported(tmp_path):
     """Each error contains the file and the allowed values, with the usual exit code."""
     record = tmp_path / "flight.jsonl"
     record.write_text('{"format": 1, "device": "Pad", "id": "1:2"}\n', encoding="utf-8")
@@ -128,7 +128,7 @@ def test_wire_a_device_that_is_not_calibrated_or_a_wrong_file_is_told(tmp_path):
     assert refused.returncode in (0, 1) and (refused.returncode == 0 or "gamepad" in refused.stderr)
 
 
-def test_wire_who_waits_for_a_vehicle_is_told_so_and_when_it_is_there(tmp_path):
+def test_wire_waiting_for_a_vehicle_is_reported(tmp_path):
     """A wrong address or a simulator that has not started yet must be reported."""
     (tmp_path / "pad-1-2.toml").write_text(PROFILE, encoding="utf-8")
     record = tmp_path / "flight.jsonl"

@@ -13,7 +13,7 @@ from copter_tester import M, Copter
 AT_ONCE = 3
 
 
-def loiter_keeps_its_place(c):
+def loiter_holds_position(c):
     c.take_off(10, "LOITER")
     c.stick(pitch=1100)
     c.until("50 m", lambda: c.away() > 50, 60)
@@ -24,7 +24,7 @@ def loiter_keeps_its_place(c):
     c.go_home()
 
 
-def altitude_hold_keeps_its_height_under_full_sticks(c):
+def alt_hold_keeps_height_with_full_sticks(c):
     c.take_off(10, "ALT_HOLD")
     c.settles("10 m", lambda: 9 <= c.height <= 11, 5, 30)
     c.stick(roll=1000, pitch=1000)
@@ -44,7 +44,7 @@ def brake_ignores_the_sticks(c):
     c.go_home()
 
 
-def circle_keeps_its_radius(c):
+def circle_holds_radius(c):
     c.set(CIRCLE_RADIUS=3000, CIRCLE_RATE=20)
     c.take_off(10)
     c.change("LOITER")
@@ -55,7 +55,7 @@ def circle_keeps_its_radius(c):
     c.go_home()
 
 
-def guided_turns_as_slowly_as_it_is_told(c):
+def guided_yaw_rate_is_limited(c):
     c.take_off(20)
     c.settles("at rest", lambda: abs(c.climb) < 0.1, 3, 20)
     c.watches.append(("turns faster than 10 deg/s", lambda: abs(math.degrees(c.last["ATTITUDE"].yawspeed)) > 10))
@@ -69,7 +69,7 @@ def guided_turns_as_slowly_as_it_is_told(c):
     c.go_home()
 
 
-def guided_changes_its_speed_on_command(c):
+def guided_speed_command(c):
     c.take_off(20)
     latitude, longitude = c.degrees(2000, 0)
     c.link.mav.command_int_send(1, 1, M.MAV_FRAME_GLOBAL_RELATIVE_ALT, M.MAV_CMD_DO_REPOSITION, 0, 0, -1, 0, 0, math.nan, latitude, longitude, 20)
@@ -79,7 +79,7 @@ def guided_changes_its_speed_on_command(c):
     c.must(M.MAV_CMD_COMPONENT_ARM_DISARM, 0, 21196)
 
 
-def guided_looks_where_it_goes(c):
+def guided_heading_follows_course(c):
     c.set(WP_YAW_BEHAVIOR=1)
     c.take_off(5)
     c.target(100, 100, 20)
@@ -93,7 +93,7 @@ def guided_looks_where_it_goes(c):
     c.until_disarmed()
 
 
-def a_mission_starts_by_command_alone(c):
+def mission_starts_by_command(c):
     c.upload([(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 40), (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
     c.change("LOITER")
     c.arm()
@@ -104,7 +104,7 @@ def a_mission_starts_by_command_alone(c):
     c.go_home()
 
 
-def a_mission_is_flown_twice_without_leaving_auto(c):
+def mission_repeats_in_auto(c):
     c.upload([(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), (M.MAV_CMD_NAV_WAYPOINT, 20, 0, 20), (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
     c.set(AUTO_OPTIONS=3)
     c.change("AUTO")
@@ -117,7 +117,7 @@ def a_mission_is_flown_twice_without_leaving_auto(c):
         assert c.flies("AUTO")
 
 
-def a_mission_waits_for_a_minute(c):
+def mission_delay_of_one_minute(c):
     c.upload([
         (M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), (M.MAV_CMD_NAV_WAYPOINT, 10, 10, 20), (M.MAV_CMD_NAV_DELAY, 0, 0, 0, 60),
         (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0),
@@ -128,7 +128,7 @@ def a_mission_waits_for_a_minute(c):
     c.until_disarmed()
 
 
-def a_mission_takes_off_at_a_time_of_day(c):
+def mission_takeoff_at_time_of_day(c):
     c.until("the clock", lambda: c.shows("SYSTEM_TIME"), 5)
     due = datetime.datetime.fromtimestamp(c.last["SYSTEM_TIME"].time_unix_usec / 1e6, datetime.timezone.utc) + datetime.timedelta(seconds=77)
     begun = c.now
@@ -139,7 +139,7 @@ def a_mission_takes_off_at_a_time_of_day(c):
     c.until_disarmed()
 
 
-def a_mission_pauses_and_goes_on(c):
+def mission_pause_and_resume(c):
     c.upload([(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 20), *[(M.MAV_CMD_NAV_WAYPOINT, 0, 100 * k, 20) for k in range(1, 4)], (M.MAV_CMD_NAV_RETURN_TO_LAUNCH, 0, 0, 0)])
     c.start_auto()
     c.until("flying", lambda: c.item == 3 and c.speed > 3, 120)
@@ -150,7 +150,7 @@ def a_mission_pauses_and_goes_on(c):
     c.until_disarmed(300)
 
 
-def a_smart_return_lands_at_home(c):
+def smart_rtl_lands_at_home(c):
     c.take_off(10)
     for north, east in ((0, 20), (20, 20)):
         latitude, longitude = c.degrees(north, east)
@@ -162,7 +162,7 @@ def a_smart_return_lands_at_home(c):
     assert c.away() < 2
 
 
-def a_return_uses_its_own_speed_and_final_height(c):
+def rtl_speed_and_final_height(c):
     c.set(RTL_SPEED=300, RTL_ALT_FINAL=500, RTL_LOIT_TIME=1000)
     c.take_off(20)
     latitude, longitude = c.degrees(90, 0)
@@ -175,7 +175,7 @@ def a_return_uses_its_own_speed_and_final_height(c):
     c.until_disarmed()
 
 
-def a_return_goes_to_a_rally_point_at_its_height(c):
+def rtl_to_rally_point(c):
     c.upload([(M.MAV_CMD_NAV_RALLY_POINT, 50, -25, 37)], kind=M.MAV_MISSION_TYPE_RALLY)
     c.set(RALLY_INCL_HOME=0, RTL_LOIT_TIME=5000)
     c.take_off(10)
@@ -187,7 +187,7 @@ def a_return_goes_to_a_rally_point_at_its_height(c):
     assert c.away((50, -25)) < 2
 
 
-def the_fences_ceiling_sends_it_home(c):
+def fence_ceiling_triggers_rtl(c):
     c.set(FENCE_TYPE=1, FENCE_ALT_MAX=20, FENCE_ACTION=1, FENCE_ENABLE=1)
     c.take_off(10, "LOITER")
     c.stick(throttle=1900)
@@ -197,7 +197,7 @@ def the_fences_ceiling_sends_it_home(c):
     c.until_disarmed()
 
 
-def the_fences_floor_lets_it_land(c):
+def fence_floor_allows_landing(c):
     c.set(FENCE_TYPE=15, FENCE_ALT_MIN=20, FENCE_ALT_MAX=40, FENCE_RADIUS=150, FENCE_ACTION=1, FENCE_ENABLE=1)
     c.take_off(30)
     c.change("LOITER")
@@ -213,7 +213,7 @@ def the_fences_floor_lets_it_land(c):
     assert c.flies("LOITER")
 
 
-def switches_choose_the_mode(c):
+def switches_select_mode(c):
     c.set(FLTMODE1=7, FLTMODE6=5, RC8_OPTION=55, RC9_OPTION=18)
     c.stick(c5=1000, c8=1000, c9=1000)
     c.until("CIRCLE", lambda: c.flies("CIRCLE"), 5)
@@ -227,7 +227,7 @@ def switches_choose_the_mode(c):
     c.until("LOITER", lambda: c.flies("LOITER"), 5)
 
 
-def an_arming_switch_acts_when_it_is_moved(c):
+def arming_switch_acts_on_change(c):
     c.set(RC8_OPTION=153)
     c.change("LOITER")
     c.stick(c8=1000)
@@ -241,7 +241,7 @@ def an_arming_switch_acts_when_it_is_moved(c):
     c.holds("disarmed after a restart", lambda: not c.armed, 60)
 
 
-def overrides_lapse(c):
+def overrides_time_out(c):
     c.take_off(10, "LOITER")
     c.stick(pitch=1000)
     c.until("fast", lambda: c.speed > 5, 30)
@@ -253,26 +253,26 @@ def overrides_lapse(c):
 
 
 FLOWS = [
-    loiter_keeps_its_place,
-    altitude_hold_keeps_its_height_under_full_sticks,
+    loiter_holds_position,
+    alt_hold_keeps_height_with_full_sticks,
     brake_ignores_the_sticks,
-    circle_keeps_its_radius,
-    guided_turns_as_slowly_as_it_is_told,
-    guided_changes_its_speed_on_command,
-    guided_looks_where_it_goes,
-    a_mission_starts_by_command_alone,
-    a_mission_is_flown_twice_without_leaving_auto,
-    a_mission_waits_for_a_minute,
-    a_mission_takes_off_at_a_time_of_day,
-    a_mission_pauses_and_goes_on,
-    a_smart_return_lands_at_home,
-    a_return_uses_its_own_speed_and_final_height,
-    a_return_goes_to_a_rally_point_at_its_height,
-    the_fences_ceiling_sends_it_home,
-    the_fences_floor_lets_it_land,
-    switches_choose_the_mode,
-    an_arming_switch_acts_when_it_is_moved,
-    overrides_lapse,
+    circle_holds_radius,
+    guided_yaw_rate_is_limited,
+    guided_speed_command,
+    guided_heading_follows_course,
+    mission_starts_by_command,
+    mission_repeats_in_auto,
+    mission_delay_of_one_minute,
+    mission_takeoff_at_time_of_day,
+    mission_pause_and_resume,
+    smart_rtl_lands_at_home,
+    rtl_speed_and_final_height,
+    rtl_to_rally_point,
+    fence_ceiling_triggers_rtl,
+    fence_floor_allows_landing,
+    switches_select_mode,
+    arming_switch_acts_on_change,
+    overrides_time_out,
 ]
 
 

@@ -15,7 +15,7 @@ LISTEN_S = 3
 ASKED = {397: "COMPONENT_METADATA", 435: "AVAILABLE_MODES", 440: "ILLUMINATOR_STATUS"}
 
 
-def test_wire_nothing_that_the_vehicle_says_is_unknown_to_the_official_dialect(tmp_path):
+def test_wire_official_dialect_decodes_all_messages(tmp_path):
     """Every frame has a known message, and messages requested by number arrive under their official name."""
     usual = mavutil.current_dialect
     port = spandrel.free_udp_port()

@@ -19,7 +19,7 @@ GRAVITY, GRAVITY_TOLERANCE = 9.81, 0.3
 
 
 @pytest.mark.timeout(300)
-def test_regress_pymavlink_reads_ardupilots_own_messages(launch):
+def test_regress_pymavlink_decodes_ardupilot_messages(launch):
     """pymavlink checks the CRC seed and layout of each message against its own definitions."""
     link = asking.connect(launch("ardupilot"))
     link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, 10, 1)
@@ -44,7 +44,7 @@ def fixture_px4(launch):
 
 
 @pytest.mark.timeout(300)
-def test_regress_mavsdk_talks_to_px4s_shell(px4):
+def test_regress_mavsdk_uses_px4s_shell(px4):
     """Sends a line to the shell and reads its output."""
     shell, heard = Shell(px4), []
     shell.subscribe_receive(lambda received, _: heard.append(received.data))
@@ -57,7 +57,7 @@ def test_regress_mavsdk_talks_to_px4s_shell(px4):
 
 
 @pytest.mark.timeout(300)
-def test_regress_mavsdk_is_followed(px4):
+def test_regress_mavsdk_follow_me_works(px4):
     """MAVSDK's follow-me: configured, started, updated with a target, stopped."""
     telemetry, action = sdk.ready(px4), Action(px4)
     action.arm()

@@ -29,7 +29,7 @@ def kill_at(calls, k, *command):
     return done.returncode != 0
 
 
-def test_an_erasure_killed_at_any_write_is_finished_later(tmp_path):
+def test_erasure_killed_at_any_write_completes_later(tmp_path):
     original = tmp_path / "original"
     flown = webserver.flown(original, "anna", "ben")
     for folder in flown:

@@ -39,7 +39,7 @@ def session(sessions):
     return next(path for path in sorted(sessions.iterdir()) if "-anna-" in path.name)
 
 
-def test_parquet_holds_what_the_csv_does(sessions, tmp_path):
+def test_parquet_matches_the_csv(sessions, tmp_path):
     rows = list(csv.DictReader(io.StringIO(spandrel.run("export", str(session(sessions)), "--frames", "-"))))
     spandrel.run("export", str(session(sessions)), "--parquet", str(tmp_path / "frames.parquet"))
     table = pyarrow.parquet.read_table(tmp_path / "frames.parquet")
@@ -65,7 +65,7 @@ def places(table, prefix):
     return list(zip(*(table.column(f"{prefix}{axis}_m").to_pylist() for axis in ("east", "north", "up"))))
 
 
-def test_parquet_fields_carry_unit_frame_and_definition(sessions, tmp_path):
+def test_parquet_fields_have_unit_frame_and_definition(sessions, tmp_path):
     spandrel.run("export", str(session(sessions)), "--parquet", str(tmp_path / "frames.parquet"))
     schema = pyarrow.parquet.read_schema(tmp_path / "frames.parquet")
     for field in schema:
@@ -163,7 +163,7 @@ def push(sessions, store, password="p"):
                           text=True, timeout=webserver.PATIENCE_S, check=False)
 
 
-def test_statements_are_taken_once_whatever_the_line_does(sessions, store):
+def test_statements_are_stored_once_despite_connection_failures(sessions, store):
     store.busy, store.lose_answer = 2, True
     done = push(sessions, store)
     assert done.returncode == 0 and store.faults == [], (done.stderr, store.faults)
@@ -179,7 +179,7 @@ def test_statements_are_taken_once_whatever_the_line_does(sessions, store):
     assert store.kept == before, "repeated statements must be stored once"
 
 
-def test_a_store_that_refuses_is_told_and_not_asked_again(sessions, store):
+def test_rejection_by_the_store_is_reported_and_not_retried(sessions, store):
     done = push(sessions, store, password="wrong")
     assert done.returncode == 1 and "401" in done.stderr and "wrong" not in done.stderr and store.requests == 1
 
@@ -193,7 +193,7 @@ window.API = {
 </script><iframe src="/package/index.html" width="1000" height="600"></iframe>"""
 
 
-def test_a_scorm_package_tells_its_result(sessions, tmp_path):
+def test_scorm_package_reports_its_result(sessions, tmp_path):
     spandrel.run("export", str(session(sessions)), "--scorm", str(tmp_path / "result.zip"))
     with zipfile.ZipFile(tmp_path / "result.zip") as archive:
         assert archive.testzip() is None

@@ -27,7 +27,7 @@ def failing(tmp_path):
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_takes_the_gnss_away_and_gives_it_back(failing):
+def test_wire_mavsdk_injects_and_clears_a_gnss_failure(failing):
     """The vehicle's health shows failure and recovery; an unsupported failure is reported as such."""
     _system, telemetry, failure = failing
     failure.inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
@@ -41,7 +41,7 @@ def test_wire_mavsdk_takes_the_gnss_away_and_gives_it_back(failing):
 
 
 @pytest.mark.timeout(300)
-def test_wire_failures_are_off_unless_a_parameter_allows_them(vehicle):
+def test_wire_failure_injection_requires_its_parameter(vehicle):
     """MAVSDK checks the parameter itself, and the vehicle rejects requests from clients that do not."""
     system, telemetry = vehicle
     with pytest.raises(Exception, match="DISABLED|DENIED"):
@@ -50,7 +50,7 @@ def test_wire_failures_are_off_unless_a_parameter_allows_them(vehicle):
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turns_again(failing):
+def test_wire_mavsdk_motor_failure_makes_the_vehicle_fall(failing):
     """Only the failed motor stops; the vehicle falls, ends upside down and reports it; after repair, it hovers at the
     respawn position."""
     system, telemetry, failure = failing
@@ -86,7 +86,7 @@ def test_wire_mavsdk_stops_a_motor_in_flight_and_the_vehicle_falls_until_it_turn
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_empties_the_battery_and_the_compass_comes_and_goes(failing):
+def test_wire_mavsdk_injects_battery_and_compass_failures(failing):
     """An empty battery appears in values and texts, and prevents arming."""
     system, telemetry, failure = failing
     texts = []

@@ -25,9 +25,9 @@ from spandrel import wait_for
 
 HERE = pathlib.Path(__file__).parent
 # For a command with many operations, only every n-th is tried, so that each kind of fault has at most this many runs.
-TRIED_MOST = 24
+MAX_ATTEMPTS = 24
 # Upper bound for the number of operations, far above that of any command here.
-OPERATIONS_MOST = 10_000
+MAX_OPERATIONS = 10_000
 # Height that counts as flying in the drill's session, m.
 HEIGHT_M = 2.0
 # Number of operations tried for commands that take seconds (a whole flight, a scene): the first, the last, and one in
@@ -121,14 +121,14 @@ class Place:
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize("kind", ["enospc", "eio", "short", "kill"])
 @pytest.mark.parametrize("name", list(COMMANDS))
-def test_regress_a_fault_at_any_operation_leaves_whole_files(shim, flown, tmp_path, name, kind, measured):
+def test_regress_fault_at_any_operation_leaves_complete_files(shim, flown, tmp_path, name, kind, measured):
     sound = Place(tmp_path / "sound", flown)
     log = tmp_path / "operations"
     done = sound.run(name, environment(shim, sound.root, "none", log=log))
     assert done.returncode == 0, done.stderr
     expected, total = sound.results(), len(operations(log))
-    assert 0 < total < OPERATIONS_MOST, "the command must write files"
-    step = max(1, total // TRIED_MOST)
+    assert 0 < total < MAX_OPERATIONS, "the command must write files"
+    step = max(1, total // MAX_ATTEMPTS)
     hit = 0
     for first in range(1, total + 1, step):
         place = Place(tmp_path / "faulty", flown)
@@ -193,7 +193,7 @@ def photographed(tmp_path_factory):
 
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize("name", list(DRAWN))
-def test_regress_a_fault_while_drawing_leaves_whole_pictures(shim, photographed, tmp_path, name, measured):
+def test_regress_fault_while_rendering_leaves_complete_pictures(shim, photographed, tmp_path, name, measured):
     """After a fault, photos, videos and pictures are either the old or the new ones; rendering again completes them."""
     def draw(root, env):
         session, out = root / "sessions" / photographed.name, root / "out"
@@ -233,7 +233,7 @@ def test_regress_a_fault_while_drawing_leaves_whole_pictures(shim, photographed,
 
 
 @pytest.mark.timeout(1200)
-def test_regress_a_demo_ends_with_a_session_or_a_reason(shim, tmp_path, measured):
+def test_regress_demo_with_faults_ends_with_a_session_or_a_reason(shim, tmp_path, measured):
     """Simulator, monitor and pilot have faults in their own operations: either a session is scored, or the message
     contains the reason."""
     def demo(sessions, env):
@@ -264,7 +264,7 @@ def test_regress_a_demo_ends_with_a_session_or_a_reason(shim, tmp_path, measured
 
 
 @pytest.mark.timeout(1200)
-def test_regress_a_flight_log_that_cannot_be_written_stops_no_flight(shim, tmp_path, measured):
+def test_regress_flight_continues_without_its_log(shim, tmp_path, measured):
     """`sim --files` in flight: the pilot lands regardless of the disk, and the written part of the log can be read."""
     def fly(files, env):
         files.parent.mkdir()
@@ -324,7 +324,7 @@ def test_regress_a_flight_log_that_cannot_be_written_stops_no_flight(shim, tmp_p
 
 
 @pytest.mark.timeout(1200)
-def test_regress_a_server_on_a_bad_disk_answers_and_takes_in_whole_sessions_only(shim, flown, tmp_path, measured):
+def test_regress_server_on_a_bad_disk_imports_only_complete_sessions(shim, flown, tmp_path, measured):
     """Uploads a recording and saves an answer while the disk fails: each is stored completely or not at all, and the
     page reports it."""
     recording = (flown / "telemetry.tlog").read_bytes()
@@ -475,7 +475,7 @@ def fixture_recorded(shim, tmp_path):
 
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize("kind", KINDS)
-def test_regress_a_fault_ends_the_record_of_a_controller_and_not_the_flight(recorded, kind, measured):
+def test_regress_fault_ends_the_input_recording_but_not_the_flight(recorded, kind, measured):
     """The recording contains complete lines up to the fault. Only a recording that cannot be created ends the
     command, with a message that contains the file."""
     sound, lines = recorded.fly("none")
@@ -498,7 +498,7 @@ def test_regress_a_fault_ends_the_record_of_a_controller_and_not_the_flight(reco
 
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("kind", ["enospc", "eio", "short"])
-def test_regress_a_disk_that_fails_in_flight_costs_no_telemetry(shim, tmp_path, kind):
+def test_regress_disk_failure_in_flight_loses_no_telemetry(shim, tmp_path, kind):
     """From the 24th operation on, 10 fail (about two seconds of a flight): the pilot is warned, the flight continues,
     and no data is lost."""
     watched = Watched(shim, tmp_path, kind=kind, first=24, count=10, log=tmp_path / "operations")
@@ -528,7 +528,7 @@ def test_regress_a_disk_that_fails_in_flight_costs_no_telemetry(shim, tmp_path, 
 
 
 @pytest.mark.timeout(600)
-def test_regress_a_second_monitor_is_refused_and_the_end_is_synced(shim, tmp_path):
+def test_regress_second_monitor_is_rejected_and_files_are_synced(shim, tmp_path):
     """A session has one writer, and its files are synced to the disk when it ends."""
     log = tmp_path / "operations"
     watched = Watched(shim, tmp_path, kind="none", log=log)

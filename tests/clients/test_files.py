@@ -47,7 +47,7 @@ def wait(start, *args):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_keeps_files_on_the_vehicle(vehicle, tmp_path):
+def test_wire_mavsdk_transfers_files(vehicle, tmp_path):
     """Uploads, lists, compares, renames, downloads (in both ways) and removes files."""
     _process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)
@@ -73,7 +73,7 @@ def test_wire_mavsdk_keeps_files_on_the_vehicle(vehicle, tmp_path):
 
 
 @pytest.mark.timeout(600)
-def test_wire_a_checksum_of_a_huge_file_does_not_stop_the_vehicle(tmp_path, measured):
+def test_wire_checksum_of_a_huge_file_does_not_block_the_vehicle(tmp_path, measured):
     """CreateFile, TruncateFile to 256 MiB, CalcFileCRC32: heartbeats continue before the response, and a size above
     the quota is rejected."""
     port = spandrel.free_udp_port()
@@ -115,7 +115,7 @@ def test_wire_a_checksum_of_a_huge_file_does_not_stop_the_vehicle(tmp_path, meas
 
 
 @pytest.mark.timeout(600)
-def test_val_pyulog_reads_the_flights_log(vehicle):
+def test_val_pyulog_reads_the_flight_log(vehicle):
     """Contains takeoff and landing; height, modes and attitude in the log agree with telemetry."""
     process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)
@@ -167,7 +167,7 @@ def check_recording(path, height):
 
 
 @pytest.mark.timeout(600)
-def test_val_a_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
+def test_val_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
     """Killed in flight: the indexed reader fails, and `export --mcap` rewrites all but the last second."""
     process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)

@@ -52,7 +52,7 @@ class Script:
 
 
 @pytest.mark.timeout(600)
-def test_wire_a_script_for_arducopter_flies(launch):
+def test_wire_arducopter_script_flies(launch):
     """pymavlink's own helpers for ArduPilot: mode by name, arming, takeoff above home, a target, parameters encoded
     as floats, return."""
     script = Script(launch("ardupilot"))
@@ -84,7 +84,7 @@ def test_wire_a_script_for_arducopter_flies(launch):
 
 
 @pytest.mark.timeout(600)
-def test_wire_a_script_for_the_standard_flies(launch):
+def test_wire_standard_mavlink_script_flies(launch):
     """Uses only common messages and standard modes: available modes, takeoff, position hold, return."""
     script = Script(launch("generic"))
     script.ready()
@@ -148,7 +148,7 @@ def test_wire_mavproxy_flies_a_copter(copter):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_loads_and_lists_a_copters_plans(copter):
+def test_wire_mavproxy_transfers_copter_plans(copter):
     """Item 0 of a mission is home, so it is included in a downloaded mission, but not in the fence or rally points."""
     typed, folder = copter
     nothing = (0.0, 0.0, 0.0, 0.0)
@@ -172,7 +172,7 @@ def test_wire_mavproxy_loads_and_lists_a_copters_plans(copter):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_takes_it_for_an_ardupilot(launch):
+def test_wire_mavsdk_detects_an_ardupilot(launch):
     """Takeoff, hold, parameters, a mission that starts with home, return: MAVSDK must choose ArduPilot's variants
     automatically."""
     port = launch("ardupilot")

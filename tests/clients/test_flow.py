@@ -94,9 +94,9 @@ class Training:
         self.out.close()
 
 
-def count(photograph, colour):
+def count(photograph, color):
     """Returns the number of pixels with a color."""
-    return len(display.pixels_of(photograph, colour))
+    return len(display.pixels_of(photograph, color))
 
 
 def is_page(photograph):
@@ -132,7 +132,7 @@ def folders(training):
 
 
 @pytest.mark.timeout(2400)
-def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_path):
+def test_wire_complete_session_with_the_keyboard(screen, tmp_path):
     """Start page, controller check, tutorial, flight, pause, restart, end; takes a screenshot of every page."""
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7")
     try:
@@ -192,10 +192,10 @@ def test_wire_a_session_from_the_choice_to_the_scores_by_keys_alone(screen, tmp_
     drawn = sorted((folders(training)[1] / "snapshots").glob("*.jpg"))
     assert drawn and all(Image.open(path).size[0] > 600 for path in drawn)
     assert "data:image/jpeg;base64," in (folders(training)[1] / "report.html").read_text(encoding="utf-8")
-    heard_propellers(tmp_path)
+    assert_propellers_audible(tmp_path)
 
 
-def heard_propellers(folder):
+def assert_propellers_audible(folder):
     """Checks the audio output: while the drone climbed, the blade frequency must dominate the spectrum."""
     samples = numpy.frombuffer((folder / "played.raw").read_bytes(), dtype="<i2").astype(float)
     pieces = samples[: len(samples) // 24000 * 24000].reshape(-1, 24000)
@@ -206,7 +206,7 @@ def heard_propellers(folder):
 
 
 @pytest.mark.timeout(1200)
-def test_wire_an_assessment_is_not_paused_nor_begun_anew_but_may_be_ended(screen, tmp_path):
+def test_wire_assessment_can_be_ended_but_not_paused_or_restarted(screen, tmp_path):
     """The pause key asks whether to end the session, and the flight continues meanwhile."""
     training = Training(screen, tmp_path, "--trainee", "otto", "--scenario", "drill-hover", "--purpose", "assessment", "--no-sound")
     try:
@@ -243,7 +243,7 @@ def window_of(training):
 
 
 @pytest.mark.timeout(900)
-def test_wire_a_flight_outlives_its_window(screen, tmp_path):
+def test_wire_flight_survives_its_window(screen, tmp_path):
     """A killed window is reported once; simulator and monitor continue."""
     training = Training(screen, tmp_path, "--scenario", "drill-hover", "--no-sound")
     try:
@@ -256,7 +256,7 @@ def test_wire_a_flight_outlives_its_window(screen, tmp_path):
 
 
 @pytest.mark.timeout(900)
-def test_wire_bad_lines_are_named_once_and_the_window_stays(screen, tmp_path):
+def test_wire_invalid_lines_are_reported_once_without_closing_the_window(screen, tmp_path):
     """Invalid lines have no effect; the end of the pipe closes the window."""
     log = open(tmp_path / "view.txt", "w", encoding="utf-8")
     window = subprocess.Popen(

@@ -111,7 +111,7 @@ def calibrate(pad, profiles):
 
 
 @pytest.mark.timeout(600)
-def test_wire_a_gamepad_is_calibrated_flies_the_vehicle_and_is_unplugged_in_the_air(pad, tmp_path):
+def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
     """From the system's events to the flight: the wizard's profile, sticks, buttons, and the failsafe after the loss."""
     profiles = tmp_path / "profiles"
     assert spandrel.wait_for("the system lists the gamepad", lambda: is_listed(pad, profiles), LIMIT_S).endswith("not calibrated")

@@ -14,7 +14,7 @@ import webserver
 # Time limit for a software driver on a busy machine to compile its shaders and render, ms (ten times the usual).
 PATIENCE_MS = 400_000
 # Range of brightness in the picture, of 255, which must show ground and sky and not only one color.
-SPREAD = """image => {
+BRIGHTNESS_RANGE = """image => {
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];
   const context = canvas.getContext('2d');
@@ -27,7 +27,7 @@ SPREAD = """image => {
 
 
 @pytest.mark.timeout(900)
-def test_wire_an_instructor_sees_what_the_camera_sees_and_a_trainee_does_not(tmp_path):
+def test_wire_only_instructors_see_the_live_camera(tmp_path):
     sessions, picture = tmp_path / "sessions", tmp_path / "camera.jpg"
     sessions.mkdir()
     for name, role in [("ida", "instructor"), ("anna", "trainee")]:
@@ -57,7 +57,7 @@ def test_wire_an_instructor_sees_what_the_camera_sees_and_a_trainee_does_not(tmp
             loaded = "() => { const image = document.querySelector('[data-camera] img'); return image && image.naturalWidth > 0; }"
             page.wait_for_function(loaded)
             image = page.locator("[data-camera] img")
-            assert image.is_visible() and image.evaluate(SPREAD) > 40, "the picture must not be blank"
+            assert image.is_visible() and image.evaluate(BRIGHTNESS_RANGE) > 40, "the picture must not be blank"
             first = image.get_attribute("src")
             page.wait_for_function("before => document.querySelector('[data-camera] img').getAttribute('src') !== before", arg=first)
             page.wait_for_function(loaded)

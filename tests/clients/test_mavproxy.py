@@ -102,7 +102,7 @@ def plan(folder, name, rows):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_reads_parameters_flies_by_channels_and_switches_the_lamp(console):
+def test_wire_mavproxy_uses_parameters_channels_and_lamp(console):
     """Parameters, a rejected arming with its reason, a climb with channels, the relay, released channels."""
     typed, _folder = console
     typed.say("param show MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT  2.5")
@@ -120,7 +120,7 @@ def test_wire_mavproxy_reads_parameters_flies_by_channels_and_switches_the_lamp(
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_loads_and_lists_plans(console):
+def test_wire_mavproxy_transfers_plans(console):
     """A mission, a fence and a rally point are uploaded and downloaded; a fence with two corners is rejected."""
     typed, folder = console
     nothing = (0.0, 0.0, 0.0, 0.0)
@@ -137,7 +137,7 @@ def test_wire_mavproxy_loads_and_lists_plans(console):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_is_obeyed_once_it_has_the_key(tmp_path):
+def test_wire_mavproxy_needs_the_signing_key(tmp_path):
     """A vehicle that requires signatures ignores commands without the passphrase and accepts them with it."""
     key = tmp_path / "key"
     key.write_text("steelspan\n", encoding="utf-8")

@@ -7,7 +7,7 @@ from test_mavproxy import Console
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_moves_files(launch, tmp_path):
+def test_wire_mavproxy_transfers_files(launch, tmp_path):
     """`ftp get`, `put`, `list`, `crc`, `rm`, and two downloads at the same time; MAVProxy assigns responses by the
     session that it chose."""
     files = tmp_path / "files"

@@ -22,7 +22,7 @@ TRUTH_HZ, CLEARANCE_HZ, CONTACT_HZ, SLOW_HZ = 50, 25, 10, 1
 ASSESS_MB = 55
 REPORT_MB = 80
 # Degrees of latitude per meter (40,000 km circumference).
-DEGREES_A_METER = 360.0 / 40_000_000.0
+DEGREES_PER_METER = 360.0 / 40_000_000.0
 
 
 class Recorder:
@@ -61,8 +61,8 @@ def session(tmp_path_factory):
             mav.named_value_int_send(boot_ms, b"seed", 7)
             mav.battery_status_send(0, 0, 3, 0, [0] * 10, -1, -1, -1, 80)
         mav.hil_state_quaternion_send(
-            int(t_s * 1e6), [1.0, 0.0, 0.0, 0.0], 0.0, 0.0, 0.0, int((job["latitude_deg"] + north_m * DEGREES_A_METER) * 1e7),
-            int((job["longitude_deg"] + east_m * DEGREES_A_METER / math.cos(math.radians(job["latitude_deg"]))) * 1e7),
+            int(t_s * 1e6), [1.0, 0.0, 0.0, 0.0], 0.0, 0.0, 0.0, int((job["latitude_deg"] + north_m * DEGREES_PER_METER) * 1e7),
+            int((job["longitude_deg"] + east_m * DEGREES_PER_METER / math.cos(math.radians(job["latitude_deg"]))) * 1e7),
             int((job["altitude_m"] + up_m) * 1000), 0, 0, 0, 0, 0, 0, 0, 0,
         )
         mav.rc_channels_send(boot_ms, 4, *[1500 + k % 100] * 4, *[65535] * 14, 255)
@@ -93,7 +93,7 @@ def peak_mb(*args):
 
 
 @pytest.mark.timeout(600)
-def test_regress_scoring_a_session_takes_little_memory(session, tmp_path, measured):
+def test_regress_scoring_stays_within_its_memory_limit(session, tmp_path, measured):
     """Each telemetry sample must be stored only once, as compactly as transmitted."""
     assess, report = peak_mb("assess", str(session), "--json", str(tmp_path / "scores.json")), peak_mb("report", str(session))
     measured(f"{FLIGHT_S / 60:.0f} minutes, {(session / 'telemetry.tlog').stat().st_size / 1e6:.0f} MB: assess {assess:.0f} MB, report {report:.0f} MB")

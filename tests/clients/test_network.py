@@ -21,7 +21,7 @@ BAUD = 57600
 BYTES_S = BAUD / 10
 
 
-def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
+def test_wire_serial_radio_stays_within_its_baud_rate(tmp_path):
     """Over a pseudo-terminal: parameters arrive completely, the byte rate stays within the baud rate, and a command
     is answered."""
     try:
@@ -64,7 +64,7 @@ def test_wire_a_radio_on_a_serial_port_gets_no_more_than_it_carries(tmp_path):
         os.close(theirs)
 
 
-def test_wire_three_vehicles_in_one_process_are_flown_apart(tmp_path):
+def test_wire_three_vehicles_in_one_process_are_independent(tmp_path):
     """Systems 1 to 3 connect to the same ground station; arming the second leaves the others on the ground."""
     port = spandrel.free_udp_port()
     sim = spandrel.start_sim(tmp_path, port, "--instances", "3")
@@ -89,7 +89,7 @@ def test_wire_three_vehicles_in_one_process_are_flown_apart(tmp_path):
         spandrel.end(sim)
 
 
-def test_wire_tcp_clients_come_and_go_and_the_vehicle_flies_on(tmp_path):
+def test_wire_tcp_clients_may_disconnect_in_flight(tmp_path):
     """Two clients over TCP; the first disconnects in the middle of a frame."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
@@ -121,7 +121,7 @@ def test_wire_tcp_clients_come_and_go_and_the_vehicle_flies_on(tmp_path):
     assert sim.returncode == 0
 
 
-def heard_by(stranger, limit_s):
+def bytes_received_by(stranger, limit_s):
     """Returns the number of bytes that arrive at a socket until there are none for a while."""
     stranger.settimeout(limit_s)
     count = 0
@@ -133,7 +133,7 @@ def heard_by(stranger, limit_s):
     return count
 
 
-def test_wire_strangers_draw_no_streams_and_take_no_sidecars_place(tmp_path):
+def test_wire_unknown_peers_get_no_streams_and_do_not_block_a_sidecar(tmp_path):
     """One byte triggers no traffic; 70 invalid datagrams do not block a sidecar; a sidecar's heartbeat starts all of
     its streams."""
     payload = spandrel.free_udp_port()
@@ -144,7 +144,7 @@ def test_wire_strangers_draw_no_streams_and_take_no_sidecars_place(tmp_path):
         for stranger in strangers:
             stranger.sendto(b"\xfd", ("127.0.0.1", payload))
         # Within one second, a peer would have received its streams.
-        assert heard_by(strangers[0], 1.0) == 0
+        assert bytes_received_by(strangers[0], 1.0) == 0
         sidecar = mavutil.mavlink_connection(f"udpout:127.0.0.1:{payload}", source_system=1, source_component=192, dialect="all")
         hello = asking.Again(lambda: sidecar.mav.heartbeat_send(18, 8, 0, 0, 4))
         end, truth = time.monotonic() + LIMIT_S, None
@@ -159,7 +159,7 @@ def test_wire_strangers_draw_no_streams_and_take_no_sidecars_place(tmp_path):
 
 
 @pytest.mark.timeout(300)
-def test_wire_a_stranger_does_not_become_the_monitors_vehicle(tmp_path):
+def test_wire_monitor_ignores_unknown_senders(tmp_path):
     """The monitor must choose the vehicle despite a stranger's datagrams and a ground station's heartbeats before and
     during its telemetry."""
     sessions, port = tmp_path / "sessions", spandrel.free_udp_port()

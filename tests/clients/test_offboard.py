@@ -66,7 +66,7 @@ def test_regress_mavsdks_offboard_example_flies(tmp_path, measured):
 
 @pytest.mark.parametrize("answers", [True, False])
 @pytest.mark.timeout(600)
-def test_regress_mavsdk_is_found_and_flies_as_a_lockstep_peer(tmp_path, answers):
+def test_regress_mavsdk_flies_as_a_lockstep_peer(tmp_path, answers):
     """As the only peer: MAVSDK answers TIMESYNC only after it has found the vehicle and was configured to do so."""
     port = spandrel.free_udp_port()
     process = start(tmp_path, port, "--lockstep", f"127.0.0.1:{port}")

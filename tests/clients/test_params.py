@@ -30,7 +30,7 @@ def read(connection, name):
     return asking.ask(connection, send, "PARAM_VALUE", lambda message: message.param_id == name)
 
 
-def test_wire_the_list_is_whole_by_index_and_by_name_and_ranges_hold(tmp_path):
+def test_wire_parameter_list_is_complete_and_ranges_are_enforced(tmp_path):
     """The list contains every parameter once; a value out of range is rejected with a reason and the old value."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port)
@@ -49,7 +49,7 @@ def test_wire_the_list_is_whole_by_index_and_by_name_and_ranges_hold(tmp_path):
 
 
 @pytest.mark.timeout(300)
-def test_wire_parameters_outlive_the_run_in_their_file(tmp_path):
+def test_wire_parameters_persist_in_their_file(tmp_path):
     """Set, stop, start again; reset to the defaults; an invalid file is rejected with its line."""
     file = tmp_path / "drone.params"
     for expected, then in ((2.5, 6.5), (6.5, None)):
@@ -74,7 +74,7 @@ def test_wire_parameters_outlive_the_run_in_their_file(tmp_path):
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_reads_what_the_parameters_mean(tmp_path):
+def test_wire_mavsdk_reads_the_parameter_metadata(tmp_path):
     """The description over MAVLink FTP, unpacked and checked by MAVSDK, contains every parameter that the vehicle
     lists."""
     port = spandrel.free_udp_port()
@@ -97,7 +97,7 @@ def test_wire_mavsdk_reads_what_the_parameters_mean(tmp_path):
         spandrel.end(process)
 
 
-def test_wire_what_one_station_sets_the_other_hears(tmp_path):
+def test_wire_parameter_changes_reach_all_stations(tmp_path):
     """Two ground stations on separate links both receive a change by one of them."""
     ports = [spandrel.free_udp_port(), spandrel.free_udp_port()]
     process = spandrel.start_sim(tmp_path, ports[0], "--gcs", f"127.0.0.1:{ports[1]}")

@@ -144,7 +144,7 @@ def pictures(rig):
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_takes_pictures_one_by_one_and_in_series_and_lists_them(rig):
+def test_wire_mavsdk_takes_single_pictures_and_series(rig):
     """take_photo, start_photo_interval, capture info with geotags, list_photos, storage, format."""
     camera = found(rig)
     shots = {}
@@ -192,7 +192,7 @@ def test_wire_mavsdk_takes_pictures_one_by_one_and_in_series_and_lists_them(rig)
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_records_in_video_mode_and_the_camera_says_how_long(rig):
+def test_wire_mavsdk_records_video_with_its_duration(rig):
     """set_mode, start_video, stop_video, recording time, and the response for a stream that is not running."""
     camera = found(rig)
     with pytest.raises(CameraError):
@@ -224,7 +224,7 @@ def test_wire_mavsdk_records_in_video_mode_and_the_camera_says_how_long(rig):
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_zooms_and_what_the_camera_sees_is_told_to_everybody(rig):
+def test_wire_mavsdk_zoom_changes_are_broadcast(rig):
     """zoom_range, zoom_in_start, zoom_out_start, zoom_stop, focus and reset."""
     camera = found(rig)
     station = rig.station
@@ -276,7 +276,7 @@ def first_setting(rig, name):
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_changes_every_setting_to_every_option_and_back(rig):
+def test_wire_mavsdk_can_set_every_camera_option(rig):
     """Checks camera settings like the old mavlink-testing-suite: all options of lists, ends and middle of ranges."""
     camera = found(rig)
     ids = ["CAM_PHOTOQUAL", "CAM_VIDRATE"]
@@ -310,7 +310,7 @@ def pitch_deg(rig, gimbal):
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_points_the_gimbal_by_angles_rates_and_places_and_has_it_alone(rig):
+def test_wire_mavsdk_controls_the_gimbal_exclusively(rig):
     """set_angles, set_angular_rates, take_control, release_control, set_roi_location."""
     gimbal = wait_for("gimbal", lambda: rig.gimbal.gimbal_list().gimbals)[0]
     assert (gimbal.gimbal_manager_component_id, gimbal.gimbal_device_id, gimbal.model_name) == (1, 1, "Pitch gimbal")
@@ -353,7 +353,7 @@ def test_wire_mavsdk_points_the_gimbal_by_angles_rates_and_places_and_has_it_alo
 
 
 @pytest.mark.timeout(300)
-def test_wire_older_forms_of_camera_mount_and_lamp_commands_are_answered(rig):
+def test_wire_superseded_payload_commands_are_answered(rig):
     """REQUEST_CAMERA_*, DO_DIGICAM_CONTROL, DO_MOUNT_*, relay, servo, actuator: results and the messages that follow."""
     station = rig.station
     ok, denied = M.MAV_RESULT_ACCEPTED, M.MAV_RESULT_DENIED
@@ -399,7 +399,7 @@ def test_wire_older_forms_of_camera_mount_and_lamp_commands_are_answered(rig):
 
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize("flavour, output, on, off", [("px4", 1, 1.0, -1.0), ("ardupilot", 9, 1900.0, 1100.0)])
-def test_wire_mavsdk_switches_the_lamp_as_relay_and_actuator(tmp_path, flavour, output, on, off):
+def test_wire_mavsdk_switches_the_lamp_as_a_relay_and_an_actuator(tmp_path, flavour, output, on, off):
     """set_relay and set_actuator, which MAVSDK sends as different commands to an ArduPilot."""
     rig = Rig(tmp_path, "--flavour", flavour)
     try:

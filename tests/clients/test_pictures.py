@@ -39,7 +39,7 @@ def degrees(parts, reference):
 
 
 @pytest.mark.timeout(900)
-def test_val_photographs_tell_where_and_how_they_were_taken(session):
+def test_val_photos_contain_position_and_exposure(session):
     """Pillow reads EXIF and XMP; the report contains the photos."""
     spandrel.run("render", str(session), "--snapshots", "--quality", "low", "--size", f"{WITHIN[0]}x{WITHIN[1]}", program=spandrel.COCKPIT)
     taken = json.loads((session / "assessment.json").read_text(encoding="utf-8"))["snapshots"]["taken"]
@@ -73,7 +73,7 @@ def test_val_photographs_tell_where_and_how_they_were_taken(session):
 
 
 @pytest.mark.timeout(900)
-def test_val_masks_label_what_the_measures_counted(session):
+def test_val_masks_label_the_counted_defects(session):
     """Pillow reads 16 bits per pixel. A defect for which a photo was counted must be labeled in it, within the box of
     the legend."""
     size = f"{SIZE[0]}x{SIZE[1]}"
@@ -86,8 +86,8 @@ def test_val_masks_label_what_the_measures_counted(session):
         stem = path.name.removesuffix(".masks.json")
         pixels = {kind: numpy.asarray(Image.open(path.with_name(f"{stem}.{kind}.png"))) for kind in ("elements", "defects")}
         assert all(of.shape == (SIZE[1], SIZE[0]) for of in pixels.values())
-        assert {entry["element"]: entry["pixels"] for entry in legend["elements"]} == counted(pixels["elements"])
-        assert {entry["id"]: entry["pixels"] for entry in legend["defects"]} == counted(pixels["defects"])
+        assert {entry["element"]: entry["pixels"] for entry in legend["elements"]} == pixel_counts(pixels["elements"])
+        assert {entry["id"]: entry["pixels"] for entry in legend["defects"]} == pixel_counts(pixels["defects"])
         for entry in legend["defects"]:
             rows, columns = numpy.nonzero(pixels["defects"] == entry["id"])
             left, top, width, height = entry["box_px"]
@@ -99,13 +99,13 @@ def test_val_masks_label_what_the_measures_counted(session):
     assert labelled >= len(legends) / 2, "an expert must photograph defects"
 
 
-def counted(labels):
+def pixel_counts(labels):
     """Returns the number of pixels of each label, without unlabeled ones."""
     return {int(label): int(count) for label, count in zip(*numpy.unique(labels[labels > 0], return_counts=True))}
 
 
 @pytest.mark.timeout(900)
-def test_val_a_film_has_every_picture_and_its_chapters(session, tmp_path):
+def test_val_video_has_all_pictures_and_chapters(session, tmp_path):
     """Checks length and number of pictures in the file's index, and a chapter for each photo in the time span."""
     film = tmp_path / "flight.mp4"
     options = ["--quality", "low", "--size", "320x240", "--fps", "2", "--span", "30,60"]

@@ -22,7 +22,7 @@ STANDSTILL_M_S = 0.3
 # MAVLink frames: height relative to home, and MISSION.
 OVER_HOME, ANY = 6, 2
 # 1e-7 degrees of latitude per meter.
-E7_A_METRE = 1e7 * 360.0 / 40_000_000.0
+E7_PER_METER = 1e7 * 360.0 / 40_000_000.0
 # Tolerances between the commanded values and the vehicle's own estimate, m and m/s.
 NEAR_M, NEAR_M_S = 0.7, 0.4
 
@@ -40,7 +40,7 @@ def test_wire_mavsdk_flies_a_mission_to_its_end(vehicle):
     mission, action = MissionRaw(system), Action(system)
     here = wait_for("a position", lambda: (p := telemetry.position()) and p.latitude_deg != 0.0 and p)
     lat, lon = round(here.latitude_deg * 1e7), round(here.longitude_deg * 1e7)
-    north = lat + round(12.0 * E7_A_METRE)
+    north = lat + round(12.0 * E7_PER_METER)
     items = [
         MissionItem(0, OVER_HOME, 22, 1, 1, 0, 0, 0, NAN, lat, lon, 5.0, 0),
         MissionItem(1, OVER_HOME, 16, 0, 1, 0, 0, 0, NAN, north, lon, 6.0, 0),
@@ -60,7 +60,7 @@ def test_wire_mavsdk_flies_a_mission_to_its_end(vehicle):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_steers_by_set_points_and_points_the_gimbal(vehicle):
+def test_wire_mavsdk_flies_with_setpoints_and_points_the_gimbal(vehicle):
     """A position, a body velocity, a turn rate; the gimbal up and down; valid and invalid parameters."""
     system, telemetry = vehicle
     action, offboard, gimbal, param = Action(system), Offboard(system), Gimbal(system), Param(system)
@@ -101,7 +101,7 @@ def test_wire_mavsdk_steers_by_set_points_and_points_the_gimbal(vehicle):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_imports_the_exported_plan_flies_pauses_and_goes_on(vehicle):
+def test_wire_mavsdk_flies_pauses_and_resumes_the_exported_plan(vehicle):
     """The plan of a drill in the form that QGroundControl reads; paused on the way, then flown to its end."""
     system, telemetry = vehicle
     mission, action = MissionRaw(system), Action(system)
@@ -124,7 +124,7 @@ def test_wire_mavsdk_imports_the_exported_plan_flies_pauses_and_goes_on(vehicle)
 
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("vehicle", ["px4", "ardupilot"], indirect=True)
-def test_wire_mavsdk_sets_a_fence_that_holds_the_vehicle(vehicle):
+def test_wire_mavsdk_fence_holds_the_vehicle(vehicle):
     """Uploaded, downloaded, and breached with setpoints: the vehicle holds, also when it emulates an ArduPilot."""
     system, telemetry = vehicle
     fence, action, offboard = Geofence(system), Action(system), Offboard(system)

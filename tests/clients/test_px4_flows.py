@@ -166,7 +166,7 @@ def land_without_gnss(height_source):
     return flow
 
 
-def go_on(unit, kind, height_source=None, finish_s=90, disarm_s=90):
+def continue_without_sensor(unit, kind, height_source=None, finish_s=90, disarm_s=90):
     """The mission must continue to its end when a sensor fails."""
 
     def flow(t):
@@ -182,7 +182,7 @@ def go_on(unit, kind, height_source=None, finish_s=90, disarm_s=90):
     return flow
 
 
-def no_failure_in_the_air_unless_enabled(t):
+def no_failure_injection_in_the_air_unless_enabled(t):
     t.wait_until_ready()
     t.arm()
     t.take_off()
@@ -192,12 +192,12 @@ def no_failure_in_the_air_unless_enabled(t):
     t.wait_until_disarmed(180)
 
 
-def no_failure_on_the_ground_unless_enabled(t):
+def no_failure_injection_on_the_ground_unless_enabled(t):
     t.wait_until_ready()
     assert "DISABLED" in t.refused_failure(FailureUnit.SYSTEM_MOTOR, FailureType.OFF).upper()
 
 
-def jump_set_from_outside(t):
+def set_current_item_to_jump(t):
     """MISSION_SET_CURRENT to a DO_JUMP: the jump is resolved and the mission ends on the ground."""
     t.wait_until_ready()
 
@@ -299,15 +299,15 @@ FLOWS = {
     "forward in altitude control": forward_in_altitude_control,
     "land without GNSS, height by barometer": land_without_gnss(BARO),
     "land without GNSS, height by GNSS": land_without_gnss(GNSS),
-    "continue without compass": go_on(FailureUnit.SENSOR_MAG, FailureType.OFF, disarm_s=120),
-    "continue with a stuck compass": go_on(FailureUnit.SENSOR_MAG, FailureType.STUCK, finish_s=120),
-    "continue without barometer, height by barometer": go_on(FailureUnit.SENSOR_BARO, FailureType.OFF, BARO),
-    "continue without barometer, height by GNSS": go_on(FailureUnit.SENSOR_BARO, FailureType.OFF, GNSS),
-    "continue with a stuck barometer, height by barometer": go_on(FailureUnit.SENSOR_BARO, FailureType.STUCK, BARO),
-    "continue with a stuck barometer, height by GNSS": go_on(FailureUnit.SENSOR_BARO, FailureType.STUCK, GNSS),
-    "no failure injection in the air unless enabled": no_failure_in_the_air_unless_enabled,
-    "no failure injection on the ground unless enabled": no_failure_on_the_ground_unless_enabled,
-    "set current item to a jump": jump_set_from_outside,
+    "continue without compass": continue_without_sensor(FailureUnit.SENSOR_MAG, FailureType.OFF, disarm_s=120),
+    "continue with a stuck compass": continue_without_sensor(FailureUnit.SENSOR_MAG, FailureType.STUCK, finish_s=120),
+    "continue without barometer, height by barometer": continue_without_sensor(FailureUnit.SENSOR_BARO, FailureType.OFF, BARO),
+    "continue without barometer, height by GNSS": continue_without_sensor(FailureUnit.SENSOR_BARO, FailureType.OFF, GNSS),
+    "continue with a stuck barometer, height by barometer": continue_without_sensor(FailureUnit.SENSOR_BARO, FailureType.STUCK, BARO),
+    "continue with a stuck barometer, height by GNSS": continue_without_sensor(FailureUnit.SENSOR_BARO, FailureType.STUCK, GNSS),
+    "no failure injection in the air unless enabled": no_failure_injection_in_the_air_unless_enabled,
+    "no failure injection on the ground unless enabled": no_failure_injection_on_the_ground_unless_enabled,
+    "set current item to a jump": set_current_item_to_jump,
     "follow by position": follow(False),
     "follow by position and velocity": follow(True),
     "follow by velocity only": follow_velocity_only,

@@ -75,7 +75,7 @@ def moment(page, index):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", list(SIZES))
-def test_opens_without_error_or_request(browser, session, size, scheme):
+def test_report_opens_without_errors_or_requests(browser, session, size, scheme):
     page, wrong = opened(browser, session / "report.html", size, scheme)
     moment(page, int(page.get_attribute("#moment", "max")) * 2 // 3)
     keep(page, f"{size}-{scheme}-top")
@@ -87,7 +87,7 @@ def test_opens_without_error_or_request(browser, session, size, scheme):
     assert wrong == []
 
 
-def test_slider_moves_the_drone_on_every_drawing_and_the_curves(browser, session):
+def test_slider_moves_the_drone_in_all_drawings_and_charts(browser, session):
     page, wrong = opened(browser, session / "report.html")
     most = int(page.get_attribute("#moment", "max"))
     assert most > 1000
@@ -114,7 +114,7 @@ def test_slider_moves_the_drone_on_every_drawing_and_the_curves(browser, session
     assert wrong == []
 
 
-def test_marker_stands_where_the_flight_was(browser, session):
+def test_marker_matches_the_recorded_position(browser, session):
     """Compares the marker on the plan with the frames that `export` writes, using the drawing's own matrix."""
     page, _ = opened(browser, session / "report.html")
     rows = spandrel.run("export", str(session), "--frames", "-").splitlines()
@@ -132,7 +132,7 @@ def test_marker_stands_where_the_flight_was(browser, session):
         assert abs(m[4] * east + m[5] * north + m[6] * up + m[7] - y) < 0.3
 
 
-def test_colours_switch_on_all_drawings(browser, session):
+def test_color_choice_applies_to_all_drawings(browser, session):
     page, wrong = opened(browser, session / "report.html")
     shown = "nodes => nodes.filter(node => getComputedStyle(node).display !== 'none').length"
     for chosen in ("by-speed", "by-clearance", "by-path"):
@@ -144,7 +144,7 @@ def test_colours_switch_on_all_drawings(browser, session):
     assert wrong == []
 
 
-def test_model_opens_turns_and_follows(browser, session):
+def test_model_opens_rotates_and_follows_the_slider(browser, session):
     page, wrong = opened(browser, session / "report.html")
     page.click("#model-open")
     canvas = page.wait_for_selector("#model-live canvas")
@@ -164,7 +164,7 @@ def test_model_opens_turns_and_follows(browser, session):
     assert wrong == []
 
 
-def test_numbers_behind_a_figure_download(browser, session, tmp_path):
+def test_data_behind_a_figure_can_be_downloaded(browser, session, tmp_path):
     page, wrong = opened(browser, session / "report.html")
     page.click("#tasks summary >> nth=0")
     with page.expect_download() as download:
@@ -181,7 +181,7 @@ def test_numbers_behind_a_figure_download(browser, session, tmp_path):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing(browser, session, scheme):
+def test_axe_finds_no_violations(browser, session, scheme):
     """Contrast, names, landmarks, keyboard: everything that axe can check, with all tables expanded."""
     page, _ = opened(browser, session / "report.html", scheme=scheme)
     page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
@@ -189,14 +189,14 @@ def test_axe_finds_nothing(browser, session, scheme):
     assert found.violations_count == 0, found.generate_report()
 
 
-def test_every_figure_has_its_numbers(browser, session):
+def test_every_figure_has_its_data_table(browser, session):
     page, _ = opened(browser, session / "report.html")
     for section in page.query_selector_all("main > section"):
         name = section.get_attribute("id")
         assert section.query_selector("table") and section.query_selector("a[download]"), name
 
 
-def test_reads_without_script_and_prints(browser, session, tmp_path):
+def test_report_works_without_scripts_and_prints(browser, session, tmp_path):
     page = browser.new_context(java_script_enabled=False, viewport={"width": 1280, "height": 900}).new_page()
     page.goto((session / "report.html").as_uri())
     assert page.locator("#flight svg.map").count() >= 4
@@ -207,14 +207,14 @@ def test_reads_without_script_and_prints(browser, session, tmp_path):
     assert wrong == []
 
 
-def test_made_again_it_is_the_same_and_small(session, tmp_path):
+def test_report_is_reproducible_and_small(session, tmp_path):
     page = (session / "report.html").read_bytes()
     assert len(page) < LARGEST
     spandrel.run("report", str(session), "--out", str(tmp_path / "again.html"))
     assert (tmp_path / "again.html").read_bytes() == page
 
 
-def test_two_sessions_compared(browser, session, tmp_path):
+def test_comparison_report_of_two_sessions(browser, session, tmp_path):
     """Two different flights: each must have its own shape, track and drone."""
     spandrel.run("demo", "--seed", "5", "--skill", "trained", "--speed", "max", "--trainee", "other", "--sessions", str(tmp_path / "sessions"))
     other = next(path for path in (tmp_path / "sessions").iterdir() if (path / "telemetry.tlog").is_file())

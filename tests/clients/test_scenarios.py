@@ -18,7 +18,7 @@ from spandrel import wait_for
 
 NAN = float("nan")
 # Degrees of latitude per meter.
-A_METRE = 360.0 / 40_000_000.0
+DEGREES_PER_METER = 360.0 / 40_000_000.0
 # Tolerance between estimate and truth, m: GNSS errs by meters, the barometer by one.
 TRUTH_M = 5.0
 # Tolerance between commanded and reported values, m.
@@ -38,13 +38,13 @@ def take_off(action, telemetry, height_m):
 def away_m(telemetry, latitude_deg, longitude_deg):
     """Returns the horizontal distance to a position, m."""
     p = telemetry.position()
-    north = (p.latitude_deg - latitude_deg) / A_METRE
-    east = (p.longitude_deg - longitude_deg) / A_METRE * math.cos(math.radians(latitude_deg))
+    north = (p.latitude_deg - latitude_deg) / DEGREES_PER_METER
+    east = (p.longitude_deg - longitude_deg) / DEGREES_PER_METER * math.cos(math.radians(latitude_deg))
     return math.hypot(north, east)
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_hears_every_stream_and_who_the_vehicle_is(vehicle):
+def test_wire_mavsdk_receives_all_streams_and_the_identification(vehicle):
     """All streams of a multirotor arrive with finite numbers; truth and estimate agree; the vehicle identifies
     itself."""
     system, telemetry = vehicle
@@ -93,7 +93,7 @@ def test_wire_mavsdk_flies_by_command_and_returns_home(vehicle):
         action.set_takeoff_altitude(-3.0)
     take_off(action, telemetry, 8.0)
     home = telemetry.home()
-    north = home.latitude_deg + 25.0 * A_METRE
+    north = home.latitude_deg + 25.0 * DEGREES_PER_METER
     action.set_current_speed(4.0)
     action.goto_location(north, home.longitude_deg, home.absolute_altitude_m + 10.0, 90.0)
     wait_for("the place", lambda: away_m(telemetry, north, home.longitude_deg) < NEAR_M)
@@ -119,7 +119,7 @@ def test_wire_mavsdk_flies_by_command_and_returns_home(vehicle):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_plans_a_square_with_pictures_and_returns(vehicle):
+def test_wire_mavsdk_flies_a_square_with_pictures_and_returns(vehicle):
     """A mission in MAVSDK's own format: speeds, gimbal, pictures, delays; with a jump to an item, and a return at the
     end."""
     system, telemetry = vehicle
@@ -130,7 +130,7 @@ def test_wire_mavsdk_plans_a_square_with_pictures_and_returns(vehicle):
     picture = MissionItem.CameraAction.TAKE_PHOTO
     items = [
         MissionItem(
-            home.latitude_deg + n * A_METRE, home.longitude_deg + e * A_METRE / scale, 8.0, speed_m_s=3.0 + k, is_fly_through=k % 2 == 0,
+            home.latitude_deg + n * DEGREES_PER_METER, home.longitude_deg + e * DEGREES_PER_METER / scale, 8.0, speed_m_s=3.0 + k, is_fly_through=k % 2 == 0,
             gimbal_pitch_deg=-20.0 * k, camera_action=picture if k else None, loiter_time_s=1.0 if k % 2 else NAN, acceptance_radius_m=1.0,
             yaw_deg=NAN,
         )
@@ -155,7 +155,7 @@ def test_wire_mavsdk_plans_a_square_with_pictures_and_returns(vehicle):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_moves_five_hundred_items(vehicle):
+def test_wire_mavsdk_transfers_500_items(vehicle):
     """A plan of 500 items is uploaded and downloaded."""
     system, _telemetry = vehicle
     mission = MissionRaw(system)
@@ -167,7 +167,7 @@ def test_wire_mavsdk_moves_five_hundred_items(vehicle):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_flies_by_sticks_and_their_loss_makes_it_hold(vehicle):
+def test_wire_mavsdk_flies_with_sticks_and_their_loss_holds(vehicle):
     """Climb and fly forward; released sticks stop the vehicle; lost sticks trigger the failsafe's hold; sticks sent
     again take over."""
     system, telemetry = vehicle

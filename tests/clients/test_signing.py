@@ -43,7 +43,7 @@ def acknowledged(link):
 
 
 @pytest.mark.timeout(120)
-def test_wire_pymavlink_is_obeyed_only_with_the_key(vehicle):
+def test_wire_pymavlink_needs_the_signing_key(vehicle):
     """Sends commands unsigned, signed with another key, and signed with the key; also checks the signatures of the
     vehicle's messages."""
     link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{vehicle}", dialect="common", source_system=255)
@@ -164,7 +164,7 @@ def running(wire, key):
 @pytest.mark.timeout(240)
 @pytest.mark.parametrize("kind", ["udp", "tcp", "serial"])
 @pytest.mark.parametrize("ended", [signal.SIGINT, signal.SIGKILL])
-def test_wire_what_was_signed_once_is_obeyed_once_on_every_link_and_across_a_restart(tmp_path, kind, ended):
+def test_wire_signed_frames_cannot_be_replayed_on_any_link_or_after_a_restart(tmp_path, kind, ended):
     """Sends a command unsigned, signed with another key, correctly signed, and replayed; then restarts the vehicle
     and repeats everything."""
     key = tmp_path / "key"
@@ -189,7 +189,7 @@ def test_wire_what_was_signed_once_is_obeyed_once_on_every_link_and_across_a_res
 
 
 @pytest.mark.timeout(60)
-def test_wire_a_memory_that_is_none_is_refused_with_its_line(tmp_path):
+def test_wire_invalid_signing_memory_is_rejected_with_its_line(tmp_path):
     """An invalid file in this place is reported, not overwritten."""
     key = tmp_path / "key"
     key.write_text(PASSPHRASE + "\n", encoding="utf-8")

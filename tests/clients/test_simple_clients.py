@@ -36,7 +36,7 @@ def metres(a, b):
 
 
 @pytest.mark.timeout(300)
-def test_regress_whoever_looks_in_hears_the_autopilot_first(launch):
+def test_regress_new_clients_receive_the_autopilot_heartbeat_first(launch):
     """Scripts that start at any time and use the first heartbeat, while the camera component is also active."""
     port, first = launch("px4"), []
     for _ in range(LOOKS):

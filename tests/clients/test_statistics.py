@@ -142,7 +142,7 @@ def regression(y, columns):
     return estimates, errors, p, estimates - reach, estimates + reach, explained, stats.f.sf(f, x.shape[1] - 1, df)
 
 
-def test_val_the_causal_model(study):
+def test_val_causal_model(study):
     people, cohort = study
     answers = [records[0]["answers"]["answers"] for records in people.values()]
     demand = np.array([np.mean([a[f"{p}.{d}"] for p in PHASES for d in ("mental_demand", "physical_demand")]) for a in answers])
@@ -177,7 +177,7 @@ def test_val_learning_curves(study):
     assert checked > 50
 
 
-def test_val_the_paired_test_that_the_paper_prints(tmp_path):
+def test_val_paired_test_of_the_tasbid_paper(tmp_path):
     """Eight people whose differences give t = 2.609: the TASBID paper's first test, p = 0.0175 in the upper tail."""
     random = np.random.default_rng(5)
     shape = random.normal(size=8)
@@ -197,7 +197,7 @@ def test_val_the_paired_test_that_the_paper_prints(tmp_path):
     assert [round(test["p"][tail], 4) for tail in ("upper", "lower", "two")] == [0.0175, 0.9825, 0.0350]
 
 
-def test_regress_incomplete_sessions_are_left_out_and_counted(tmp_path):
+def test_regress_incomplete_sessions_are_excluded_and_counted(tmp_path):
     """An aborted session must not count as a first session, unless requested."""
     random = np.random.default_rng(9)
     records = [made_up_record(random, trainee, n) for trainee in ("anna", "ben") for n in range(2)]

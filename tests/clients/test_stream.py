@@ -26,7 +26,7 @@ LIMIT_S = 400
 RATE_MAX_HZ = 30.4
 # Maximum median difference from the window's picture, of 255: coding and color subsampling cause about 2, and waves and
 # noise in the meantime some more; a different picture causes over 30.
-ALIKE = 12
+MAX_DIFFERENCE = 12
 # Bytes that are buffered for the decoder while the machine is busy.
 BUFFER = 4 << 20
 
@@ -99,14 +99,14 @@ def camera(screen):
     return photograph[:, photograph.shape[1] // 2 :]
 
 
-def alike(file, shown):
+def is_similar(file, shown):
     """Returns whether half of the pixels agree; the HUD in the window covers less than that."""
     picture = numpy.asarray(Image.open(file).convert("RGB")).astype(int)
-    return picture.shape == shown.shape and numpy.median(numpy.abs(picture - shown).max(axis=2)) < ALIKE
+    return picture.shape == shown.shape and numpy.median(numpy.abs(picture - shown).max(axis=2)) < MAX_DIFFERENCE
 
 
 @pytest.mark.timeout(900)
-def test_val_gstreamer_shows_what_the_camera_sees(tmp_path, measured):
+def test_val_gstreamer_decodes_the_camera_stream(tmp_path, measured):
     """Every encoded picture must be decoded and match the window; the vehicle must announce the start and the end of
     the stream."""
     screen = display.Display(tmp_path, 640, 240)
@@ -122,7 +122,7 @@ def test_val_gstreamer_shows_what_the_camera_sees(tmp_path, measured):
     )
     try:
         spandrel.wait_for("decoded pictures", lambda: len(player.seen()) > ENOUGH, LIMIT_S)
-        spandrel.wait_for("the window's picture", lambda: alike(player.seen()[-2], camera(screen)), LIMIT_S)
+        spandrel.wait_for("the window's picture", lambda: is_similar(player.seen()[-2], camera(screen)), LIMIT_S)
         link = asking.connect(watcher)
         running = lambda m: m.flags & 1 and m.resolution_h == 320 and m.resolution_v == 240  # noqa: E731
         send = lambda: link.mav.command_long_send(1, 100, mavutil.mavlink.MAV_CMD_REQUEST_MESSAGE, 0, 269, 1, 0, 0, 0, 0, 0)  # noqa: E731

@@ -18,7 +18,7 @@ def records(path):
     return sorted((one for one in every if one["trainee"] == PERSON), key=lambda one: one["started_unix_us"])
 
 
-def test_flight_the_study_is_flown_answered_and_taken_in_as_it_is_kept(tmp_path):
+def test_flight_example_study_is_reproducible(tmp_path):
     tool = spandrel.ROOT / "tools" / "cohort"
     done = subprocess.run(
         [sys.executable, str(tool), str(tmp_path), "1", "1"],

@@ -102,7 +102,7 @@ def heartbeats(link, count):
 
 
 @pytest.mark.timeout(600)
-def test_regress_the_vehicle_stays_connected_after_the_landing(training, tmp_path, measured):
+def test_regress_vehicle_stays_connected_after_landing(training, tmp_path, measured):
     """A connected ground station keeps its vehicle when the session is scored, downloads the flight log, and flies
     again."""
     station = mavutil.mavlink_connection(f"udpin:127.0.0.1:{training.gcs_port}")
@@ -151,7 +151,7 @@ def test_train_once_ends_with_the_scores(tmp_path):
 
 
 @pytest.mark.timeout(600)
-def test_regress_a_killed_monitor_is_replaced_on_the_same_session(training):
+def test_regress_killed_monitor_is_replaced_in_the_same_session(training):
     """The monitor is killed in flight: the flight continues, and the complete session is scored."""
     mavsdk, system = sdk.connect(training.sdk_port)
     action, telemetry = sdk.take_off(system, HEIGHT_M)

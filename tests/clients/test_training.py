@@ -35,7 +35,7 @@ def folders(sessions):
     return sorted(path for path in sessions.iterdir() if path.is_dir())
 
 
-def test_a_session_becomes_a_record_and_a_plan(sessions):
+def test_session_leads_to_a_record_and_a_plan(sessions):
     place = ["--sessions", str(sessions)]
     session = folders(sessions)[0]
     # Answers half now and half later: saved answers are not requested again.
@@ -76,7 +76,7 @@ def test_a_session_becomes_a_record_and_a_plan(sessions):
     assert any("78" in words for words in cohort["warnings"])
 
 
-def test_csv_tables_are_read_by_others(sessions, tmp_path):
+def test_csv_tables_are_readable(sessions, tmp_path):
     place = ["--sessions", str(sessions), "--database", str(tmp_path / "records.sqlite")]
     spandrel.run("records", "import", *place)
     spandrel.run("cohort", "--repetitions", "2", "--csv", str(tmp_path / "tables"), *place)
@@ -87,7 +87,7 @@ def test_csv_tables_are_read_by_others(sessions, tmp_path):
     assert all(None not in row and None not in row.values() for rows in tables.values() for row in rows)
 
 
-def test_what_is_wrong_is_told_by_file_key_and_value(sessions, tmp_path):
+def test_errors_include_file_key_and_value(sessions, tmp_path):
     session = folders(sessions)[1]
     (session / "answers.json").write_text('{"format": 1, "language": "en", "answers": {"feedback": 9}}', encoding="utf-8")
     code, _, errors = run_with("", "questionnaire", str(session))
@@ -105,7 +105,7 @@ def test_what_is_wrong_is_told_by_file_key_and_value(sessions, tmp_path):
     assert code == 2 and "no session of 'nobody'" in errors
 
 
-def test_a_trainee_may_have_his_data_and_be_forgotten(sessions):
+def test_trainee_data_can_be_exported_and_erased(sessions):
     place = ["--sessions", str(sessions)]
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--trainee", "ben", "--sessions", str(sessions))
     spandrel.run("records", "import", *place)
@@ -124,7 +124,7 @@ def test_a_trainee_may_have_his_data_and_be_forgotten(sessions):
     assert "0 sessions and 0 folders" in spandrel.run("records", "retention", "--days", "1", "--yes", *place)
 
 
-def test_rebuild_does_not_forget_another_stations_sessions(sessions, tmp_path):
+def test_rebuild_keeps_sessions_of_other_stations(sessions, tmp_path):
     database = ["--database", str(tmp_path / "records.sqlite")]
     spandrel.run("records", "import", "--sessions", str(sessions), *database)
     other = tmp_path / "other"
@@ -137,7 +137,7 @@ def test_rebuild_does_not_forget_another_stations_sessions(sessions, tmp_path):
     assert "2 new or changed" in spandrel.run("records", "import", "--sessions", str(sessions), *database)
 
 
-def test_a_killed_import_leaves_whole_records_and_goes_on(tmp_path):
+def test_killed_import_leaves_complete_records_and_continues(tmp_path):
     """Two hundred sessions (copies of one), with the import killed twenty times: at random times, and right after a
     batch."""
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--sessions", str(tmp_path / "one"))

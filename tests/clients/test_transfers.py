@@ -68,7 +68,7 @@ class Station:
 
 
 @pytest.mark.timeout(300)
-def test_wire_pymavlink_transfers_survive_parts_cancellations_and_other_stations(tmp_path):
+def test_wire_mission_protocol_handles_partial_canceled_and_concurrent_transfers(tmp_path):
     """Incomplete transfers must have no effect; the transfer that started first must end first."""
     unused, port = spandrel.free_udp_port(), spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, unused, speed=1, gcs_port=port)

@@ -49,7 +49,7 @@ def contrast(part):
 
 
 @pytest.mark.timeout(900)
-def test_wire_the_window_shows_both_views_and_flies_by_its_keys(screen, tmp_path):
+def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
     """With a simulator in real time: screenshots must show two different views and the HUD; keys change the layout,
     hide the map and fly."""
     watcher, dial, payload = (spandrel.free_udp_port() for _ in range(3))
@@ -128,7 +128,7 @@ def armable(link):
 
 
 @pytest.mark.timeout(600)
-def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
+def test_wire_missing_prerequisites_give_one_message(screen, tmp_path):
     """Without a display or Vulkan, or with an invalid key file, there is an exit code and one message each."""
 
     def view(environment, *args):
@@ -167,7 +167,7 @@ def test_wire_what_is_missing_is_named_in_one_message(screen, tmp_path):
 
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize(("asked", "title"), [(["--scenario", "drill-hover"], "Drill: hover"), ([], "using the command line: anonymous flies two-bridges")])
-def test_wire_training_goes_on_without_a_display(tmp_path, asked, title):
+def test_wire_training_continues_without_a_display(tmp_path, asked, title):
     """`train` reports what is missing and which job it flies, and waits for the flight nevertheless."""
     blind = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
     log = open(tmp_path / "train.txt", "w", encoding="utf-8")

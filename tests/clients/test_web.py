@@ -107,7 +107,7 @@ class Person:
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", list(SIZES))
-def test_every_page_passes_axe_wide_and_narrow_light_and_dark(browser, server, sessions, size, scheme):
+def test_every_page_passes_axe(browser, server, sessions, size, scheme):
     person = Person(browser, server, "ada", size, scheme)
     anna = ids(sessions, "anna")
     pages = {
@@ -130,7 +130,7 @@ def test_every_page_passes_axe_wide_and_narrow_light_and_dark(browser, server, s
     stranger.check()
 
 
-def test_practice_is_shown_repetition_by_repetition_and_the_cohorts_tables_download(browser, server, tmp_path):
+def test_progress_page_shows_repetitions_and_tables_download(browser, server, tmp_path):
     """Like participant 18 of the TASBID paper: scores, on-path share by task and crashes over the repetitions;
     learning curves from the fourth on."""
     person = Person(browser, server, "lena")
@@ -159,7 +159,7 @@ def test_practice_is_shown_repetition_by_repetition_and_the_cohorts_tables_downl
     assert ida.wrong == []
 
 
-def test_a_trainee_answers_leaves_and_returns(browser, server, sessions):
+def test_questionnaire_answers_persist_after_leaving(browser, server, sessions):
     session = sessions / ids(sessions, "anna")[0]
     person = Person(browser, server, "anna")
     person.page.click("table a >> nth=-1")
@@ -187,7 +187,7 @@ def test_a_trainee_answers_leaves_and_returns(browser, server, sessions):
     assert person.wrong == []
 
 
-def test_answers_without_script(browser, server, sessions):
+def test_questionnaire_works_without_scripts(browser, server, sessions):
     session = sessions / ids(sessions, "ben")[0]
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
@@ -201,7 +201,7 @@ def test_answers_without_script(browser, server, sessions):
     assert list(json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"].values()) == [5]
 
 
-def test_the_questionnaire_speaks_the_language_of_the_browser_and_of_ones_choice(browser, sessions, tmp_path):
+def test_questionnaire_language_follows_browser_and_selection(browser, sessions, tmp_path):
     """German from Accept-Language, Spanish by selection, a site's own Swiss texts; answers persist through all of
     them."""
     swiss = (spandrel.ROOT / "crates/training/src/questionnaire/de.toml").read_text(encoding="utf-8")
@@ -246,7 +246,7 @@ def test_the_questionnaire_speaks_the_language_of_the_browser_and_of_ones_choice
         server.close()
 
 
-def test_a_wrong_wording_is_named_by_line_and_key(tmp_path):
+def test_invalid_questionnaire_text_is_reported_with_line_and_key(tmp_path):
     broken = (spandrel.ROOT / "crates/training/src/questionnaire/es.toml").read_text(encoding="utf-8").replace("neutral = ", "# neutral = ")
     (tmp_path / "es.toml").write_text(broken.replace("Tarea {number}", "Tarea"), encoding="utf-8")
     done = subprocess.run(
@@ -258,7 +258,7 @@ def test_a_wrong_wording_is_named_by_line_and_key(tmp_path):
     assert "phases.task = Tarea: {name}" in done.stderr and "{number}" in done.stderr, done.stderr
 
 
-def test_a_report_opens_under_its_own_policy_and_its_slider_works(browser, server, sessions):
+def test_report_works_under_its_content_security_policy(browser, server, sessions):
     person = Person(browser, server, "anna")
     session = ids(sessions, "anna")[0]
     person.go(f"/sessions/{session}")
@@ -276,7 +276,7 @@ def test_a_report_opens_under_its_own_policy_and_its_slider_works(browser, serve
     assert person.wrong == []
 
 
-def test_a_report_of_another_version_is_made_again(server, sessions):
+def test_report_of_another_version_is_regenerated(server, sessions):
     session = sessions / ids(sessions, "ben")[0]
     page = (session / "report.html").read_bytes()
     (session / "report.html").write_text("<script>alert('planted')</script>", encoding="utf-8")
@@ -287,7 +287,7 @@ def test_a_report_of_another_version_is_made_again(server, sessions):
     assert (session / "report.html").read_bytes() == page
 
 
-def test_two_sessions_are_compared(browser, server, sessions):
+def test_two_sessions_can_be_compared(browser, server, sessions):
     """Both flights in one drawing with one slider, aligned as the instructor selects."""
     first, second = ids(sessions, "anna")
     for size, scheme in [("desktop", "light"), ("phone", "dark")]:
@@ -328,7 +328,7 @@ def test_two_sessions_are_compared(browser, server, sessions):
         assert person.wrong == []
 
 
-def test_nobody_reads_what_is_somebody_elses(browser, server, sessions):
+def test_trainees_cannot_read_data_of_others(browser, server, sessions):
     person = Person(browser, server, "anna")
     ben = ids(sessions, "ben")[0]
     # The list is available and does not contain Ben.
@@ -343,7 +343,7 @@ def test_nobody_reads_what_is_somebody_elses(browser, server, sessions):
     assert person.go("/trainees/anna").status == 200
 
 
-def test_a_trainee_is_exported_and_erased(browser, server, sessions, tmp_path):
+def test_trainee_can_be_exported_and_erased(browser, server, sessions, tmp_path):
     webserver.flown(sessions, "gone", seed=31)
     person = Person(browser, server, "ada")
     # The server finds the new session automatically.
@@ -373,7 +373,7 @@ def test_a_trainee_is_exported_and_erased(browser, server, sessions, tmp_path):
     assert person.go("/settings").status == 200, "administrators must not be able to erase themselves"
 
 
-def test_a_scenario_is_uploaded_checked_and_taken_away(browser, server, tmp_path):
+def test_scenario_can_be_uploaded_validated_and_deleted(browser, server, tmp_path):
     person = Person(browser, server, "ida")
     good = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
     name = "ours-hover"
@@ -398,7 +398,7 @@ def test_a_scenario_is_uploaded_checked_and_taken_away(browser, server, tmp_path
     assert name not in person.page.inner_text("main")
 
 
-def test_a_recorded_flight_is_taken_in(browser, server, sessions, tmp_path):
+def test_recorded_flight_can_be_imported(browser, server, sessions, tmp_path):
     source = sessions / ids(sessions, "anna")[1]
     # A new recording: the same flight without its last record.
     log = tmp_path / "telemetry.tlog"
@@ -439,7 +439,7 @@ def test_a_recorded_flight_is_taken_in(browser, server, sessions, tmp_path):
     assert len(ids(sessions, "carl")) == 1
 
 
-def test_everybody_changes_the_own_password(browser, server, sessions):
+def test_users_can_change_their_password(browser, server, sessions):
     webserver.set_password(sessions, "dora", "trainee")
     person, elsewhere = Person(browser, server, "dora"), Person(browser, server, "dora")
     person.go("/account")
@@ -465,7 +465,7 @@ def test_everybody_changes_the_own_password(browser, server, sessions):
     assert person.page.url.endswith("/login")
 
 
-def test_nobodys_change_of_details_is_lost(browser, server, sessions):
+def test_concurrent_edits_are_not_lost(browser, server, sessions):
     """Two users edit one trainee at the same time: the second one is informed, and neither the first one's changes
     nor a new role are lost."""
     webserver.set_password(sessions, "emil", "trainee")
@@ -483,7 +483,7 @@ def test_nobodys_change_of_details_is_lost(browser, server, sessions):
     assert second.page.input_value("[name=age_band]") == "35-44" and second.page.input_value("[name=drone_experience]") == "some"
 
 
-def test_on_one_machine_nobody_logs_in_until_somebody_has_a_password(browser, tmp_path):
+def test_local_server_requires_login_only_after_a_password_is_set(browser, tmp_path):
     server = webserver.Server(tmp_path / "sessions")
     person = Person(browser, server)
     person.go("/")
@@ -508,7 +508,7 @@ def test_on_one_machine_nobody_logs_in_until_somebody_has_a_password(browser, tm
     server.close()
 
 
-def test_an_instructor_watches_and_acts(browser, tmp_path):
+def test_instructor_can_watch_and_intervene(browser, tmp_path):
     """A complete flight of the synthetic trainee, observed on the server's page: the drone moves, cues arrive, and
     wind, a failure and a note are sent."""
     flight = spandrel.Flight(tmp_path, speed=2)
@@ -561,7 +561,7 @@ def test_an_instructor_watches_and_acts(browser, tmp_path):
         flight.close()
 
 
-def test_a_trainee_sees_the_camera_of_his_own_flight_alone(browser, tmp_path):
+def test_trainee_sees_only_the_camera_of_their_own_flight(browser, tmp_path):
     """The picture is normally written by a window; here the test writes it."""
     picture = tmp_path / "camera.jpg"
     photograph = (spandrel.ROOT / "docs" / "src" / "images" / "window.jpg").read_bytes()

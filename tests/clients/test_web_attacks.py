@@ -66,7 +66,7 @@ def forms(sessions):
     }
 
 
-def test_another_site_changes_nothing(server, sessions):
+def test_cross_site_requests_are_rejected(server, sessions):
     ada = logged_in(server, "ada")
     token = ada.token("/sessions")
     for path, (_, fields) in forms(sessions).items():
@@ -90,7 +90,7 @@ def test_another_site_changes_nothing(server, sessions):
         assert status == 403, path
 
 
-def test_forms_are_all_in_the_table_of_attacks(sessions):
+def test_attack_tests_cover_every_form(sessions):
     """Compares the server's table of routes with the list above."""
     source = (spandrel.ROOT / "src" / "web" / "routes.rs").read_text(encoding="utf-8")
     changes = set(re.findall(r'change\(\s*"([^"]+)"', source)) - {"/login"}
@@ -98,7 +98,7 @@ def test_forms_are_all_in_the_table_of_attacks(sessions):
     assert {re.sub(r"\{\w+\}", "{}", path) for path in changes} == listed
 
 
-def test_a_script_in_any_field_stays_words(server, sessions):
+def test_script_in_any_field_is_escaped(server, sessions):
     ada = logged_in(server, "ada")
     anna = of(sessions, "anna")
     tries = [
@@ -133,7 +133,7 @@ def test_a_script_in_any_field_stays_words(server, sessions):
     ada.post("/scenarios/evil-title", "/scenarios/evil-title/remove", {})
 
 
-def test_a_hostile_name_of_a_task_stays_words_from_the_flight_to_the_cohort(server, sessions, tmp_path):
+def test_hostile_task_name_is_escaped_everywhere(server, sessions, tmp_path):
     """A task with a script as its name is flown several times, and appears escaped on every page that shows its name."""
     job = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
     evil = re.sub(r'(\[\[tasks\]\](?:\n(?!\[).*)*?\nname = )"[^"]*"', lambda found: f'{found.group(1)}"{EVIL}"', job)
@@ -163,7 +163,7 @@ def test_a_hostile_name_of_a_task_stays_words_from_the_flight_to_the_cohort(serv
     assert logged_in(server, "ada").post("/trainees/mallory", "/trainees/mallory/erase", {"again": "mallory"})[0] == 303
 
 
-def test_no_path_leads_out(server, sessions):
+def test_path_traversal_is_rejected(server, sessions):
     secret = sessions.parent / "secret"
     secret.mkdir(exist_ok=True)
     for name in ("telemetry.tlog", "report.html", "secret.toml"):
@@ -186,7 +186,7 @@ def test_no_path_leads_out(server, sessions):
         assert b"200 OK" not in answer.split(b"\r\n")[0] and b"root:" not in answer and b"secret-secret" not in answer, path
 
 
-def test_uploads_that_are_too_large_or_no_such_file_are_refused(server, sessions):
+def test_invalid_and_oversized_uploads_are_rejected(server, sessions):
     ida = logged_in(server, "ida")
     fields = {"trainee": "mallory", "scenario": "drill-hover", "vehicle": "phantom2"}
     before = sorted(path.name for path in sessions.iterdir())
@@ -223,7 +223,7 @@ def test_uploads_that_are_too_large_or_no_such_file_are_refused(server, sessions
     assert ida.ask("/sessions")[0] == 200
 
 
-def test_a_guessed_name_tells_nothing(server, sessions):
+def test_login_does_not_reveal_user_names(server, sessions):
     anna = logged_in(server, "anna")
     ben = of(sessions, "ben")
     for route in ["/sessions/{}", "/sessions/{}/report", "/sessions/{}/questions", "/trainees/{}", "/trainees/{}/export.json"]:
@@ -245,7 +245,7 @@ def test_a_guessed_name_tells_nothing(server, sessions):
     assert told[0] == told[1]
 
 
-def test_a_planted_cookie_opens_nothing(server):
+def test_planted_cookies_are_rejected(server):
     victim = webserver.Browser(server.address)
     victim.ask("/login")
     planted = victim.cookie
@@ -265,7 +265,7 @@ def test_a_planted_cookie_opens_nothing(server):
     assert "HttpOnly" in headers["Set-Cookie"] and "SameSite=Lax" in headers["Set-Cookie"]
 
 
-def test_a_flood_of_logins_waits(sessions):
+def test_logins_are_throttled(sessions):
     server = webserver.Server(sessions)
     try:
         owner = webserver.Browser(server.address)
@@ -292,7 +292,7 @@ def test_a_flood_of_logins_waits(sessions):
         server.close()
 
 
-def test_headers_on_every_answer(server, sessions):
+def test_security_headers_are_set_on_every_response(server, sessions):
     ada = logged_in(server, "ada")
     for path in ["/sessions", f"/sessions/{of(sessions, 'anna')}/report", "/assets/style.css", "/none", "/login", "/trainees/anna/export.json"]:
         _, headers, _ = ada.ask(path)
@@ -303,7 +303,7 @@ def test_headers_on_every_answer(server, sessions):
         assert "no-store" in headers["Cache-Control"] or path.startswith("/assets"), path
 
 
-def test_it_stays_at_home_unless_it_is_safe(tmp_path):
+def test_network_access_requires_passwords_and_tls(tmp_path):
     place = ["--sessions", str(tmp_path / "sessions"), "--vehicle", "none", "--leash"]
 
     def refused(*args):
@@ -322,7 +322,7 @@ def test_it_stays_at_home_unless_it_is_safe(tmp_path):
     assert short.returncode == 2 and "12 to 256" in short.stderr and "short" not in short.stderr.replace("--set-password", "")
 
 
-def test_another_name_for_this_machine_reaches_no_open_server(tmp_path):
+def test_dns_rebinding_is_rejected(tmp_path):
     """DNS rebinding: a domain of another site that resolves to 127.0.0.1."""
     server = webserver.Server(tmp_path / "sessions")
     try:
@@ -335,7 +335,7 @@ def test_another_name_for_this_machine_reaches_no_open_server(tmp_path):
         server.close()
 
 
-def test_tls_by_files(tmp_path):
+def test_tls_with_certificate_files(tmp_path):
     import ssl
     import urllib.request
 
@@ -354,7 +354,7 @@ def test_tls_by_files(tmp_path):
         server.close()
 
 
-def test_two_hundred_kills_lose_no_finished_session(tmp_path):
+def test_200_kills_lose_no_confirmed_data(tmp_path):
     """The server is killed at random times while answers are saved and recordings imported. Everything that it has
     confirmed must exist, and everything else must be complete."""
     sessions = tmp_path / "sessions"

@@ -20,7 +20,7 @@ import webserver
 # Number of simultaneous logins, each from a different address, so that throttling by address has no effect.
 LOGINS = 300
 # Limit of the server's peak memory, kB.
-MOST_KB = 150_000
+MAX_KB = 150_000
 
 
 @pytest.fixture(name="sessions")
@@ -58,7 +58,7 @@ def log_in_from(server, k):
         connection.close()
 
 
-def test_three_hundred_logins_take_little_memory_and_stop_no_page(sessions):
+def test_300_simultaneous_logins_use_bounded_memory(sessions):
     server = webserver.Server(sessions)
     try:
         ida = webserver.Browser(server.address)
@@ -78,7 +78,7 @@ def test_three_hundred_logins_take_little_memory_and_stop_no_page(sessions):
             reading.result()
         assert set(statuses) <= {403, 503} and statuses.count(403) > 0, sorted(set(statuses))
         assert 503 in statuses, "a full queue must reject requests"
-        assert peak_kb(server.process) < MOST_KB, f"{peak_kb(server.process)} kB, {before_kb} kB before"
+        assert peak_kb(server.process) < MAX_KB, f"{peak_kb(server.process)} kB, {before_kb} kB before"
         # The list remained available during the logins, so it does not wait behind them.
         assert set(pages) == {200} and len(pages) > 5, len(pages)
         assert webserver.Browser(server.address).log_in("ada") == 303
@@ -98,7 +98,7 @@ def begin_upload(server, browser, token):
     return raw
 
 
-def test_slow_uploads_hold_up_no_other(sessions):
+def test_slow_uploads_do_not_block_other_requests(sessions):
     server = webserver.Server(sessions)
     slow = []
     try:
@@ -118,7 +118,7 @@ def test_slow_uploads_hold_up_no_other(sessions):
         server.close()
 
 
-def test_only_its_proxy_reaches_a_server_behind_one(sessions):
+def test_server_behind_a_proxy_accepts_only_the_proxy(sessions):
     server = webserver.Server(sessions, "--behind-proxy", "--trusted-proxy", "127.0.3.0/24", "--host", "trainer.example")
     host, port = host_of(server)
 
@@ -141,7 +141,7 @@ def test_only_its_proxy_reaches_a_server_behind_one(sessions):
         server.close()
 
 
-def test_common_passwords_are_refused(tmp_path):
+def test_common_passwords_are_rejected(tmp_path):
     for password in ["password1234", "qwertyuiop12", "aaaaaaaaaaaa", "annabella2024"]:
         done = spandrel_set(tmp_path, password)
         assert done.returncode == 2 and "too easy to guess" in done.stderr and password not in done.stderr, (password, done.stderr)
@@ -158,7 +158,7 @@ def spandrel_set(folder, password):
 # Number of the cohort's sessions, and of simultaneous reloads of its page.
 SESSIONS, RELOADS = 10_000, 16
 # Maximum cost of the reloads as a multiple of one uncached reload: that one, and rendering the page for each.
-MOST_COSTS = 4.0
+MAX_COSTS = 4.0
 
 
 def fill(database):
@@ -184,7 +184,7 @@ def processor_s(process):
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def test_many_reloads_of_a_cohort_cost_little_more_than_one(tmp_path):
+def test_cohort_page_reloads_are_cached(tmp_path):
     sessions = tmp_path / "sessions"
     server = webserver.Server(sessions)
     try:
@@ -213,7 +213,7 @@ def test_many_reloads_of_a_cohort_cost_little_more_than_one(tmp_path):
             connection.execute("UPDATE sessions SET seconds = seconds + 1")
         together, pages = cost(RELOADS)
         print(f"one: {once:.2f} s of processor time, {RELOADS} at once: {together:.2f} s; {pages} other pages meanwhile")
-        assert together < MOST_COSTS * once, (together, once)
+        assert together < MAX_COSTS * once, (together, once)
         # Other pages must not wait behind the cohort's.
         assert pages > RELOADS
     finally:

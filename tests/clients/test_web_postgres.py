@@ -40,7 +40,7 @@ def listed(browser):
     return {name for name in ("anna", "ben", "carl") if f"/trainees/{name}" in text}
 
 
-def test_people_log_in_and_see_what_is_theirs(sessions, database):
+def test_users_see_only_their_own_data(sessions, database):
     server = serve(sessions, database)
     try:
         wrong = webserver.Browser(server.address)
@@ -57,7 +57,7 @@ def test_people_log_in_and_see_what_is_theirs(sessions, database):
         server.close()
 
 
-def test_two_servers_and_a_station_share_one_database(sessions, database, tmp_path):
+def test_servers_and_stations_share_one_database(sessions, database, tmp_path):
     """A server in another room has the same users, and shows the sessions that a third program has imported."""
     elsewhere = tmp_path / "sessions"
     elsewhere.mkdir()
@@ -95,7 +95,7 @@ def test_two_servers_and_a_station_share_one_database(sessions, database, tmp_pa
         second.close()
 
 
-def test_a_database_that_goes_away_is_told_and_found_again(sessions, database):
+def test_server_reports_and_survives_a_database_outage(sessions, database):
     server = serve(sessions, database)
     try:
         ida = webserver.Browser(server.address)
@@ -111,7 +111,7 @@ def test_a_database_that_goes_away_is_told_and_found_again(sessions, database):
         server.close()
 
 
-def test_what_is_wrong_about_a_database_is_said(tmp_path):
+def test_database_errors_are_reported(tmp_path):
     def refused(url):
         done = subprocess.run(
             [spandrel.PROGRAM, "serve", "--sessions", str(tmp_path), "--listen", "127.0.0.1:0", "--vehicle", "none", "--database", url],

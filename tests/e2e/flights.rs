@@ -38,7 +38,7 @@ fn json(path: &Path) -> Value {
 }
 
 #[test]
-fn wire_a_demo_leaves_a_whole_session_that_scores_the_same_again_and_repeats_bit_by_bit() {
+fn wire_demo_session_is_complete_and_reproducible() {
     let (first, second) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let out = well(&demo(first.path(), "7").output().unwrap());
     well(&demo(second.path(), "7").output().unwrap());
@@ -60,7 +60,7 @@ fn wire_a_demo_leaves_a_whole_session_that_scores_the_same_again_and_repeats_bit
 }
 
 #[test]
-fn wire_four_demos_side_by_side_all_end_well() {
+fn wire_four_parallel_demos_succeed() {
     let folders: Vec<_> = (0..4).map(|_| tempfile::tempdir().unwrap()).collect();
     let running: Vec<Child> =
         folders.iter().zip(["1", "2", "3", "4"]).map(|(folder, seed)| demo(folder.path(), seed).spawn().unwrap()).collect();
@@ -71,7 +71,7 @@ fn wire_four_demos_side_by_side_all_end_well() {
 }
 
 #[test]
-fn wire_a_demo_in_any_flavour_ends_with_scores() {
+fn wire_demo_in_every_flavor_ends_with_scores() {
     for flavour in ["ardupilot", "generic"] {
         let folder = tempfile::tempdir().unwrap();
         let out = well(&demo(folder.path(), "7").args(["--flavour", flavour]).output().unwrap());
@@ -113,7 +113,7 @@ impl Process {
     }
 
     /// Waits until the process ends, which closes its output. The lifeline pipe stays open until then.
-    fn by_itself(mut self) -> bool {
+    fn exits_alone(mut self) -> bool {
         self.out.read_to_string(&mut String::new()).unwrap();
         self.child.wait().unwrap().success()
     }
@@ -129,7 +129,7 @@ impl Process {
 }
 
 #[test]
-fn wire_a_killed_monitor_goes_on_where_it_stopped() {
+fn wire_restarted_monitor_continues_the_session() {
     let sessions = tempfile::tempdir().unwrap();
     let folder = sessions.path().display().to_string();
     let job = ["--scenario", "drill-hover", "--seed", "5"];
@@ -153,7 +153,7 @@ fn wire_a_killed_monitor_goes_on_where_it_stopped() {
 
     let session_text = session.display().to_string();
     let again = Process::start(&["monitor", "--port", &monitor_port, "--session", &session_text]);
-    assert!(again.by_itself(), "the second monitor failed");
+    assert!(again.exits_alone(), "the second monitor failed");
     let whole = spandrel_mavlink::telemetry::tlog::complete_len(&before);
     assert_eq!(std::fs::read(&log).unwrap()[..whole], before[..whole], "received data was lost");
     assert_eq!(json(&session.join("session.json"))["monitor_starts"], 2);
@@ -164,7 +164,7 @@ fn wire_a_killed_monitor_goes_on_where_it_stopped() {
 }
 
 #[test]
-fn wire_a_peer_that_vanishes_in_lockstep_ends_the_run_with_its_reason() {
+fn wire_lost_lockstep_peer_ends_the_run_with_a_reason() {
     let socket = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
     let peer = socket.local_addr().unwrap().to_string();
     let sim = Command::new(PROGRAM)
@@ -193,7 +193,7 @@ fn wire_a_peer_that_vanishes_in_lockstep_ends_the_run_with_its_reason() {
 }
 
 #[test]
-fn wire_the_same_seed_gives_the_same_digest_without_anybody_listening() {
+fn wire_same_seed_gives_the_same_digest_without_clients() {
     let run = |seed: &str| {
         printed(&[
             "sim",
@@ -218,7 +218,7 @@ fn wire_the_same_seed_gives_the_same_digest_without_anybody_listening() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn wire_children_end_with_a_parent_that_is_killed() {
+fn wire_children_end_when_their_parent_is_killed() {
     let sessions = tempfile::tempdir().unwrap();
     let mut command = demo(sessions.path(), "9");
     let mut parent = command.args(["--log", "error"]).spawn().unwrap();

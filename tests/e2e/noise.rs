@@ -10,12 +10,12 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 /// Maximum payload of a UDP datagram over IPv4, bytes.
-const LONGEST: usize = 65_507;
+const MAX_DATAGRAM_BYTES: usize = 65_507;
 /// Time without output after which a simulator counts as gone; the limit only turns a hang into a failure.
-const GONE: Duration = Duration::from_secs(30);
+const EXIT_TIMEOUT: Duration = Duration::from_secs(30);
 
 #[test]
-fn wire_noise_on_the_socket_stops_nothing_and_is_counted() {
+fn wire_noise_on_the_socket_is_counted_and_has_no_effect() {
     let mut sim = Command::new(env!("CARGO_BIN_EXE_spandrel"))
         .args([
             "sim",
@@ -40,7 +40,7 @@ fn wire_noise_on_the_socket_stops_nothing_and_is_counted() {
     let announced: serde_json::Value = serde_json::from_str(&line).unwrap();
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     socket.connect(("127.0.0.1", announced["gcs_port"].as_u64().unwrap() as u16)).unwrap();
-    socket.set_read_timeout(Some(GONE)).unwrap();
+    socket.set_read_timeout(Some(EXIT_TIMEOUT)).unwrap();
 
     let mut stream = RandomStream::new(9, "noise");
     let mut encoder = Encoder::new(255, 190);
@@ -52,7 +52,7 @@ fn wire_noise_on_the_socket_stops_nothing_and_is_counted() {
     });
     let mut answered = 0;
     for round in 0..20 {
-        let length = [0, 1, 12, 280, 4_000, LONGEST][round % 6];
+        let length = [0, 1, 12, 280, 4_000, MAX_DATAGRAM_BYTES][round % 6];
         let noise: Vec<u8> = (0..length).map(|k| if k % 3 == 0 { 0xFD } else { stream.bits() as u8 }).collect();
         socket.send(&noise).unwrap();
         socket.send(&encoder.encode(&question)).unwrap();

@@ -7,13 +7,13 @@ fn spandrel(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_spandrel")).args(args).output().unwrap()
 }
 
-fn told(output: &Output) -> (Option<i32>, String, String) {
+fn code_and_output(output: &Output) -> (Option<i32>, String, String) {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
     (output.status.code(), text(&output.stdout), text(&output.stderr))
 }
 
 #[test]
-fn wire_wrong_arguments_and_files_end_with_two_and_report_what_is_allowed() {
+fn wire_invalid_arguments_and_files_exit_with_2_and_list_allowed_values() {
     for (args, needle) in [
         (vec!["train", "--trainee", "../up"], "letters, digits"),
         (vec!["demo", "--speed", "0"], "0.1 to 100, or max"),
@@ -29,7 +29,7 @@ fn wire_wrong_arguments_and_files_end_with_two_and_report_what_is_allowed() {
         (vec!["export", "two-bridges"], "--glb"),
         (vec!["check", "no-such-file.toml"], "1 problem in 1 file"),
     ] {
-        let (code, out, err) = told(&spandrel(&args));
+        let (code, out, err) = code_and_output(&spandrel(&args));
         assert_eq!(code, Some(2), "{args:?}: {out}{err}");
         assert!(err.contains(needle), "{args:?}: {err}");
         assert!(!err.contains("panicked"), "{args:?}: {err}");
@@ -38,7 +38,7 @@ fn wire_wrong_arguments_and_files_end_with_two_and_report_what_is_allowed() {
 
 /// Opening the vehicle to a network without a key must cause a warning; on the local machine there must be none.
 #[test]
-fn wire_listening_beyond_the_own_machine_without_signing_is_warned_of() {
+fn wire_unsigned_network_access_causes_a_warning() {
     let folder = tempfile::tempdir().unwrap();
     let key = folder.path().join("key");
     std::fs::write(&key, "steelspan").unwrap();
@@ -52,14 +52,14 @@ fn wire_listening_beyond_the_own_machine_without_signing_is_warned_of() {
         (vec!["--listen", "0.0.0.0"], true),
         (vec!["--listen", "0.0.0.0", "--signing-key", key.as_str()], false),
     ] {
-        let (code, _, err) = told(&spandrel(&[&alone[..], &ports[..], &more[..]].concat()));
+        let (code, _, err) = code_and_output(&spandrel(&[&alone[..], &ports[..], &more[..]].concat()));
         assert_eq!(code, Some(0), "{more:?}: {err}");
         assert_eq!(err.contains("without --signing-key"), warned, "{more:?}: {err}");
     }
 }
 
 #[test]
-fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
+fn wire_check_reports_all_problems_as_text_and_json() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| {
         let path = folder.path().join(name);
@@ -69,16 +69,16 @@ fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
     let job = spandrel_model::shipped::DRILL_HOVER;
     let good = write("good.toml", job);
     let bad = write("bad.toml", &job.replace("spacing_m = 8.0", "spacing_m = -8.0").replace("turbulence", "turbulance"));
-    let (code, out, _) = told(&spandrel(&["check", &good]));
+    let (code, out, _) = code_and_output(&spandrel(&["check", &good]));
     assert_eq!((code, out.trim()), (Some(0), "1 file valid"));
 
-    let (code, out, err) = told(&spandrel(&["check", &good, &bad]));
+    let (code, out, err) = code_and_output(&spandrel(&["check", &good, &bad]));
     assert_eq!(code, Some(2));
     assert_eq!(out.lines().count(), 2, "{out}");
     assert!(out.contains("bad.toml:13: terrain.spacing_m = -8.0"), "{out}");
     assert!(out.contains("turbulance") && err.contains("2 problems in 2 files"), "{out}{err}");
 
-    let (code, out, _) = told(&spandrel(&["check", &bad, "--json"]));
+    let (code, out, _) = code_and_output(&spandrel(&["check", &bad, "--json"]));
     let json: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!(code, Some(2));
     let problem = &json["problems"][0];
@@ -87,10 +87,10 @@ fn wire_check_reports_every_problem_of_every_file_as_text_and_as_json() {
 }
 
 /// Maximum size of a report on thousands of problems, bytes: 50 lines of at most about 200 bytes.
-const REPORT_MOST_BYTES: usize = 20_000;
+const MAX_REPORT_BYTES: usize = 20_000;
 
 #[test]
-fn regress_thousands_of_unknown_keys_are_counted_and_not_all_listed() {
+fn regress_long_problem_lists_are_truncated() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("keys.toml");
     let unknown: String = (0..10_000).map(|k| format!("unknown_{k} = 1\n")).collect();
@@ -98,17 +98,18 @@ fn regress_thousands_of_unknown_keys_are_counted_and_not_all_listed() {
     let path = path.display().to_string();
     for (args, code) in [(vec!["check", &path], 2), (vec!["export", &path, "--glb", "-"], 2), (vec!["check", &path, "--json"], 2)]
     {
-        let (ended, out, err) = told(&spandrel(&args));
+        let (ended, out, err) = code_and_output(&spandrel(&args));
         assert_eq!(ended, Some(code), "{args:?}");
-        assert!(out.len() + err.len() < REPORT_MOST_BYTES, "{args:?}: {} bytes", out.len() + err.len());
+        assert!(out.len() + err.len() < MAX_REPORT_BYTES, "{args:?}: {} bytes", out.len() + err.len());
         let more = if args.contains(&"--json") { "\"more_problems\": 9950" } else { "and 9950 more problems" };
         assert!(out.contains(more) || err.contains(more), "{args:?}: {out}{err}");
     }
 }
 
 #[test]
-fn wire_exports_go_to_standard_output_and_logs_do_not() {
-    let (code, out, _) = told(&spandrel(&["export", "two-bridges", "--seed", "7", "--scenario", "-", "--log", "trace"]));
+fn wire_exports_use_standard_output_and_logs_do_not() {
+    let (code, out, _) =
+        code_and_output(&spandrel(&["export", "two-bridges", "--seed", "7", "--scenario", "-", "--log", "trace"]));
     assert_eq!(code, Some(0));
     let json: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!(json["tasks"].as_array().map(Vec::len), Some(4));
@@ -116,7 +117,7 @@ fn wire_exports_go_to_standard_output_and_logs_do_not() {
 }
 
 #[test]
-fn wire_the_program_works_from_any_folder() {
+fn wire_program_works_from_any_folder() {
     let elsewhere = tempfile::tempdir().unwrap();
     let program = Path::new(env!("CARGO_BIN_EXE_spandrel"));
     let output = Command::new(program).args(["export", "practice", "--glb", "p.glb"]).current_dir(&elsewhere).output().unwrap();
@@ -125,56 +126,56 @@ fn wire_the_program_works_from_any_folder() {
 }
 
 #[test]
-fn wire_a_port_in_use_is_reported_plainly() {
+fn wire_port_in_use_is_reported() {
     let taken = std::net::UdpSocket::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
     let sessions = tempfile::tempdir().unwrap();
     let folder = sessions.path().display().to_string();
-    let (code, _, err) = told(&spandrel(&["monitor", "--port", &port, "--sessions", &folder]));
+    let (code, _, err) = code_and_output(&spandrel(&["monitor", "--port", &port, "--sessions", &folder]));
     assert_eq!(code, Some(1));
     assert_eq!(std::fs::read_dir(&sessions).unwrap().count(), 0, "a session folder was left over");
     assert!(err.contains("is in use") && err.contains(&port), "{err}");
 }
 
 #[test]
-fn wire_help_of_every_subcommand_has_examples_and_exit_codes() {
+fn wire_every_subcommand_help_has_examples_and_exit_codes() {
     for subcommand in ["train", "demo", "monitor", "pilot", "assess", "export", "check"] {
-        let (code, out, _) = told(&spandrel(&[subcommand, "--help"]));
+        let (code, out, _) = code_and_output(&spandrel(&[subcommand, "--help"]));
         assert_eq!(code, Some(0));
         assert!(out.contains("Examples:") && out.contains("Exit codes:"), "{subcommand}");
     }
 }
 
 #[test]
-fn wire_a_vehicle_file_is_read_as_one_whatever_it_lacks() {
+fn wire_incomplete_vehicle_file_is_recognized() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("drone.toml");
     std::fs::write(&path, spandrel_model::shipped::PHANTOM2.replace("\nmass_kg", "\nmas_kg")).unwrap();
-    let (code, out, _) = told(&spandrel(&["check", &path.display().to_string()]));
+    let (code, out, _) = code_and_output(&spandrel(&["check", &path.display().to_string()]));
     assert_eq!(code, Some(2));
     assert!(out.lines().all(|line| line.contains("mas")) && out.contains("mass_kg: missing"), "{out}");
 }
 
 #[test]
-fn wire_what_does_not_fit_other_keys_is_reported_with_its_value() {
+fn wire_conflicting_keys_are_reported_with_their_values() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("job.toml");
     let limits = "[scoring]\nspeed_limit_mph = 20.0\nmax_speed_mph = 15.0\ntime_best_min = 30.0\n";
     std::fs::write(&path, format!("{}\n{limits}", spandrel_model::shipped::DRILL_HOVER)).unwrap();
-    let (code, out, _) = told(&spandrel(&["check", &path.display().to_string()]));
+    let (code, out, _) = code_and_output(&spandrel(&["check", &path.display().to_string()]));
     assert_eq!(code, Some(2));
     assert!(out.contains("max_speed_mph = 15") && out.contains("time_max_min = 25"), "{out}");
 }
 
 #[test]
-fn wire_a_demo_keeps_the_scenarios_seed_and_its_folder_stands_without_what_can_be_made_again() {
+fn wire_demo_session_works_without_derived_files() {
     let folder = tempfile::tempdir().unwrap();
     let job = folder.path().join("job.toml");
     std::fs::write(&job, format!("seed = 5\n{}", spandrel_model::shipped::DRILL_LANDING)).unwrap();
     let (job, sessions) = (job.display().to_string(), folder.path().join("sessions"));
     let place = sessions.display().to_string();
     let demo = ["demo", "--scenario", &job, "--speed", "max", "--sessions", &place, "--trainee", "anna-b", "--log", "warn"];
-    let (code, _, err) = told(&spandrel(&demo));
+    let (code, _, err) = code_and_output(&spandrel(&demo));
     assert_eq!(code, Some(0), "{err}");
     let session = std::fs::read_dir(&sessions).unwrap().next().unwrap().unwrap().path();
     let described = |key: &str| -> serde_json::Value {
@@ -188,14 +189,14 @@ fn wire_a_demo_keeps_the_scenarios_seed_and_its_folder_stands_without_what_can_b
     let started = described("started_utc");
     ["session.json", "assessment.json"].iter().for_each(|name| std::fs::remove_file(session.join(name)).unwrap());
     let at = session.display().to_string();
-    let (code, again, err) = told(&spandrel(&["assess", &at, "--json", "-"]));
+    let (code, again, err) = code_and_output(&spandrel(&["assess", &at, "--json", "-"]));
     assert_eq!((code, again == live), (Some(0), true), "{err}");
 
     // Simulates a monitor that was killed while it was writing its last event.
     let events = session.join("events.jsonl");
     let whole = std::fs::read_to_string(&events).unwrap();
     std::fs::write(&events, format!("{whole}{{\"t_s\":1")).unwrap();
-    let (code, _, err) = told(&spandrel(&["monitor", "--session", &at, "--port", "0", "--speed", "max"]));
+    let (code, _, err) = code_and_output(&spandrel(&["monitor", "--session", &at, "--port", "0", "--speed", "max"]));
     assert_eq!(code, Some(0), "{err}");
     let after = std::fs::read_to_string(&events).unwrap();
     assert!(
@@ -206,7 +207,7 @@ fn wire_a_demo_keeps_the_scenarios_seed_and_its_folder_stands_without_what_can_b
     assert_eq!(std::fs::read_to_string(session.join("assessment.json")).unwrap(), live);
 
     let log = session.join("telemetry.tlog").display().to_string();
-    let (code, _, err) = told(&spandrel(&["assess", &log, "--scenario", "drill-hover", "--vehicle", "phantom2"]));
+    let (code, _, err) = code_and_output(&spandrel(&["assess", &log, "--scenario", "drill-hover", "--vehicle", "phantom2"]));
     assert_eq!(code, Some(2), "{err}");
     assert!(err.contains("another scenario"), "{err}");
 }

@@ -10,9 +10,9 @@ use std::sync::Arc;
 const SIZE: (u32, u32) = (160, 90);
 
 #[test]
-fn exact_the_secondary_renderer_draws_what_one_device_draws() {
+fn exact_secondary_renderer_matches_the_primary_device() {
     let mut studio = Studio::new(two_bridges(), 7, "low", SimTime::ZERO);
-    let aside = SecondaryRenderer::open(Quality::named("low").unwrap(), Arc::clone(&studio.scene)).unwrap();
+    let aside = SecondaryRenderer::open(Quality::by_name("low").unwrap(), Arc::clone(&studio.scene)).unwrap();
     let moment = studio.moment(at(0.0, 70.0, 30.0), at(0.0, 150.0, 10.0), false, at(1.0, 0.5, 0.0));
     let wide = studio.stage().camera(&moment, SIZE);
     let narrow = studio.stage().camera(&moment, (SIZE.0 / 2, SIZE.1));

@@ -13,17 +13,17 @@ mod score_tlog;
 const LINES_MAX: usize = 60;
 
 #[test]
-fn flight_the_hover_example_takes_off_and_lands() {
+fn flight_hover_example_takes_off_and_lands() {
     hover::main().unwrap();
 }
 
 #[test]
-fn val_the_custom_job_is_built() {
+fn val_custom_job_example_builds() {
     custom_job::main().unwrap();
 }
 
 #[test]
-fn val_a_log_that_is_not_there_is_an_error_and_no_arguments_are_help() {
+fn val_missing_log_is_an_error_and_no_arguments_print_help() {
     score_tlog::score(&[]).unwrap();
     let missing = ["none.tlog", "none.toml", "none.toml"].map(str::to_owned);
     assert!(score_tlog::score(&missing).is_err());

@@ -27,7 +27,7 @@ fn all_sources(root: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn exact_every_path_in_the_house_is_allowed() {
+fn exact_every_import_follows_the_layer_rules() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = all_sources(root);
     assert!(files.len() > 500, "only {} files were read", files.len());
@@ -49,12 +49,12 @@ fn exact_the_picture_of_the_rooms_shows_the_imports_of_the_code() {
         let file = path.strip_prefix(root).unwrap().display().to_string();
         rules::count_imports(&file, &std::fs::read_to_string(&path).unwrap(), &mut imports);
     }
-    let (path, drawn) = (root.join("docs/src/images/rooms.svg"), picture::svg(&imports));
+    let (path, drawn) = (root.join("docs/src/images/layers.svg"), picture::svg(&imports));
     if std::env::var_os("SPANDREL_REFERENCE").is_some_and(|value| value == "write") {
         std::fs::write(&path, &drawn).unwrap();
     }
     let same = std::fs::read_to_string(&path).is_ok_and(|committed| committed == drawn);
-    assert!(same, "docs/src/images/rooms.svg shows other imports than the code has; rewrite it with SPANDREL_REFERENCE=write");
+    assert!(same, "docs/src/images/layers.svg shows other imports than the code has; rewrite it with SPANDREL_REFERENCE=write");
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn exact_no_match_on_an_enum_of_ours_has_an_arm_for_all_further_variants() {
 }
 
 #[test]
-fn exact_every_crate_has_a_place_in_the_table_and_depends_on_lower_ones_alone() {
+fn exact_crates_depend_only_on_lower_ones() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for entry in std::fs::read_dir(root.join("crates")).unwrap() {
         let folder = entry.unwrap().file_name().into_string().unwrap();
@@ -107,11 +107,11 @@ fn exact_every_crate_has_a_place_in_the_table_and_depends_on_lower_ones_alone() 
 }
 
 #[test]
-fn exact_the_map_names_every_room_and_quotes_real_places() {
+fn exact_architecture_page_lists_every_layer_and_real_paths() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let map = std::fs::read_to_string(root.join("ARCHITECTURE.md")).unwrap();
-    for room in rules::rooms() {
-        assert!(map.contains(&format!("`{room}`")), "ARCHITECTURE.md does not contain {room}");
+    for layer in rules::layers() {
+        assert!(map.contains(&format!("`{layer}`")), "ARCHITECTURE.md does not contain {layer}");
     }
     let quoted = map.split('`').skip(1).step_by(2);
     let places = quoted.filter(|text| {

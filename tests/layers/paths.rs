@@ -1,7 +1,7 @@
 //! Extraction of the paths in a Rust source: `use` trees and inline paths, with `self` and `super` resolved.
 
 /// A path and its line, for example (12, ["crate", "site", "Site"]).
-pub type Named = (usize, Vec<String>);
+pub type PathUse = (usize, Vec<String>);
 
 /// Returns the source with comments, strings and characters replaced by blanks; line breaks stay.
 pub fn code_only(source: &str) -> String {
@@ -88,12 +88,12 @@ fn character(text: &[char], at: usize) -> usize {
 
 /// Returns every path of two or more parts in `code` that starts with one of `roots`, with `use` groups expanded.
 /// `module` is the file's module path, which resolves `self`.
-pub fn named(code: &str, module: &[String], roots: &[&str]) -> Vec<Named> {
+pub fn named(code: &str, module: &[String], roots: &[&str]) -> Vec<PathUse> {
     named_in(&tokens(code), module, roots)
 }
 
 /// As [`named`], in code that is split already.
-pub fn named_in(tokens: &[Token], module: &[String], roots: &[&str]) -> Vec<Named> {
+pub fn named_in(tokens: &[Token], module: &[String], roots: &[&str]) -> Vec<PathUse> {
     let mut found = Vec::new();
     for at in 0..tokens.len() {
         let begins = roots.contains(&tokens[at].1.as_str()) || ["self", "super"].contains(&tokens[at].1.as_str());
@@ -264,7 +264,7 @@ pub fn tokens(code: &str) -> Vec<Token> {
 }
 
 /// Reads one path or `use` tree from `at` and returns its end.
-fn tree(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, found: &mut Vec<Named>) -> usize {
+fn tree(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, found: &mut Vec<PathUse>) -> usize {
     let depth = prefix.len();
     let line = tokens[at].0;
     while let Some((_, token)) = tokens.get(at) {
@@ -288,7 +288,7 @@ fn tree(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, fou
     at
 }
 
-fn group(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, found: &mut Vec<Named>) -> usize {
+fn group(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, found: &mut Vec<PathUse>) -> usize {
     while let Some((_, token)) = tokens.get(at) {
         match token.as_str() {
             "}" => return at + 1,
@@ -326,13 +326,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_groups_are_spread_and_nested() {
+    fn exact_use_groups_are_expanded() {
         let found = paths("use crate::{a::B, c::{self, d::E as F, *}};", &[]);
         assert_eq!(found, ["crate::a::B", "crate::c::self", "crate::c::d::E", "crate::c::*"]);
     }
 
     #[test]
-    fn exact_inline_paths_count_and_longer_names_do_not() {
+    fn exact_inline_paths_are_found() {
         assert_eq!(paths("let x = crate::a::b(); my::crate_::c(); std::fs::read(p)", &[]), ["crate::a::b", "std::fs::read"]);
     }
 
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_comments_strings_and_lifetimes_are_no_code() {
+    fn exact_comments_strings_and_lifetimes_are_ignored() {
         let source = "// crate::a::b\n/* crate::c::d /* deep */ crate::e */ let s = \"crate::f::g\"; let r = r#\"crate::h::i\"#; \
                       fn f<'a>(c: char) { if c == '\"' { crate::real::one() } }";
         assert_eq!(paths(source, &[]), ["crate::real::one"]);

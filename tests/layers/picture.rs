@@ -1,10 +1,10 @@
-//! A picture of the rooms and their imports, drawn from the sources as SVG.
+//! A picture of the layers and their imports, drawn from the sources as SVG.
 
-use crate::rules::{place_name, rooms};
+use crate::rules::{layers, place_name};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// Number of imported names, by importing and imported room.
+/// Number of imported names, by importing and imported layer.
 pub type Imports = BTreeMap<(&'static str, &'static str), usize>;
 
 /// Start and end, px.
@@ -15,11 +15,11 @@ const BOX_WIDTH: usize = 132;
 const BOX_HEIGHT: usize = 46;
 const ROW: usize = 118;
 const MARGIN: usize = 30;
-/// One fill color for each crate and one for the program, in the order of their first rooms.
+/// One fill color for each crate and one for the program, in the order of their first layers.
 const COLORS: [&str; 8] = ["#e8eef7", "#e5f3ee", "#f8ecdf", "#f3e9f5", "#fbf3d6", "#e9f2dc", "#dff0f6", "#f0f0f0"];
 
-/// Draws rooms as boxes in layers, each above the rooms that it imports from. An arrow with the number of imported names leads to each
-/// room that no other arrow reaches through a room between.
+/// Draws layers as boxes in layers, each above the layers that it imports from. An arrow with the number of imported names leads to each
+/// layer that no other arrow reaches through a layer between.
 pub fn svg(imports: &Imports) -> String {
     let rows = rows(imports);
     let centers = centers(&rows, imports);
@@ -41,20 +41,20 @@ pub fn svg(imports: &Imports) -> String {
             "<path d=\"M{x1} {y1}C{x1} {bend} {x2} {bend} {x2} {y2}\" fill=\"none\" stroke=\"#555\" marker-end=\"url(#tip)\"/>"
         );
     }
-    for (room, (x, y)) in &centers {
+    for (layer, (x, y)) in &centers {
         let (left, top) = (x.saturating_sub(BOX_WIDTH / 2), y - BOX_HEIGHT / 2);
-        let (place, color) = (place_name(room), color(room));
+        let (place, color) = (place_name(layer), color(layer));
         let _ = writeln!(
             out,
             "<rect x=\"{left}\" y=\"{top}\" width=\"{BOX_WIDTH}\" height=\"{BOX_HEIGHT}\" rx=\"5\" fill=\"{color}\" stroke=\"#333\"/>\
-             <text x=\"{x}\" y=\"{}\" text-anchor=\"middle\" font-weight=\"bold\">{room}</text>\
+             <text x=\"{x}\" y=\"{}\" text-anchor=\"middle\" font-weight=\"bold\">{layer}</text>\
              <text x=\"{x}\" y=\"{}\" text-anchor=\"middle\" font-size=\"11\">{place}</text>",
             y - 4,
             y + 13
         );
     }
     for (((x1, y1), (x2, y2)), count) in &arrows {
-        // Near its end, where arrows to different rooms are apart.
+        // Near its end, where arrows to different layers are apart.
         let (x, y) = ((x1 + 9 * x2) / 10, y2 - (y2 - y1) / 5);
         let _ = writeln!(
             out,
@@ -67,52 +67,52 @@ pub fn svg(imports: &Imports) -> String {
 /// Start and end of an arrow, px: side by side with the other arrows at each box, in the order of their other ends.
 fn arrow((from, to): (&'static str, &'static str), direct: &Imports, centers: &BTreeMap<&str, (usize, usize)>) -> Arrow {
     let spread = |center: usize, mut others: Vec<&str>, other: &str| {
-        others.sort_by_key(|room| centers[room].0);
-        let k = others.iter().position(|room| *room == other).unwrap_or_default();
+        others.sort_by_key(|layer| centers[layer].0);
+        let k = others.iter().position(|layer| *layer == other).unwrap_or_default();
         (center + (k + 1) * BOX_WIDTH / (others.len() + 1)).saturating_sub(BOX_WIDTH / 2)
     };
     let ((x1, y1), (x2, y2)) = (centers[from], centers[to]);
-    let targets = direct.keys().filter(|(room, _)| *room == from).map(|(_, to)| *to).collect();
-    let sources = direct.keys().filter(|(_, room)| *room == to).map(|(from, _)| *from).collect();
+    let targets = direct.keys().filter(|(layer, _)| *layer == from).map(|(_, to)| *to).collect();
+    let sources = direct.keys().filter(|(_, layer)| *layer == to).map(|(from, _)| *from).collect();
     ((spread(x1, targets, to), y1 + BOX_HEIGHT / 2), (spread(x2, sources, from), y2 - BOX_HEIGHT / 2))
 }
 
 /// Rooms by layer, the lowest last.
 fn rows(imports: &Imports) -> Vec<Vec<&'static str>> {
-    let mut levels: BTreeMap<&'static str, usize> = rooms().map(|room| (room, 0)).collect();
-    // A layer test forbids circles, so the levels settle after at most one round for each room.
+    let mut levels: BTreeMap<&'static str, usize> = layers().map(|layer| (layer, 0)).collect();
+    // A layer test forbids circles, so the levels settle after at most one round for each layer.
     for _ in 0..levels.len() {
         for (from, to) in imports.keys() {
             levels.insert(from, levels[from].max(levels[to] + 1));
         }
     }
     let highest = levels.values().max().copied().unwrap_or_default();
-    (0..=highest).rev().map(|level| rooms().filter(|room| levels[room] == level).collect()).collect()
+    (0..=highest).rev().map(|level| layers().filter(|layer| levels[layer] == level).collect()).collect()
 }
 
-/// Centers of the boxes, px. In each row, from the lowest, rooms are in the order of what they import.
+/// Centers of the boxes, px. In each row, from the lowest, layers are in the order of what they import.
 fn centers(rows: &[Vec<&'static str>], imports: &Imports) -> BTreeMap<&'static str, (usize, usize)> {
     let mut out: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();
     for (k, row) in rows.iter().enumerate().rev() {
-        let mean = |room: &str| {
-            let below = imports.keys().filter(|(from, _)| *from == room).filter_map(|(_, to)| out.get(to));
+        let mean = |layer: &str| {
+            let below = imports.keys().filter(|(from, _)| *from == layer).filter_map(|(_, to)| out.get(to));
             let (sum, count) = below.fold((0, 0), |(sum, count), (x, _)| (sum + x, count + 1));
             sum / count.max(1)
         };
         let mut ordered = row.clone();
-        ordered.sort_by_key(|room| mean(room));
+        ordered.sort_by_key(|layer| mean(layer));
         let y = MARGIN + k * ROW + BOX_HEIGHT / 2;
         let step = WIDTH / (ordered.len() + 1);
-        let placed: Vec<_> = ordered.into_iter().enumerate().map(|(i, room)| (room, ((i + 1) * step, y))).collect();
+        let placed: Vec<_> = ordered.into_iter().enumerate().map(|(i, layer)| (layer, ((i + 1) * step, y))).collect();
         out.extend(placed);
     }
     out
 }
 
-/// Imports that lead to no room which is reached through another import, too.
+/// Imports that lead to no layer which is reached through another import, too.
 fn direct(imports: &Imports) -> Imports {
     let mut reached: BTreeSet<(&str, &str)> = imports.keys().copied().collect();
-    for middle in rooms() {
+    for middle in layers() {
         let (into, out): (Vec<&str>, Vec<&str>) = (
             reached.iter().filter(|(_, to)| *to == middle).map(|(from, _)| *from).collect(),
             reached.iter().filter(|(from, _)| *from == middle).map(|(_, to)| *to).collect(),
@@ -120,18 +120,18 @@ fn direct(imports: &Imports) -> Imports {
         reached.extend(into.iter().flat_map(|from| out.iter().map(move |to| (*from, *to))));
     }
     let through =
-        |from: &str, to: &str| rooms().any(|middle| reached.contains(&(from, middle)) && reached.contains(&(middle, to)));
+        |from: &str, to: &str| layers().any(|middle| reached.contains(&(from, middle)) && reached.contains(&(middle, to)));
     imports.iter().filter(|((from, to), _)| !through(from, to)).map(|(edge, count)| (*edge, *count)).collect()
 }
 
-fn color(room: &str) -> &'static str {
+fn color(layer: &str) -> &'static str {
     let mut places: Vec<String> = Vec::new();
-    for place in rooms().map(place_name) {
+    for place in layers().map(place_name) {
         if !places.contains(&place) {
             places.push(place);
         }
     }
-    let k = places.iter().position(|place| *place == place_name(room)).unwrap_or_default();
+    let k = places.iter().position(|place| *place == place_name(layer)).unwrap_or_default();
     COLORS[k % COLORS.len()]
 }
 

@@ -5,7 +5,7 @@ use crate::picture::Imports;
 
 /// Each crate with the layers that are modules of their own; all other modules belong to the last layer.
 type OwnRoom = (&'static str, &'static str);
-/// Each crate with the modules that are rooms of their own; every other module belongs to the room named last.
+/// Each crate with the modules that are layers of their own; every other module belongs to the layer named last.
 const CRATES: &[(&str, &[OwnRoom], &str)] = &[
     ("model", &[("scenario", "scenario"), ("vehicle", "vehicle"), ("site", "site")], "base"),
     ("mavlink", &[("telemetry", "telemetry")], "mav"),
@@ -105,38 +105,38 @@ pub fn crates() -> impl Iterator<Item = &'static str> {
 }
 
 /// Returns all layers.
-pub fn rooms() -> impl Iterator<Item = &'static str> {
-    TABLE.iter().map(|(room, _)| *room)
+pub fn layers() -> impl Iterator<Item = &'static str> {
+    TABLE.iter().map(|(layer, _)| *layer)
 }
 
 /// Returns the crates that a crate may depend on, which are those whose layers its own layers may use.
 pub fn may_depend_on(folder: &str) -> Vec<&'static str> {
-    let known = TABLE.iter().filter(|(room, _)| home(room) == folder).flat_map(|(_, known)| *known);
-    crates().filter(|other| *other != folder && known.clone().any(|room| home(room) == *other)).collect()
+    let known = TABLE.iter().filter(|(layer, _)| folder_of(layer) == folder).flat_map(|(_, known)| *known);
+    crates().filter(|other| *other != folder && known.clone().any(|layer| folder_of(layer) == *other)).collect()
 }
 
 /// Returns the crate that contains a layer.
-fn home(room: &str) -> &'static str {
-    let holds = |own: &[OwnRoom], rest: &str| rest == room || own.iter().any(|(_, name)| *name == room);
+fn folder_of(layer: &str) -> &'static str {
+    let holds = |own: &[OwnRoom], rest: &str| rest == layer || own.iter().any(|(_, name)| *name == layer);
     CRATES.iter().find(|(_, own, rest)| holds(own, rest)).map_or(PROGRAM, |(folder, ..)| *folder)
 }
 
 /// Returns the layer of a crate's module.
-fn room_of(folder: &str, module: Option<&str>) -> Option<&'static str> {
+fn layer_of(folder: &str, module: Option<&str>) -> Option<&'static str> {
     let (_, own, rest) = CRATES.iter().find(|(name, ..)| *name == folder)?;
-    Some(own.iter().find(|(name, _)| Some(*name) == module).map_or(rest, |(_, room)| room))
+    Some(own.iter().find(|(name, _)| Some(*name) == module).map_or(rest, |(_, layer)| layer))
 }
 
 /// Returns all rule violations in a file, given by its path in the workspace.
 pub fn violations(file: &str, source: &str) -> Vec<String> {
-    let Some((folder, module)) = place_of(file) else { return vec![format!("{file}: no crate of tests/layers/rules.rs")] };
-    let room = room_of(folder, module.first().map(String::as_str)).unwrap_or_default();
+    let Some((folder, module)) = module_of(file) else { return vec![format!("{file}: no crate of tests/layers/rules.rs")] };
+    let layer = layer_of(folder, module.first().map(String::as_str)).unwrap_or_default();
     let code = code_only(source);
     let mut found: Vec<String> = named(&code, &module, ROOTS)
         .into_iter()
         .filter_map(|(line, path)| {
             let path: Vec<&str> = path.iter().map(String::as_str).collect();
-            let why = forbidden(folder, room, &module, &path)?;
+            let why = forbidden(folder, layer, &module, &path)?;
             Some(format!("{file}:{line}: {}: {why}", path.join("::")))
         })
         .collect();
@@ -147,29 +147,29 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
 
 /// Returns uses of `Instant::now()` and similar functions, also through imported names.
 pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
-    let Some((folder, module)) = place_of(file) else { return };
-    let Some(room) = room_of(folder, module.first().map(String::as_str)) else { return };
+    let Some((folder, module)) = module_of(file) else { return };
+    let Some(layer) = layer_of(folder, module.first().map(String::as_str)) else { return };
     for (_, path) in named_in(&without_tests(&tokens(&code_only(source))), &module, ROOTS) {
         let path: Vec<&str> = path.iter().map(String::as_str).collect();
-        if let Some(target) = target_of(folder, &path).filter(|target| *target != room) {
-            *imports.entry((room, target)).or_default() += 1;
+        if let Some(target) = target_of(folder, &path).filter(|target| *target != layer) {
+            *imports.entry((layer, target)).or_default() += 1;
         }
     }
 }
 
-/// Folder of a room's crate, for people.
-pub fn place_name(room: &str) -> String {
-    match home(room) {
+/// Folder of a layer's crate, for people.
+pub fn place_name(layer: &str) -> String {
+    match folder_of(layer) {
         PROGRAM => "src".to_owned(),
         folder => format!("crates/{folder}"),
     }
 }
 
-/// The room that a path leads to.
+/// The layer that a path leads to.
 fn target_of(folder: &str, path: &[&str]) -> Option<&'static str> {
     let (root, rest) = path.split_first()?;
     let other = if *root == "crate" { folder } else { root.strip_prefix("spandrel_")? };
-    room_of(other, rest.first().copied())
+    layer_of(other, rest.first().copied())
 }
 
 /// `Instant::now()` and its like, also through an imported name.
@@ -181,7 +181,7 @@ fn clock_readings(folder: &str, file: &str, code: &str) -> Vec<String> {
 
 /// Returns the crate and module of a file: `crates/sitl/src/autopilot/core.rs` is the module `autopilot::core` of the
 /// crate `sitl`.
-fn place_of(file: &str) -> Option<(&'static str, Vec<String>)> {
+fn module_of(file: &str) -> Option<(&'static str, Vec<String>)> {
     let parts: Vec<&str> = file.trim_end_matches(".rs").split(['/', '\\']).collect();
     let (folder, module) = match &parts[..] {
         ["crates", folder, "src", module @ ..] => (*folder, module),
@@ -194,16 +194,16 @@ fn place_of(file: &str) -> Option<(&'static str, Vec<String>)> {
     Some((folder, module.iter().map(|part| (*part).to_owned()).collect()))
 }
 
-fn forbidden(folder: &str, room: &str, module: &[String], path: &[&str]) -> Option<String> {
+fn forbidden(folder: &str, layer: &str, module: &[String], path: &[&str]) -> Option<String> {
     if folder != PROGRAM && OUTSIDE.iter().any(|outside| path.starts_with(outside)) && !PLAIN_DATA.contains(&path) {
         return Some("ONLY THE PROGRAM TOUCHES THE OUTSIDE WORLD".into());
     }
     let target = target_of(folder, path)?;
     let rest = &path[1..];
-    let (_, allowed) = TABLE.iter().find(|(name, _)| *name == room)?;
-    let library = folder == PROGRAM && home(target) != PROGRAM;
-    if target != room && !library && !allowed.contains(&target) {
-        return Some(format!("{room} must not know {target}"));
+    let (_, allowed) = TABLE.iter().find(|(name, _)| *name == layer)?;
+    let library = folder == PROGRAM && folder_of(target) != PROGRAM;
+    if target != layer && !library && !allowed.contains(&target) {
+        return Some(format!("{layer} must not know {target}"));
     }
     let in_autopilot = folder == "sitl" && module.first().is_some_and(|first| first == "autopilot");
     let truth = target == "sitl" && rest.first() == Some(&"physics") && !rest.get(1).is_some_and(|name| ACTUATION.contains(name));
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_wings_never_import_each_other() {
+    fn exact_simulator_and_monitor_side_are_independent() {
         assert_eq!(check("crates/monitor/src/sidecar.rs", "use spandrel_sitl::sim::Sim;"), 1);
         assert_eq!(check("crates/training/src/report/mod.rs", "use spandrel_sitl::{sim::Sim, endpoint};"), 2);
         assert_eq!(check("crates/sitl/src/sim.rs", "fn f() { spandrel_monitor::assess(); }"), 1);
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_lower_rooms_never_look_up() {
+    fn exact_lower_layers_never_import_higher_ones() {
         assert_eq!(check("crates/model/src/time.rs", "use spandrel_mavlink::codec::Decoder;"), 1);
         assert_eq!(check("crates/model/src/scenario/mod.rs", "use crate::site::Site;"), 1);
         assert_eq!(check("crates/mavlink/src/codec.rs", "use super::telemetry::Frame;"), 1);
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_autopilot_sees_what_it_drives_and_nothing_else_of_physics() {
+    fn exact_autopilot_imports_only_actuation_from_physics() {
         let file = "crates/sitl/src/autopilot/core.rs";
         assert_eq!(check(file, "use crate::physics::{Actuators, MAX_ROTORS};"), 0);
         assert_eq!(check(file, "use crate::physics::RigidState;"), 1);
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_only_the_program_touches_the_outside_world() {
+    fn exact_only_the_program_does_io() {
         for outside in [
             "use std::net::UdpSocket;",
             "let text = std::fs::read_to_string(path);",
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_violation_is_named_with_file_and_line() {
+    fn exact_violations_include_file_and_line() {
         let found = violations("crates/model/src/site/mod.rs", "// a comment\n\nuse spandrel_monitor::Monitor;\n");
         assert_eq!(found, ["crates/model/src/site/mod.rs:3: spandrel_monitor::Monitor: site must not use monitor"]);
     }

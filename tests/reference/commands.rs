@@ -17,7 +17,7 @@ fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
 }
 
 #[test]
-fn exact_the_page_of_commands_is_that_of_the_program() {
+fn exact_commands_page_matches_the_program() {
     let mut command = spandrel::Cli::command();
     command.build();
     let about =

@@ -2,7 +2,7 @@
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
-use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::named_values::Named;
 use spandrel_mavlink::contract::{VERSION, cue};
 use spandrel_mavlink::dialect::MavMessage;
 
@@ -11,7 +11,7 @@ fn page() -> String {
 }
 
 #[test]
-fn exact_the_contracts_page_has_every_name_code_and_bit() {
+fn exact_contract_page_lists_every_name_code_and_bit() {
     let page = page();
     let has = |row: &str| assert!(page.contains(row), "docs/src/reference/contract.md lacks {row:?}");
     has(&format!("Version {VERSION}."));
@@ -40,7 +40,7 @@ fn exact_the_contracts_page_has_every_name_code_and_bit() {
 }
 
 #[test]
-fn exact_the_contracts_table_of_modes_is_the_codes() {
+fn exact_contract_mode_table_matches_the_code() {
     let page = page();
     let copter = |source: ControlSource| {
         let numbers: Vec<String> =

@@ -17,10 +17,10 @@ use std::collections::BTreeSet;
 fn frames() -> String {
     let rows = COLUMNS.iter().map(|column| {
         let kind = match column.read {
-            Read::Whole(_) => "int64",
-            Read::Real(_) => "double",
-            Read::Flag(_) => "boolean",
-            Read::Word(_) => "string",
+            Read::Integer(_) => "int64",
+            Read::Float(_) => "double",
+            Read::Boolean(_) => "boolean",
+            Read::Text(_) => "string",
         };
         let empty = if column.optional { "yes" } else { "no" };
         let words = [column.unit, column.frame, empty, column.description].map(str::to_owned);
@@ -36,7 +36,7 @@ fn assessment() -> String {
 
 /// Returns the header of every table of an empty cohort.
 fn cohort_tables() -> String {
-    let selection = Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::LeaveOut };
+    let selection = Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Exclude };
     let cohort = cohort(&[], &selection);
     let mut out = String::new();
     for (name, text) in tables(&cohort) {
@@ -51,7 +51,7 @@ fn cohort_tables() -> String {
 }
 
 #[test]
-fn exact_the_data_dictionary_is_that_of_the_code() {
+fn exact_data_dictionary_matches_the_code() {
     let about = "Units and definitions of everything that Spandrel exports as numbers. [How a flight is scored](assessment.md) explains the \
                  terms. Numbers are written with the fewest digits that read back to the same bits.";
     let frames_about = "`spandrel export SESSION --frames FILE.csv` and `--parquet FILE.parquet` write one row for each scored frame. An empty \
@@ -94,7 +94,7 @@ fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
 /// A flight with a crash, a picture that shows a defect and one that does not; and a flight that never gets near its
 /// task.
 #[test]
-fn exact_every_field_of_an_assessment_is_in_the_dictionary_and_none_besides() {
+fn exact_data_dictionary_covers_exactly_the_assessment_fields() {
     let mut full = Tape::new();
     full.fly((0.0, 0.0, 10.0), 2.0);
     full.fly((20.0, 0.0, 10.0), 4.0);

@@ -33,7 +33,7 @@ fn check(page: &str, text: &str) {
 
 /// The tables of scenario and vehicle keys are stored next to the files; the pages must include them.
 #[test]
-fn exact_pages_of_keys_include_the_tables_that_are_compared_with_the_readers() {
+fn exact_key_pages_include_the_verified_tables() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |file: &str| std::fs::read_to_string(root.join(file)).unwrap();
     let pages = [("scenario-keys.md", "scenarios/README.md", ":keys"), ("vehicle-keys.md", "vehicle-params/README.md", "")];

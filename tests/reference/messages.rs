@@ -58,7 +58,7 @@ fn handled() -> String {
 }
 
 #[test]
-fn exact_the_pages_of_messages_are_those_of_the_code() {
+fn exact_messages_page_matches_the_code() {
     let asks: Vec<&str> =
         [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR].iter().filter(|f| f.asks_first).map(|f| f.name).collect();
     let about = format!(

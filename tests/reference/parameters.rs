@@ -59,7 +59,7 @@ fn rows(parameters: &[Value], acts: bool) -> String {
 }
 
 #[test]
-fn exact_the_page_of_parameters_is_that_of_the_code() {
+fn exact_parameters_page_matches_the_code() {
     let about = "Names, units, ranges and defaults as the vehicle describes them to ground stations (MAVLink component metadata). Stored \
                  parameters have no effect: clients expect them, and their values are kept.";
     let mut page = head("Parameters", about);

@@ -18,14 +18,15 @@ use spandrel_testkit::station::{Station, one};
 
 /// Minimum fraction of a task's reference points that must be passed within its threshold; the estimate has an error,
 /// and a single point at an end may be missed.
-const COVERED: f64 = 0.97;
+const MIN_COVERAGE: f64 = 0.97;
 /// Time limit for all four tasks, s of simulation time (TASBID battery: 25 minutes).
 const LIMIT_S: f64 = 1_500.0;
 
 fn plan_for(name: &str, autopilot: MavAutopilot) -> Value {
     let (scenario, vehicle) = (scenario(name), vehicle("phantom2"));
     let site = Site::build(&scenario, 7);
-    let map = PlanningContext { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, keep_clear_m: None };
+    let map =
+        PlanningContext { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, transit_clearance_m: None };
     flight_plan::plan(&map, autopilot)
 }
 
@@ -76,7 +77,7 @@ fn known_command(command: u64) -> MavCmd {
 }
 
 #[test]
-fn flight_the_exported_plan_flies_every_task_on_its_path_and_touches_nothing() {
+fn flight_exported_plan_flies_every_task_without_contact() {
     let (items, _) = plan("two-bridges");
     let job = scenario("two-bridges");
     let mut station = Station::new("two-bridges", 7);
@@ -111,13 +112,13 @@ fn flight_the_exported_plan_flies_every_task_on_its_path_and_touches_nothing() {
     assert!(hits <= 1, "{hits} contacts");
     for (task, passed) in job.tasks.iter().zip(&passed) {
         let share = passed.iter().filter(|seen| **seen).count() as f64 / passed.len() as f64;
-        assert!(share >= COVERED, "task {}: only {share} of the path", task.name);
+        assert!(share >= MIN_COVERAGE, "task {}: only {share} of the path", task.name);
     }
     assert!(pictures > 40, "{pictures} pictures");
 }
 
 #[test]
-fn exact_the_plan_has_what_ground_stations_ask_of_it() {
+fn exact_exported_plan_meets_ground_station_requirements() {
     let (items, plan) = plan("two-bridges");
     assert_eq!((plan["fileType"].as_str(), plan["version"].as_u64()), (Some("Plan"), Some(1)));
     let mission = &plan["mission"];
@@ -219,7 +220,7 @@ impl Observed {
         }
         let cues = self.monitor.cues();
         if cues & !self.cues_before != 0 {
-            self.flown.log.push(self.where_it_is(cues));
+            self.flown.log.push(self.describe_situation(cues));
         }
         self.cues_before = cues;
         self.flown.cues |= cues;
@@ -227,7 +228,7 @@ impl Observed {
     }
 
     /// Returns time, position, nearest object and estimation error for the log.
-    fn where_it_is(&self, cues: i32) -> String {
+    fn describe_situation(&self, cues: i32) -> String {
         let (now, here) = (self.station.sim.now(), self.station.sim.truth().rigid.position_m.enu());
         let near = self.site.nearest(here, 6.0, now).map(|near| (near.distance_m, near.surface, near.point_m.array()));
         format!("cues {cues} at {:.1} s, {:.1?} m, nearest {near:.1?}", now.s(), here.array())
@@ -265,30 +266,35 @@ const FLIGHTS: [(&str, u64); 6] =
     [("two-bridges", 1), ("two-bridges", 2), ("two-bridges", 7), ("practice", 7), ("drill-gap", 7), ("drill-landing", 7)];
 /// Maximum root mean square of the roll and pitch rates, deg/s, from a real PX4 on this plan (issue about flight
 /// tests).
-const CALM_DEG_S: f64 = 9.0;
+const MAX_RMS_DEG_S: f64 = 9.0;
 /// Maximum roll or pitch rate, deg/s: a jerk of 4 m/s³ tilts at 23 deg/s; the same again for gusts and the end of the
 /// flight.
-const SWIFT_DEG_S: f64 = 60.0;
+const MAX_RATE_DEG_S: f64 = 60.0;
 
 #[test]
-fn regress_our_own_plan_flies_calmly_and_brings_no_cue() {
+fn regress_exported_plan_flies_smoothly_without_cues() {
     for (name, seed) in FLIGHTS {
         let flown = Observed::ready(name, seed).fly();
         assert!(flown.landed, "{name}, seed {seed}: {:#?}", flown.log);
-        assert!(flown.rms_deg_s.iter().all(|rate| *rate <= CALM_DEG_S), "{name}, seed {seed}: {:?} deg/s", flown.rms_deg_s);
-        assert!(flown.fastest_deg_s <= SWIFT_DEG_S, "{name}, seed {seed}: {} deg/s at {}", flown.fastest_deg_s, flown.fastest_at);
+        assert!(flown.rms_deg_s.iter().all(|rate| *rate <= MAX_RMS_DEG_S), "{name}, seed {seed}: {:?} deg/s", flown.rms_deg_s);
+        assert!(
+            flown.fastest_deg_s <= MAX_RATE_DEG_S,
+            "{name}, seed {seed}: {} deg/s at {}",
+            flown.fastest_deg_s,
+            flown.fastest_at
+        );
         let wrong = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
         assert_eq!(flown.cues & wrong, 0, "{name}, seed {seed}: {:#?}", flown.log);
     }
 }
 
 #[test]
-fn prop_traffic_never_comes_nearer_than_the_least_distance_of_its_lanes() {
+fn prop_traffic_respects_the_minimum_lane_distance() {
     /// Rounding tolerance, m.
     const ROUNDING_M: f64 = 1e-6;
     /// Range of the queries, m, and time over which traffic is observed.
     const REACH_M: f64 = 6.0;
-    const WATCHED_S: i64 = 60;
+    const OBSERVATION_S: i64 = 60;
     let job = scenario("two-bridges");
     let mut met = 0;
     for seed in [1, 7] {
@@ -296,7 +302,7 @@ fn prop_traffic_never_comes_nearer_than_the_least_distance_of_its_lanes() {
         for (east, north, over) in (0..60).map(|k| (f64::from(k) * 2.0 - 60.0, f64::from(k % 7) * 2.0 - 6.0, f64::from(k % 5))) {
             let point: Vec3<Enu> = Vec3::new(east, north, 36.0 + over);
             let least_m = site.traffic().min_distance_ever_m(point, REACH_M);
-            for ms in (0..WATCHED_S * 1_000).step_by(100) {
+            for ms in (0..OBSERVATION_S * 1_000).step_by(100) {
                 let Some(near) = site.traffic().nearest(point, REACH_M, SimTime::from_ms(ms)) else { continue };
                 met += 1;
                 assert!(least_m.is_some_and(|m| m <= near.distance_m + ROUNDING_M), "{point:?}: {least_m:?} and {near:?}");
@@ -307,7 +313,7 @@ fn prop_traffic_never_comes_nearer_than_the_least_distance_of_its_lanes() {
 }
 
 #[test]
-fn regress_the_plans_firmware_follows_the_flavour() {
+fn regress_plan_firmware_follows_the_flavor() {
     for flavour in
         [MavAutopilot::MAV_AUTOPILOT_PX4, MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA, MavAutopilot::MAV_AUTOPILOT_GENERIC]
     {
@@ -316,7 +322,7 @@ fn regress_the_plans_firmware_follows_the_flavour() {
 }
 
 #[test]
-fn regress_every_speed_of_the_plan_is_under_the_limit_with_margin() {
+fn regress_plan_speeds_stay_below_the_limit_with_margin() {
     let (items, plan) = plan("two-bridges");
     let limit = scenario("two-bridges").scoring.speed_limit_m_s;
     let speeds = items.iter().filter(|item| item.command == MavCmd::MAV_CMD_DO_CHANGE_SPEED).map(|item| f64::from(item.param2));

@@ -14,7 +14,7 @@ const ZOOMS: &str = "m30";
 const WIRE_DEG: f32 = 1e-5;
 
 #[test]
-fn exact_a_picture_is_judged_by_the_field_of_view_that_it_was_taken_with() {
+fn exact_pictures_are_scored_with_their_own_field_of_view() {
     let job = scenario("drill-hover");
     let origin = job.origin;
     let mut station = Station::of(job, ZOOMS, 7);

@@ -161,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn val_seeds_are_those_of_pymavlink() {
+    fn val_crc_extra_matches_pymavlink() {
         for (definition, seed) in [(MEMINFO, 208), (AHRS, 127), (SIMSTATE, 154), (WIND, 1), (EKF_STATUS_REPORT, 71)] {
             assert_eq!(definition.crc_extra(), seed, "{}", definition.name);
         }

@@ -258,7 +258,7 @@ mod tests {
     use crate::dialect::HEARTBEAT_DATA;
 
     #[test]
-    fn exact_a_frame_comes_back_from_between_rubbish() {
+    fn exact_frame_between_invalid_bytes_is_decoded() {
         let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA { custom_mode: 7, ..HEARTBEAT_DATA::default() });
         let mut bytes = vec![1, 0xFD, 3];
         bytes.extend(Encoder::new(1, 191).encode(&message));
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_frame_within_the_reach_of_a_false_start_is_found_and_every_other_byte_is_counted() {
+    fn exact_frame_after_false_starts_is_decoded_and_other_bytes_are_counted() {
         let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
         let frame = Encoder::new(1, 191).encode(&message);
         // The datagram contains thousands of false frame starts, each of which claims more bytes than the datagram has.
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_flipped_bit_costs_one_frame_and_not_the_next() {
+    fn exact_flipped_bit_loses_only_one_frame() {
         let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
         let mut encoder = Encoder::new(1, 1);
         let mut bytes = encoder.encode(&message);

@@ -4,7 +4,7 @@
 pub const DATA_MAX: usize = 239;
 /// Size of an FTP payload, bytes.
 pub const PAYLOAD: usize = 251;
-const HEADER: usize = 12;
+const HEADER_LEN: usize = 12;
 
 /// Opcodes of client requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -127,7 +127,7 @@ impl FtpPacket {
     #[must_use]
     pub fn read(bytes: &[u8; PAYLOAD]) -> Self {
         let mut data = [0; DATA_MAX];
-        data.copy_from_slice(&bytes[HEADER..]);
+        data.copy_from_slice(&bytes[HEADER_LEN..]);
         Self {
             sequence: u16::from_le_bytes([bytes[0], bytes[1]]),
             session: bytes[2],
@@ -150,8 +150,8 @@ impl FtpPacket {
         bytes[4] = self.size;
         bytes[5] = self.request;
         bytes[6] = u8::from(self.burst_complete);
-        bytes[8..HEADER].copy_from_slice(&self.offset.to_le_bytes());
-        bytes[HEADER..].copy_from_slice(&self.data);
+        bytes[8..HEADER_LEN].copy_from_slice(&self.offset.to_le_bytes());
+        bytes[HEADER_LEN..].copy_from_slice(&self.data);
         bytes
     }
 
@@ -197,7 +197,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_payload_reads_back_as_it_was_written() {
+    fn exact_ftp_payload_round_trips() {
         let mut bytes = [0u8; PAYLOAD];
         for (k, byte) in bytes.iter_mut().enumerate() {
             *byte = (k * 7 + 3) as u8;
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_opcodes_stand_at_their_numbers() {
+    fn exact_opcodes_have_their_mavlink_numbers() {
         for (number, opcode) in Opcode::ALL.into_iter().enumerate() {
             assert_eq!(opcode as usize, number);
         }
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_size_that_no_packet_holds_is_no_data() {
+    fn exact_oversized_ftp_packet_has_no_data() {
         let mut packet = FtpPacket::read(&[0; PAYLOAD]);
         packet.size = DATA_MAX as u8;
         assert_eq!(packet.sized().map(<[u8]>::len), Some(DATA_MAX));
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn val_the_checksum_is_crc32_without_its_inversions() {
+    fn val_ftp_checksum_is_crc32_without_inversions() {
         // The CRC catalog gives cbf43926 as the check value of CRC-32/ISO-HDLC for "123456789", which inverts the initial and
         // final values.
         assert_eq!(!checksum(!0, b"123456789"), 0xcbf4_3926);

@@ -28,7 +28,7 @@ pub mod ardupilotmega;
 pub mod codec;
 pub mod contract;
 pub mod ftp;
-pub mod note;
+pub mod instructor_note;
 pub mod router;
 pub mod signing;
 pub mod station;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Message ID of SETUP_SIGNING, which carries a key and is therefore never forwarded.
 const SETUP_SIGNING: u32 = 256;
 /// Maximum number of senders stored, so that a link with thousands of spoofed senders cannot exhaust the memory.
-const MOST_SENDERS: usize = 1_024;
+const MAX_SENDERS: usize = 1_024;
 
 /// Routing table: the links on which each sender was seen. `L` identifies a link.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ impl<L: Copy + Ord> Router<L> {
     /// Records on which link the sender of a frame was seen.
     pub fn note(&mut self, link: L, frame: &ReceivedFrame) {
         let sender = (frame.system_id, frame.component_id);
-        if self.links_by_sender.len() >= MOST_SENDERS && !self.links_by_sender.contains_key(&sender) {
+        if self.links_by_sender.len() >= MAX_SENDERS && !self.links_by_sender.contains_key(&sender) {
             return;
         }
         let links = self.links_by_sender.entry(sender).or_default();
@@ -38,7 +38,7 @@ impl<L: Copy + Ord> Router<L> {
 
     /// Returns whether a component was seen on a link.
     #[must_use]
-    pub fn note_sender(&self, peer: (u8, u8), link: L) -> bool {
+    pub fn has_seen(&self, peer: (u8, u8), link: L) -> bool {
         self.links_by_sender.get(&peer).is_some_and(|links| links.contains(&link))
     }
 
@@ -76,14 +76,14 @@ pub fn target(frame: &ReceivedFrame) -> (u8, u8) {
         return (system, message.target_component_id().unwrap_or(0));
     }
     // A message with invalid enum values cannot be parsed, but its target is still at the offset where the codec would write it.
-    let [system, component] = target_places(frame.message_id);
+    let [system, component] = target_offsets(frame.message_id);
     let payload = frame.payload(255);
     let byte = |place: Option<usize>| place.and_then(|at| payload.get(at)).copied().unwrap_or(0);
     (byte(system), byte(component))
 }
 
 /// Returns the payload offsets of target system and target component, determined by encoding a message with different targets.
-fn target_places(message_id: u32) -> [Option<usize>; 2] {
+fn target_offsets(message_id: u32) -> [Option<usize>; 2] {
     let place = |field: fn(&mut MavMessage) -> Option<&mut u8>| {
         let mut message = MavMessage::default_message_from_id(message_id)?;
         let mut written = |value: u8| {
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn wire_broadcasts_go_everywhere_but_back_and_addressed_frames_to_their_target() {
+    fn wire_broadcasts_reach_other_links_and_addressed_frames_their_target() {
         let mut router = Router::new();
         let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
         router.note(1, &frame(255, 190, &beat));
@@ -122,25 +122,25 @@ mod tests {
     }
 
     #[test]
-    fn wire_sticks_and_unreadable_bodies_go_to_their_target_alone() {
+    fn wire_sticks_and_unparsable_payloads_reach_only_their_target() {
         use crate::dialect::{MANUAL_CONTROL_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA};
         let sticks = MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { target: 7, ..Default::default() });
         assert_eq!(target(&frame(255, 190, &sticks)), (7, 0));
         let aim = SET_POSITION_TARGET_LOCAL_NED_DATA { target_system: 7, target_component: 9, ..Default::default() };
-        assert_eq!(target_places(84), [Some(50), Some(51)]);
+        assert_eq!(target_offsets(84), [Some(50), Some(51)]);
         let mut unreadable = frame(255, 190, &MavMessage::SET_POSITION_TARGET_LOCAL_NED(aim));
         unreadable.message = None;
         assert_eq!(target(&unreadable), (7, 9));
     }
 
     #[test]
-    fn prop_a_link_that_claims_to_be_everybody_is_not_remembered_without_end() {
+    fn prop_routing_table_is_bounded_for_spoofed_senders() {
         let mut router = Router::new();
         let mut beat = frame(1, 1, &MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
         for k in 0..=u16::MAX {
             [beat.system_id, beat.component_id] = k.to_be_bytes();
             router.note(1, &beat);
         }
-        assert_eq!(router.links_by_sender.len(), MOST_SENDERS);
+        assert_eq!(router.links_by_sender.len(), MAX_SENDERS);
     }
 }

@@ -9,26 +9,26 @@ use std::collections::BTreeMap;
 
 /// Layout of a MAVLink 2 frame: start byte, offset of the incompatibility flags, offset of the message ID, header length.
 const STX: u8 = 0xFD;
-const FLAGS: usize = 2;
-const MESSAGE_ID: usize = 7;
-const HEADER: usize = 10;
+const FLAGS_OFFSET: usize = 2;
+const MESSAGE_ID_OFFSET: usize = 7;
+const HEADER_LEN: usize = 10;
 /// Incompatibility flag that marks a signed frame.
-const SIGNED: u8 = 0x01;
+const FLAG_SIGNED: u8 = 0x01;
 /// Length of the signature block: link ID, 48-bit timestamp and 48-bit signature, bytes.
-const SIGNATURE: usize = 13;
+const SIGNATURE_LEN: usize = 13;
 /// Message ID of RADIO_STATUS, which telemetry radios send unsigned because they have no key.
 const RADIO_STATUS: u32 = 109;
 /// Maximum age of the first timestamp of a new stream, in timestamp units (one minute).
-const SLACK: u64 = 6_000_000;
+const MAX_NEW_STREAM_LAG: u64 = 6_000_000;
 /// Maximum difference by which a timestamp may be ahead of a valid clock, in timestamp units (one day, to tolerate a wrong time
 /// zone). Accepting a later timestamp would make all valid frames too old, even after a restart.
-const AHEAD_MAX: u64 = 8_640_000_000;
+const MAX_TIMESTAMP_LEAD: u64 = 8_640_000_000;
 /// Timestamp of 2024-01-01T00:00:00Z. An earlier clock has not been set.
-const CLOCK_SET: u64 = 28_401_840_000_000;
+const MIN_VALID_CLOCK: u64 = 28_401_840_000_000;
 /// Maximum number of streams (system, component, link ID) for which the last timestamp is stored.
-const STREAMS_MAX: usize = 512;
+const MAX_STREAMS: usize = 512;
 /// Epoch of signing timestamps: 2015-01-01T00:00:00Z in Unix time, µs.
-const EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;
+const SIGNING_EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;
 
 /// Signing key: a secret that both ends of a link share.
 #[derive(Clone, PartialEq, Eq)]
@@ -58,14 +58,14 @@ impl SigningKey {
 /// Converts Unix time, µs, to a signing timestamp in units of 10 µs since 2015.
 #[must_use]
 pub fn stamp(unix_us: u64) -> u64 {
-    unix_us.saturating_sub(EPOCH_UNIX_US) / 10
+    unix_us.saturating_sub(SIGNING_EPOCH_UNIX_US) / 10
 }
 
 /// Maximum value of a 48-bit timestamp.
-const STAMP_MAX: u64 = (1 << 48) - 1;
+const MAX_TIMESTAMP: u64 = (1 << 48) - 1;
 
 fn is_valid_timestamp(stamp: &u64) -> bool {
-    *stamp <= STAMP_MAX
+    *stamp <= MAX_TIMESTAMP
 }
 
 /// Result of verifying the signature of a frame.
@@ -106,13 +106,14 @@ impl Signing {
     /// signed, and other data, are returned unchanged.
     #[must_use]
     pub fn sign(&mut self, mut frame: Vec<u8>, stamp: u64) -> Vec<u8> {
-        let whole = frame.first() == Some(&STX) && frame.len() >= HEADER + 2 && frame.len() == HEADER + usize::from(frame[1]) + 2;
-        if !whole || frame[FLAGS] & SIGNED != 0 {
+        let whole =
+            frame.first() == Some(&STX) && frame.len() >= HEADER_LEN + 2 && frame.len() == HEADER_LEN + usize::from(frame[1]) + 2;
+        if !whole || frame[FLAGS_OFFSET] & FLAG_SIGNED != 0 {
             return frame;
         }
         self.newest = (self.newest + 1).max(stamp);
-        frame[FLAGS] |= SIGNED;
-        let id = u32::from_le_bytes([frame[MESSAGE_ID], frame[MESSAGE_ID + 1], frame[MESSAGE_ID + 2], 0]);
+        frame[FLAGS_OFFSET] |= FLAG_SIGNED;
+        let id = u32::from_le_bytes([frame[MESSAGE_ID_OFFSET], frame[MESSAGE_ID_OFFSET + 1], frame[MESSAGE_ID_OFFSET + 2], 0]);
         let end = frame.len() - 2;
         let crc = mavlink::calculate_crc(&frame[1..end], MavMessage::extra_crc(id));
         frame[end..].copy_from_slice(&crc.to_le_bytes());
@@ -132,13 +133,13 @@ impl Signing {
 
     /// Returns the reference time for a new stream: the local clock if it was set, otherwise the latest timestamp sent or
     /// accepted.
-    fn present(&self) -> u64 {
-        if self.clock >= CLOCK_SET { self.clock } else { self.newest }
+    fn reference_time(&self) -> u64 {
+        if self.clock >= MIN_VALID_CLOCK { self.clock } else { self.newest }
     }
 
     /// Returns the latest timestamp that is accepted, which depends on the local clock.
-    fn latest(&self) -> u64 {
-        if self.clock >= CLOCK_SET { self.clock + AHEAD_MAX } else { STAMP_MAX }
+    fn max_valid_timestamp(&self) -> u64 {
+        if self.clock >= MIN_VALID_CLOCK { self.clock + MAX_TIMESTAMP_LEAD } else { MAX_TIMESTAMP }
     }
 
     /// Returns the state needed to reject replays after a restart with the same key, as text. The first line is the latest
@@ -167,8 +168,8 @@ impl Signing {
         let mut lines = memory.lines();
         let newest = lines.next().and_then(|line| line.parse().ok()).filter(is_valid_timestamp).ok_or(1usize)?;
         let streams = lines.enumerate().map(|(k, line)| stream(line).ok_or(k + 2));
-        let heard = streams.take(STREAMS_MAX).collect::<Result<BTreeMap<_, _>, _>>()?;
-        let latest = self.latest();
+        let heard = streams.take(MAX_STREAMS).collect::<Result<BTreeMap<_, _>, _>>()?;
+        let latest = self.max_valid_timestamp();
         self.newest = self.newest.max(Some(newest).filter(|newest| *newest <= latest).unwrap_or(0));
         self.last_timestamps.extend(heard.into_iter().filter(|(_, last)| *last <= latest));
         Ok(())
@@ -177,7 +178,10 @@ impl Signing {
     /// Verifies a frame, and stores its timestamp if the frame is accepted. `stamp` is the current time.
     pub fn verify(&mut self, frame: &ReceivedFrame, stamp: u64) -> SignatureVerdict {
         let bytes = &frame.bytes;
-        if bytes.first() != Some(&STX) || bytes.get(FLAGS).is_none_or(|flags| flags & SIGNED == 0) || bytes.len() < SIGNATURE {
+        if bytes.first() != Some(&STX)
+            || bytes.get(FLAGS_OFFSET).is_none_or(|flags| flags & FLAG_SIGNED == 0)
+            || bytes.len() < SIGNATURE_LEN
+        {
             return SignatureVerdict::Unsigned;
         }
         self.clock = self.clock.max(stamp);
@@ -188,18 +192,18 @@ impl Signing {
             return SignatureVerdict::Forged;
         }
         let stamp = tail[1..].iter().rev().fold(0, |stamp, byte| (stamp << 8) | u64::from(*byte));
-        if stamp > self.latest() {
+        if stamp > self.max_valid_timestamp() {
             return SignatureVerdict::Ahead;
         }
-        let present = self.present();
+        let reference_time = self.reference_time();
         let stream = (frame.system_id, frame.component_id, tail[0]);
-        if self.last_timestamps.len() >= STREAMS_MAX {
+        if self.last_timestamps.len() >= MAX_STREAMS {
             // Frames of the removed streams are too old even as first frames of a new stream, so no frame is accepted twice.
-            self.last_timestamps.retain(|_, last| *last + SLACK >= present);
+            self.last_timestamps.retain(|_, last| *last + MAX_NEW_STREAM_LAG >= reference_time);
         }
         let new = match self.last_timestamps.get(&stream) {
             Some(last) => stamp > *last,
-            None => stamp + SLACK >= present && self.last_timestamps.len() < STREAMS_MAX,
+            None => stamp + MAX_NEW_STREAM_LAG >= reference_time && self.last_timestamps.len() < MAX_STREAMS,
         };
         if !new {
             return SignatureVerdict::Replayed;
@@ -212,7 +216,7 @@ impl Signing {
 
 /// Returns whether a link that requires signatures accepts a frame with this verdict.
 #[must_use]
-pub fn is_newer(frame: &ReceivedFrame, verdict: SignatureVerdict) -> bool {
+pub fn is_accepted(frame: &ReceivedFrame, verdict: SignatureVerdict) -> bool {
     verdict == SignatureVerdict::Good || (verdict == SignatureVerdict::Unsigned && frame.message_id == RADIO_STATUS)
 }
 
@@ -240,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_signed_frame_is_good_once() {
+    fn exact_signed_frame_is_accepted_once() {
         let (mut ours, mut theirs) = pair();
         let first = read(&ours.sign(frame(1), NOW));
         let second = read(&ours.sign(frame(1), NOW));
@@ -252,32 +256,35 @@ mod tests {
     }
 
     #[test]
-    fn exact_another_key_an_altered_byte_and_no_signature_do_not_pass() {
+    fn exact_wrong_key_altered_and_unsigned_frames_are_rejected() {
         let (mut ours, mut theirs) = pair();
         let good = ours.sign(frame(1), NOW);
         let mut stranger = Signing::new(SigningKey::from_passphrase("brigde"), 3, NOW);
         assert_eq!(theirs.verify(&read(&stranger.sign(frame(1), NOW)), NOW), SignatureVerdict::Forged);
-        for k in good.len() - SIGNATURE..good.len() {
+        for k in good.len() - SIGNATURE_LEN..good.len() {
             let mut altered = good.clone();
             altered[k] ^= 1;
             assert_eq!(theirs.verify(&read(&altered), NOW), SignatureVerdict::Forged, "byte {k}");
         }
         let bare = read(&frame(1));
         assert_eq!(theirs.verify(&bare, NOW), SignatureVerdict::Unsigned);
-        assert!(!is_newer(&bare, SignatureVerdict::Unsigned));
+        assert!(!is_accepted(&bare, SignatureVerdict::Unsigned));
         assert_eq!(theirs.verify(&read(&good), NOW), SignatureVerdict::Good, "a rejected frame does not use up its timestamp");
     }
 
     #[test]
-    fn exact_a_new_stream_may_lag_a_minute_and_no_more() {
+    fn exact_new_stream_may_lag_at_most_a_minute() {
         let (mut ours, _) = pair();
         let old = read(&ours.sign(frame(1), NOW));
         let verdict = |late: u64| Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW + 1 + late).verify(&old, NOW);
-        assert_eq!((verdict(SLACK), verdict(SLACK + 1)), (SignatureVerdict::Good, SignatureVerdict::Replayed));
+        assert_eq!(
+            (verdict(MAX_NEW_STREAM_LAG), verdict(MAX_NEW_STREAM_LAG + 1)),
+            (SignatureVerdict::Good, SignatureVerdict::Replayed)
+        );
     }
 
     #[test]
-    fn exact_streams_are_distinguished_and_their_number_is_bounded() {
+    fn exact_streams_are_separate_and_bounded() {
         let (mut ours, mut theirs) = pair();
         let early = ours.sign(frame(1), NOW);
         let late = ours.sign(frame(2), NOW + 500);
@@ -289,11 +296,11 @@ mod tests {
                 theirs.verify(&read(&one.sign(frame(system), NOW)), NOW);
             }
         }
-        assert_eq!(theirs.last_timestamps.len(), STREAMS_MAX);
+        assert_eq!(theirs.last_timestamps.len(), MAX_STREAMS);
     }
 
     #[test]
-    fn exact_streams_that_have_long_been_silent_make_room_and_their_frames_stay_too_old() {
+    fn exact_silent_streams_are_evicted_and_their_frames_stay_rejected() {
         let mut guard = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         let mut first = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         let old = read(&first.sign(frame(9), NOW));
@@ -304,18 +311,18 @@ mod tests {
                 guard.verify(&read(&one.sign(frame(system), NOW)), NOW);
             }
         }
-        let later = NOW + 2 * SLACK;
+        let later = NOW + 2 * MAX_NEW_STREAM_LAG;
         let newcomer = read(&Signing::new(SigningKey::from_passphrase("bridge"), 7, later).sign(frame(77), later));
         assert_eq!(guard.verify(&newcomer, later), SignatureVerdict::Good);
         assert_eq!((guard.last_timestamps.len(), guard.verify(&old, later)), (1, SignatureVerdict::Replayed));
     }
 
     #[test]
-    fn exact_what_was_received_before_a_restart_is_not_taken_after_it() {
+    fn exact_frames_from_before_a_restart_are_rejected_after_it() {
         let (mut ours, mut theirs) = pair();
         let before = read(&ours.sign(frame(1), NOW));
         assert_eq!(theirs.verify(&before, NOW), SignatureVerdict::Good);
-        let soon = NOW + SLACK / 2;
+        let soon = NOW + MAX_NEW_STREAM_LAG / 2;
         let mut forgetful = Signing::new(SigningKey::from_passphrase("bridge"), 0, soon);
         assert_eq!(forgetful.verify(&before, soon), SignatureVerdict::Good, "without saved state the replay is accepted");
         let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, soon);
@@ -334,19 +341,19 @@ mod tests {
     /// Without this check, a single frame from a wrong clock or a former key holder makes all other frames too old, permanently
     /// because of the saved state.
     #[test]
-    fn regress_a_frame_from_the_far_future_is_refused_and_leaves_nothing_behind() {
+    fn regress_frame_from_far_future_is_rejected_without_trace() {
         let (mut ours, mut theirs) = pair();
         let far = |stamp: u64| read(&Signing::new(SigningKey::from_passphrase("bridge"), 9, stamp - 1).sign(frame(7), stamp));
-        for stamp in [NOW + AHEAD_MAX + 1, STAMP_MAX] {
+        for stamp in [NOW + MAX_TIMESTAMP_LEAD + 1, MAX_TIMESTAMP] {
             assert_eq!(theirs.verify(&far(stamp), NOW), SignatureVerdict::Ahead);
         }
         assert_eq!((theirs.newest(), theirs.last_timestamps.len()), (NOW, 0));
-        assert_eq!(theirs.verify(&far(NOW + AHEAD_MAX), NOW), SignatureVerdict::Good, "a clock that is one day ahead");
+        assert_eq!(theirs.verify(&far(NOW + MAX_TIMESTAMP_LEAD), NOW), SignatureVerdict::Good, "a clock that is one day ahead");
         let honest = read(&ours.sign(frame(1), NOW));
         assert_eq!(theirs.verify(&honest, NOW), SignatureVerdict::Good, "a correct clock at the same time");
         // Saved state that contains such a timestamp is repaired.
         let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
-        again.restore(&format!("{STAMP_MAX}\n7 1 9 {STAMP_MAX}\n1 1 3 {NOW}\n")).unwrap();
+        again.restore(&format!("{MAX_TIMESTAMP}\n7 1 9 {MAX_TIMESTAMP}\n1 1 3 {NOW}\n")).unwrap();
         assert_eq!((again.newest(), again.last_timestamps.len()), (NOW, 1));
         let next = read(&ours.sign(frame(1), NOW));
         assert_eq!(again.verify(&next, NOW), SignatureVerdict::Good);
@@ -357,7 +364,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_memory_that_is_none_is_refused_by_its_line() {
+    fn exact_invalid_saved_state_is_rejected_with_line_number() {
         let mut guard = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         let begin = guard.clone();
         for (text, line) in [
@@ -374,20 +381,20 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_timestamp_counts_tens_of_microseconds_from_2015() {
-        assert_eq!(stamp(EPOCH_UNIX_US), 0);
-        assert_eq!(stamp(EPOCH_UNIX_US + 1_000_000), 100_000);
+    fn exact_timestamps_count_ten_microseconds_since_2015() {
+        assert_eq!(stamp(SIGNING_EPOCH_UNIX_US), 0);
+        assert_eq!(stamp(SIGNING_EPOCH_UNIX_US + 1_000_000), 100_000);
         assert_eq!(stamp(0), 0);
     }
 
     #[test]
-    fn val_pymavlink_makes_the_same_signature() {
+    fn val_signature_matches_pymavlink() {
         // Frame from pymavlink 2.4: HEARTBEAT(6, 8, 0, 0, 4) from 255/190, sequence 0, key sha256("bridge"), link 5, timestamp
         // 30000000000000.
         let theirs: Vec<u8> = PYMAVLINK.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
         let mut ours = Signing::new(SigningKey::from_passphrase("bridge"), 5, NOW - 1);
-        let mut plain = theirs[..theirs.len() - SIGNATURE].to_vec();
-        plain[FLAGS] = 0;
+        let mut plain = theirs[..theirs.len() - SIGNATURE_LEN].to_vec();
+        plain[FLAGS_OFFSET] = 0;
         assert_eq!(ours.sign(plain, NOW), theirs);
         let mut guard = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         assert_eq!(guard.verify(&read(&theirs), NOW), SignatureVerdict::Good);

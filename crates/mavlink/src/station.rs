@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_each_autopilot_is_asked_by_its_own_number() {
+    fn exact_position_mode_uses_each_autopilots_mode_number() {
         let asked = |autopilot| {
             let (command, params) = position_mode(autopilot);
             (command, params[0], params[1])

@@ -24,7 +24,7 @@ pub const CRACK: u32 = 1130;
 pub const ABRASION: u32 = 1190;
 
 /// All defect codes used in random placement, in ascending order.
-pub const KINDS: &[u32] = &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION];
+pub const ALL: &[u32] = &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION];
 
 /// Returns true if a defect code is a line defect (a crack), whose width must be resolved in a photo.
 #[must_use]
@@ -34,7 +34,7 @@ pub fn is_line(kind: u32) -> bool {
 
 /// Returns the display name of a defect code.
 #[must_use]
-pub fn kind_name(kind: u32) -> &'static str {
+pub fn defect_name(kind: u32) -> &'static str {
     match kind {
         CORROSION => "corrosion",
         FATIGUE => "fatigue cracking",
@@ -60,7 +60,7 @@ pub struct SizeRanges {
 
 /// Returns the size ranges of a defect code in a condition state (2 fair, 3 poor).
 #[must_use]
-pub fn sizes(kind: u32, condition_state: u8) -> SizeRanges {
+pub fn size_ranges(kind: u32, condition_state: u8) -> SizeRanges {
     let poor = condition_state >= 3;
     let (length_m, width) = match (kind, poor) {
         // 6 in = 0.152 m separates the condition states.
@@ -89,8 +89,8 @@ pub fn sizes(kind: u32, condition_state: u8) -> SizeRanges {
 }
 
 /// Draws a random length and width, m, both scaled by `factor`.
-pub fn draw(kind: u32, condition_state: u8, factor: f64, stream: &mut RandomStream) -> (f64, f64) {
-    let s = sizes(kind, condition_state);
+pub fn draw_size(kind: u32, condition_state: u8, factor: f64, stream: &mut RandomStream) -> (f64, f64) {
+    let s = size_ranges(kind, condition_state);
     let length = stream.range(s.length_m.0, s.length_m.1);
     let width = stream.range(s.width.0, s.width.1);
     (length * factor, if is_line(kind) { width } else { width * length } * factor)

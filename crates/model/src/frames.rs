@@ -324,7 +324,7 @@ impl<A, B> Rotation<A, B> {
 
     /// Applies a further rotation by a rotation vector (axis times angle in radians) expressed in the source frame `A`.
     #[must_use]
-    pub fn turned_by(self, rotation_vector_rad: Vec3<A>) -> Self {
+    pub fn rotated_by(self, rotation_vector_rad: Vec3<A>) -> Self {
         let v = rotation_vector_rad.raw();
         let angle = v.norm();
         let (s, c) = math::sin_cos(angle * 0.5);
@@ -399,33 +399,33 @@ mod tests {
     const ROUNDING: f64 = 1e-14;
 
     #[test]
-    fn exact_ned_and_enu_name_the_same_vector() {
+    fn exact_ned_and_enu_conversions_are_inverse() {
         let v: Vec3<Ned> = Vec3::new(1.0, 2.0, 3.0);
         assert_eq!(v.enu(), Vec3::new(2.0, 1.0, -3.0));
         assert_eq!(v.enu().ned(), v);
     }
 
     #[test]
-    fn exact_a_quarter_turn_to_the_right_points_the_nose_east() {
+    fn exact_yaw_of_90_degrees_points_the_nose_east() {
         let attitude = Rotation::from_euler(0.0, 0.0, math::FRAC_PI_2);
         let nose = attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
         assert!((nose - Vec3::new(0.0, 1.0, 0.0)).norm() < ROUNDING);
     }
 
     #[test]
-    fn exact_nose_up_pitch_lifts_the_nose() {
+    fn exact_positive_pitch_raises_the_nose() {
         let nose = Rotation::from_euler(0.0, 0.1, 0.0) * Vec3::<Frd>::new(1.0, 0.0, 0.0);
         assert!(nose.down() < 0.0);
     }
 
     #[test]
-    fn exact_euler_angles_come_back() {
+    fn exact_euler_angles_round_trip() {
         let (r, p, y) = Rotation::from_euler(0.3, -0.4, 2.5).euler();
         assert!((r - 0.3).abs() < ROUNDING && (p + 0.4).abs() < ROUNDING && (y - 2.5).abs() < ROUNDING);
     }
 
     #[test]
-    fn exact_half_way_between_two_headings_is_the_heading_between() {
+    fn exact_lerp_interpolates_headings_on_the_shorter_arc() {
         let deg = |yaw: f64| Rotation::from_euler(0.0, 0.0, yaw.to_radians());
         let yaw = |a: f64, b: f64, t: f64| deg(a).lerp(deg(b), t).yaw_rad().to_degrees();
         assert!((yaw(10.0, 50.0, 0.5) - 30.0).abs() < 1e-9);
@@ -434,8 +434,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_turned_by_yaw_rate_turns_clockwise_seen_from_above() {
-        let turned = Rotation::from_euler(0.0, 0.0, 0.0).turned_by(Vec3::new(0.0, 0.0, 0.2));
+    fn exact_positive_yaw_rotates_clockwise_seen_from_above() {
+        let turned = Rotation::from_euler(0.0, 0.0, 0.0).rotated_by(Vec3::new(0.0, 0.0, 0.2));
         assert!((turned.yaw_rad() - 0.2).abs() < ROUNDING);
     }
 }

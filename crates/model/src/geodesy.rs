@@ -8,7 +8,7 @@ use super::math;
 pub const SEMI_MAJOR_M: f64 = 6_378_137.0;
 /// WGS84 flattening (NIMA TR8350.2).
 pub const FLATTENING: f64 = 1.0 / 298.257_223_563;
-const E2: f64 = FLATTENING * (2.0 - FLATTENING);
+const ECCENTRICITY_SQUARED: f64 = FLATTENING * (2.0 - FLATTENING);
 
 /// A geographic position: degrees, and meters above the ellipsoid. The simulator treats the ellipsoid as mean sea level.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,25 +79,25 @@ impl LocalPlane {
 fn ecef_from_geo(geo: Geo) -> [f64; 3] {
     let (sl, cl) = math::sin_cos(geo.latitude_deg.to_radians());
     let (so, co) = math::sin_cos(geo.longitude_deg.to_radians());
-    let n = SEMI_MAJOR_M / (1.0 - E2 * sl * sl).sqrt();
+    let n = SEMI_MAJOR_M / (1.0 - ECCENTRICITY_SQUARED * sl * sl).sqrt();
     let h = geo.altitude_m;
-    [(n + h) * cl * co, (n + h) * cl * so, (n * (1.0 - E2) + h) * sl]
+    [(n + h) * cl * co, (n + h) * cl * so, (n * (1.0 - ECCENTRICITY_SQUARED) + h) * sl]
 }
 
 /// Converts earth-centered coordinates by Bowring's iteration. The error is below a nanometer after three iterations for heights
 /// within 10 km of the ellipsoid.
 fn geo_from_ecef(p: [f64; 3]) -> Geo {
     let r = math::hypot(p[0], p[1]);
-    let mut lat = math::atan2(p[2], r * (1.0 - E2));
+    let mut lat = math::atan2(p[2], r * (1.0 - ECCENTRICITY_SQUARED));
     let mut n = SEMI_MAJOR_M;
     for _ in 0..4 {
         let s = math::sin(lat);
-        n = SEMI_MAJOR_M / (1.0 - E2 * s * s).sqrt();
-        lat = math::atan2(p[2] + E2 * n * s, r);
+        n = SEMI_MAJOR_M / (1.0 - ECCENTRICITY_SQUARED * s * s).sqrt();
+        lat = math::atan2(p[2] + ECCENTRICITY_SQUARED * n * s, r);
     }
     let (s, c) = math::sin_cos(lat);
     // Also valid at the poles, unlike r / cos(lat) - n.
-    let altitude_m = r * c + p[2] * s - n * (1.0 - E2 * s * s);
+    let altitude_m = r * c + p[2] * s - n * (1.0 - ECCENTRICITY_SQUARED * s * s);
     Geo { latitude_deg: lat.to_degrees(), longitude_deg: math::atan2(p[1], p[0]).to_degrees(), altitude_m }
 }
 
@@ -110,14 +110,14 @@ mod tests {
     const ROUND_TRIP_M: f64 = 1e-8;
 
     #[test]
-    fn exact_local_positions_come_back() {
+    fn exact_local_positions_round_trip() {
         let plane = LocalPlane::new(ORIGIN);
         let p = Vec3::new(812.5, -433.25, 61.0);
         assert!((plane.enu_from_geo(plane.geo_from_enu(p)) - p).norm() < ROUND_TRIP_M);
     }
 
     #[test]
-    fn val_one_minute_of_latitude_at_45_degrees_is_1852_2_metres() {
+    fn val_one_minute_of_latitude_at_45_degrees_is_1852_2_m() {
         // 1852.2 m follows from the WGS84 meridian radius at 45 deg (6 367 382 m); the nautical mile was originally defined this
         // way. Tolerance 0.1 m.
         let plane = LocalPlane::new(Geo { latitude_deg: 45.0, longitude_deg: 0.0, altitude_m: 0.0 });

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn prop_streams_of_other_names_differ_and_the_same_name_repeats() {
+    fn prop_streams_depend_only_on_seed_and_name() {
         let mut a = RandomStream::new(7, "gust");
         let mut b = RandomStream::new(7, "imu");
         assert_ne!(a.bits(), b.bits());

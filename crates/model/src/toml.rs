@@ -38,12 +38,12 @@ impl fmt::Display for Problem {
 }
 
 /// Maximum number of problems that are displayed, about one screen; the others are only counted.
-const LISTED_MOST: usize = 50;
+const MAX_DISPLAYED_PROBLEMS: usize = 50;
 
 /// Splits a list of problems into the first 50, which are displayed, and the number of the others.
 #[must_use]
-pub fn listed(problems: &[Problem]) -> (&[Problem], usize) {
-    let count = problems.len().min(LISTED_MOST);
+pub fn split_displayed(problems: &[Problem]) -> (&[Problem], usize) {
+    let count = problems.len().min(MAX_DISPLAYED_PROBLEMS);
     (&problems[..count], problems.len() - count)
 }
 
@@ -53,7 +53,7 @@ pub struct Problems(pub Vec<Problem>);
 
 impl fmt::Display for Problems {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (first, more) = listed(&self.0);
+        let (first, more) = split_displayed(&self.0);
         for (k, problem) in first.iter().enumerate() {
             if k > 0 {
                 writeln!(f)?;
@@ -107,7 +107,7 @@ impl<'a> Reader<'a> {
             Ok(document) => Some(document),
             Err(error) => {
                 let line = error.span().map_or(1, |span| self.line_at(span.start));
-                self.problem(line, "syntax", "", "TOML 1.0", error.message());
+                self.add_problem_at(line, "syntax", "", "TOML 1.0", error.message());
                 None
             }
         }
@@ -122,7 +122,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Records a problem at a line.
-    pub fn problem(&mut self, line: usize, key: &str, value: &str, allowed: &str, message: &str) {
+    pub fn add_problem_at(&mut self, line: usize, key: &str, value: &str, allowed: &str, message: &str) {
         self.problems.push(Problem {
             file: self.file.into(),
             line,
@@ -136,12 +136,12 @@ impl<'a> Reader<'a> {
     /// Records a problem with a key, at the line of the key, or at the line of the table if the key is missing.
     pub fn add_problem(&mut self, section: &Section, key: &str, value: &str, allowed: &str, message: &str) {
         let line = section.table.and_then(|t| t.get(key)).and_then(|i| self.line_of(i)).unwrap_or(section.line);
-        self.problem(line, &section.full(key), value, allowed, message);
+        self.add_problem_at(line, &section.full_key(key), value, allowed, message);
     }
 
     /// Replaces the documented default of a key with a description, for a default that depends on another key.
-    pub fn default_depends(&mut self, section: &Section, key: &str, words: &str) {
-        if let Some(asked) = self.documented_keys.get_mut(&section.full(key)) {
+    pub fn describe_default(&mut self, section: &Section, key: &str, words: &str) {
+        if let Some(asked) = self.documented_keys.get_mut(&section.full_key(key)) {
             asked.default = words.into();
         }
     }
@@ -153,18 +153,18 @@ impl<'a> Reader<'a> {
 
     /// Returns a nested table. If it is missing, all of its keys are treated as missing.
     pub fn section<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Section<'d> {
-        let path = parent.full(key);
+        let path = parent.full_key(key);
         let (item, line) = self.item(parent, key);
         let table = item.and_then(Item::as_table_like);
         if let (Some(item), None) = (item, table) {
-            self.problem(line, &path, &displayed(item), "a table", "not a table");
+            self.add_problem_at(line, &path, &display_value(item), "a table", "not a table");
         }
         Section { path, table, line, read_keys: Vec::new() }
     }
 
     /// Returns the tables in an array of tables; empty if the key is missing.
     pub fn sections<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Vec<Section<'d>> {
-        let path = parent.full(key);
+        let path = parent.full_key(key);
         let (item, line) = self.item(parent, key);
         let Some(item) = item else { return Vec::new() };
         if let Some(array) = item.as_array_of_tables() {
@@ -184,7 +184,7 @@ impl<'a> Reader<'a> {
             };
             return tables.into_iter().map(section).collect();
         }
-        self.problem(line, &path, &displayed(item), "an array of tables", "not an array of tables");
+        self.add_problem_at(line, &path, &display_value(item), "an array of tables", "not an array of tables");
         Vec::new()
     }
 
@@ -195,65 +195,65 @@ impl<'a> Reader<'a> {
         (item, line)
     }
 
-    fn record(&mut self, path: &str, allowed: &str, default: String) {
+    fn record_key(&mut self, path: &str, allowed: &str, default: String) {
         let path = path.to_string();
         self.documented_keys.entry(path).or_insert_with(|| DocumentedKey { allowed: allowed.into(), default });
     }
 
     /// Reads a number within [min, max]; required if there is no default.
     pub fn number(&mut self, section: &mut Section, key: &'static str, (min, max): (f64, f64), default: Option<f64>) -> f64 {
-        let path = section.full(key);
+        let path = section.full_key(key);
         let allowed = format!("{min} to {max}");
-        self.record(&path, &allowed, default.map_or("required".into(), |d| d.to_string()));
+        self.record_key(&path, &allowed, default.map_or("required".into(), |d| d.to_string()));
         let (item, line) = self.item(section, key);
         let Some(item) = item else {
             if default.is_none() {
-                self.problem(line, &path, "", &allowed, "missing");
+                self.add_problem_at(line, &path, "", &allowed, "missing");
             }
             return default.unwrap_or(min);
         };
         match as_number(item) {
             Some(value) if value >= min && value <= max => value,
             Some(_) => {
-                self.problem(line, &path, &displayed(item), &allowed, "out of range");
+                self.add_problem_at(line, &path, &display_value(item), &allowed, "out of range");
                 default.unwrap_or(min)
             }
             None => {
-                self.problem(line, &path, &displayed(item), &allowed, "not a number");
+                self.add_problem_at(line, &path, &display_value(item), &allowed, "not a number");
                 default.unwrap_or(min)
             }
         }
     }
 
     /// Reads an optional number; `None` if the key is missing.
-    pub fn optional(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Option<f64> {
+    pub fn optional_number(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Option<f64> {
         let present = section.has(key);
-        let path = section.full(key);
-        self.record(&path, &format!("{} to {}", range.0, range.1), "none".into());
+        let path = section.full_key(key);
+        self.record_key(&path, &format!("{} to {}", range.0, range.1), "none".into());
         let value = self.number(section, key, range, Some(range.0));
         present.then_some(value)
     }
 
     /// Reads an integer within [min, max]; required if there is no default.
     pub fn integer(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64), default: Option<i64>) -> i64 {
-        let path = section.full(key);
+        let path = section.full_key(key);
         let allowed = format!("whole number {min} to {max}");
-        self.record(&path, &allowed, default.map_or("required".into(), |d| d.to_string()));
+        self.record_key(&path, &allowed, default.map_or("required".into(), |d| d.to_string()));
         let (item, line) = self.item(section, key);
         let Some(item) = item else {
             if default.is_none() {
-                self.problem(line, &path, "", &allowed, "missing");
+                self.add_problem_at(line, &path, "", &allowed, "missing");
             }
             return default.unwrap_or(min);
         };
         match item.as_integer() {
             Some(value) if (min..=max).contains(&value) => value,
             Some(_) => {
-                self.problem(line, &path, &displayed(item), &allowed, "out of range");
+                self.add_problem_at(line, &path, &display_value(item), &allowed, "out of range");
                 default.unwrap_or(min)
             }
             None => {
-                self.problem(line, &path, &displayed(item), &allowed, "not a whole number");
+                self.add_problem_at(line, &path, &display_value(item), &allowed, "not a whole number");
                 default.unwrap_or(min)
             }
         }
@@ -263,36 +263,36 @@ impl<'a> Reader<'a> {
     pub fn optional_integer(&mut self, section: &mut Section, key: &'static str, range: (i64, i64)) -> Option<i64> {
         let present = section.has(key);
         let value = self.integer(section, key, range, Some(range.0));
-        self.default_depends(section, key, "none");
+        self.describe_default(section, key, "none");
         present.then_some(value)
     }
 
     /// Reads a Boolean value.
-    pub fn flag(&mut self, section: &mut Section, key: &'static str, default: bool) -> bool {
-        let path = section.full(key);
-        self.record(&path, "true or false", default.to_string());
+    pub fn boolean(&mut self, section: &mut Section, key: &'static str, default: bool) -> bool {
+        let path = section.full_key(key);
+        self.record_key(&path, "true or false", default.to_string());
         let (item, line) = self.item(section, key);
         let Some(item) = item else { return default };
         item.as_bool().unwrap_or_else(|| {
-            self.problem(line, &path, &displayed(item), "true or false", "not true or false");
+            self.add_problem_at(line, &path, &display_value(item), "true or false", "not true or false");
             default
         })
     }
 
     /// Reads a string; required if there is no default.
     pub fn text(&mut self, section: &mut Section, key: &'static str, default: Option<&str>) -> String {
-        let path = section.full(key);
-        self.record(&path, "text", default.map_or("required".into(), str::to_string));
+        let path = section.full_key(key);
+        self.record_key(&path, "text", default.map_or("required".into(), str::to_string));
         let (item, line) = self.item(section, key);
         match (item, item.and_then(Item::as_str)) {
             (_, Some(value)) => value.to_string(),
             (Some(item), None) => {
-                self.problem(line, &path, &displayed(item), "text", "not a string");
+                self.add_problem_at(line, &path, &display_value(item), "text", "not a string");
                 default.unwrap_or_default().to_string()
             }
             (None, None) => {
                 if default.is_none() {
-                    self.problem(line, &path, "", "text", "missing");
+                    self.add_problem_at(line, &path, "", "text", "missing");
                 }
                 default.unwrap_or_default().to_string()
             }
@@ -300,28 +300,28 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads one of several keywords and returns its value; required if there is no default.
-    pub fn choice<T: Copy>(
+    pub fn keyword<T: Copy>(
         &mut self,
         section: &mut Section,
         key: &'static str,
         words: &[(&'static str, T)],
         default: Option<usize>,
     ) -> T {
-        let path = section.full(key);
+        let path = section.full_key(key);
         let allowed = words.iter().map(|(w, _)| *w).collect::<Vec<_>>().join(", ");
-        self.record(&path, &allowed, default.map_or("required".into(), |d| words[d].0.to_string()));
+        self.record_key(&path, &allowed, default.map_or("required".into(), |d| words[d].0.to_string()));
         let (item, line) = self.item(section, key);
         let fallback = words[default.unwrap_or(0)].1;
         let Some(item) = item else {
             if default.is_none() {
-                self.problem(line, &path, "", &allowed, "missing");
+                self.add_problem_at(line, &path, "", &allowed, "missing");
             }
             return fallback;
         };
         let found = item.as_str().and_then(|text| words.iter().find(|(w, _)| *w == text));
         found.map_or_else(
             || {
-                self.problem(line, &path, &displayed(item), &allowed, "unknown keyword");
+                self.add_problem_at(line, &path, &display_value(item), &allowed, "unknown keyword");
                 fallback
             },
             |(_, value)| *value,
@@ -336,50 +336,50 @@ impl<'a> Reader<'a> {
         range: (f64, f64),
         default: Option<[f64; N]>,
     ) -> [f64; N] {
-        let path = section.full(key);
+        let path = section.full_key(key);
         let allowed = format!("{N} numbers, each {} to {}", range.0, range.1);
-        self.record(&path, &allowed, default.map_or("required".into(), |d| format!("{d:?}")));
+        self.record_key(&path, &allowed, default.map_or("required".into(), |d| format!("{d:?}")));
         let (item, line) = self.item(section, key);
         let fallback = default.unwrap_or([range.0; N]);
         let Some(item) = item else {
             if default.is_none() {
-                self.problem(line, &path, "", &allowed, "missing");
+                self.add_problem_at(line, &path, "", &allowed, "missing");
             }
             return fallback;
         };
-        let values = item.as_value().and_then(|v| list(v, range)).and_then(|v| <[f64; N]>::try_from(v).ok());
+        let values = item.as_value().and_then(|v| number_list(v, range)).and_then(|v| <[f64; N]>::try_from(v).ok());
         values.unwrap_or_else(|| {
-            self.problem(line, &path, &displayed(item), &allowed, "not a valid list");
+            self.add_problem_at(line, &path, &display_value(item), &allowed, "not a valid list");
             fallback
         })
     }
 
     /// Reads a list of points with three numbers each; empty if the key is missing.
     pub fn points(&mut self, section: &mut Section, key: &'static str, range: (f64, f64)) -> Vec<[f64; 3]> {
-        let path = section.full(key);
+        let path = section.full_key(key);
         let allowed = format!("list of [east, north, up], each {} to {}", range.0, range.1);
-        self.record(&path, &allowed, "none".into());
+        self.record_key(&path, &allowed, "none".into());
         let (item, line) = self.item(section, key);
         let Some(item) = item else { return Vec::new() };
-        let point = |v: &Value| list(v, range).and_then(|p| <[f64; 3]>::try_from(p).ok());
+        let point = |v: &Value| number_list(v, range).and_then(|p| <[f64; 3]>::try_from(p).ok());
         let points = item.as_array().map(|array| array.iter().map(point).collect::<Option<Vec<_>>>());
         points.flatten().unwrap_or_else(|| {
-            self.problem(line, &path, &displayed(item), &allowed, "not a valid list");
+            self.add_problem_at(line, &path, &display_value(item), &allowed, "not a valid list");
             Vec::new()
         })
     }
 
     /// Reads a list of integers; empty if the key is missing.
     pub fn integers(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64)) -> Vec<i64> {
-        let path = section.full(key);
+        let path = section.full_key(key);
         let allowed = format!("list of whole numbers, each {min} to {max}");
-        self.record(&path, &allowed, "none".into());
+        self.record_key(&path, &allowed, "none".into());
         let (item, line) = self.item(section, key);
         let Some(item) = item else { return Vec::new() };
         let one = |v: &Value| v.as_integer().filter(|i| (min..=max).contains(i));
         let values = item.as_array().map(|array| array.iter().map(one).collect::<Option<Vec<_>>>());
         values.flatten().unwrap_or_else(|| {
-            self.problem(line, &path, &displayed(item), &allowed, "not a valid list");
+            self.add_problem_at(line, &path, &display_value(item), &allowed, "not a valid list");
             Vec::new()
         })
     }
@@ -392,11 +392,11 @@ impl<'a> Reader<'a> {
                 continue;
             }
             let line = self.line_of(item).unwrap_or(section.line);
-            let near = |s: &&&str| is_near_miss(s, key);
-            let known = section.read_keys.iter().filter(near).min_by_key(|s| difference(s, key));
+            let near = |s: &&&str| is_likely_typo(s, key);
+            let known = section.read_keys.iter().filter(near).min_by_key(|s| edit_distance(s, key));
             let message = known.map_or("unknown key".to_string(), |k| format!("unknown key; did you mean {k}?"));
             let allowed = section.read_keys.join(", ");
-            self.problem(line, &section.full(key), &displayed(item), &allowed, &message);
+            self.add_problem_at(line, &section.full_key(key), &display_value(item), &allowed, &message);
         }
     }
 }
@@ -404,7 +404,7 @@ impl<'a> Reader<'a> {
 impl Section<'_> {
     /// Returns the full path of a key, such as `wind.speed_m_s`.
     #[must_use]
-    pub fn full(&self, key: &str) -> String {
+    pub fn full_key(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_string() } else { format!("{}.{key}", self.path) }
     }
 
@@ -425,7 +425,7 @@ fn as_number(item: &Item) -> Option<f64> {
     item.as_float().or_else(|| item.as_integer().map(|i| i as f64)).filter(|v| !v.is_nan())
 }
 
-fn list(value: &Value, (min, max): (f64, f64)) -> Option<Vec<f64>> {
+fn number_list(value: &Value, (min, max): (f64, f64)) -> Option<Vec<f64>> {
     let one = |v: &Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64)).filter(|v| *v >= min && *v <= max);
     value.as_array()?.iter().map(one).collect()
 }
@@ -436,19 +436,23 @@ fn one_line(text: &str) -> String {
 }
 
 /// Returns the value as written in the file, truncated to 60 characters.
-fn displayed(item: &Item) -> String {
-    const LONGEST: usize = 60;
-    let text: String = item.to_string().trim().replace('\n', " ").chars().take(LONGEST + 1).collect();
-    if text.chars().count() > LONGEST { format!("{}…", text.chars().take(LONGEST).collect::<String>()) } else { text }
+fn display_value(item: &Item) -> String {
+    const MAX_CHARACTERS: usize = 60;
+    let text: String = item.to_string().trim().replace('\n', " ").chars().take(MAX_CHARACTERS + 1).collect();
+    if text.chars().count() > MAX_CHARACTERS {
+        format!("{}…", text.chars().take(MAX_CHARACTERS).collect::<String>())
+    } else {
+        text
+    }
 }
 
 /// Returns true if two keys differ by a likely typing error: at most two edits per five characters.
-fn is_near_miss(known: &str, key: &str) -> bool {
-    5 * difference(known, key) <= 2 * known.chars().count().max(key.chars().count())
+fn is_likely_typo(known: &str, key: &str) -> bool {
+    5 * edit_distance(known, key) <= 2 * known.chars().count().max(key.chars().count())
 }
 
 /// Returns the Levenshtein distance between two keys, for suggestions.
-fn difference(a: &str, b: &str) -> usize {
+fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, ca) in a.chars().enumerate() {

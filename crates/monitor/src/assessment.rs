@@ -5,7 +5,7 @@ use super::measures::coverage::{self, PathCoverage};
 use super::measures::crash::{self, Crash};
 use super::measures::on_path::{OnPath, ReferencePaths};
 use super::measures::on_speed;
-use super::score::accuracy::MatchCounts;
+use super::score::accuracy::DetectionTally;
 use super::score::certification::{self, Certification, CertificationInputs};
 use super::score::completion::{Completion, TaskState};
 use super::score::conformity::TaskShares;
@@ -95,14 +95,14 @@ pub struct Assessment {
     /// Fraction of frames received, and gaps.
     pub telemetry: TelemetryCoverage,
     /// Control source over time. Does not affect any score.
-    pub flown_by: Vec<ControlStretch>,
+    pub flown_by: Vec<ControlInterval>,
     /// Result of the certification profile.
     pub certification: Certification,
 }
 
 /// An interval of consecutive frames with the same control source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct ControlStretch {
+pub struct ControlInterval {
     /// Number of the first frame.
     pub from_frame: u32,
     /// Number of the last frame, inclusive.
@@ -235,7 +235,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     let crashes = crash::crashes(&session.frames, &on_path);
     let pictures = attention::snapshots(flight, &session.frames, job.vehicle, job.survey);
     let found: BTreeSet<u32> = pictures.iter().flat_map(|picture| picture.found.iter().copied()).collect();
-    let counts = MatchCounts {
+    let counts = DetectionTally {
         taken: pictures.len(),
         hits: pictures.iter().filter(|picture| picture.hit).count(),
         found: found.len(),
@@ -243,7 +243,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     };
     let shares = shares(scenario, &session, &on_path);
     let covered = coverage::coverage(&paths, &on_path);
-    let done_share = scenario.scoring.task_done_share;
+    let done_share = scenario.scoring.task_completion_fraction;
     let attempted = on_path.windows.iter().map(Option::is_some);
     let states: Vec<TaskState> =
         attempted.zip(&covered).map(|(attempted, covered)| TaskState::of(attempted, covered.share, done_share)).collect();
@@ -272,7 +272,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
         snapshots: snapshot_counts(scenario, counts, pictures),
         end,
         telemetry: telemetry_coverage(&session.frames),
-        flown_by: control_stretches(flight, &session.frames),
+        flown_by: control_intervals(flight, &session.frames),
         certification,
     };
     Ok((assessment, session.frames))
@@ -293,7 +293,7 @@ pub fn assess_log(
     let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
     // The flight contains all required data. Keeping the timeline as well would double the memory usage.
     drop(timeline);
-    let survey = attention::with_traffic_at(build(scenario, seed), &flight);
+    let survey = attention::with_flight_closures(build(scenario, seed), &flight);
     let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: survey.as_ref() })?;
     Ok(AssessedSession { assessment, frames, seed })
 }
@@ -322,7 +322,7 @@ pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle
 pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
     let height_m = lift_off_height_m(vehicle);
     let mut last = (0, Flight::default());
-    for epoch in 0..timeline.simulator_runs() {
+    for epoch in 0..timeline.epoch_count() {
         last = (epoch, timeline.flight(epoch));
         if last.1.lift_off(scenario.ground_team.pad_m.up(), height_m).is_some() {
             break;
@@ -382,7 +382,7 @@ fn shares(scenario: &Scenario, session: &Session, on_path: &OnPath) -> Vec<TaskS
 
 /// Computes the scores of the TASBID paper from the measures.
 #[must_use]
-pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &SessionEnd, crashes: &[Crash], counts: MatchCounts) -> Scores {
+pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &SessionEnd, crashes: &[Crash], counts: DetectionTally) -> Scores {
     let scoring = &scenario.scoring;
     let hit = |with: ContactKind| crashes.iter().any(|crash| crash.with == with);
     let others = crashes.iter().filter(|crash| crash.with.is_other_crash()).count();
@@ -431,7 +431,7 @@ fn crash_counts(scenario: &Scenario, crashes: &[Crash]) -> CrashCounts {
     }
 }
 
-fn snapshot_counts(scenario: &Scenario, counts: MatchCounts, each: Vec<Snapshot>) -> SnapshotCounts {
+fn snapshot_counts(scenario: &Scenario, counts: DetectionTally, each: Vec<Snapshot>) -> SnapshotCounts {
     SnapshotCounts {
         taken: counts.taken,
         hits: counts.hits,
@@ -453,13 +453,13 @@ fn end(scenario: &Scenario, session: &Session) -> SessionEnd {
     }
 }
 
-fn control_stretches(flight: &Flight, frames: &[Frame]) -> Vec<ControlStretch> {
-    let mut stretches: Vec<ControlStretch> = Vec::new();
+fn control_intervals(flight: &Flight, frames: &[Frame]) -> Vec<ControlInterval> {
+    let mut stretches: Vec<ControlInterval> = Vec::new();
     for frame in frames {
         let by = flight.flown_by.at(frame.time);
         match stretches.last_mut() {
             Some(last) if last.by == by => last.to_frame = frame.index,
-            Some(_) | None => stretches.push(ControlStretch { from_frame: frame.index, to_frame: frame.index, by }),
+            Some(_) | None => stretches.push(ControlInterval { from_frame: frame.index, to_frame: frame.index, by }),
         }
     }
     stretches

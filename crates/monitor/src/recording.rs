@@ -12,10 +12,10 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 /// Minimum interval between coordinate frames.
 const FRAME_STEP: SimTime = SimTime::from_ms(40);
 /// Number of frames per message for all other data.
-const SLOW_EVERY: usize = 25;
+const SLOW_DATA_INTERVAL_FRAMES: usize = 25;
 /// MAVLink severities used for log messages.
-const CRITICAL: u8 = 2;
-const INFO: u8 = 6;
+const SEVERITY_CRITICAL: u8 = 2;
+const SEVERITY_INFO: u8 = 6;
 
 /// Returns all messages of the recording in chronological order.
 #[must_use]
@@ -49,7 +49,7 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
                 speed_m_s: truth.motion.velocity_m_s.norm(),
             },
         ));
-        if frames % SLOW_EVERY == 0 {
+        if frames % SLOW_DATA_INTERVAL_FRAMES == 0 {
             let wide = vehicle.camera;
             let lens = Camera { hfov_rad: flight.field_of_view.at(now).unwrap_or(wide.hfov_rad), ..wide };
             out.push(foxglove::camera(at, lens.focal_px(), (lens.width_px, lens.height_px)));
@@ -66,17 +66,17 @@ fn status_texts(flight: &Flight, unix_ns: impl Fn(SimTime) -> u64) -> Vec<Channe
     let mut touched = ContactKind::None;
     for (time, _, contact) in flight.contact.all() {
         if *contact != touched && *contact != ContactKind::None {
-            out.push(foxglove::log(unix_ns(*time), CRITICAL, &format!("contact: {}", contact.label())));
+            out.push(foxglove::log(unix_ns(*time), SEVERITY_CRITICAL, &format!("contact: {}", contact.label())));
         }
         touched = *contact;
     }
     for (number, (time, _, _)) in flight.snapshots.all().iter().enumerate() {
-        out.push(foxglove::log(unix_ns(*time), INFO, &format!("picture {}", number + 1)));
+        out.push(foxglove::log(unix_ns(*time), SEVERITY_INFO, &format!("picture {}", number + 1)));
     }
     let mut hand = None;
     for (time, _, by) in flight.flown_by.all() {
         if hand != Some(*by) {
-            out.push(foxglove::log(unix_ns(*time), INFO, &format!("control: {}", by.label())));
+            out.push(foxglove::log(unix_ns(*time), SEVERITY_INFO, &format!("control: {}", by.label())));
         }
         hand = Some(*by);
     }

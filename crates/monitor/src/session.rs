@@ -11,17 +11,17 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
 /// Minimum height of the drone's center above the pad that counts as lift-off, m (docs/src/reference/assessment.md, "Frames").
-const LIFT_OFF_M: f64 = 0.3;
-/// Margin above the resting height, for aircraft whose center is higher than `LIFT_OFF_M` when resting, m (estimate).
-const OVER_STAND_M: f64 = 0.05;
+const MIN_LIFT_OFF_HEIGHT_M: f64 = 0.3;
+/// Margin above the resting height, for aircraft whose center is higher than `MIN_LIFT_OFF_HEIGHT_M` when resting, m (estimate).
+const RESTING_HEIGHT_MARGIN_M: f64 = 0.05;
 /// Speed below which the drone is at rest, m/s (estimate: above the resolution of 0.01 m/s in the truth messages, below any
 /// controlled drift).
-const REST_M_S: f64 = 0.2;
+const MAX_REST_SPEED_M_S: f64 = 0.2;
 /// Time at rest that counts as a landing (docs/src/reference/assessment.md, "Frames").
-const REST_FOR: SimTime = SimTime::from_ms(3_000);
+const LANDING_REST_TIME: SimTime = SimTime::from_ms(3_000);
 
 /// Maximum age of the armed and on-ground states, which the autopilot sends once per second.
-const WORDS_OLD: SimTime = SimTime::from_ms(1_500);
+const MAX_STATE_AGE: SimTime = SimTime::from_ms(1_500);
 
 /// Reason why a session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -97,12 +97,12 @@ pub struct EndRule {
     home_radius_m: f64,
     lift_off_m: f64,
     time_max_s: f64,
-    crash_ends: bool,
+    any_crash_ends_session: bool,
     seen_armed: bool,
     rest_since: Option<SimTime>,
     pending: Option<(SimTime, EndReason)>,
     last: Option<EndRuleInput>,
-    put_back: Option<SimTime>,
+    respawned_at: Option<SimTime>,
 }
 
 impl EndRule {
@@ -114,26 +114,26 @@ impl EndRule {
             home_radius_m: scenario.ground_team.home_radius_m,
             lift_off_m: lift_off_height_m(vehicle),
             time_max_s: scenario.scoring.time_max_s,
-            crash_ends: scenario.rules.after_crash == AfterCrash::End,
+            any_crash_ends_session: scenario.rules.after_crash == AfterCrash::End,
             seen_armed: false,
             rest_since: None,
             pending: None,
             last: None,
-            put_back: None,
+            respawned_at: None,
         }
     }
 
     /// Discards armed and on-ground states from before a respawn.
-    fn strip_legacy_fields(&mut self, moment: &EndRuleInput) -> EndRuleInput {
+    fn discard_stale_states(&mut self, moment: &EndRuleInput) -> EndRuleInput {
         let jumped = self.last.is_some_and(|last| {
             let step_m = (moment.position_m - last.position_m).norm();
             is_jump(step_m, moment.speed_m_s.max(last.speed_m_s), moment.time - last.time)
         });
         self.last = Some(*moment);
         if jumped {
-            self.put_back = Some(moment.time);
+            self.respawned_at = Some(moment.time);
         }
-        if self.put_back.is_none_or(|since| moment.time - since >= WORDS_OLD) {
+        if self.respawned_at.is_none_or(|since| moment.time - since >= MAX_STATE_AGE) {
             return *moment;
         }
         let down = matches!(moment.contact, ContactKind::Terrain);
@@ -142,11 +142,13 @@ impl EndRule {
 
     /// Returns the time of the last frame and the reason if the session ends at this instant.
     pub fn update(&mut self, moment: &EndRuleInput) -> Option<(SimTime, EndReason)> {
-        let moment = &self.strip_legacy_fields(moment);
+        let moment = &self.discard_stale_states(moment);
         match moment.contact {
             ContactKind::Person => return Some((moment.time, EndReason::Person)),
             ContactKind::Vehicle => return Some((moment.time, EndReason::Vehicle)),
-            ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other if self.crash_ends => {
+            ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other
+                if self.any_crash_ends_session =>
+            {
                 return Some((moment.time, EndReason::Crash));
             }
             ContactKind::None | ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other => {}
@@ -155,7 +157,7 @@ impl EndRule {
         self.seen_armed |= moment.armed == Some(true);
         self.rest_since = self.has_landed_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
         if let Some(since) = self.rest_since
-            && (self.seen_armed && moment.armed == Some(false) || moment.time - since >= REST_FOR)
+            && (self.seen_armed && moment.armed == Some(false) || moment.time - since >= LANDING_REST_TIME)
         {
             return Some((since, EndReason::Landed));
         }
@@ -177,7 +179,7 @@ impl EndRule {
     fn has_landed_at_home(&self, moment: &EndRuleInput) -> bool {
         let from_pad = moment.position_m - self.pad_m;
         let down = moment.on_ground || from_pad.up() < self.lift_off_m || moment.contact == ContactKind::Terrain;
-        down && moment.speed_m_s < REST_M_S && from_pad.horizontal_norm() <= self.home_radius_m
+        down && moment.speed_m_s < MAX_REST_SPEED_M_S && from_pad.horizontal_norm() <= self.home_radius_m
     }
 }
 
@@ -185,11 +187,11 @@ impl EndRule {
 #[must_use]
 pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     let stand = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);
-    LIFT_OFF_M.max(stand + OVER_STAND_M)
+    MIN_LIFT_OFF_HEIGHT_M.max(stand + RESTING_HEIGHT_MARGIN_M)
 }
 
 /// Time after the time limit for which frames are still evaluated; longer than it takes to confirm a landing.
-const OVERTIME: SimTime = SimTime::from_ms(10_000);
+const EVALUATION_MARGIN: SimTime = SimTime::from_ms(10_000);
 
 /// The frames of a session and its end.
 #[derive(Debug, Clone, PartialEq)]
@@ -206,10 +208,10 @@ impl Session {
     pub fn truncate(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
         let start = flight.lift_off(scenario.ground_team.pad_m.up(), lift_off_height_m(vehicle))?;
         // Limits the number of frames even if the clock is corrupt.
-        let end = flight.end()?.min(start + SimTime::from_s(scenario.scoring.time_max_s) + OVERTIME);
+        let end = flight.end()?.min(start + SimTime::from_s(scenario.scoring.time_max_s) + EVALUATION_MARGIN);
         let rate = scenario.scoring.frame_rate_hz;
         let mut frames = all_frames(flight, start, end, rate);
-        crash::settle_contacts(&mut frames, flight, &scenario.ground_team);
+        crash::clean_up_contacts(&mut frames, flight, &scenario.ground_team);
         let mut rule = EndRule::new(scenario, vehicle);
         let decided = frames.iter().find_map(|frame| rule.update(&moment(frame, rate)));
         let none = if flight.ended_by_restart { EndReason::Restart } else { EndReason::Abort };
@@ -281,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_respawned_over_home_is_no_landing_however_old_the_words_are() {
+    fn exact_respawn_over_home_with_stale_states_is_not_a_landing() {
         let mut rule = rule();
         let pad_m = rule.pad_m;
         let over_home = pad_m + Vec3::new(1.0, 0.0, 5.0);

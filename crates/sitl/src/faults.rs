@@ -61,7 +61,7 @@ impl FailureUnit {
     }
 
     /// Returns true if this component supports the failure mode.
-    fn has(self, kind: FailureType) -> bool {
+    fn supports(self, kind: FailureType) -> bool {
         match self {
             Self::Magnetometer | Self::Barometer | Self::Gnss | Self::Ranges => true,
             Self::Flow => matches!(kind, FailureType::Off | FailureType::Intermittent),
@@ -88,8 +88,8 @@ impl FailureType {
 }
 
 /// Constant position error, north and east, and constant height error, m (estimates: a multipath jump below a deck).
-const JUMP_M: f64 = 25.0;
-const RISE_M: f64 = 8.0;
+const POSITION_ERROR_M: f64 = 25.0;
+const HEIGHT_ERROR_M: f64 = 8.0;
 /// Standard deviations of garbage readings: position, m, height, m, and magnetic field, gauss.
 const GARBAGE_M: f64 = 30.0;
 const GARBAGE_UP_M: f64 = 10.0;
@@ -97,7 +97,7 @@ const GARBAGE_GAUSS: f64 = 0.5;
 /// Factor on the reading of a wrong range finder.
 const RANGE_FACTOR: f64 = 0.5;
 /// Maximum charge left after a battery failure, 0 to 1.
-const CHARGE_LEFT: f64 = 0.05;
+const MAX_CHARGE_AFTER_FAILURE: f64 = 0.05;
 
 /// All active failures.
 #[derive(Debug, Clone)]
@@ -125,7 +125,7 @@ impl Faults {
     /// Injects a failure, or clears it with `None`. `instance` counts from 1; 0 selects all instances. Returns false if
     /// the failure is not supported.
     pub fn inject(&mut self, unit: FailureUnit, kind: Option<FailureType>, instance: usize, rotors: usize) -> bool {
-        if kind.is_some_and(|kind| !unit.has(kind)) {
+        if kind.is_some_and(|kind| !unit.supports(kind)) {
             return false;
         }
         match unit {
@@ -148,7 +148,7 @@ impl Faults {
     /// Returns the state of charge after a battery failure, 0 to 1.
     #[must_use]
     pub fn charge(charge: f64) -> f64 {
-        charge.min(CHARGE_LEFT)
+        charge.min(MAX_CHARGE_AFTER_FAILURE)
     }
 
     /// Returns true if manual control input reaches the autopilot at this time.
@@ -203,7 +203,7 @@ impl Faults {
             && let Some(fix) = &mut fresh.gnss
         {
             let [n, e, d] = match kind {
-                FailureType::Wrong => [JUMP_M, JUMP_M, 0.0],
+                FailureType::Wrong => [POSITION_ERROR_M, POSITION_ERROR_M, 0.0],
                 FailureType::Garbage => noise(&mut self.stream, GARBAGE_M),
                 FailureType::Off | FailureType::Stuck | FailureType::Intermittent => [0.0; 3],
             };
@@ -218,11 +218,11 @@ impl Faults {
         }
         if let Some(kind) = kinds[place(FailureUnit::Barometer)] {
             let rise = match kind {
-                FailureType::Wrong => RISE_M,
+                FailureType::Wrong => HEIGHT_ERROR_M,
                 FailureType::Garbage => self.stream.normal() * GARBAGE_UP_M,
                 FailureType::Off | FailureType::Stuck | FailureType::Intermittent => 0.0,
             };
-            fresh.baro_up_m = frozen(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
+            fresh.baro_up_m = faulty_reading(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
         }
         if let Some(kind) = kinds[place(FailureUnit::Magnetometer)] {
             let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {
@@ -234,10 +234,10 @@ impl Faults {
             };
             let scale = if kind == FailureType::Garbage { GARBAGE_GAUSS } else { 0.0 };
             let spoilt = fresh.mag_gauss.map(|field| turned(field, noise(&mut self.stream, scale)));
-            fresh.mag_gauss = frozen(kind, spoilt, held.mag_gauss, now);
+            fresh.mag_gauss = faulty_reading(kind, spoilt, held.mag_gauss, now);
         }
         if let Some(kind) = kinds[place(FailureUnit::Flow)] {
-            fresh.flow = frozen(kind, fresh.flow, held.flow, now);
+            fresh.flow = faulty_reading(kind, fresh.flow, held.flow, now);
         }
         if let Some(kind) = kinds[place(FailureUnit::Ranges)] {
             let factor = match kind {
@@ -245,10 +245,10 @@ impl Faults {
                 FailureType::Garbage => 0.2 + self.stream.uniform(),
                 FailureType::Off | FailureType::Stuck | FailureType::Intermittent => 1.0,
             };
-            fresh.range_down_m = frozen(kind, fresh.range_down_m.map(|m| m * factor), held.range_down_m, now);
-            fresh.range_up_m = frozen(kind, fresh.range_up_m.map(|m| m * factor), held.range_up_m, now);
+            fresh.range_down_m = faulty_reading(kind, fresh.range_down_m.map(|m| m * factor), held.range_down_m, now);
+            fresh.range_up_m = faulty_reading(kind, fresh.range_up_m.map(|m| m * factor), held.range_up_m, now);
             fresh.range_around_m =
-                frozen(kind, fresh.range_around_m.map(|all| all.map(|m| m * factor)), held.range_around_m, now);
+                faulty_reading(kind, fresh.range_around_m.map(|all| all.map(|m| m * factor)), held.range_around_m, now);
         }
     }
 
@@ -277,7 +277,7 @@ fn is_silent(now: SimTime) -> bool {
 }
 
 /// Applies a failure to one reading. Returns `None` if no reading is due.
-fn frozen<T: Copy>(kind: FailureType, fresh: Option<T>, held: Option<T>, now: SimTime) -> Option<T> {
+fn faulty_reading<T: Copy>(kind: FailureType, fresh: Option<T>, held: Option<T>, now: SimTime) -> Option<T> {
     match kind {
         FailureType::Off => None,
         FailureType::Stuck => fresh.and(held),
@@ -301,10 +301,10 @@ mod tests {
     }
 
     #[test]
-    fn exact_each_kind_of_fault_spoils_a_reading_in_its_way() {
+    fn exact_each_failure_type_corrupts_a_reading() {
         assert_eq!(is_corrupted(FailureType::Off, 0), None);
         assert_eq!(is_corrupted(FailureType::Stuck, 0), Some(3.0));
-        assert_eq!(is_corrupted(FailureType::Wrong, 0), Some(5.0 + RISE_M));
+        assert_eq!(is_corrupted(FailureType::Wrong, 0), Some(5.0 + HEIGHT_ERROR_M));
         assert_eq!(
             (is_corrupted(FailureType::Intermittent, 500), is_corrupted(FailureType::Intermittent, 1_500)),
             (Some(5.0), None)
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_sensor_that_sticks_after_another_has_failed_sticks_at_its_last_reading() {
+    fn exact_stuck_sensor_keeps_its_last_reading_despite_other_failures() {
         let mut faults = Faults::new(1);
         let reading = |up| Readings { baro_up_m: Some(up), ..Readings::default() };
         faults.corrupt_readings(&mut reading(3.0), SimTime::ZERO);
@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_faults_that_there_are_not_are_refused_and_motors_are_counted_from_one() {
+    fn exact_unsupported_failures_are_rejected_and_motors_count_from_one() {
         let mut faults = Faults::new(1);
         assert!(!faults.inject(FailureUnit::Motor, Some(FailureType::Stuck), 1, 4));
         assert!(!faults.inject(FailureUnit::Motor, Some(FailureType::Off), 5, 4));

@@ -38,9 +38,9 @@ pub const STATION: LinkId = LinkId(1);
 /// MAVLink system and component ID of the harness, which are the usual values of a ground station.
 const STATION_ID: (u8, u8) = (255, 190);
 /// Interval at which conditions are checked.
-const LOOK: SimTime = SimTime::from_ms(20);
+const CHECK_INTERVAL: SimTime = SimTime::from_ms(20);
 /// Maximum number of frames kept for [`Vehicle::last_message`]: about twenty seconds of all streams.
-const KEPT_FRAMES: usize = 20_000;
+const MAX_KEPT_FRAMES: usize = 20_000;
 
 /// An expected response or condition that did not occur.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -266,8 +266,8 @@ impl Vehicle {
                 self.others.push_back(transmit);
             }
         }
-        if self.received.len() > 2 * KEPT_FRAMES {
-            self.received.drain(..self.received.len() - KEPT_FRAMES);
+        if self.received.len() > 2 * MAX_KEPT_FRAMES {
+            self.received.drain(..self.received.len() - MAX_KEPT_FRAMES);
         }
     }
 
@@ -281,7 +281,7 @@ impl Vehicle {
             if self.now() - start >= limit {
                 return Err(MissedExpectation::Late { limit_s: limit.ms() / 1000, said: self.status_texts() });
             }
-            self.run(LOOK);
+            self.run(CHECK_INTERVAL);
         }
         Ok(self.now() - start)
     }

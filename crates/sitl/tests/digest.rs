@@ -21,7 +21,7 @@ const STOP_BEFORE: usize = 3;
 const FORCE: f32 = 21_196.0;
 
 /// Minimum interval between snapshots.
-const APART: SimTime = SimTime::from_ms(2_000);
+const MIN_INTERVAL: SimTime = SimTime::from_ms(2_000);
 
 /// Received datagrams with their times.
 type Inputs = Vec<(SimTime, Vec<u8>)>;
@@ -64,7 +64,7 @@ fn hex(sim: &Sim) -> String {
 /// A pause must not change the flight, and heartbeats must continue during it: one heartbeat per call on the link, a
 /// text at the beginning, and no ground truth.
 #[test]
-fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
+fn flight_pause_does_not_change_the_flight_and_heartbeats_continue() {
     let start = Station::airborne("drill-hover", SEED).vehicle.sim;
     let end = start.now() + SimTime::from_ms(3_000);
     let sticks = MANUAL_CONTROL_DATA { target: 1, x: 300, y: -200, z: 600, ..Default::default() };
@@ -98,7 +98,7 @@ fn flight_a_pause_changes_no_bit_and_heartbeats_go_on() {
 }
 
 #[test]
-fn flight_the_same_inputs_give_the_same_bits_through_wind_collision_and_being_respawned() {
+fn flight_same_inputs_give_identical_results_despite_wind_collision_and_respawn() {
     let start = Station::airborne("two-bridges", SEED).vehicle.sim;
     let (inputs, end) = inputs(start.now());
     let (mut crashes, mut respawns, mut snapshots) = (0, 0, vec![start.clone()]);
@@ -107,7 +107,7 @@ fn flight_the_same_inputs_give_the_same_bits_through_wind_collision_and_being_re
         crashes += usize::from(matches!(event, SimEvent::Crash { .. }));
         respawns += usize::from(*event == SimEvent::Respawn);
         // A snapshot right after an event would reveal forgotten state.
-        if snapshots.last().is_none_or(|last| sim.now() >= last.now() + APART) {
+        if snapshots.last().is_none_or(|last| sim.now() >= last.now() + MIN_INTERVAL) {
             snapshots.push(sim.clone());
         }
     });

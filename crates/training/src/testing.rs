@@ -5,7 +5,7 @@ use super::record::{Crashes, DefectRecord, FORMAT, Scores, SessionRecord, TaskRe
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
 /// Returns a perfect flight of the TASBID job, with all 24 questions answered "agree".
-pub fn faultless(trainee: &str, number: usize) -> SessionRecord {
+pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
     let mut answers = Answers { language: "en".into(), ..Answers::default() };
     answers.given.extend(QuestionnaireItem::all(&[1, 2, 3, 4]).into_iter().map(|item| (item, 2)));
     SessionRecord {
@@ -60,8 +60,8 @@ pub fn faultless(trainee: &str, number: usize) -> SessionRecord {
 }
 
 /// Returns a session that ended early: only the first task was flown, and only 60 % of its path.
-pub fn broken_off(trainee: &str, number: usize) -> SessionRecord {
-    let mut record = faultless(trainee, number);
+pub fn aborted_record(trainee: &str, number: usize) -> SessionRecord {
+    let mut record = perfect_record(trainee, number);
     record.completion =
         Some(Completion { complete: false, tasks_done: 0, tasks: 4, path_share: 0.15, landed_at_home: false, done_share: 0.8 });
     (record.tasks[0].state, record.tasks[0].covered) = (Some(TaskState::Part), Some(0.6));

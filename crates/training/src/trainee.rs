@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_roles_have_words_and_back() {
+    fn exact_role_names_round_trip() {
         for role in Role::ALL {
             assert_eq!(Role::from_word(role.word()), Some(role));
         }

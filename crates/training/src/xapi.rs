@@ -12,13 +12,13 @@ pub const VERSION: &str = "1.0.3";
 /// Default home page of the accounts under which trainees' pseudonyms are reported.
 pub const HOME: &str = "https://spandrel.invalid/trainees";
 /// Namespace UUID for the ids of statements (RFC 9562, version 5).
-const NAMES: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
+const STATEMENT_NAMESPACE: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
 /// Key of a session result extension: completion of the job.
 const COMPLETION: &str = "urn:spandrel:completion";
 /// Key of a task result extension: fraction of the task's path that was flown.
 const COVERED: &str = "urn:spandrel:covered";
 /// Prefix of verb ids in ADL's vocabulary.
-const VERBS: &str = "http://adlnet.gov/expapi/verbs/";
+const VERB_PREFIX: &str = "http://adlnet.gov/expapi/verbs/";
 
 /// Returns all statements of a session: the flight, its scores, the attempted tasks, and the questionnaire answers.
 #[must_use]
@@ -36,7 +36,7 @@ pub fn statements(record: &SessionRecord, home: &str) -> Vec<Value> {
             out.push(statement(record, home, &format!("scores/{name}"), ("scored", name), result));
         }
     }
-    out.extend(record.tasks.iter().filter(|task| task.attempted).map(|task| of_task(record, home, task)));
+    out.extend(record.tasks.iter().filter(|task| task.attempted).map(|task| task_statement(record, home, task)));
     if let Some(answers) = &record.answers {
         for (item, answer) in &answers.given {
             let name = format!("questions/{item}");
@@ -65,7 +65,7 @@ fn flight(record: &SessionRecord, home: &str) -> Value {
     statement(record, home, "", (verb, &record.scenario), result)
 }
 
-fn of_task(record: &SessionRecord, home: &str, task: &TaskRecord) -> Value {
+fn task_statement(record: &SessionRecord, home: &str, task: &TaskRecord) -> Value {
     let mut result = json!({
         "score": score(100.0 * task.on_path, 100.0),
         "duration": format!("PT{:.2}S", task.seconds),
@@ -89,7 +89,7 @@ fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&st
     let activity = format!("urn:spandrel:scenario:{}{slash}{below}", record.scenario);
     let mut statement = json!({
         "actor": { "objectType": "Agent", "account": { "homePage": home, "name": record.trainee } },
-        "verb": { "id": format!("{VERBS}{verb}"), "display": { "en": verb } },
+        "verb": { "id": format!("{VERB_PREFIX}{verb}"), "display": { "en": verb } },
         "object": { "objectType": "Activity", "id": activity, "definition": { "name": { "en": name } } },
         "result": result,
         "context": {
@@ -112,7 +112,7 @@ fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&st
 }
 
 fn id(text: &str) -> String {
-    Uuid::new_v5(&NAMES, text.as_bytes()).to_string()
+    Uuid::new_v5(&STATEMENT_NAMESPACE, text.as_bytes()).to_string()
 }
 
 /// Formats statements as JSON lines.
@@ -124,12 +124,12 @@ pub fn lines(statements: &[Value]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{broken_off, faultless};
+    use crate::testing::{aborted_record, perfect_record};
     use std::collections::BTreeSet;
 
     #[test]
     fn exact_a_session_reports_flight_scores_tasks_and_answers() {
-        let record = faultless("anna", 1);
+        let record = perfect_record("anna", 1);
         let all = statements(&record, HOME);
         assert_eq!(all.len(), 1 + 4 + 4 + 24);
         assert_eq!(all[0]["result"]["score"], json!({ "scaled": 1.0, "raw": 400.0, "min": 0.0, "max": 400.0 }));
@@ -143,8 +143,8 @@ mod tests {
     }
 
     #[test]
-    fn regress_an_incomplete_session_is_not_completed_and_has_no_sum() {
-        let all = statements(&broken_off("anna", 1), HOME);
+    fn regress_incomplete_session_is_reported_as_attempted() {
+        let all = statements(&aborted_record("anna", 1), HOME);
         let flight = &all[0];
         assert!(flight["verb"]["id"].as_str().is_some_and(|verb| verb.ends_with("/attempted")), "{flight}");
         assert_eq!((&flight["result"]["completion"], &flight["result"]["success"]), (&json!(false), &json!(false)));
@@ -156,8 +156,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_same_is_the_same_statement_and_a_changed_answer_is_another() {
-        let record = faultless("anna", 1);
+    fn exact_statement_ids_depend_on_content() {
+        let record = perfect_record("anna", 1);
         assert_eq!(statements(&record, HOME), statements(&record, HOME));
         let mut other = record.clone();
         if let Some(answer) = other.answers.as_mut().and_then(|answers| answers.given.values_mut().next()) {
@@ -165,11 +165,11 @@ mod tests {
         }
         let ids = |record| statements(record, HOME).into_iter().map(|one| one["id"].to_string()).collect::<BTreeSet<_>>();
         assert_eq!(ids(&record).difference(&ids(&other)).count(), 1);
-        assert!(ids(&record).is_disjoint(&ids(&faultless("anna", 2))));
+        assert!(ids(&record).is_disjoint(&ids(&perfect_record("anna", 2))));
     }
 
     #[test]
-    fn exact_numbers_stay_within_the_standards_ranges() {
+    fn exact_scores_stay_within_xapi_ranges() {
         assert_eq!(score(500.0, 400.0)["scaled"], 1.0);
         assert_eq!(score(1.0, 0.0)["scaled"], 0.0);
         assert!(score(500.0, 400.0)["max"].as_f64() >= score(500.0, 400.0)["raw"].as_f64());

@@ -8,9 +8,9 @@ use spandrel_testkit::job::*;
 use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
 
 /// Tolerance for a fault's duration: it can start and end anywhere within a frame (40 ms at 25 Hz), s.
-const TWO_FRAMES_S: f64 = 0.081;
+const DURATION_TOLERANCE_S: f64 = 0.081;
 /// Tolerance for positions, which MAVLink transmits in 1e-7 degrees and millimeters, m.
-const WIRE_M: f64 = 0.02;
+const POSITION_TOLERANCE_M: f64 = 0.02;
 
 /// Creates a job with two tasks at a height of 10 m: task 1 from 10 to 60 m east, task 2 from 70 to 100 m east.
 fn two_tasks() -> Scenario {
@@ -51,7 +51,7 @@ fn faulty_flight() -> Tape {
     tape
 }
 
-fn recorded(graded: &AssessedSession, scenario: &Scenario) -> SessionRecord {
+fn session_record(graded: &AssessedSession, scenario: &Scenario) -> SessionRecord {
     record(&RecordSource {
         id: "20231114T221320Z-anna-test-job-000000",
         trainee: "anna",
@@ -68,16 +68,16 @@ fn recorded(graded: &AssessedSession, scenario: &Scenario) -> SessionRecord {
 }
 
 #[test]
-fn exact_faults_of_a_flight_stand_in_its_record() {
+fn exact_record_contains_faults_of_flight() {
     let job = two_tasks();
     let graded = grade(&faulty_flight(), &job);
-    let record = recorded(&graded, &job);
+    let record = session_record(&graded, &job);
     let task = &record.tasks[0];
-    assert!((task.off_path_s - 9.0).abs() < TWO_FRAMES_S, "{}", task.off_path_s);
+    assert!((task.off_path_s - 9.0).abs() < DURATION_TOLERANCE_S, "{}", task.off_path_s);
     // 1.5 s each while climbing and descending between 3 and 4.5 m above the path, 6 s at 4.5 m.
     assert!((task.off_height_m.unwrap() - 4.25).abs() < 0.05, "{:?}", task.off_height_m);
-    assert!(task.off_sideways_m.unwrap() < WIRE_M);
-    assert!((task.speeding_s - 2.0).abs() < TWO_FRAMES_S, "{}", task.speeding_s);
+    assert!(task.off_sideways_m.unwrap() < POSITION_TOLERANCE_M);
+    assert!((task.speeding_s - 2.0).abs() < DURATION_TOLERANCE_S, "{}", task.speeding_s);
     assert!((task.fastest_m_s - 5.0).abs() < 0.02);
     assert_eq!((task.crashes.bridge, task.crashes.total()), (1, 1));
     assert_eq!((record.crashes_outside.water, record.crashes().total()), (1, 2));
@@ -89,9 +89,9 @@ fn exact_faults_of_a_flight_stand_in_its_record() {
 }
 
 #[test]
-fn exact_defects_belong_to_the_nearest_task_and_report_what_their_picture_lacked() {
+fn exact_defects_belong_to_nearest_task_with_failed_conditions() {
     let job = two_tasks();
-    let record = recorded(&grade(&faulty_flight(), &job), &job);
+    let record = session_record(&grade(&faulty_flight(), &job), &job);
     assert_eq!(record.defects.iter().map(|defect| defect.task.unwrap()).collect::<Vec<_>>(), [1, 1, 1, 1, 1, 1, 2, 2, 2, 2]);
     assert_eq!(record.defects.iter().filter(|defect| defect.found).map(|defect| defect.id).collect::<Vec<_>>(), [5]);
     assert!(record.defects[2].lacked.iter().any(|lacked| lacked.starts_with("too dark: lamp off")), "{:?}", record.defects[2]);
@@ -101,16 +101,16 @@ fn exact_defects_belong_to_the_nearest_task_and_report_what_their_picture_lacked
 }
 
 #[test]
-fn exact_a_record_reads_back_to_the_same_bits() {
+fn exact_record_round_trips() {
     let job = two_tasks();
-    let record = recorded(&grade(&faulty_flight(), &job), &job);
+    let record = session_record(&grade(&faulty_flight(), &job), &job);
     assert_eq!(record.check(), Ok(()));
     let again: SessionRecord = serde_json::from_str(&serde_json::to_string(&record).unwrap()).unwrap();
     assert_eq!(again, record);
 }
 
 #[test]
-fn exact_a_task_off_to_the_side_is_not_off_in_height() {
+fn exact_sideways_deviation_is_not_a_height_deviation() {
     let job = one_task();
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -123,9 +123,9 @@ fn exact_a_task_off_to_the_side_is_not_off_in_height() {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.fly((60.0, 0.0, 10.0), 4.0);
     tape.land();
-    let record = recorded(&grade(&tape, &job), &job);
+    let record = session_record(&grade(&tape, &job), &job);
     let task = &record.tasks[0];
-    assert!(task.off_height_m.unwrap() < WIRE_M && task.off_sideways_m.unwrap() > 4.0);
+    assert!(task.off_height_m.unwrap() < POSITION_TOLERANCE_M && task.off_sideways_m.unwrap() > 4.0);
     // 3 to 5 m at 2 m/s, 3 s of hover, 5 to 8 m at 4 m/s, 8 to 3 m at 4 m/s.
-    assert!((task.off_path_s - (1.0 + 3.0 + 0.75 + 1.25)).abs() < 2.0 * TWO_FRAMES_S, "{}", task.off_path_s);
+    assert!((task.off_path_s - (1.0 + 3.0 + 0.75 + 1.25)).abs() < 2.0 * DURATION_TOLERANCE_S, "{}", task.off_path_s);
 }

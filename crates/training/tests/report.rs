@@ -2,29 +2,29 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::Encoder;
-use spandrel_mavlink::note;
+use spandrel_mavlink::instructor_note;
 use spandrel_model::scenario::Scenario;
-use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
+use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 use spandrel_monitor::assess_log;
 use spandrel_monitor::sidecar::{COMPONENT, build_site};
 use spandrel_testkit::inspection::{flown, phantom, two_bridges};
 use spandrel_testkit::job::*;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
-use spandrel_training::report::cues::KINDS;
-use spandrel_training::report::{Review, SessionFacts, page};
+use spandrel_training::report::feedback::KINDS;
+use spandrel_training::report::{Review, SessionMetadata, page};
 use std::sync::OnceLock;
 
 /// Maximum size of a report page, bytes.
-const LARGEST: usize = 10_000_000;
+const MAX_PAGE_BYTES: usize = 10_000_000;
 /// Maximum flight time in the TASBID job, s.
-const LONGEST_S: f64 = 1500.0;
+const MAX_FLIGHT_S: f64 = 1500.0;
 
-fn about() -> SessionFacts {
-    SessionFacts {
+fn about() -> SessionMetadata {
+    SessionMetadata {
         trainee: "anna".into(),
         started_utc: "2026-08-01T10:00:00Z".into(),
         folder: "a-session".into(),
-        ..SessionFacts::default()
+        ..SessionMetadata::default()
     }
 }
 
@@ -33,25 +33,25 @@ fn review(tape: &Tape, job: &Scenario) -> Review {
 }
 
 /// Returns the review of a 240 s flight of the TASBID job, computed once for all tests.
-fn short() -> &'static Review {
+fn short_review() -> &'static Review {
     static SHORT: OnceLock<Review> = OnceLock::new();
     SHORT.get_or_init(|| review(&flown(&two_bridges(), 240.0, 6), &two_bridges()))
 }
 
 /// Inserts an instructor's note in the middle of a tape.
-fn noted(mut tape: Tape, text: &str) -> Tape {
+fn with_note(mut tape: Tape, text: &str) -> Tape {
     let middle = tape.datagrams.len() / 2;
-    tape.datagrams.insert(middle, note::encode(&mut Encoder::new(252, 192), 1, COMPONENT, text));
+    tape.datagrams.insert(middle, instructor_note::encode(&mut Encoder::new(252, 192), 1, COMPONENT, text));
     tape
 }
 
 #[test]
-fn exact_an_instructors_note_stands_in_the_report_and_not_among_the_texts() {
+fn exact_instructor_note_is_in_report_but_not_among_messages() {
     let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
     let plain = review(&tape, &job);
     assert_eq!(plain.feedback.notes, []);
     assert!(!page::session(&plain).contains("instructor's notes"));
-    let review = review(&noted(tape, "watch the pier"), &job);
+    let review = review(&with_note(tape, "watch the pier"), &job);
     let [(t_s, text)] = review.feedback.notes.as_slice() else { panic!("{:?}", review.feedback.notes) };
     assert!(text == "watch the pier" && (20.0..180.0).contains(t_s), "{t_s}");
     assert_eq!(review.feedback.texts, plain.feedback.texts, "the note is not among the messages");
@@ -60,14 +60,14 @@ fn exact_an_instructors_note_stands_in_the_report_and_not_among_the_texts() {
 }
 
 /// Returns the values of all attributes from which a browser loads something.
-fn fetched(page: &str) -> Vec<&str> {
+fn loaded_urls(page: &str) -> Vec<&str> {
     let starts = [" src=\"", " href=\"", " action=\"", " poster=\"", " data=\"", " srcset=\""];
     let values = |start: &'static str| page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
     starts.into_iter().flat_map(values).collect()
 }
 
 /// Returns the page without libraries and without Spandrel's own scripts and styles.
-fn own(page: &str) -> String {
+fn without_assets(page: &str) -> String {
     use spandrel_training::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
     [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
         .iter()
@@ -75,7 +75,7 @@ fn own(page: &str) -> String {
 }
 
 #[test]
-fn exact_the_review_holds_the_scorers_own_assessment() {
+fn exact_review_contains_the_scorers_assessment() {
     let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
     let graded = assess_log(&tape.log(0), &job, &phantom(), build_site).unwrap();
     let review = review(&tape, &job);
@@ -92,21 +92,22 @@ fn exact_the_review_holds_the_scorers_own_assessment() {
     assert_eq!(found, graded.assessment.snapshots.defects_found);
     let missed: Vec<String> = review.defects.iter().filter(|fate| fate.found_by.is_none()).map(|fate| fate.words()).collect();
     assert!(
-        missed.iter().all(|words| !words.is_empty()) && review.defects.iter().all(|f| f.found_by.is_some() != f.chance.is_some())
+        missed.iter().all(|words| !words.is_empty())
+            && review.defects.iter().all(|f| f.found_by.is_some() != f.best_approach.is_some())
     );
 }
 
 #[test]
-fn exact_the_same_session_makes_the_same_page() {
+fn exact_report_is_reproducible() {
     let job = two_bridges();
     let again = review(&flown(&job, 240.0, 6), &job);
-    assert_eq!(page::session(short()), page::session(&again));
+    assert_eq!(page::session(short_review()), page::session(&again));
 }
 
 #[test]
 fn exact_the_page_makes_no_network_requests() {
-    let page = own(&page::session(short()));
-    for value in fetched(&page) {
+    let page = without_assets(&page::session(short_review()));
+    for value in loaded_urls(&page) {
         let inside = value.starts_with('#') || value.starts_with("data:");
         assert!(inside, "{value}");
     }
@@ -116,27 +117,27 @@ fn exact_the_page_makes_no_network_requests() {
 }
 
 #[test]
-fn exact_what_users_wrote_is_escaped_everywhere() {
-    const EVIL: &str = "</script><script>alert(1)</script>\"'><img src=x onerror=alert(2)>{{7*7}}<!--";
+fn exact_user_text_is_escaped_everywhere() {
+    const HOSTILE_TEXT: &str = "</script><script>alert(1)</script>\"'><img src=x onerror=alert(2)>{{7*7}}<!--";
     let mut job = two_bridges();
-    job.title = EVIL.into();
+    job.title = HOSTILE_TEXT.into();
     for task in &mut job.tasks {
-        task.name = EVIL.into();
+        task.name = HOSTILE_TEXT.into();
     }
-    let about = SessionFacts {
-        trainee: EVIL.into(),
-        purpose: Some(EVIL.into()),
-        started_utc: EVIL.into(),
-        folder: EVIL.into(),
-        ..SessionFacts::default()
+    let about = SessionMetadata {
+        trainee: HOSTILE_TEXT.into(),
+        purpose: Some(HOSTILE_TEXT.into()),
+        started_utc: HOSTILE_TEXT.into(),
+        folder: HOSTILE_TEXT.into(),
+        ..SessionMetadata::default()
     };
     let mut vehicle = phantom();
-    vehicle.name = EVIL.into();
-    let tape = noted(flown(&job, 200.0, 9), EVIL);
+    vehicle.name = HOSTILE_TEXT.into();
+    let tape = with_note(flown(&job, 200.0, 9), HOSTILE_TEXT);
     let evil = Review::of(&tape.log(0), &job, &vehicle, about).unwrap();
     assert_eq!(evil.feedback.notes.len(), 1);
-    for page in [page::session(&evil), page::comparison(&evil, short())] {
-        let page = own(&page);
+    for page in [page::session(&evil), page::comparison(&evil, short_review())] {
+        let page = without_assets(&page);
         assert!(page.contains("alert(1)"), "the text is present in escaped form");
         for raw in ["<script>alert", "<img src=x", "<!--"] {
             assert!(!page.contains(raw), "{raw}");
@@ -148,8 +149,8 @@ fn exact_what_users_wrote_is_escaped_everywhere() {
 }
 
 #[test]
-fn exact_every_square_metre_has_one_fate() {
-    let coverage = &short().coverage;
+fn exact_every_surface_area_has_one_outcome() {
+    let coverage = &short_review().coverage;
     assert!(coverage.elements.len() > 3 && coverage.total().area_m2(SurfaceOutcome::Shown) > 0.0);
     for element in coverage.elements.values().chain([&coverage.total()]) {
         let sum: f64 = SurfaceOutcome::ALL.iter().map(|fate| element.area_m2(*fate)).sum();
@@ -157,9 +158,9 @@ fn exact_every_square_metre_has_one_fate() {
         assert!(
             element.pictured_m2() <= element.inspectable_m2 && element.area_m2(SurfaceOutcome::Shown) <= element.pictured_m2()
         );
-        assert_eq!(element.typical().is_some(), element.pictured_m2() > 0.0);
-        if let Some(like) = element.typical() {
-            assert!(like.gsd_m <= REQUIRED_GSD_M && like.incidence_rad <= INCIDENCE_MAX_RAD && like.lux > 0.0, "{like:?}");
+        assert_eq!(element.average_picture().is_some(), element.pictured_m2() > 0.0);
+        if let Some(like) = element.average_picture() {
+            assert!(like.gsd_m <= REQUIRED_GSD_M && like.incidence_rad <= MAX_INCIDENCE_RAD && like.lux > 0.0, "{like:?}");
         }
     }
     let job = two_bridges();
@@ -168,22 +169,23 @@ fn exact_every_square_metre_has_one_fate() {
 }
 
 #[test]
-fn exact_the_same_pictures_at_night_lack_light_and_nothing_else() {
+fn exact_night_changes_only_light_outcomes() {
     let mut job = two_bridges();
     job.light.start_unix_s += 10 * 3600;
-    let (day, night) = (short().coverage.total(), review(&flown(&job, 240.0, 6), &job).coverage.total());
-    for fate in [SurfaceOutcome::TooOblique, SurfaceOutcome::TooFar, SurfaceOutcome::Unpictured, SurfaceOutcome::Unseen] {
+    let (day, night) = (short_review().coverage.total(), review(&flown(&job, 240.0, 6), &job).coverage.total());
+    for fate in [SurfaceOutcome::TooOblique, SurfaceOutcome::TooFar, SurfaceOutcome::NotPhotographed, SurfaceOutcome::NeverInView]
+    {
         assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
     }
     // The remaining surface is lit by the lamp, which is on only in the dark task.
     assert!(night.area_m2(SurfaceOutcome::Shown) < day.area_m2(SurfaceOutcome::Shown));
     assert!(night.area_m2(SurfaceOutcome::DarkLampOff) > day.area_m2(SurfaceOutcome::DarkLampOff));
-    assert!(night.typical().unwrap().lux < day.typical().unwrap().lux);
+    assert!(night.average_picture().unwrap().lux < day.average_picture().unwrap().lux);
 }
 
 /// The forward stick in the tape moves by 0.01 of full travel per 100 ms, so that a reaction of 0.1 takes up to 1 s.
 #[test]
-fn exact_a_speeding_cue_is_reported_with_its_time_and_the_answer() {
+fn exact_speeding_cue_is_reported_with_reaction_time() {
     let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);
     let mut tape = Tape::of(&job);
     tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -200,13 +202,13 @@ fn exact_a_speeding_cue_is_reported_with_its_time_and_the_answer() {
     // Truth messages arrive every 20 ms. The cue stays on for a hold time after the end of the cause.
     assert!((speeding[0].from_s + lift_off_s - fast_from_s).abs() <= 0.021, "{:?}", speeding[0]);
     assert!((-0.021..=2.5).contains(&(speeding[0].to_s + lift_off_s - fast_to_s)), "{:?}", speeding[0]);
-    assert!(speeding[0].answer_s.is_some_and(|s| s <= 1.1), "{:?}", speeding[0]);
+    assert!(speeding[0].reaction_s.is_some_and(|s| s <= 1.1), "{:?}", speeding[0]);
     assert!(review.feedback.texts.iter().any(|(_, text)| text.starts_with("Too fast")));
     assert_eq!(speeding[0].task, Some(0));
 }
 
 #[test]
-fn exact_a_job_with_nothing_in_it_has_a_page() {
+fn exact_empty_job_has_a_report() {
     let job = scenario(Vec::new());
     let mut tape = Tape::of(&job);
     tape.fly((0.0, 0.0, 5.0), 2.0);
@@ -228,10 +230,10 @@ fn exact_a_job_with_nothing_in_it_has_a_page() {
 }
 
 #[test]
-fn exact_the_longest_flight_with_a_hundred_pictures_stays_below_ten_megabytes() {
+fn exact_longest_flight_report_is_below_ten_megabytes() {
     let job = two_bridges();
-    let review = review(&flown(&job, LONGEST_S - 20.0, 17), &job);
+    let review = review(&flown(&job, MAX_FLIGHT_S - 20.0, 17), &job);
     assert!(review.pictures.len() >= 100, "{}", review.pictures.len());
     let size = page::session(&review).len();
-    assert!(size < LARGEST, "{size}");
+    assert!(size < MAX_PAGE_BYTES, "{size}");
 }

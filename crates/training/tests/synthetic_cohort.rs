@@ -8,8 +8,8 @@ use spandrel_training::record::{IncompletePolicy, SessionRecord};
 
 const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
 /// Limits of the shipped rules: a flight of the interlayer is poor if it exceeds one of them or has a crash.
-const OFF_PATH: f64 = 0.1;
-const SPEEDING: f64 = 0.02;
+const MAX_OFF_PATH_SHARE: f64 = 0.1;
+const MAX_SPEEDING_SHARE: f64 = 0.02;
 
 fn records() -> Vec<SessionRecord> {
     RECORDS.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -20,7 +20,7 @@ fn study() -> Cohort {
 }
 
 #[test]
-fn val_the_pilots_design_gives_its_tables_and_figures() {
+fn val_pilot_study_design_yields_its_tables() {
     let records = records();
     assert!(records.iter().all(|record| record.check().is_ok() && record.answers.as_ref().is_some_and(|a| a.given.len() == 24)));
     let study = study();
@@ -36,7 +36,7 @@ fn val_the_pilots_design_gives_its_tables_and_figures() {
 }
 
 #[test]
-fn val_repetition_with_less_stick_noise_is_measured_as_progress() {
+fn val_less_stick_noise_improves_scores() {
     let study = study();
     let safety = study.tests.iter().find(|test| test.score == "safety" && (test.earlier, test.later) == (1, 3)).unwrap();
     assert!(safety.test.mean_difference > 0.0);
@@ -48,12 +48,12 @@ fn val_repetition_with_less_stick_noise_is_measured_as_progress() {
 }
 
 #[test]
-fn val_only_poor_interlayer_flights_lead_to_the_gap_drill() {
+fn val_only_poor_interlayer_flights_recommend_gap_drill() {
     let rules = read_rules("rules.toml", RULES).unwrap();
     let (mut sent, mut spared) = (0, 0);
     for record in records() {
         let task = record.tasks.iter().find(|task| task.kind == "interlayer").unwrap();
-        let steady = 1.0 - task.on_path <= OFF_PATH && task.speeding_s / task.seconds <= SPEEDING;
+        let steady = 1.0 - task.on_path <= MAX_OFF_PATH_SHARE && task.speeding_s / task.seconds <= MAX_SPEEDING_SHARE;
         let holds = task.attempted && steady && task.crashes.total() == 0;
         let whole = spandrel_training::plan::PlanRules { steps: 20, ..rules.clone() };
         let plan = plan(std::slice::from_ref(&record), &whole, record.started_unix_us).unwrap();

@@ -14,7 +14,7 @@ pub enum ViewKind {
 pub enum ViewLayout {
     /// Side by side: inspector on the left, camera on the right, as in the TASBID paper.
     #[default]
-    Beside,
+    SideBySide,
     /// Camera large, inspector inset.
     Camera,
     /// Inspector large, camera inset.
@@ -40,20 +40,20 @@ pub struct ViewRect {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextAnchor {
     /// Left edge.
-    pub left_aligned: f64,
-    /// Top edge if `hang` is set, otherwise bottom edge.
+    pub left_edge: f64,
+    /// Top edge if `extends_down` is set, otherwise bottom edge.
     pub edge: f64,
     /// Maximum width.
     pub width: f64,
     /// Whether the text extends down from the top edge instead of up from the bottom edge.
-    pub hang: bool,
+    pub extends_down: bool,
 }
 
 /// Side of the inset view as a fraction of the window's width or height.
-const SMALL: f64 = 0.3;
+const INSET_SIZE: f64 = 0.3;
 /// Top edge of the inset view, below the speed readout, as a fraction of the window's height; leaves room for a wide picture in a
 /// narrow window.
-const UNDER_SPEED: f64 = 0.23;
+const INSET_TOP: f64 = 0.23;
 
 impl ViewRect {
     /// Returns the largest centered rectangle with the aspect ratio `aspect` (width over height), in a window with the aspect
@@ -71,7 +71,7 @@ impl ViewRect {
 /// Returns the largest picture size with this aspect ratio (width over height) within a size, px: even, as video requires, and at
 /// least 2 px.
 #[must_use]
-pub fn fitted_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
+pub fn largest_even_size_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
     let (width, height) = ((width & !1).max(2), (height & !1).max(2));
     let (w, h) = (f64::from(width), f64::from(height));
     let even = |px: f64, most: u32| (2 * (0.5 * px).round() as u32).clamp(2, most);
@@ -83,9 +83,9 @@ impl ViewLayout {
     #[must_use]
     pub fn next(self) -> Self {
         match self {
-            Self::Beside => Self::Camera,
+            Self::SideBySide => Self::Camera,
             Self::Camera => Self::Inspector,
-            Self::Inspector => Self::Beside,
+            Self::Inspector => Self::SideBySide,
         }
     }
 
@@ -93,11 +93,11 @@ impl ViewLayout {
     #[must_use]
     pub fn words(self) -> TextAnchor {
         match self {
-            Self::Beside => TextAnchor { left_aligned: 0.0, edge: 1.0, width: 0.5, hang: false },
+            Self::SideBySide => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5, extends_down: false },
             // Between the inset view and the HUD readouts on the right, above the center of the picture.
-            Self::Camera => TextAnchor { left_aligned: SMALL, edge: UNDER_SPEED, width: 0.35, hang: true },
+            Self::Camera => TextAnchor { left_edge: INSET_SIZE, edge: INSET_TOP, width: 0.35, extends_down: true },
             // Left of the inset view.
-            Self::Inspector => TextAnchor { left_aligned: 0.0, edge: 1.0, width: 0.5 - 0.5 * SMALL, hang: false },
+            Self::Inspector => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5 - 0.5 * INSET_SIZE, extends_down: false },
         }
     }
 
@@ -105,8 +105,8 @@ impl ViewLayout {
     #[must_use]
     pub fn button(self) -> (f64, f64) {
         match self {
-            Self::Beside => (0.25, 0.04),
-            Self::Camera => (0.5 * SMALL, UNDER_SPEED + 0.0325),
+            Self::SideBySide => (0.25, 0.04),
+            Self::Camera => (0.5 * INSET_SIZE, INSET_TOP + 0.0325),
             Self::Inspector => (0.5, 0.04),
         }
     }
@@ -116,13 +116,13 @@ impl ViewLayout {
     pub fn places(self) -> [ViewRect; 2] {
         let half = |which, left| ViewRect { which, left, top: 0.0, width: 0.5, height: 1.0 };
         let whole = |which| ViewRect { which, left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
-        let small = |which, (left, top)| ViewRect { which, left, top, width: SMALL, height: SMALL };
+        let small = |which, (left, top)| ViewRect { which, left, top, width: INSET_SIZE, height: INSET_SIZE };
         match self {
-            Self::Beside => [half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
+            Self::SideBySide => [half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
             // The HUD has text in all corners and along the top, and its warnings extend far along the bottom. The inset view
             // goes between the speed readout and the warnings.
-            Self::Camera => [whole(ViewKind::Camera), small(ViewKind::Inspector, (0.0, UNDER_SPEED))],
-            Self::Inspector => [whole(ViewKind::Inspector), small(ViewKind::Camera, (0.5 - 0.5 * SMALL, 1.0 - SMALL))],
+            Self::Camera => [whole(ViewKind::Camera), small(ViewKind::Inspector, (0.0, INSET_TOP))],
+            Self::Inspector => [whole(ViewKind::Inspector), small(ViewKind::Camera, (0.5 - 0.5 * INSET_SIZE, 1.0 - INSET_SIZE))],
         }
     }
 }
@@ -130,7 +130,7 @@ impl ViewLayout {
 /// Returns the render size, px, of a view of the given screen size, limited to `most` pixels. Keeps the aspect ratio; both sides
 /// are even, as video requires.
 #[must_use]
-pub fn drawn_px((width, height): (f64, f64), most: Option<f64>) -> (u32, u32) {
+pub fn render_size_px((width, height): (f64, f64), most: Option<f64>) -> (u32, u32) {
     let shrink = most.map_or(1.0, |most| (most / (width * height).max(1.0)).sqrt().min(1.0));
     let side = |px: f64| 2 * (0.5 * px * shrink).round().max(8.0) as u32;
     (side(width), side(height))
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_tab_goes_round_and_both_views_are_always_there() {
+    fn exact_tab_cycles_through_layouts_that_show_both_views() {
         let mut seen = ViewLayout::default();
         for _ in 0..3 {
             let [a, b] = seen.places();
@@ -151,13 +151,13 @@ mod tests {
             }
             seen = seen.next();
         }
-        assert_eq!(seen, ViewLayout::Beside);
+        assert_eq!(seen, ViewLayout::SideBySide);
         let [left, right] = seen.places();
         assert_eq!((left.which, left.left, right.left), (ViewKind::Inspector, 0.0, 0.5));
     }
 
     #[test]
-    fn exact_a_camera_keeps_the_shape_of_its_sensor() {
+    fn exact_camera_view_keeps_the_aspect_ratio_of_the_sensor() {
         let whole = ViewRect { which: ViewKind::Camera, left: 0.5, top: 0.0, width: 0.5, height: 1.0 };
         let near = |place: ViewRect, left: f64, top: f64, width: f64, height: f64| {
             let off = [place.left - left, place.top - top, place.width - width, place.height - height];
@@ -166,19 +166,19 @@ mod tests {
         // Half of a 1920 x 1080 px window is taller than 4:3; the whole window is wider.
         near(whole.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.5, 1.0 / 6.0, 0.5, 2.0 / 3.0);
         near(ViewRect { left: 0.0, width: 1.0, ..whole }.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.125, 0.0, 0.75, 1.0);
-        assert_eq!(fitted_px((1280, 720), 4.0 / 3.0), (960, 720));
-        assert_eq!(fitted_px((640, 1001), 16.0 / 9.0), (640, 360));
-        assert_eq!(fitted_px((4000, 3000), 4.0 / 3.0), (4000, 3000));
-        assert_eq!(fitted_px((641, 361), 4.0 / 3.0), (480, 360));
-        assert_eq!(fitted_px((1, 1), 16.0 / 9.0), (2, 2));
+        assert_eq!(largest_even_size_px((1280, 720), 4.0 / 3.0), (960, 720));
+        assert_eq!(largest_even_size_px((640, 1001), 16.0 / 9.0), (640, 360));
+        assert_eq!(largest_even_size_px((4000, 3000), 4.0 / 3.0), (4000, 3000));
+        assert_eq!(largest_even_size_px((641, 361), 4.0 / 3.0), (480, 360));
+        assert_eq!(largest_even_size_px((1, 1), 16.0 / 9.0), (2, 2));
     }
 
     #[test]
-    fn exact_a_slow_machine_draws_fewer_pixels_of_the_same_shape() {
-        assert_eq!(drawn_px((1600.0, 900.0), None), (1600, 900));
-        assert_eq!(drawn_px((640.0, 360.0), Some(640.0 * 360.0)), (640, 360));
-        let (w, h) = drawn_px((1920.0, 1080.0), Some(640.0 * 360.0));
+    fn exact_pixel_limit_keeps_the_aspect_ratio() {
+        assert_eq!(render_size_px((1600.0, 900.0), None), (1600, 900));
+        assert_eq!(render_size_px((640.0, 360.0), Some(640.0 * 360.0)), (640, 360));
+        let (w, h) = render_size_px((1920.0, 1080.0), Some(640.0 * 360.0));
         assert_eq!((w, h), (640, 360));
-        assert_eq!(drawn_px((0.0, 0.0), Some(1.0)), (16, 16));
+        assert_eq!(render_size_px((0.0, 0.0), Some(1.0)), (16, 16));
     }
 }

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_target_is_in_the_middle_and_above_is_up() {
+    fn exact_target_is_centered_and_up_points_up() {
         let eye = PinholeCamera::at(Vec3::new(10.0, -20.0, 5.0), Vec3::new(0.0, 30.0, 12.0), 1.0, 1.6);
         let clip = eye.view_projection(1.6).apply(Vec3::new(0.0, 30.0, 12.0));
         assert!(clip[0].abs() < 1e-9 && clip[1].abs() < 1e-9 && clip[3] > 0.0);

@@ -14,13 +14,13 @@ const CELL_M: f64 = 80.0;
 const BACKDROP_M: f64 = 500.0;
 /// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. In a software renderer, a draw call
 /// costs as much as fifty triangles, a sixth of a sector of mountains.
-const SECTORS: f64 = 16.0;
+const BACKDROP_SECTORS: f64 = 16.0;
 
 /// Bounding sphere of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundingSphere {
     /// Center, ENU, m.
-    pub centre_m: Vec3<Enu>,
+    pub center_m: Vec3<Enu>,
     /// Radius, m.
     pub radius_m: f64,
 }
@@ -37,15 +37,15 @@ impl BoundingSphere {
             }
         }
         let [x, y, z] = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
-        let centre_m = Vec3::new(x, y, z);
-        let radius_m = points.iter().map(|(p, room)| (*p - centre_m).norm() + room).fold(0.0, f64::max);
-        Self { centre_m, radius_m }
+        let center_m = Vec3::new(x, y, z);
+        let radius_m = points.iter().map(|(p, room)| (*p - center_m).norm() + room).fold(0.0, f64::max);
+        Self { center_m, radius_m }
     }
 
     /// Returns the distance from a point to the sphere's surface, m; negative inside.
     #[must_use]
-    pub fn from_m(&self, point_m: Vec3<Enu>) -> f64 {
-        (point_m - self.centre_m).norm() - self.radius_m
+    pub fn distance_to_m(&self, point_m: Vec3<Enu>) -> f64 {
+        (point_m - self.center_m).norm() - self.radius_m
     }
 
     /// Returns a sphere that encloses a mesh.
@@ -92,7 +92,7 @@ enum SceneCell {
 
 fn cell(p: Vec3<Enu>, backdrop: bool) -> SceneCell {
     if backdrop || p.east().abs().max(p.north().abs()) > BACKDROP_M {
-        return SceneCell::Sector((math::atan2(p.east(), p.north()) / math::TAU * SECTORS).floor() as i64);
+        return SceneCell::Sector((math::atan2(p.east(), p.north()) / math::TAU * BACKDROP_SECTORS).floor() as i64);
     }
     SceneCell::Square((p.east() / CELL_M).floor() as i64, (p.north() / CELL_M).floor() as i64)
 }
@@ -102,7 +102,7 @@ type VertexRemap = BTreeMap<u32, u32>;
 
 /// Splits a mesh into cells. With `backdrop`, splits it only into sectors.
 #[must_use]
-pub fn cut(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
+pub fn split_into_cells(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     let mut cells: BTreeMap<SceneCell, (Mesh, VertexRemap)> = BTreeMap::new();
     for triangle in mesh.indices.chunks_exact(3) {
         let Some(first) = mesh.vertices.get(triangle[0] as usize) else { continue };
@@ -127,7 +127,7 @@ pub fn reach_m(mesh: &Mesh) -> f64 {
 
 /// Groups instances of a mesh by cell, each with a bounding sphere.
 #[must_use]
-pub fn grouped(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, BoundingSphere)> {
+pub fn group_instances(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, BoundingSphere)> {
     let reach_m = reach_m(mesh);
     let origin = |i: &Instance| Vec3::new(f64::from(i.rows[0][3]), f64::from(i.rows[1][3]), f64::from(i.rows[2][3]));
     let size = |i: &Instance| {
@@ -161,21 +161,21 @@ impl Frustum {
 
     /// Returns false if the sphere is certainly outside the frustum.
     #[must_use]
-    pub fn may_show(&self, ball: &BoundingSphere) -> bool {
+    pub fn may_be_visible(&self, ball: &BoundingSphere) -> bool {
         self.0.iter().all(|plane| {
             let [a, b, c, _] = plane;
             let length = (a * a + b * b + c * c).sqrt();
             // An infinite projection has no far plane.
-            length < 1e-12 || inside(plane, ball.centre_m) >= -ball.radius_m * length
+            length < 1e-12 || inside(plane, ball.center_m) >= -ball.radius_m * length
         })
     }
 
     /// Returns false if the cell is certainly outside the frustum: all of its corners are beyond one plane.
     #[must_use]
-    pub fn may_show_cell(&self, bounds: &CellBounds) -> bool {
+    pub fn cell_may_be_visible(&self, bounds: &CellBounds) -> bool {
         let corners = &bounds.corners_m;
         let reaches = |plane: &[f64; 4]| corners.is_empty() || corners.iter().any(|corner| inside(plane, *corner) >= 0.0);
-        self.may_show(&bounds.ball) && self.0.iter().all(reaches)
+        self.may_be_visible(&bounds.ball) && self.0.iter().all(reaches)
     }
 }
 
@@ -192,38 +192,40 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_nothing_is_lost_in_cutting() {
+    fn exact_splitting_keeps_all_triangles() {
         let mut mesh = Mesh::default();
         mesh.block([-300.0, -5.0, 0.0], [-20.0, 5.0, 2.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
         mesh.block([100.0, 100.0, 0.0], [101.0, 101.0, 2.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
-        let parts = cut(&mesh, false);
+        let parts = split_into_cells(&mesh, false);
         assert!(parts.len() > 2);
         assert_eq!(parts.iter().map(Mesh::triangles).sum::<usize>(), mesh.triangles());
         for part in &parts {
             let ball = BoundingSphere::of(part);
-            assert!(part.vertices.iter().all(|v| (position(v) - ball.centre_m).norm() <= ball.radius_m + 1e-6));
+            assert!(part.vertices.iter().all(|v| (position(v) - ball.center_m).norm() <= ball.radius_m + 1e-6));
         }
     }
 
     #[test]
-    fn exact_what_is_behind_or_beside_is_left_out_and_what_is_seen_is_not() {
+    fn exact_spheres_outside_the_frustum_are_culled() {
         let eye = PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
         let frustum = Frustum::of(&eye.view_projection(1.5));
-        let ball = |east: f64, north: f64| BoundingSphere { centre_m: Vec3::new(east, north, 10.0), radius_m: 5.0 };
+        let ball = |east: f64, north: f64| BoundingSphere { center_m: Vec3::new(east, north, 10.0), radius_m: 5.0 };
         assert!(
-            frustum.may_show(&ball(0.0, 50.0)) && frustum.may_show(&ball(0.0, 9_000.0)) && frustum.may_show(&ball(0.0, -4.0))
+            frustum.may_be_visible(&ball(0.0, 50.0))
+                && frustum.may_be_visible(&ball(0.0, 9_000.0))
+                && frustum.may_be_visible(&ball(0.0, -4.0))
         );
-        assert!(!frustum.may_show(&ball(0.0, -20.0)) && !frustum.may_show(&ball(100.0, 50.0)));
+        assert!(!frustum.may_be_visible(&ball(0.0, -20.0)) && !frustum.may_be_visible(&ball(100.0, 50.0)));
         // In the lake's reflection, objects above appear below.
         let mirrored = Frustum::of(&eye.view_projection(1.5).after(&Matrix::mirror(0.0)));
-        let high = BoundingSphere { centre_m: Vec3::new(0.0, 40.0, 60.0), radius_m: 5.0 };
-        assert!(!frustum.may_show(&high) && !mirrored.may_show(&high));
-        let low = BoundingSphere { centre_m: Vec3::new(0.0, 40.0, 6.0), radius_m: 1.0 };
-        assert!(frustum.may_show(&low) && mirrored.may_show(&low));
+        let high = BoundingSphere { center_m: Vec3::new(0.0, 40.0, 60.0), radius_m: 5.0 };
+        assert!(!frustum.may_be_visible(&high) && !mirrored.may_be_visible(&high));
+        let low = BoundingSphere { center_m: Vec3::new(0.0, 40.0, 6.0), radius_m: 1.0 };
+        assert!(frustum.may_be_visible(&low) && mirrored.may_be_visible(&low));
     }
 
     #[test]
-    fn exact_a_long_wall_beside_the_picture_is_left_out_though_its_ball_is_not() {
+    fn exact_corners_cull_a_long_wall_that_its_sphere_does_not() {
         let eye = PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
         let frustum = Frustum::of(&eye.view_projection(1.5));
         let wall = |east: f64| {
@@ -232,23 +234,23 @@ mod tests {
             CellBounds::of(&mesh)
         };
         let (beside, across) = (wall(-260.0), wall(-60.0));
-        assert!(frustum.may_show(&beside.ball) && !frustum.may_show_cell(&beside));
-        assert!(frustum.may_show_cell(&across) && frustum.may_show_cell(&CellBounds::from(across.ball)));
+        assert!(frustum.may_be_visible(&beside.ball) && !frustum.cell_may_be_visible(&beside));
+        assert!(frustum.cell_may_be_visible(&across) && frustum.cell_may_be_visible(&CellBounds::from(across.ball)));
         // The frustum test must keep a cell that contains the camera, although none of its corners are in view.
         let mut hall = Mesh::default();
         hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
-        assert!(frustum.may_show_cell(&CellBounds::of(&hall)));
+        assert!(frustum.cell_may_be_visible(&CellBounds::of(&hall)));
     }
 
     #[test]
-    fn exact_copies_lie_in_the_balls_of_their_cells() {
+    fn exact_bounding_spheres_contain_their_instances() {
         let mut mesh = Mesh::default();
         mesh.ball(Vec3::zero(), [1.0; 3], 0.0, SurfaceFinish::new(Material::Rock, [9, 9, 9]));
         let at = |east: f64| {
             let axes = [Vec3::new(3.0, 0.0, 0.0), Vec3::new(0.0, 3.0, 0.0), Vec3::new(0.0, 0.0, 3.0)];
             Instance::placed(Vec3::new(east, 0.0, 0.0), axes, [1.0; 4])
         };
-        let groups = grouped(&mesh, &[at(1.0), at(5.0), at(500.0)]);
+        let groups = group_instances(&mesh, &[at(1.0), at(5.0), at(500.0)]);
         assert_eq!(groups.iter().map(|(all, _)| all.len()).collect::<Vec<_>>(), [2, 1]);
         assert!((groups[0].1.radius_m - 5.0).abs() < 1e-5, "half the distance and three metres: {}", groups[0].1.radius_m);
     }

@@ -12,18 +12,18 @@ use spandrel_model::vehicle::{Camera, Lamp};
 const GRID: (u32, u32) = (7, 5);
 /// Target value of the metered mean, as a fraction of white (estimate: typical outdoor setting; the tone curve accounts
 /// for a fifth of it).
-const AIM: f64 = 0.24;
+const METERING_TARGET: f64 = 0.24;
 /// Reflectance assumed for any surface that is hit (estimate: between wet concrete and grass).
 const ALBEDO: f64 = 0.25;
 /// Maximum weight of a bright point, as a multiple of the middle points, so that a bright sky does not underexpose a
 /// soffit.
-const HIGHLIGHT: f64 = 5.0;
+const MAX_HIGHLIGHT_WEIGHT: f64 = 5.0;
 /// Minimum illuminance to which the inspector's eyes adapt, lx (estimate: limit of color vision).
-const EYE_LUX: f64 = 3.0;
+const MIN_EYE_ADAPTATION_LUX: f64 = 3.0;
 /// Lowest ISO sensitivity of cameras.
 const ISO_MIN: f64 = 100.0;
 /// Range of the meter, m.
-const REACH_M: f64 = 600.0;
+const METERING_RANGE_M: f64 = 600.0;
 
 /// Exposure of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,14 +62,14 @@ impl Exposure {
     /// Returns the exposure of a person's eyes.
     #[must_use]
     pub fn eyes(metered_lux: f64) -> Self {
-        Self { white_lux: metered_lux.max(EYE_LUX), time_s: 0.0, iso: ISO_MIN }
+        Self { white_lux: metered_lux.max(MIN_EYE_ADAPTATION_LUX), time_s: 0.0, iso: ISO_MIN }
     }
 }
 
 /// Time constant with which a camera's exposure or a person's eyes adapt, s (estimate: cameras settle in about a second).
-const FOLLOWS_S: f64 = 0.35;
+const ADAPTATION_TIME_S: f64 = 0.35;
 /// Gap after which the adaptation starts over, s.
-const BREAK_S: f64 = 2.0;
+const ADAPTATION_RESET_S: f64 = 2.0;
 
 /// Smoothed meter for a sequence of pictures, so that an object crossing the picture does not cause flicker.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -78,10 +78,11 @@ pub struct ExposureMeter(Option<(SimTime, f64)>);
 impl ExposureMeter {
     /// Returns the smoothed illuminance, lx, for the picture at time `at`. The first picture, and the first after a jump in time,
     /// uses the metered value directly.
-    pub fn follow(&mut self, metered_lux: f64, at: SimTime) -> f64 {
-        let before = self.0.filter(|(then, lux)| *then <= at && (at - *then).s() <= BREAK_S && *lux > 0.0 && metered_lux > 0.0);
+    pub fn smoothed_lux(&mut self, metered_lux: f64, at: SimTime) -> f64 {
+        let before =
+            self.0.filter(|(then, lux)| *then <= at && (at - *then).s() <= ADAPTATION_RESET_S && *lux > 0.0 && metered_lux > 0.0);
         let lux = before.map_or(metered_lux, |(then, lux)| {
-            let kept = math::exp(-(at - then).s() / FOLLOWS_S);
+            let kept = math::exp(-(at - then).s() / ADAPTATION_TIME_S);
             metered_lux * math::pow(lux / metered_lux, kept)
         });
         self.0 = Some((at, lux));
@@ -103,21 +104,21 @@ pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) ->
     metered(seen)
 }
 
-/// Returns the mean of the metered values, lx, divided by the target value. A bright point counts at most [`HIGHLIGHT`]
+/// Returns the mean of the metered values, lx, divided by the target value. A bright point counts at most [`MAX_HIGHLIGHT_WEIGHT`]
 /// times the geometric mean of the middle half, which starts at the lower quartile. When one point changes from dark to
 /// bright, this mean moves only slightly, whereas a median would jump from the soffit to the sky.
 fn metered(mut seen: Vec<f64>) -> f64 {
     seen.sort_by(f64::total_cmp);
     let middling = &seen[seen.len() / 4..seen.len() / 4 + seen.len() / 2];
-    let logs = middling.iter().map(|lux| math::ln(lux.max(EYE_LUX * AIM))).sum::<f64>();
-    let most = HIGHLIGHT * math::exp(logs / middling.len() as f64);
+    let logs = middling.iter().map(|lux| math::ln(lux.max(MIN_EYE_ADAPTATION_LUX * METERING_TARGET))).sum::<f64>();
+    let most = MAX_HIGHLIGHT_WEIGHT * math::exp(logs / middling.len() as f64);
     let mean = seen.iter().map(|lux| lux.min(most)).sum::<f64>() / seen.len() as f64;
-    mean / AIM
+    mean / METERING_TARGET
 }
 
 /// Returns π times the luminance along a ray, lx.
 fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f64 {
-    let Some(hit) = site.ray(from, ray, REACH_M, light.ambient_at) else {
+    let Some(hit) = site.ray(from, ray, METERING_RANGE_M, light.ambient_at) else {
         return light.sky.visible_lux(Vec3::new(ray.east(), ray.north(), ray.up().max(0.0)));
     };
     let point = from + ray * hit.distance_m;
@@ -139,7 +140,7 @@ mod tests {
     use spandrel_model::site::defects::REFERENCE_CAMERA;
 
     /// Number of metered points.
-    const PLACES: usize = (GRID.0 * GRID.1) as usize;
+    const METERED_POINTS: usize = (GRID.0 * GRID.1) as usize;
     /// Relative rounding error of a sum of 35 numbers.
     const ROUNDING: f64 = 1e-12;
 
@@ -148,41 +149,45 @@ mod tests {
     }
 
     #[test]
-    fn exact_calm_light_is_metered_by_its_mean() {
+    fn exact_uniform_light_is_metered_by_its_mean() {
         for lux in [1.0, 300.0, 20_000.0] {
-            assert!(near(metered(vec![lux; PLACES]), lux / AIM));
+            assert!(near(metered(vec![lux; METERED_POINTS]), lux / METERING_TARGET));
         }
         // The values range from 1 to 4.4, so no point exceeds the middle points fivefold.
-        let slope: Vec<f64> = (0..PLACES).map(|k| 1_000.0 + 100.0 * k as f64).collect();
-        assert!(near(metered(slope), 2_700.0 / AIM));
+        let slope: Vec<f64> = (0..METERED_POINTS).map(|k| 1_000.0 + 100.0 * k as f64).collect();
+        assert!(near(metered(slope), 2_700.0 / METERING_TARGET));
     }
 
     #[test]
-    fn exact_a_few_bright_places_black_nothing_out() {
-        let mut seen = vec![100.0; PLACES];
+    fn exact_bright_points_have_limited_weight() {
+        let mut seen = vec![100.0; METERED_POINTS];
         seen[..5].fill(1e5);
-        assert!(near(metered(seen), (30.0 * 100.0 + 5.0 * HIGHLIGHT * 100.0) / PLACES as f64 / AIM));
+        assert!(near(
+            metered(seen),
+            (30.0 * 100.0 + 5.0 * MAX_HIGHLIGHT_WEIGHT * 100.0) / METERED_POINTS as f64 / METERING_TARGET
+        ));
     }
 
     #[test]
-    fn prop_one_place_that_turns_bright_never_makes_the_light_leap() {
+    fn prop_one_brightening_point_changes_the_exposure_smoothly() {
         // From a soffit at noon to the sky near the sun.
         const DARK_LUX: f64 = 30.0;
         const RANGE: f64 = 1_000.0;
         // The middle 17 of the 35 points share the logarithm of the range. With the cap, all points together weigh at
         // least as much as 27 middle points: the 17 (whose mean is no less than their geometric mean) and the 10 above.
         // The changed point weighs at most as much as five.
-        let leap = math::pow(RANGE, 1.0 / 17.0) * (1.0 + HIGHLIGHT / 27.0);
+        let leap = math::pow(RANGE, 1.0 / 17.0) * (1.0 + MAX_HIGHLIGHT_WEIGHT / 27.0);
         // Changing a point by 1 % moves the result by less than that point's share of both.
-        let nudge = 1.0 + 0.01 * (1.0 / 17.0 + HIGHLIGHT / 27.0);
+        let nudge = 1.0 + 0.01 * (1.0 / 17.0 + MAX_HIGHLIGHT_WEIGHT / 27.0);
         let mut stream = RandomStream::new(7, "view.exposure");
-        for bright in 0..PLACES {
+        for bright in 0..METERED_POINTS {
             for turn in 0..100 {
                 let other = |stream: &mut RandomStream| DARK_LUX * math::pow(RANGE, stream.uniform());
-                let mut seen: Vec<f64> = (0..PLACES).map(|k| if k < bright { DARK_LUX * RANGE } else { DARK_LUX }).collect();
+                let mut seen: Vec<f64> =
+                    (0..METERED_POINTS).map(|k| if k < bright { DARK_LUX * RANGE } else { DARK_LUX }).collect();
                 // Every other iteration has random values in between.
                 seen.iter_mut().filter(|_| turn % 2 == 1).for_each(|lux| *lux = other(&mut stream));
-                let at = if turn == 0 { bright } else { stream.below(PLACES) };
+                let at = if turn == 0 { bright } else { stream.below(METERED_POINTS) };
                 let with = |lux: f64| {
                     let mut seen = seen.clone();
                     seen[at] = lux;
@@ -197,11 +202,11 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_picture_follows_the_light_evenly_whatever_its_rate() {
+    fn exact_adaptation_does_not_depend_on_the_frame_rate() {
         let end = |steps: i64| {
             let mut meter = ExposureMeter::default();
-            assert_eq!(meter.follow(100.0, SimTime::ZERO), 100.0);
-            (1..=steps).fold(0.0, |_, k| meter.follow(1e4, SimTime::from_ms(k * 700 / steps)))
+            assert_eq!(meter.smoothed_lux(100.0, SimTime::ZERO), 100.0);
+            (1..=steps).fold(0.0, |_, k| meter.smoothed_lux(1e4, SimTime::from_ms(k * 700 / steps)))
         };
         // After two time constants, e⁻² of the initial two decades remain.
         let expected = 1e4 * math::pow(1e-2, math::exp(-2.0));
@@ -209,15 +214,15 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_picture_after_a_jump_is_exposed_for_itself() {
+    fn exact_time_jump_restarts_the_adaptation() {
         let mut meter = ExposureMeter::default();
-        meter.follow(100.0, SimTime::from_ms(5_000));
-        assert_eq!(meter.follow(9.0, SimTime::from_ms(4_000)), 9.0);
-        assert_eq!(meter.follow(700.0, SimTime::from_ms(6_001)), 700.0);
+        meter.smoothed_lux(100.0, SimTime::from_ms(5_000));
+        assert_eq!(meter.smoothed_lux(9.0, SimTime::from_ms(4_000)), 9.0);
+        assert_eq!(meter.smoothed_lux(700.0, SimTime::from_ms(6_001)), 700.0);
     }
 
     #[test]
-    fn exact_the_camera_opens_up_to_its_limit_and_no_further() {
+    fn exact_camera_exposure_stops_at_its_limits() {
         let limit = visibility::needed_lux(&REFERENCE_CAMERA);
         let dark = Exposure::camera(0.1 * limit, &REFERENCE_CAMERA);
         assert_eq!((dark.white_lux, dark.time_s), (limit, REFERENCE_CAMERA.exposure_max_s));

@@ -4,16 +4,16 @@ use super::hud::GnssStatus;
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::modes;
-use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::named_values::Named;
 use spandrel_mavlink::dialect::{
     GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavMessage, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA,
 };
 use spandrel_model::time::SimTime;
 
 /// Time after which an unrepeated cue expires; the monitor repeats active cues at 5 Hz.
-const CUES_LAST: SimTime = SimTime::from_ms(1_500);
+const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Time for which the shutter indicator is shown after a picture.
-const SHUTTER: SimTime = SimTime::from_ms(300);
+const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
 
 /// Latest values received.
 #[derive(Debug, Clone, Default)]
@@ -98,7 +98,7 @@ impl Feed {
     /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not time out.
     #[must_use]
     pub fn cues(&self, now: SimTime, held: bool) -> i32 {
-        self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUES_LAST).map_or(0, |(_, mask)| mask)
+        self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUE_TIMEOUT).map_or(0, |(_, mask)| mask)
     }
 
     /// Returns the name of the object that was hit last.
@@ -111,7 +111,7 @@ impl Feed {
 /// Checks whether the shutter indicator of a picture taken at `taken` is still shown.
 #[must_use]
 pub fn shutter(taken: Option<SimTime>, now: SimTime) -> bool {
-    taken.is_some_and(|taken| taken <= now && now - taken <= SHUTTER)
+    taken.is_some_and(|taken| taken <= now && now - taken <= SHUTTER_INDICATOR_DURATION)
 }
 
 #[cfg(test)]
@@ -121,7 +121,7 @@ mod tests {
     use spandrel_mavlink::dialect::{GPS_RAW_INT_DATA, HEARTBEAT_DATA, NAMED_VALUE_INT_DATA};
 
     #[test]
-    fn exact_mode_satellites_and_cues_come_from_frames() {
+    fn exact_frames_set_mode_satellites_and_cues() {
         let mut vehicle = Encoder::new(1, 1);
         let mut monitor = Encoder::new(1, 191);
         let mut feed = Feed::default();
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_satellites_that_nobody_counts_are_not_known() {
+    fn exact_unknown_satellite_count_is_none() {
         let mut feed = Feed::default();
         let gps = |satellites_visible| {
             let fix_type = GpsFixType::GPS_FIX_TYPE_3D_FIX;

@@ -5,15 +5,15 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
 /// Distance beyond which the view zooms in on the aircraft, m, as with binoculars.
-const NARROW_FROM_M: f64 = 60.0;
+const AUTO_ZOOM_START_M: f64 = 60.0;
 /// Minimum field of view when zooming in automatically, rad.
-const NARROWEST_RAD: f64 = 0.22;
+const MIN_AUTO_FOV_RAD: f64 = 0.22;
 /// Distance of the camera in front of the inspector's position, m, so that the inspector's body is not in the picture.
-const AHEAD_M: f64 = 0.45;
+const EYE_OFFSET_M: f64 = 0.45;
 /// Maximum elevation, rad.
-const STEEPEST_RAD: f64 = 1.4;
+const MAX_PITCH_RAD: f64 = 1.4;
 /// Range of the manual zoom: from a wider view to binoculars (estimate: 8 x is common).
-const ZOOM: std::ops::RangeInclusive<f64> = 0.6..=8.0;
+const ZOOM_RANGE: std::ops::RangeInclusive<f64> = 0.6..=8.0;
 
 /// View direction and zoom of the inspector.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,40 +38,40 @@ impl InspectorCamera {
         if self.follows {
             // Keeps the magnification of the narrowed view.
             let zoom = math::tan(0.5 * INSPECTOR_FOV_RAD) / math::tan(0.5 * self.vfov_rad(to.norm()));
-            self.zoom = zoom.clamp(*ZOOM.start(), *ZOOM.end());
+            self.zoom = zoom.clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
             self.follows = false;
             self.bearing_rad = math::atan2(to.east(), to.north());
             self.pitch_rad = math::atan2(to.up() - EYE_HEIGHT_M, to.horizontal_norm());
         }
         self.bearing_rad = math::wrap_pi(self.bearing_rad + right_rad);
-        self.pitch_rad = (self.pitch_rad + up_rad).clamp(-STEEPEST_RAD, STEEPEST_RAD);
+        self.pitch_rad = (self.pitch_rad + up_rad).clamp(-MAX_PITCH_RAD, MAX_PITCH_RAD);
     }
 
     /// Returns the view rotation per pixel, rad, for a view `height_px` high, so that the scene follows the pointer
     /// while dragging.
     #[must_use]
-    pub fn rad_px(&self, height_px: f64, to: Vec3<Enu>) -> f64 {
+    pub fn rad_per_px(&self, height_px: f64, to: Vec3<Enu>) -> f64 {
         self.vfov_rad(to.norm()) / height_px.max(1.0)
     }
 
     /// Multiplies the zoom factor by `times`; values above 1 zoom in.
     pub fn zoom(&mut self, times: f64) {
         if times.is_finite() {
-            self.zoom = (self.zoom * times).clamp(*ZOOM.start(), *ZOOM.end());
+            self.zoom = (self.zoom * times).clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
         }
     }
 
     /// Returns the vertical field of view for an aircraft at a distance, rad.
     fn vfov_rad(&self, distance_m: f64) -> f64 {
-        let narrowed = if self.follows { NARROW_FROM_M / distance_m.max(NARROW_FROM_M) } else { 1.0 };
-        let half = math::tan(0.5 * (INSPECTOR_FOV_RAD * narrowed).max(NARROWEST_RAD)) / self.zoom;
+        let narrowed = if self.follows { AUTO_ZOOM_START_M / distance_m.max(AUTO_ZOOM_START_M) } else { 1.0 };
+        let half = math::tan(0.5 * (INSPECTOR_FOV_RAD * narrowed).max(MIN_AUTO_FOV_RAD)) / self.zoom;
         2.0 * math::atan2(half, 1.0)
     }
 
-    /// Returns the camera of an inspector standing at `stands_m`.
+    /// Returns the camera of an inspector standing at `inspector_m`.
     #[must_use]
-    pub fn eye(&self, stands_m: Vec3<Enu>, drone_m: Vec3<Enu>, aspect: f64) -> PinholeCamera {
-        let to = drone_m - stands_m;
+    pub fn eye(&self, inspector_m: Vec3<Enu>, drone_m: Vec3<Enu>, aspect: f64) -> PinholeCamera {
+        let to = drone_m - inspector_m;
         let level: Vec3<Enu> = Vec3::new(to.east(), to.north(), 0.0);
         let (s, c) = math::sin_cos(self.bearing_rad);
         let ahead = match (self.follows, level.norm() > 0.5) {
@@ -79,7 +79,7 @@ impl InspectorCamera {
             (true, true) => level.unit(),
             (true, false) => Vec3::new(0.0, 1.0, 0.0),
         };
-        let eye_m = stands_m + ahead * AHEAD_M + Vec3::new(0.0, 0.0, EYE_HEIGHT_M);
+        let eye_m = inspector_m + ahead * EYE_OFFSET_M + Vec3::new(0.0, 0.0, EYE_HEIGHT_M);
         let (up, flat) = math::sin_cos(self.pitch_rad);
         let target = if self.follows { drone_m } else { eye_m + ahead * flat + Vec3::new(0.0, 0.0, up) };
         PinholeCamera::at(eye_m, target, self.vfov_rad((drone_m - eye_m).norm()), aspect)
@@ -90,47 +90,47 @@ impl InspectorCamera {
 mod tests {
     use super::*;
 
-    const STANDS: Vec3<Enu> = Vec3::new(0.0, 0.0, 0.0);
+    const INSPECTOR_M: Vec3<Enu> = Vec3::new(0.0, 0.0, 0.0);
 
     #[test]
-    fn exact_it_follows_until_it_is_turned_and_then_stays() {
+    fn exact_view_follows_the_aircraft_until_turned_manually() {
         let mut gaze = InspectorCamera::default();
         let north = Vec3::new(0.0, 40.0, EYE_HEIGHT_M);
-        assert!((gaze.eye(STANDS, north, 1.5).forward.north() - 1.0).abs() < 1e-9);
-        gaze.turn(std::f64::consts::FRAC_PI_2, 0.0, north - STANDS);
-        let east = gaze.eye(STANDS, north, 1.5).forward;
+        assert!((gaze.eye(INSPECTOR_M, north, 1.5).forward.north() - 1.0).abs() < 1e-9);
+        gaze.turn(std::f64::consts::FRAC_PI_2, 0.0, north - INSPECTOR_M);
+        let east = gaze.eye(INSPECTOR_M, north, 1.5).forward;
         assert!((east.east() - 1.0).abs() < 1e-9, "a right quarter turn from north must end at east: {east:?}");
-        assert_eq!(gaze.eye(STANDS, Vec3::new(-9.0, 3.0, 50.0), 1.5).forward, east, "the view must not follow the aircraft");
+        assert_eq!(gaze.eye(INSPECTOR_M, Vec3::new(-9.0, 3.0, 50.0), 1.5).forward, east, "the view must not follow the aircraft");
         gaze.turn(0.0, 99.0, north);
-        assert!((math::asin(gaze.eye(STANDS, north, 1.5).forward.up()) - STEEPEST_RAD).abs() < 1e-9);
+        assert!((math::asin(gaze.eye(INSPECTOR_M, north, 1.5).forward.up()) - MAX_PITCH_RAD).abs() < 1e-9);
     }
 
     #[test]
-    fn exact_a_drag_follows_the_pointer_and_who_turns_keeps_what_was_seen_near() {
+    fn exact_drag_tracks_the_pointer_and_keeps_the_magnification() {
         let mut gaze = InspectorCamera::default();
         let far = Vec3::new(0.0, 150.0, EYE_HEIGHT_M);
-        let before = gaze.eye(STANDS, far, 1.0).hfov_rad;
+        let before = gaze.eye(INSPECTOR_M, far, 1.0).hfov_rad;
         // The camera is slightly closer to the aircraft than the inspector's position is.
         let apart = 0.01;
         gaze.turn(0.0, 0.0, far);
-        assert!((gaze.eye(STANDS, far, 1.0).hfov_rad / before - 1.0).abs() < apart);
+        assert!((gaze.eye(INSPECTOR_M, far, 1.0).hfov_rad / before - 1.0).abs() < apart);
         assert!(
-            (gaze.rad_px(500.0, far) * 500.0 / before - 1.0).abs() < apart,
+            (gaze.rad_per_px(500.0, far) * 500.0 / before - 1.0).abs() < apart,
             "a drag across the whole view must turn it by its field of view"
         );
     }
 
     #[test]
-    fn exact_zoom_narrows_the_tangent_and_has_ends() {
+    fn exact_zoom_divides_the_tangent_and_is_limited() {
         let mut gaze = InspectorCamera::default();
         let far = Vec3::new(0.0, 30.0, EYE_HEIGHT_M);
-        let half = |gaze: &InspectorCamera| math::tan(0.5 * gaze.eye(STANDS, far, 1.0).hfov_rad);
+        let half = |gaze: &InspectorCamera| math::tan(0.5 * gaze.eye(INSPECTOR_M, far, 1.0).hfov_rad);
         let plain = half(&gaze);
         gaze.zoom(2.0);
         assert!((half(&gaze) - 0.5 * plain).abs() < 1e-9);
         (0..20).for_each(|_| gaze.zoom(2.0));
-        assert!((half(&gaze) - plain / ZOOM.end()).abs() < 1e-9);
+        assert!((half(&gaze) - plain / ZOOM_RANGE.end()).abs() < 1e-9);
         gaze.zoom(f64::NAN);
-        assert!((half(&gaze) - plain / ZOOM.end()).abs() < 1e-9);
+        assert!((half(&gaze) - plain / ZOOM_RANGE.end()).abs() < 1e-9);
     }
 }

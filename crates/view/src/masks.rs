@@ -29,7 +29,7 @@ struct LabelBounds {
 impl LabelMask {
     /// Converts a half-precision float (IEEE 754 binary16, nonnegative) to an integer.
     #[must_use]
-    pub fn whole(half: u16) -> u16 {
+    pub fn half_to_integer(half: u16) -> u16 {
         let (exponent, fraction) = (i32::from((half >> 10) & 0x1F), f64::from(half & 0x3FF));
         if exponent == 0 {
             return 0;
@@ -42,16 +42,16 @@ impl LabelMask {
     #[must_use]
     pub fn legend(&self, placed: &[PlacedDefect]) -> Value {
         let elements: Vec<Value> = self
-            .extents(&self.elements)
+            .label_bounds(&self.elements)
             .into_iter()
             .map(|(element, extent)| json!({ "element": element, "pixels": extent.pixels }))
             .collect();
         let defects: Vec<Value> =
-            self.extents(&self.defects).into_iter().filter_map(|(id, extent)| defect(placed, id, extent)).collect();
+            self.label_bounds(&self.defects).into_iter().filter_map(|(id, extent)| defect(placed, id, extent)).collect();
         json!({ "format": 1, "width": self.width, "height": self.height, "elements": elements, "defects": defects })
     }
 
-    fn extents(&self, labels: &[u16]) -> BTreeMap<u16, LabelBounds> {
+    fn label_bounds(&self, labels: &[u16]) -> BTreeMap<u16, LabelBounds> {
         let mut all: BTreeMap<u16, LabelBounds> = BTreeMap::new();
         for (k, label) in labels.iter().enumerate().filter(|(_, label)| **label != 0) {
             let at = (k as u32 % self.width, k as u32 / self.width);
@@ -72,7 +72,7 @@ fn defect(placed: &[PlacedDefect], id: u16, extent: LabelBounds) -> Option<Value
         "element": defect.element,
         "member": defect.member,
         "kind": defect.kind,
-        "name": defect_codes::kind_name(defect.kind),
+        "name": defect_codes::defect_name(defect.kind),
         "condition_state": defect.condition_state,
         "pixels": extent.pixels,
         "box_px": [low.0, low.1, high.0 - low.0 + 1, high.1 - low.1 + 1],
@@ -85,17 +85,17 @@ mod tests {
     use spandrel_model::frames::Vec3;
 
     #[test]
-    fn exact_half_floats_hold_whole_numbers() {
+    fn exact_half_floats_represent_integers() {
         // IEEE 754-2019, binary16.
         for (half, whole) in
             [(0x0000, 0), (0x3C00, 1), (0x4000, 2), (0x4200, 3), (0x4A00, 12), (0x5880, 144), (0x5D2C, 331), (0x6800, 2048)]
         {
-            assert_eq!(LabelMask::whole(half), whole, "{half:#06x}");
+            assert_eq!(LabelMask::half_to_integer(half), whole, "{half:#06x}");
         }
     }
 
     #[test]
-    fn exact_the_legend_names_what_is_there_and_its_box() {
+    fn exact_legend_lists_labels_and_bounding_boxes() {
         let placed = PlacedDefect {
             id: 7,
             element: spandrel_model::elements::Element::RcArch,

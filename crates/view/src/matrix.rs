@@ -30,7 +30,7 @@ impl Matrix {
 
     /// Returns an orthographic projection of half size `radius` around the view axis; depth is 1 at `near` and 0 at `far`.
     #[must_use]
-    pub fn box_of(radius: f64, near: f64, far: f64) -> Self {
+    pub fn orthographic(radius: f64, near: f64, far: f64) -> Self {
         let depth = far - near;
         Self([
             [1.0 / radius, 0.0, 0.0, 0.0],
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_pinhole_maps_its_frustum_to_the_cube() {
+    fn exact_perspective_maps_the_frustum_to_the_unit_cube() {
         let view =
             Matrix::view(Vec3::new(1.0, 2.0, 3.0), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.0, -1.0, 0.0));
         let clip = Matrix::perspective(0.5, 0.25, 0.1).after(&view).apply(Vec3::new(3.0, 6.0, 2.0));
@@ -83,8 +83,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_box_has_depth_one_in_front_and_nothing_behind() {
-        let boxed = Matrix::box_of(2.0, 10.0, 30.0);
+    fn exact_orthographic_depth_ranges_from_one_to_zero() {
+        let boxed = Matrix::orthographic(2.0, 10.0, 30.0);
         let depth = |back: f64| boxed.apply(Vec3::new(0.0, 0.0, back))[2];
         assert!((depth(-10.0) - 1.0).abs() < 1e-12 && depth(-30.0).abs() < 1e-12);
         let mirrored = Matrix::mirror(5.0).apply(Vec3::new(1.0, 2.0, 7.0));

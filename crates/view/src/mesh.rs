@@ -52,7 +52,7 @@ pub struct Vertex {
     pub normal: [f32; 3],
     /// Surface coordinates, m: along the member or horizontal, and across it or up.
     pub uv: [f32; 2],
-    /// Indirect light: fractions of the sky and sun illuminance (see `LightModel::indirect_shares`).
+    /// Indirect light: fractions of the sky and sun illuminance (see `LightModel::indirect_fractions`).
     pub light: [f32; 2],
     /// [`Material`] in the lowest eight bits; above them the AASHTO element number, or 0 for anything that is not part of a
     /// bridge.
@@ -190,11 +190,18 @@ impl Mesh {
 
     /// Adds an ellipsoid with three semi-axes; a `dent` in 0..1 makes it an irregular boulder.
     pub fn ball(&mut self, centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
-        self.ball_of((8, 12), centre, half, dent, finish);
+        self.ball_with_detail((8, 12), centre, half, dent, finish);
     }
 
     /// Adds an ellipsoid with the given number of rings and sides.
-    pub fn ball_of(&mut self, (rings, sides): (u32, u32), centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
+    pub fn ball_with_detail(
+        &mut self,
+        (rings, sides): (u32, u32),
+        centre: Vec3<Enu>,
+        half: [f64; 3],
+        dent: f64,
+        finish: SurfaceFinish,
+    ) {
         let first = self.vertices.len() as u32;
         for ring in 0..=rings {
             let (sr, cr) = math::sin_cos(math::PI * f64::from(ring) / f64::from(rings));

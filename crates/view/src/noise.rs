@@ -10,7 +10,7 @@ pub const CELLS: usize = 16;
 /// Octaves of the first channel; the finest has cells of two texels.
 const OCTAVES: usize = 5;
 /// Maximum distance in the third channel, cells; the channel stores distances as fractions of it.
-pub const FARTHEST: f64 = 1.28;
+pub const MAX_DISTANCE: f64 = 1.28;
 
 /// A mip level: row-major texels with four channels: several octaves of noise, one octave, distance to the nearest
 /// scattered point, and a random number of that point.
@@ -34,12 +34,12 @@ pub fn levels() -> Vec<NoiseLevel> {
         if side == 1 {
             return all;
         }
-        values = halved(&values, side);
+        values = downsampled(&values, side);
         side /= 2;
     }
 }
 
-fn halved(values: &[[f64; 4]], side: usize) -> Vec<[f64; 4]> {
+fn downsampled(values: &[[f64; 4]], side: usize) -> Vec<[f64; 4]> {
     let half = side / 2;
     let mean = |k: usize| {
         let (x, y) = (2 * (k % half), 2 * (k / half));
@@ -66,7 +66,7 @@ fn tile() -> Vec<[f64; 4]> {
             share *= 0.5;
         }
         let (distance, number) = nearest(&east, &north, &own, x, y);
-        [sum, smooth(&single, CELLS, x, y), distance / FARTHEST, number]
+        [sum, smooth(&single, CELLS, x, y), distance / MAX_DISTANCE, number]
     };
     (0..SIDE * SIDE).map(texel).collect()
 }
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_levels_halve_down_to_the_mean() {
+    fn exact_last_mip_level_is_the_mean() {
         let levels = levels();
         assert_eq!(levels.len(), 10);
         assert!(levels.iter().all(|l| l.rgba.len() == 4 * l.side * l.side));
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_the_tile_repeats_without_a_seam() {
+    fn prop_tile_repeats_without_a_seam() {
         let fine = &levels()[0];
         let at = |x: usize, y: usize| f64::from(fine.rgba[4 * (y * SIDE + x)]);
         // The step across the seam is no larger than the largest step within the tile.

@@ -39,7 +39,7 @@ impl Picture {
 
     /// Scales the picture down to at most `most_px` wide by averaging; smaller pictures are returned unchanged.
     #[must_use]
-    pub fn narrowed(&self, most_px: u32) -> Self {
+    pub fn scaled_to_width(&self, most_px: u32) -> Self {
         if self.width <= most_px {
             return self.clone();
         }
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_differences_and_means() {
+    fn exact_difference_and_mean_luma() {
         let grey = |v: u8| Picture { width: 2, height: 1, rgba: vec![v, v, v, 255, v, v, v, 255] };
         assert_eq!(grey(10).difference(&grey(13)), Some(3.0));
         assert_eq!(grey(10).difference(&Picture { width: 1, height: 1, rgba: vec![0; 4] }), None);
@@ -90,15 +90,15 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_narrower_picture_has_the_means_of_its_pixels() {
+    fn exact_downscaling_averages_pixels() {
         let value = |k: u32| 10 * k as u8;
         let rgba = (0..20).flat_map(|k| [value(k), 0, 200, 255]).collect();
         let wide = Picture { width: 5, height: 4, rgba };
-        assert_eq!(wide.narrowed(5), wide);
-        let small = wide.narrowed(2);
+        assert_eq!(wide.scaled_to_width(5), wide);
+        let small = wide.scaled_to_width(2);
         // Columns 0 and 1 are averaged, then 2 to 4; the four rows become one.
         assert_eq!((small.width, small.height), (2, 1));
         assert_eq!([small.at(0, 0), small.at(1, 0)], [[80, 0, 200], [105, 0, 200]]);
-        assert_eq!(wide.narrowed(0).rgba.len(), 4);
+        assert_eq!(wide.scaled_to_width(0).rgba.len(), 4);
     }
 }

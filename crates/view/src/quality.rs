@@ -29,7 +29,7 @@ pub struct Quality {
     /// Maximum number of trees.
     pub trees: usize,
     /// Branches per whorl of a tree; also sets the detail of boulders.
-    pub boughs: u32,
+    pub branches_per_whorl: u32,
     /// Whether to interpolate between two mip levels of noise; the nearest level costs half as much.
     pub smooth_noise: bool,
     /// Computes light and haze per vertex, takes slow patterns from precomputed tiles, and omits highlights, which cuts
@@ -53,7 +53,7 @@ pub const PRESETS: &[Quality] = &[
         light_cell_m: 2.5,
         light_rays: 24,
         trees: 1000,
-        boughs: 5,
+        branches_per_whorl: 5,
         smooth_noise: false,
         lean: true,
         blur_taps: 1,
@@ -70,7 +70,7 @@ pub const PRESETS: &[Quality] = &[
         light_cell_m: 2.0,
         light_rays: 32,
         trees: 1500,
-        boughs: 9,
+        branches_per_whorl: 9,
         smooth_noise: true,
         lean: false,
         blur_taps: 4,
@@ -87,7 +87,7 @@ pub const PRESETS: &[Quality] = &[
         light_cell_m: 1.5,
         light_rays: 48,
         trees: 3000,
-        boughs: 11,
+        branches_per_whorl: 11,
         smooth_noise: true,
         lean: false,
         blur_taps: 8,
@@ -104,7 +104,7 @@ pub const PRESETS: &[Quality] = &[
         light_cell_m: 1.0,
         light_rays: 64,
         trees: 6000,
-        boughs: 11,
+        branches_per_whorl: 11,
         smooth_noise: true,
         lean: false,
         blur_taps: 12,
@@ -114,7 +114,7 @@ pub const PRESETS: &[Quality] = &[
 impl Quality {
     /// Returns the preset with the given name, if it exists.
     #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
+    pub fn by_name(name: &str) -> Option<Self> {
         PRESETS.iter().find(|preset| preset.name == name).copied()
     }
 }
@@ -124,15 +124,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_presets_grow_in_every_number() {
+    fn exact_presets_increase_in_every_setting() {
         for pair in PRESETS.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
             assert!(a.samples <= b.samples && a.cascades <= b.cascades && a.shadow_taps <= b.shadow_taps, "{}", b.name);
             assert!(a.light_cell_m >= b.light_cell_m && a.light_rays <= b.light_rays && a.trees < b.trees, "{}", b.name);
-            assert!(a.reflection <= b.reflection && a.blur_taps <= b.blur_taps && a.boughs <= b.boughs, "{}", b.name);
+            assert!(
+                a.reflection <= b.reflection && a.blur_taps <= b.blur_taps && a.branches_per_whorl <= b.branches_per_whorl,
+                "{}",
+                b.name
+            );
         }
         assert!(PRESETS.iter().all(|preset| !preset.lean || (preset.cascades == 1 && preset.shadow_taps == 1)));
-        assert_eq!(Quality::named("low").map(|q| q.samples), Some(1));
-        assert!(Quality::named("best").is_none());
+        assert_eq!(Quality::by_name("low").map(|q| q.samples), Some(1));
+        assert!(Quality::by_name("best").is_none());
     }
 }

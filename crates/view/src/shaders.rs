@@ -5,7 +5,7 @@
 const COMMON: &str = include_str!("shaders/common.wgsl");
 
 /// Name of the `develop` variant for multisampled targets.
-pub const DEVELOP_SAMPLED: &str = "develop, sampled";
+pub const DEVELOP_MULTISAMPLED: &str = "develop, sampled";
 
 /// A shader with its name and source.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub fn all() -> Vec<ShaderSource> {
     let develop = include_str!("shaders/develop.wgsl");
     sources.push(ShaderSource { name: "develop", text: develop.to_owned() });
     let sampled = develop.replace("texture_depth_2d;", "texture_depth_multisampled_2d;");
-    sources.push(ShaderSource { name: DEVELOP_SAMPLED, text: sampled });
+    sources.push(ShaderSource { name: DEVELOP_MULTISAMPLED, text: sampled });
     sources
 }
 
@@ -61,12 +61,12 @@ mod tests {
     }
 
     #[test]
-    fn exact_pixels_of_several_samples_have_a_variant_of_their_own() {
-        assert_ne!(source(DEVELOP_SAMPLED), source("develop"));
+    fn exact_multisampling_has_its_own_shader_variant() {
+        assert_ne!(source(DEVELOP_MULTISAMPLED), source("develop"));
     }
 
     #[test]
-    fn exact_a_shader_that_is_wrong_is_noticed() {
+    fn exact_validation_rejects_an_invalid_shader() {
         assert!(
             naga::front::wgsl::parse_str("fn f() -> f32 { return 1u; }").is_err_and(|e| !e.message().is_empty()) || {
                 let module = naga::front::wgsl::parse_str("fn f() -> f32 { return 1u; }").unwrap();

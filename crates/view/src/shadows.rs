@@ -8,12 +8,12 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
 /// Range towards the sun from which objects cast shadows into a map, m.
-const TOWARDS_M: f64 = 700.0;
+const CASTER_RANGE_M: f64 = 700.0;
 /// Range beyond the map's center within which objects receive shadows, m.
-const BEYOND_M: f64 = 400.0;
+const RECEIVER_RANGE_M: f64 = 400.0;
 /// Radii of the maps that follow the camera, m, by number of cascades.
-const RADII_3: [f64; 3] = [16.0, 80.0, 380.0];
-const RADII_4: [f64; 4] = [10.0, 38.0, 130.0, 440.0];
+const CASCADE_RADII_3_M: [f64; 3] = [16.0, 80.0, 380.0];
+const CASCADE_RADII_4_M: [f64; 4] = [10.0, 38.0, 130.0, 440.0];
 /// Near plane of the lamp's map, m: in front of the aircraft's own parts.
 const LAMP_NEAR_M: f64 = 0.35;
 /// Width of the lamp's map relative to its beam.
@@ -34,21 +34,22 @@ pub fn sun_maps(quality: &Quality, eye: &PinholeCamera, bounds_m: (Vec3<Enu>, f6
     let ahead = |radius: f64| sun_map(eye.position_m + eye.forward * (0.75 * radius), radius, quality.shadow_px, sun);
     match quality.cascades {
         0 | 1 => vec![sun_map(bounds_m.0, bounds_m.1, quality.shadow_px, sun)],
-        2 | 3 => RADII_3.iter().map(|r| ahead(*r)).collect(),
-        _ => RADII_4.iter().map(|r| ahead(*r)).collect(),
+        2 | 3 => CASCADE_RADII_3_M.iter().map(|r| ahead(*r)).collect(),
+        _ => CASCADE_RADII_4_M.iter().map(|r| ahead(*r)).collect(),
     }
 }
 
-fn sun_map(centre_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> ShadowMap {
+fn sun_map(center_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> ShadowMap {
     let helper = if sun.up().abs() < 0.95 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(0.0, 1.0, 0.0) };
     let right = helper.cross(sun).unit();
     let up = sun.cross(right);
     let texel_m = 2.0 * radius_m / f64::from(side_px);
     // Snaps to whole texels so that shadow edges do not shimmer when the camera moves.
     let snap = |x: f64| (x / texel_m).round() * texel_m;
-    let (x, y) = (snap(centre_m.dot(right)), snap(centre_m.dot(up)));
-    let middle = right * x + up * y + sun * centre_m.dot(sun);
-    let projection = Matrix::box_of(radius_m, -TOWARDS_M, BEYOND_M).after(&Matrix::view(middle, right, up, sun));
+    let (x, y) = (snap(center_m.dot(right)), snap(center_m.dot(up)));
+    let middle = right * x + up * y + sun * center_m.dot(sun);
+    let projection =
+        Matrix::orthographic(radius_m, -CASTER_RANGE_M, RECEIVER_RANGE_M).after(&Matrix::view(middle, right, up, sun));
     ShadowMap { projection, texel_m }
 }
 
@@ -66,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_what_is_nearer_to_the_sun_is_nearer_in_the_map() {
+    fn exact_map_depth_follows_the_distance_to_the_sun() {
         let sun = Vec3::new(0.6, 0.0, 0.8);
         let map = sun_map(Vec3::new(10.0, 20.0, 30.0), 50.0, 1024, sun);
         let low = map.projection.apply(Vec3::new(10.0, 20.0, 30.0));

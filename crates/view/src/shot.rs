@@ -10,7 +10,7 @@ use spandrel_model::site::CameraPose;
 use spandrel_model::vehicle::Lamp;
 
 /// Camera noise at the lowest sensitivity, as a fraction of white (estimate: consumer sensors, about 40 dB).
-const NOISE_AT_100: f64 = 0.006;
+const NOISE_AT_ISO_100: f64 = 0.006;
 /// Vignetting: darkening of the corners by half of this fraction. It grows with the square of the distance from the
 /// center (estimate: small wide-angle lenses).
 const VIGNETTE: f64 = 0.45;
@@ -48,7 +48,7 @@ impl LampBeam {
 
 /// Response of a sensor or an eye that turns light into a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FilmResponse {
+pub struct SensorResponse {
     /// Exposure.
     pub exposure: Exposure,
     /// Noise at mid-gray, as a fraction of white.
@@ -59,11 +59,11 @@ pub struct FilmResponse {
     pub before: Option<PinholeCamera>,
 }
 
-impl FilmResponse {
+impl SensorResponse {
     /// Returns the response of the aircraft's camera. `moved` is the camera when the shutter opened.
     #[must_use]
     pub fn camera(exposure: Exposure, moved: Option<PinholeCamera>) -> Self {
-        Self { exposure, noise: NOISE_AT_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE, before: moved }
+        Self { exposure, noise: NOISE_AT_ISO_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE, before: moved }
     }
 
     /// Checks whether this is a camera, with sensor noise and vignetting, rather than an eye.
@@ -91,7 +91,7 @@ pub struct Shot {
     /// The lamp's beam, if it is on.
     pub beam: Option<LampBeam>,
     /// Sensor or eye response.
-    pub finish: FilmResponse,
+    pub finish: SensorResponse,
     /// Simulation time, s; animates waves and clouds.
     pub time_s: f64,
     /// Wind direction over the water (towards), east and north, m/s.

@@ -13,10 +13,10 @@ const HORIZON: [f64; 3] = [0.94, 0.995, 1.24];
 const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
 /// Optical depths of clear air for red, green and blue light, per air mass (Rayleigh's inverse fourth power with slight haze;
 /// estimate).
-const AIR: [f64; 3] = [0.07, 0.12, 0.24];
+const AIR_OPTICAL_DEPTH: [f64; 3] = [0.07, 0.12, 0.24];
 
 /// Fraction of the blue tint of shade that a camera's white balance removes (estimate).
-const BALANCE: f64 = 0.55;
+const WHITE_BALANCE_FRACTION: f64 = 0.55;
 
 /// Sky parameters of the shaders.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,14 +43,14 @@ pub fn luminance(rgb: [f64; 3]) -> f64 {
     0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
 }
 
-fn coloured(rgb: [f64; 3], luminance_is: f64) -> [f64; 3] {
+fn with_luminance(rgb: [f64; 3], luminance_is: f64) -> [f64; 3] {
     let k = luminance_is / luminance(rgb);
     rgb.map(|c| c * k)
 }
 
 /// Returns the relative radiance of the sky in an upward direction.
 #[must_use]
-pub fn relative(direction: Vec3<Enu>, sun: Vec3<Enu>, cloud: f64) -> [f64; 3] {
+pub fn relative_radiance(direction: Vec3<Enu>, sun: Vec3<Enu>, cloud: f64) -> [f64; 3] {
     let up = direction.up().clamp(0.0, 1.0);
     let fall = math::pow(1.0 - up, 4.0);
     let towards = direction.dot(sun).clamp(-1.0, 1.0);
@@ -77,7 +77,7 @@ impl Sky {
             let out = (1.0 - up * up).sqrt();
             for turn in 0..TURNS {
                 let (s, c) = math::sin_cos(math::TAU * (f64::from(turn) + 0.5) / f64::from(TURNS));
-                let rgb = relative(Vec3::new(out * s, out * c, up), day.sun, cloud);
+                let rgb = relative_radiance(Vec3::new(out * s, out * c, up), day.sun, cloud);
                 sum = [0, 1, 2].map(|k| sum[k] + rgb[k] / f64::from(BANDS * TURNS));
             }
         }
@@ -86,9 +86,9 @@ impl Sky {
         Self {
             sun: day.sun,
             direct_lux: day.direct_normal_lux,
-            sun_rgb: coloured(AIR.map(|depth| math::exp(-depth * mass)), 1.0),
+            sun_rgb: with_luminance(AIR_OPTICAL_DEPTH.map(|depth| math::exp(-depth * mass)), 1.0),
             sky_lux: day.sky_lux,
-            sky_rgb: coloured(sum, 1.0).map(|c| math::lerp(c, 1.0, BALANCE)),
+            sky_rgb: with_luminance(sum, 1.0).map(|c| math::lerp(c, 1.0, WHITE_BALANCE_FRACTION)),
             cloud,
             scale: day.sky_lux / luminance(sum),
         }
@@ -97,7 +97,7 @@ impl Sky {
     /// Returns π times the luminance in a direction, lx.
     #[must_use]
     pub fn visible_lux(&self, direction: Vec3<Enu>) -> f64 {
-        self.scale * luminance(relative(direction, self.sun, self.cloud))
+        self.scale * luminance(relative_radiance(direction, self.sun, self.cloud))
     }
 }
 
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_sky_gives_the_illuminance_of_the_measures() {
+    fn exact_sky_radiance_integrates_to_the_illuminance() {
         // Compares with an independent quadrature over 20,000 directions; the tolerance allows for the coarser one in
         // `Sky::new`.
         const TOLERANCE: f64 = 0.02;
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_the_clear_sky_is_blue_and_the_low_sun_red() {
+    fn prop_clear_sky_is_blue_and_low_sun_is_red() {
         let at = |up: f64| {
             let sun = Vec3::new((1.0_f64 - up * up).sqrt(), 0.0, up);
             Sky::new(&Daylight::at(sun, 0.0), 0.0)

@@ -6,7 +6,7 @@ use super::feed::{Feed, shutter};
 use super::hud::{DrawItem, Hud, MapPath, marker};
 use super::inspector_camera::InspectorCamera;
 use super::scene::{DronePose, Scene};
-use super::shot::{FilmResponse, LampBeam, Shot, wind};
+use super::shot::{LampBeam, SensorResponse, Shot, wind};
 use super::sky::Sky;
 use spandrel_mavlink::telemetry::Flight;
 use spandrel_model::frames::{Enu, Rotation, Vec3};
@@ -18,7 +18,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
 /// Distance in front of the aircraft within which an object does not count as hiding it, m (about the size of the aircraft).
-const BESIDE_M: f64 = 0.5;
+const DRONE_CLEARANCE_M: f64 = 0.5;
 
 /// Inputs that stay constant during a session.
 #[derive(Debug, Clone, Copy)]
@@ -85,10 +85,10 @@ impl Stage<'_> {
     pub fn camera_frame(&self, moment: &SceneMoment, size_px: (u32, u32), meter: &mut ExposureMeter) -> Shot {
         let eye = PinholeCamera::of(&moment.camera, &moment.lens);
         let shot = self.shot(eye, Some(&moment.camera), None, (moment.at, size_px), |metered| {
-            FilmResponse::camera(Exposure::camera(meter.follow(metered, moment.at), &moment.lens), None)
+            SensorResponse::camera(Exposure::camera(meter.smoothed_lux(metered, moment.at), &moment.lens), None)
         });
         let before = camera_at_shutter_open(&eye, moment, shot.finish.exposure.time_s);
-        Shot { finish: FilmResponse::camera(shot.finish.exposure, Some(before)), ..shot }
+        Shot { finish: SensorResponse::camera(shot.finish.exposure, Some(before)), ..shot }
     }
 
     /// Returns the shot of the inspector at the pad, looking at the aircraft.
@@ -115,7 +115,7 @@ impl Stage<'_> {
     #[must_use]
     pub fn drone_marker(&self, shot: &Shot, moment: &SceneMoment) -> Vec<DrawItem> {
         let (from, to) = (shot.eye.position_m, moment.drone.pose.position_m - shot.eye.position_m);
-        let clear_m = (to.norm() - BESIDE_M).max(0.0);
+        let clear_m = (to.norm() - DRONE_CLEARANCE_M).max(0.0);
         let hidden = clear_m > 0.0 && self.site.ray(from, to.unit(), clear_m, moment.at).is_some();
         let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
         marker(&shot.eye, aspect, moment.drone.pose.position_m, hidden)
@@ -129,13 +129,13 @@ impl Stage<'_> {
 
     fn eye_shot(&self, eye: PinholeCamera, moment: &SceneMoment, size_px: (u32, u32), eyes: &mut ExposureMeter) -> Shot {
         self.shot(eye, Some(&moment.camera), Some(&moment.drone), (moment.at, size_px), |metered| {
-            FilmResponse::eyes(Exposure::eyes(eyes.follow(metered, moment.at)))
+            SensorResponse::eyes(Exposure::eyes(eyes.smoothed_lux(metered, moment.at)))
         })
     }
 
     /// Returns the shot of a camera like the aircraft's at any position, with or without the aircraft in view.
     #[must_use]
-    pub fn through(
+    pub fn camera_view_from(
         &self,
         eye: PinholeCamera,
         lamp: Option<&CameraPose>,
@@ -143,7 +143,7 @@ impl Stage<'_> {
         drone: Option<&DronePose>,
         (at, size_px): (SimTime, (u32, u32)),
     ) -> Shot {
-        self.shot(eye, lamp, drone, (at, size_px), |metered| FilmResponse::camera(Exposure::camera(metered, lens), None))
+        self.shot(eye, lamp, drone, (at, size_px), |metered| SensorResponse::camera(Exposure::camera(metered, lens), None))
     }
 
     fn shot(
@@ -152,7 +152,7 @@ impl Stage<'_> {
         lamp: Option<&CameraPose>,
         drone: Option<&DronePose>,
         (at, size_px): (SimTime, (u32, u32)),
-        finish: impl FnOnce(f64) -> FilmResponse,
+        finish: impl FnOnce(f64) -> SensorResponse,
     ) -> Shot {
         let sky = self.sky(at);
         Shot {
@@ -182,7 +182,7 @@ impl Stage<'_> {
 
 /// Returns the camera's pose when the shutter opened, `time_s` before it closed.
 fn camera_at_shutter_open(eye: &PinholeCamera, moment: &SceneMoment, time_s: f64) -> PinholeCamera {
-    let back = Rotation::<Enu, Enu>::identity().turned_by(moment.turn.angular_rad_s(eye.right) * -time_s);
+    let back = Rotation::<Enu, Enu>::identity().rotated_by(moment.turn.angular_rad_s(eye.right) * -time_s);
     let position_m = eye.position_m - moment.velocity_m_s * time_s;
     PinholeCamera { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
 }
@@ -195,14 +195,14 @@ pub struct HudInputs {
     /// Time of liftoff.
     pub lift_off: Option<SimTime>,
     /// Age of the latest telemetry, s.
-    pub silent_s: f64,
+    pub telemetry_age_s: f64,
     /// Number of pictures taken.
     pub pictures: usize,
     /// Time of the last picture.
     pub last_picture: Option<SimTime>,
     /// Time base of blinking elements, s: wall-clock time in a live flight, because simulation time may be paused or accelerated;
     /// video time otherwise.
-    pub flash_s: f64,
+    pub blink_time_s: f64,
 }
 
 impl HudInputs {
@@ -214,10 +214,10 @@ impl HudInputs {
         Self {
             battery_pct: flight.battery.at(at),
             lift_off: flight.lift_off(pad_up_m, LIFT_OFF_M).filter(|begun| *begun <= at),
-            silent_s: newest.map_or(0.0, |newest| (at - newest).s()),
+            telemetry_age_s: newest.map_or(0.0, |newest| (at - newest).s()),
             pictures: taken.clone().count(),
             last_picture: taken.map(|shot| shot.0).max(),
-            flash_s: at.s(),
+            blink_time_s: at.s(),
         }
     }
 }
@@ -249,14 +249,14 @@ pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, hel
         home_m: from_pad.horizontal_norm(),
         mode: feed.mode().to_owned(),
         gnss: feed.gnss(),
-        silent_s: told.silent_s,
+        telemetry_age_s: told.telemetry_age_s,
         gimbal_rad: math::asin(moment.camera.forward.up().clamp(-1.0, 1.0)),
         zoom: wide / math::tan(0.5 * moment.lens.hfov_rad),
         lamp: moment.camera.lamp_on,
         left_s: scenario.scoring.time_max_s - told.lift_off.map_or(0.0, |begun| (at - begun).s()),
         pictures: told.pictures,
         shutter: shutter(told.last_picture, at),
-        time_s: told.flash_s,
+        time_s: told.blink_time_s,
         position_m: moment.drone.pose.position_m,
         heading_rad: moment.drone.pose.ned_from_frd.yaw_rad(),
         pad_m,
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_turning_camera_looked_elsewhere_when_its_shutter_opened() {
+    fn exact_turning_camera_had_another_direction_when_the_shutter_opened() {
         let (degree, fast) = (1.0_f64.to_radians(), 100.0_f64.to_radians());
         let yawed = before(&moment(0.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
         // The camera turned clockwise, so one degree earlier it pointed west of north.
@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_camera_that_does_not_turn_looked_the_same_way() {
+    fn exact_steady_camera_keeps_its_direction_during_exposure() {
         let still = moment(-20.0, CameraTurnRate::default());
         let (eye, opened) = (PinholeCamera::of(&still.camera, &still.lens), before(&still, 0.01));
         assert!((opened.forward - eye.forward).norm() < ROUNDING && (opened.right - eye.right).norm() < ROUNDING);

@@ -12,9 +12,9 @@ pub const CONCRETE_M: f64 = 38.4;
 /// Width and length of formwork boards, m (as in the shader `surface`).
 const BOARD_M: (f64, f64) = (0.16, 2.4);
 /// Side of a cell that may contain bird droppings, m. The shader uses 1.7; here the cells must divide the tile evenly.
-const SPLASH_CELL_M: f64 = 1.6;
+const DROPPINGS_CELL_M: f64 = 1.6;
 /// Fraction of cells that contain droppings, and radius of the droppings, m.
-const SPLASHES: (f64, f64) = (0.07, 0.045);
+const DROPPINGS: (f64, f64) = (0.07, 0.045);
 
 /// A tile and its mipmaps, finest first: side and four bytes per texel.
 pub type MipLevels = Vec<(usize, Vec<u8>)>;
@@ -36,7 +36,7 @@ fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u3
 
 /// Returns the interpolation positions of the texels between lattice corners: previous corner, next corner, smooth
 /// fraction.
-fn between(cells: usize) -> Vec<(usize, usize, f32)> {
+fn interpolation_corners(cells: usize) -> Vec<(usize, usize, f32)> {
     let of = |k: usize| {
         let at = k as f32 * cells as f32 / SIDE as f32;
         let t = at - at.floor();
@@ -47,8 +47,8 @@ fn between(cells: usize) -> Vec<(usize, usize, f32)> {
 }
 
 fn add(field: &mut TilePattern, lattice: &[f32], (columns, rows): (usize, usize), share: f32) {
-    let across = between(columns);
-    for ((above, below, t), line) in between(rows).into_iter().zip(field.chunks_exact_mut(SIDE)) {
+    let across = interpolation_corners(columns);
+    for ((above, below, t), line) in interpolation_corners(rows).into_iter().zip(field.chunks_exact_mut(SIDE)) {
         let (above, below) = (&lattice[above * columns..][..columns], &lattice[below * columns..][..columns]);
         let row: Vec<f32> = above.iter().zip(below).map(|(a, b)| share * (a + (b - a) * t)).collect();
         for (texel, (left, right, t)) in line.iter_mut().zip(&across) {
@@ -86,14 +86,14 @@ pub fn concrete() -> MipLevels {
     let soot = noise(&mut stream, (7, 7), 5);
     let (lengths, boards) = (whole(CONCRETE_M / BOARD_M.1), whole(CONCRETE_M / BOARD_M.0));
     let board: Vec<f32> = (0..lengths * boards).map(|_| stream.uniform() as f32 - 0.5).collect();
-    let splashes = splashes(&mut stream);
+    let bird_droppings = bird_droppings(&mut stream);
     let texel = |k: usize| {
         let (x, row) = ((k % SIDE) as f64 / SIDE as f64, (k / SIDE) * boards / SIDE);
         // Every other row of boards has its joints offset.
         let shift = if row % 2 == 1 { 0.37 } else { 0.0 };
         let length = (x * lengths as f64 + shift) as usize % lengths;
         let tone = 0.5 + 0.55 * (blotch[k] - 0.5) + 0.07 * board[row * lengths + length];
-        [tone, step(0.52, 0.78, streak[k]), step(0.6, 0.8, soot[k]), splashes[k]].map(byte)
+        [tone, step(0.52, 0.78, streak[k]), step(0.6, 0.8, soot[k]), bird_droppings[k]].map(byte)
     };
     levels((0..SIDE * SIDE).map(texel).collect())
 }
@@ -103,21 +103,21 @@ fn whole(x: f64) -> usize {
 }
 
 /// Returns white droppings, elongated downward.
-fn splashes(stream: &mut RandomStream) -> TilePattern {
+fn bird_droppings(stream: &mut RandomStream) -> TilePattern {
     let mut field = vec![0.0; SIDE * SIDE];
-    let (cells, texel_m) = (whole(CONCRETE_M / SPLASH_CELL_M), CONCRETE_M / SIDE as f64);
+    let (cells, texel_m) = (whole(CONCRETE_M / DROPPINGS_CELL_M), CONCRETE_M / SIDE as f64);
     for cell in 0..cells * cells {
-        let (lucky, at) = (stream.uniform() < SPLASHES.0, (0.3 + 0.4 * stream.uniform(), 0.3 + 0.4 * stream.uniform()));
-        let centre_m = (((cell % cells) as f64 + at.0) * SPLASH_CELL_M, ((cell / cells) as f64 + at.1) * SPLASH_CELL_M);
+        let (lucky, at) = (stream.uniform() < DROPPINGS.0, (0.3 + 0.4 * stream.uniform(), 0.3 + 0.4 * stream.uniform()));
+        let center_m = (((cell % cells) as f64 + at.0) * DROPPINGS_CELL_M, ((cell / cells) as f64 + at.1) * DROPPINGS_CELL_M);
         if !lucky {
             continue;
         }
-        let middle = (whole(centre_m.0 / texel_m), whole(centre_m.1 / texel_m));
+        let middle = (whole(center_m.0 / texel_m), whole(center_m.1 / texel_m));
         for k in 0..16 * 16 {
             let (x, y) = (middle.0 + k % 16 - 8, middle.1 + k / 16 - 8);
-            let (dx, dy) = (x as f64 * texel_m - centre_m.0, 0.45 * (y as f64 * texel_m - centre_m.1));
+            let (dx, dy) = (x as f64 * texel_m - center_m.0, 0.45 * (y as f64 * texel_m - center_m.1));
             let d_m = (dx * dx + dy * dy).sqrt();
-            field[y % SIDE * SIDE + x % SIDE] = 1.0 - step(0.6, 1.4, (d_m / SPLASHES.1) as f32);
+            field[y % SIDE * SIDE + x % SIDE] = 1.0 - step(0.6, 1.4, (d_m / DROPPINGS.1) as f32);
         }
     }
     field
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_tiles_repeat_without_a_seam_and_lie_about_their_mean() {
+    fn prop_tiles_repeat_without_a_seam_and_have_the_expected_mean() {
         for (tile, patterns) in [(ground(), 4), (concrete(), 1)] {
             assert_eq!(tile.iter().map(|level| level.0).collect::<Vec<_>>(), [1024, 512, 256, 128, 64, 32, 16, 8, 4, 2, 1]);
             assert!(tile.iter().all(|(side, rgba)| rgba.len() == 4 * side * side));
@@ -174,12 +174,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_splashes_are_few_and_small() {
+    fn exact_bird_droppings_are_few_and_small() {
         let tile = concrete();
-        let cells = whole(CONCRETE_M / SPLASH_CELL_M);
+        let cells = whole(CONCRETE_M / DROPPINGS_CELL_M);
         let white = tile[0].1.chunks(4).filter(|texel| texel[3] > 127).count() as f64 / (SIDE * SIDE) as f64;
         // Each dropping is an ellipse of 45 x 100 mm; randomness varies the total by up to a third.
-        let expected = SPLASHES.0 * core::f64::consts::PI * SPLASHES.1 * SPLASHES.1 / 0.45 / (SPLASH_CELL_M * SPLASH_CELL_M);
+        let expected =
+            DROPPINGS.0 * core::f64::consts::PI * DROPPINGS.1 * DROPPINGS.1 / 0.45 / (DROPPINGS_CELL_M * DROPPINGS_CELL_M);
         assert!((white / expected - 1.0).abs() < 0.34, "{white} of the tile, {expected} expected from {} squares", cells * cells);
     }
 }

@@ -1,6 +1,6 @@
 //! Command line of `spandrel render`.
 
-use crate::cli::args::seed;
+use crate::cli::args::parse_seed;
 use crate::errors::EXIT_CODES;
 use std::path::PathBuf;
 
@@ -89,6 +89,6 @@ pub struct Args {
     #[arg(long)]
     pub nice: bool,
     /// Seed for a scenario's defects and traffic [default: its own]
-    #[arg(long, value_name = "N", value_parser = seed)]
+    #[arg(long, value_name = "N", value_parser = parse_seed)]
     pub seed: Option<u64>,
 }

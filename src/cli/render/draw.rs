@@ -10,7 +10,7 @@ use crate::io::files;
 use crate::io::png::png;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::vehicle::Camera;
-use spandrel_view::arrange::fitted_px;
+use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
 use spandrel_view::hud;
 use spandrel_view::picture::Picture;
@@ -22,7 +22,7 @@ use spandrel_view::stage::{self, camera_aimed_at, drone_on_pad};
 pub fn run(args: &Args) -> Result<(), AppError> {
     masks::check(args)?;
     if std::path::Path::new(&args.what).is_dir() {
-        only_of_scenarios(args)?;
+        reject_scenario_options(args)?;
     }
     if args.snapshots {
         return snapshots::run(args);
@@ -33,12 +33,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let quality = quality(&args.quality)?;
     let size = size(args.size.as_deref().unwrap_or("1280x720"))?;
     let path = std::path::Path::new(&args.what);
-    let picture = if path.is_dir() { of_session(args, quality, size)? } else { of_scenario(args, quality, size)? };
+    let picture = if path.is_dir() { render_session(args, quality, size)? } else { render_scenario(args, quality, size)? };
     files::write(&args.out, &png(&picture)?)
 }
 
 /// Rejects options that a session determines itself.
-fn only_of_scenarios(args: &Args) -> Result<(), AppError> {
+fn reject_scenario_options(args: &Args) -> Result<(), AppError> {
     let given = [
         ("--from", args.from.is_some()),
         ("--fov", args.fov.is_some()),
@@ -67,7 +67,7 @@ fn point(name: &str, text: &str) -> Result<Vec3<Enu>, AppError> {
 }
 
 /// Renders a scenario from any viewpoint.
-fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
+fn render_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let mut scenario = files::scenario(&args.what)?.scenario;
     let vehicle = files::vehicle(&args.vehicle)?.vehicle;
     if let Some(utc) = &args.utc {
@@ -95,18 +95,18 @@ fn of_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pictur
     let stage = drawing.stage(&scenario, &vehicle);
     let pose = camera_aimed_at(from, look, args.lamp);
     let standing = drone_on_pad(&scenario, &vehicle);
-    let shot = stage.through(PinholeCamera::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (at, size));
+    let shot = stage.camera_view_from(PinholeCamera::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (at, size));
     draw(&drawing, args, &[(shot, Vec::new())])
 }
 
 /// Renders a moment of a session.
-fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
+fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let (first, last) = recorded.span();
     let at = instant("at", args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
     let moment = recorded.moment(at)?;
-    let drawing = SceneDrawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_gates(recorded.gates());
+    let drawing = SceneDrawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_closures(recorded.gates());
     let stage = drawing.stage(scenario, vehicle);
     let mut views = Vec::new();
     if args.view != "camera" {
@@ -117,7 +117,7 @@ fn of_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture
     if args.view != "inspector" {
         let mut heard = recorded.heard();
         let display = stage::hud(&stage, &moment, &recorded.flight, (heard.advance_to(at), true), true);
-        let size = fitted_px(size, vehicle.camera.aspect());
+        let size = largest_even_size_px(size, vehicle.camera.aspect());
         views.push((stage.camera(&moment, size), if args.no_hud { Vec::new() } else { hud::layout(&display, aspect(size)) }));
     }
     draw(&drawing, args, &views)
@@ -130,11 +130,11 @@ fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)
         masks::write(&mut brush, shot, drawing.defects(), std::path::Path::new(&args.out))?;
     }
     let pictures = views.iter().map(|(shot, items)| brush.draw(shot, items)).collect::<Result<Vec<_>, _>>()?;
-    Ok(beside(&pictures))
+    Ok(side_by_side(&pictures))
 }
 
 /// Places images side by side; lower ones are centered vertically on black.
-fn beside(pictures: &[Picture]) -> Picture {
+fn side_by_side(pictures: &[Picture]) -> Picture {
     const BLACK: [u8; 4] = [0, 0, 0, 255];
     let height = pictures.iter().map(|p| p.height).max().unwrap_or(0);
     let width = pictures.iter().map(|p| p.width).sum();

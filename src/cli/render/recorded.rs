@@ -37,9 +37,9 @@ pub struct RecordedFlight {
     /// Number of flights before it in the log, because the simulator was restarted.
     before: usize,
     /// Total duration of these earlier flights.
-    current_time: SimTime,
+    earlier_duration: SimTime,
     /// Number of records of these earlier flights.
-    records_before: usize,
+    earlier_records: usize,
 }
 
 impl RecordedFlight {
@@ -60,13 +60,22 @@ impl RecordedFlight {
             return Err(AppError::failed("the session contains no flight to render"));
         }
         let zero_unix_us = tlog::simulation_zero_us(&log).unwrap_or(stored.started_unix_us);
-        let (passed, records_before) = (timeline.apply_pushed(before), before.checked_sub(1).map_or(0, |k| begun[k]));
-        Ok(Self { folder: folder.to_owned(), stored, log, zero_unix_us, flight, before, current_time: passed, records_before })
+        let (passed, earlier_records) = (timeline.elapsed_before_epoch(before), before.checked_sub(1).map_or(0, |k| begun[k]));
+        Ok(Self {
+            folder: folder.to_owned(),
+            stored,
+            log,
+            zero_unix_us,
+            flight,
+            before,
+            earlier_duration: passed,
+            earlier_records,
+        })
     }
 
     /// Converts a simulation time of the flight to wall time, µs since the Unix epoch.
     pub fn unix_us(&self, at: SimTime) -> u64 {
-        self.zero_unix_us + u64::try_from((self.current_time + at).us()).unwrap_or(0)
+        self.zero_unix_us + u64::try_from((self.earlier_duration + at).us()).unwrap_or(0)
     }
 
     /// Returns the scenario of the session.
@@ -92,7 +101,7 @@ impl RecordedFlight {
 
     /// Returns the times when bridges were closed to traffic.
     pub fn gates(&self) -> BridgeClosures {
-        attention::gates(&self.flight)
+        attention::bridge_closures(&self.flight)
     }
 
     /// Returns the poses at a time of the flight.
@@ -120,7 +129,7 @@ impl RecordedFlight {
         // Reversed so that events can be popped from the end; the sort keeps the order of simultaneous events.
         events.sort_by_key(|event| event.0);
         events.reverse();
-        let records = tlog::TlogReader::new(&self.log).skip(self.records_before);
+        let records = tlog::TlogReader::new(&self.log).skip(self.earlier_records);
         RecordedFeed { feed: Feed::default(), now: SimTime::ZERO, records, next: None, events }
     }
 }
@@ -172,7 +181,7 @@ fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment
         at,
         drone: DronePose { pose, spinning: flight.armed.at(at).unwrap_or(false) },
         velocity_m_s: state.motion.velocity_m_s,
-        camera: CameraPose::on(&vehicle.camera, pose, trace.gimbal_at(at), lamp_on),
+        camera: CameraPose::on_aircraft(&vehicle.camera, pose, trace.gimbal_at(at), lamp_on),
         lens: trace.reported_lens_at(at).map_or(vehicle.camera, |hfov_rad| Camera { hfov_rad, ..vehicle.camera }),
         turn: trace.turn_at(at),
     })
@@ -268,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_simulator_that_restarted_shows_the_flight_that_counts_with_its_own_words_and_clock() {
+    fn exact_after_a_simulator_restart_the_last_flight_is_shown() {
         let sessions = tempfile::tempdir().unwrap();
         let shipped = |path: &str| format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
         let scenario = files::scenario(&shipped("scenarios/two-bridges.toml")).unwrap();
@@ -299,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_recorded_camera_turned_as_its_samples_say() {
+    fn exact_recorded_camera_rates_follow_the_samples() {
         let truth = |ms: i64, yaw_deg: f64| Truth {
             time: SimTime::from_ms(ms),
             motion: Motion {

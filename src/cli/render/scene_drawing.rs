@@ -47,12 +47,12 @@ impl SceneDrawing {
         let progress = ProgressLog::start("loading scene");
         let site = Site::build(scenario, seed);
         let scene = Scene::build(scenario, &site, vehicle, &quality, at);
-        progress.end();
+        progress.finish();
         Ok(Self { gpu, site, scene, quality })
     }
 
     /// Sets the bridge closures of a recorded flight.
-    pub fn with_gates(self, gates: BridgeClosures) -> Self {
+    pub fn with_closures(self, gates: BridgeClosures) -> Self {
         Self { site: self.site.with_closures(gates), ..self }
     }
 

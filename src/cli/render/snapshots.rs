@@ -13,13 +13,13 @@ use crate::io::report;
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_monitor::folder::{SMALL, SNAPSHOTS};
 use spandrel_training::report::pictures::ReviewedPicture;
-use spandrel_view::arrange::{drawn_px, fitted_px};
+use spandrel_view::arrange::{largest_even_size_px, render_size_px};
 use spandrel_view::photo::{self, PhotoInfo};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::SceneMoment;
 
 /// Maximum number of pixels without a graphics card, unless a size is specified: about a second per image instead of a minute.
-const SOFTWARE_PX: f64 = 1280.0 * 960.0;
+const MAX_SOFTWARE_PX: f64 = 1280.0 * 960.0;
 
 /// Renders all of a session's photographs into its folder, and writes its report again.
 pub fn run(args: &Args) -> Result<(), AppError> {
@@ -32,12 +32,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         return Ok(());
     }
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
-    let drawing = drawing.with_gates(recorded.gates());
+    let drawing = drawing.with_closures(recorded.gates());
     let camera = &recorded.vehicle().camera;
-    let most = drawing.gpu.software.then_some(SOFTWARE_PX);
+    let most = drawing.gpu.software.then_some(MAX_SOFTWARE_PX);
     let size_px = match asked {
-        Some(within) => fitted_px(within, camera.aspect()),
-        None => drawn_px((f64::from(camera.width_px), f64::from(camera.height_px)), most),
+        Some(within) => largest_even_size_px(within, camera.aspect()),
+        None => render_size_px((f64::from(camera.width_px), f64::from(camera.height_px)), most),
     };
     if size_px != (camera.width_px, camera.height_px) {
         tracing::info!(
@@ -61,12 +61,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         let name = format!("{:04}.jpg", picture.index.max(0));
         let path = folder.join(&name);
         replace(&path, &photo::jpeg(&drawn, &about(&recorded, picture, &moment, &shot))?)?;
-        replace(&copies.join(&name), &photo::copy(&drawn, report::max_pictures(taken.len()))?)?;
+        replace(&copies.join(&name), &photo::copy(&drawn, report::max_picture_bytes(taken.len()))?)?;
         if args.masks {
             masks::write(&mut brush, &shot, drawing.defects(), &path)?;
         }
     }
-    progress.end();
+    progress.finish();
     report::write(&recorded.folder)?;
     println!("pictures      {} in {}", taken.len(), folder.display());
     Ok(())

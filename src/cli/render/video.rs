@@ -10,7 +10,7 @@ use crate::io::replace::replace;
 use crate::io::report;
 use spandrel_model::time::SimTime;
 use spandrel_training::report::pictures::ReviewedPicture;
-use spandrel_view::arrange::fitted_px;
+use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::hud;
 use spandrel_view::stage;
@@ -20,11 +20,11 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Bits per pixel (estimate: 6 Mbit/s at 1080p30, as small cameras record).
-const BITS_PX: f64 = 0.1;
+const BITS_PER_PIXEL: f64 = 0.1;
 /// Interval between key frames, s; players can jump to these.
-const KEY_EVERY_S: f64 = 2.0;
+const KEY_FRAME_INTERVAL_S: f64 = 2.0;
 /// Maximum duration of a photograph's chapter, s; a chapter ends where the next one starts.
-const CHAPTER_S: f64 = 4.0;
+const MAX_CHAPTER_S: f64 = 4.0;
 
 /// Renders the video to `path`, and writes its chapters next to it.
 pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
@@ -42,11 +42,11 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     }
     let recorded = RecordedFlight::read(Path::new(&args.what))?;
     let (from, to) = span(args, &recorded)?;
-    let size_px = fitted_px(within_px, recorded.vehicle().camera.aspect());
+    let size_px = largest_even_size_px(within_px, recorded.vehicle().camera.aspect());
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
-    let drawing = drawing.with_gates(recorded.gates());
-    let bits_s = BITS_PX * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;
-    let mut encoder = H264Encoder::new(size_px, args.fps, bits_s as u32, (KEY_EVERY_S * args.fps).ceil() as u32)?;
+    let drawing = drawing.with_closures(recorded.gates());
+    let bits_s = BITS_PER_PIXEL * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;
+    let mut encoder = H264Encoder::new(size_px, args.fps, bits_s as u32, (KEY_FRAME_INTERVAL_S * args.fps).ceil() as u32)?;
     let (mut film, head) = Mp4Writer::new(size_px, args.fps)?;
     let mut file = VideoFile::create(path)?;
     file.write(&head)?;
@@ -71,7 +71,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
         file.write(&piece)?;
     }
     file.finish()?;
-    progress.end();
+    progress.finish();
     replace(&track, webvtt::write(&chapters(&report::pictures(&recorded.folder)?, (from, to), picture_s)).as_bytes())?;
     println!("video         {} ({count} frames), chapters {}", path.display(), track.display());
     Ok(())
@@ -102,7 +102,7 @@ fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s
         .enumerate()
         .map(|(k, picture)| webvtt::Chapter {
             from_s: (picture.time - from).s(),
-            to_s: match (picture.time + SimTime::from_s(CHAPTER_S)).min(next(k)) {
+            to_s: match (picture.time + SimTime::from_s(MAX_CHAPTER_S)).min(next(k)) {
                 end if end > picture.time => (end - from).s(),
                 _ => (picture.time - from).s() + picture_s,
             },

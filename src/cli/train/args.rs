@@ -10,7 +10,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 /// Default scenario: the one of the TASBID paper.
-pub const USUAL: &str = "two-bridges";
+pub const DEFAULT_SCENARIO: &str = "two-bridges";
 
 /// Fly a session yourself
 ///
@@ -36,7 +36,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
     /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
-    #[arg(long, value_name = "N", value_parser = args::seed, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = args::parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Trainee: letters, digits, '-' and '_', at most 32 characters
     #[arg(long, value_name = "ID", default_value = "anonymous")]
@@ -97,7 +97,7 @@ impl Args {
 
 /// Returns the file to which the window saves the camera's view for the live page: in the folder of sessions, one per process, so that no one else
 /// can write to it.
-pub fn camera(args: &Args) -> PathBuf {
+pub fn camera_file(args: &Args) -> PathBuf {
     args.sessions.join(format!(".camera-{}.jpg", std::process::id()))
 }
 

@@ -4,7 +4,7 @@ use crate::cli::ports::PortArgs;
 use std::path::Path;
 
 /// Returns the text for one flight; `web` is the address of the pages, and `window` is true if a window shows the flight.
-pub fn how_to_connect(
+pub fn connection_instructions(
     title: &str,
     args: &PortArgs,
     ports: &serde_json::Value,
@@ -47,9 +47,9 @@ mod tests {
     use crate::cli::train::args::parsed;
 
     #[test]
-    fn exact_a_window_is_reported_only_where_there_is_one() {
+    fn exact_instructions_mention_the_window_only_if_there_is_one() {
         let ports = parsed(&[]).ports;
-        let told = |window| how_to_connect("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
+        let told = |window| connection_instructions("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
         assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
         assert!(told(false).contains("No window: fly with") && !told(false).contains("A window shows"), "{}", told(false));
     }

@@ -1,13 +1,13 @@
 //! The simulator and monitor processes of one flight, and the window's requests during it.
 
 use super::args::Args;
-use super::connection_info::how_to_connect;
+use super::connection_info::connection_instructions;
 use super::window::WindowProcess;
 use crate::cli::args::common_args;
 use crate::errors::AppError;
 use crate::io::children::Child;
 use crate::io::files;
-use crate::io::pause::{PAUSE, RESUME};
+use crate::io::pause::{PAUSE_LINE, RESUME_LINE};
 use crate::io::stop::StopRequest;
 use serde_json::Value;
 use spandrel_view::flow::pipe::{FlightChoice, FlightStarted, FromWindow, Purpose, ToWindow};
@@ -17,11 +17,11 @@ use std::process::ExitStatus;
 use std::time::Duration;
 
 /// Interval at which the child processes are checked.
-const LOOK: Duration = Duration::from_millis(50);
+const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 /// Folder for the vehicle's files and flight logs inside the session folder, so that they are erased with the session.
 const VEHICLE_FILES: &str = "vehicle";
 /// Maximum number of monitor restarts per flight.
-const MONITOR_RESTARTS_MOST: u32 = 10;
+const MAX_MONITOR_RESTARTS: u32 = 10;
 
 /// The processes of a running flight.
 pub struct FlightProcesses {
@@ -36,7 +36,7 @@ pub struct FlightProcesses {
     title: String,
     paused: bool,
     /// Arguments that restart a monitor on the same session and port.
-    monitor_again: Vec<String>,
+    monitor_restart_args: Vec<String>,
     monitor_restarts: u32,
 }
 
@@ -62,10 +62,10 @@ impl FlightProcesses {
         let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
         let with_port = |port: String| [monitor_args.clone(), vec!["--port".to_owned(), port]].concat();
         let mut monitor = Child::start("monitor", &with_port(args.ports.monitor_port().to_string()))?;
-        let announced = monitor.announced()?;
+        let announced = monitor.read_announcement()?;
         let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
         let monitor_port = announced["port"].as_u64().unwrap_or_default().to_string();
-        let monitor_again =
+        let monitor_restart_args =
             [with_port(monitor_port.clone()), vec!["--session".to_owned(), session.display().to_string()]].concat();
         let files = session.join(VEHICLE_FILES).display().to_string();
         let sim_args = [
@@ -76,7 +76,7 @@ impl FlightProcesses {
             vec!["--files".into(), files, "--after-crash".into(), "scenario".into()],
         ];
         let mut sim = Child::start("sim", &sim_args.concat())?;
-        let ports = sim.announced()?;
+        let ports = sim.read_announcement()?;
         let listen = args.ports.listen;
         let here = if listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { listen };
         Ok(Self {
@@ -88,7 +88,7 @@ impl FlightProcesses {
             choice: choice.clone(),
             title,
             paused: false,
-            monitor_again,
+            monitor_restart_args,
             monitor_restarts: 0,
         })
     }
@@ -105,7 +105,7 @@ impl FlightProcesses {
     }
 
     /// Returns the message with which the window starts to show the flight.
-    pub fn flying(&self, args: &Args) -> Option<ToWindow> {
+    pub fn started_message(&self, args: &Args) -> Option<ToWindow> {
         Some(ToWindow::Flying(FlightStarted {
             choice: self.choice.clone(),
             vehicle: args.vehicle.clone(),
@@ -117,7 +117,7 @@ impl FlightProcesses {
 
     /// Returns the instructions for connecting ground stations and scripts.
     pub fn connection_info(&self, args: &Args, web: Option<&str>, window: bool) -> String {
-        how_to_connect(&self.title, &args.ports, &self.ports, &self.session, (web, window))
+        connection_instructions(&self.title, &args.ports, &self.ports, &self.session, (web, window))
     }
 
     /// Waits until the session ends, a stop is requested, or a process exits too early. Handles the window's requests meanwhile.
@@ -139,7 +139,7 @@ impl FlightProcesses {
                 return FlightOutcome::Over;
             }
             match self.monitor.ended() {
-                Some(status) if has_finished(status) => return FlightOutcome::Over,
+                Some(status) if exited_normally(status) => return FlightOutcome::Over,
                 Some(status) => {
                     if let Err(error) = self.restart_monitor(status) {
                         return FlightOutcome::Lost(error);
@@ -150,7 +150,7 @@ impl FlightProcesses {
             if let Some(status) = self.sim.ended() {
                 return FlightOutcome::Lost(AppError::failed(format!("the simulator exited early ({status})")));
             }
-            std::thread::sleep(LOOK);
+            std::thread::sleep(CHECK_INTERVAL);
         }
     }
 
@@ -176,22 +176,22 @@ impl FlightProcesses {
 
     fn set_paused(&mut self, still: bool) {
         self.paused = still;
-        self.sim.send_line(if still { PAUSE } else { RESUME });
+        self.sim.send_line(if still { PAUSE_LINE } else { RESUME_LINE });
         tracing::info!("{}", if still { "simulation paused" } else { "simulation resumed" });
     }
 
     /// Restarts a monitor that crashed during the flight; it reads the session's telemetry and continues.
     fn restart_monitor(&mut self, status: ExitStatus) -> Result<(), AppError> {
         self.monitor_restarts += 1;
-        if self.monitor_restarts > MONITOR_RESTARTS_MOST {
+        if self.monitor_restarts > MAX_MONITOR_RESTARTS {
             return Err(AppError::failed(format!(
                 "the monitor crashed {} times, the last time with {status}",
                 self.monitor_restarts
             )));
         }
         tracing::warn!("the monitor crashed ({status}); restarting it on the same session");
-        self.monitor = Child::start("monitor", &self.monitor_again)?;
-        self.monitor.announced().map(|_| ())
+        self.monitor = Child::start("monitor", &self.monitor_restart_args)?;
+        self.monitor.read_announcement().map(|_| ())
     }
 
     /// Ends the monitor, which scores the session and completes its folder. The vehicle stays connected.
@@ -203,7 +203,7 @@ impl FlightProcesses {
     }
 
     /// Returns the simulator's exit status, if it has exited.
-    pub fn vehicle_ended(&mut self) -> Option<ExitStatus> {
+    pub fn simulator_exit_status(&mut self) -> Option<ExitStatus> {
         self.sim.ended()
     }
 
@@ -215,7 +215,7 @@ impl FlightProcesses {
 }
 
 /// Returns true if a monitor exited by its own decision, false if it was killed or crashed.
-fn has_finished(status: ExitStatus) -> bool {
+fn exited_normally(status: ExitStatus) -> bool {
     status.code().is_some_and(|code| (0..=2).contains(&code))
 }
 

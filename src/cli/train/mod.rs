@@ -15,7 +15,7 @@ pub use args::Args;
 use crate::errors::AppError;
 use crate::io::stop::StopRequest;
 use crate::io::{controller, files};
-use args::USUAL;
+use args::DEFAULT_SCENARIO;
 use train_run::TrainRun;
 
 /// Runs the subcommand.
@@ -24,7 +24,7 @@ use train_run::TrainRun;
 /// If files or ports are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     // Errors in the files are reported before any process starts.
-    files::scenario(args.scenario.as_deref().unwrap_or(USUAL))?;
+    files::scenario(args.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO))?;
     files::vehicle(&args.vehicle)?;
     controller::keys(args.keys.as_deref())?;
     check_quality(&args.quality)?;

@@ -2,7 +2,7 @@
 
 use crate::io::files;
 use crate::io::report;
-use crate::io::session_folder::{purpose, session_owner};
+use crate::io::session_folder::{purpose, trainee_and_start};
 use crate::records::session_folders;
 use serde::Deserialize;
 use serde_json::Value;
@@ -16,14 +16,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Returns the options of the start page.
-pub fn offers(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
+pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
     let mut names: Vec<String> = files::scenario_names().into_iter().map(str::to_owned).collect();
     if !names.contains(&choice.scenario) {
         names.push(choice.scenario.clone());
     }
     let job = |name: String| {
         let scenario = files::scenario(&name).ok()?.scenario;
-        Some(JobOffer { name, title: scenario.title.clone(), kind: job_kind(&scenario) })
+        Some(JobOffer { name, title: scenario.title.clone(), kind: contents_summary(&scenario) })
     };
     FlightOptions {
         trainees: trainee_summaries(sessions),
@@ -39,7 +39,7 @@ fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
     let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
     let mut count: BTreeMap<String, (u32, u32)> = BTreeMap::new();
     for folder in &folders {
-        let Ok((trainee, _)) = session_owner(folder) else { continue };
+        let Ok((trainee, _)) = trainee_and_start(folder) else { continue };
         let practice = purpose(folder).as_deref() == Some(Purpose::Practice.word());
         let (sessions, practices) = count.entry(trainee).or_default();
         (*sessions, *practices) = (*sessions + 1, *practices + u32::from(practice));
@@ -47,7 +47,7 @@ fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
     count.into_iter().map(|(name, (sessions, practices))| TraineeSummary { name, sessions, practices }).collect()
 }
 
-fn job_kind(scenario: &Scenario) -> String {
+fn contents_summary(scenario: &Scenario) -> String {
     let some = |count: usize, one: &str, many: &str| match count {
         1 => format!("1 {one}"),
         n => format!("{n} {many}"),
@@ -63,7 +63,7 @@ fn job_kind(scenario: &Scenario) -> String {
 }
 
 /// Returns the end page of a session. `trouble` is the reason why it has no scores, if known.
-pub fn ended(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
+pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
     let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
     let assessment: Value = serde_json::from_str(&text).unwrap_or_default();
     let scores = &assessment["scores"];
@@ -108,9 +108,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_shipped_job_is_offered_with_its_kind() {
+    fn exact_every_shipped_scenario_is_offered_with_its_contents() {
         let folder = tempfile::tempdir().unwrap();
-        let offers = offers(&folder.path().join("none-yet"), &choice(), None);
+        let offers = flight_options(&folder.path().join("none-yet"), &choice(), None);
         assert_eq!(offers.trainees, []);
         let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
         assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_people_are_counted_by_sessions_and_by_practices() {
+    fn exact_sessions_are_counted_per_trainee() {
         let sessions = tempfile::tempdir().unwrap();
         for (k, (trainee, purpose)) in
             [("anna", Some("practice")), ("anna", Some("assessment")), ("anna", None), ("bert", Some("assessment"))]
@@ -136,9 +136,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_end_reports_scores_and_places_and_what_is_missing() {
+    fn exact_end_page_shows_scores_and_file_locations() {
         let folder = tempfile::tempdir().unwrap();
-        let none = ended(folder.path(), None, None);
+        let none = flight_summary(folder.path(), None, None);
         assert!(none.overall.is_none() && none.report.is_none() && none.why.contains("not scored"), "{none:?}");
         assert!(none.questionnaire.starts_with("spandrel questionnaire "), "{none:?}");
         let text = r#"{"scores": {"conformity": {"raw": 62.0, "pct": 81.0}, "efficiency": {"raw": 100.0, "pct": 100.0},
@@ -146,7 +146,7 @@ mod tests {
             "end": {"reason": "landed", "seconds": 750.9}}"#;
         std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
         std::fs::write(folder.path().join(REPORT), "page").unwrap();
-        let ended = ended(folder.path(), Some("http://127.0.0.1:9"), None);
+        let ended = flight_summary(folder.path(), Some("http://127.0.0.1:9"), None);
         assert_eq!(ended.why, "landed after 12 min 30 s of flight");
         assert_eq!((ended.scores[2].map(|s| s.raw), ended.scores[3], ended.overall), (Some(-9.0), None, Some((272.0, 300.0))));
         assert!(ended.report.is_some_and(|address| address.starts_with("file:///")));
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_an_attempt_that_flew_nothing_ends_without_a_sum() {
+    fn regress_incomplete_sessions_have_no_total() {
         let folder = tempfile::tempdir().unwrap();
         let text = r#"{"scores": {"conformity": {"raw": 0.0, "pct": 50.0}, "efficiency": {"raw": 100.0, "pct": 100.0},
             "safety": {"raw": 0.0, "pct": 100.0}, "accuracy": null, "overall": 250.0, "overall_max": 300.0},
@@ -162,7 +162,7 @@ mod tests {
             "certification": {"passed": false, "unmet": ["task 1 not attempted", "not landed at home"]},
             "end": {"reason": "abort", "seconds": 23.0}}"#;
         std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
-        let ended = ended(folder.path(), None, None);
+        let ended = flight_summary(folder.path(), None, None);
         assert_eq!((ended.overall, ended.complete), (None, false));
         assert_eq!(ended.completion.as_deref(), Some("Incomplete: 0 of 4 tasks, 0 % of the path"));
         assert_eq!(ended.verdict.as_deref(), Some("Not certified: task 1 not attempted (and 1 more)"));

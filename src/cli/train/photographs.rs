@@ -1,13 +1,13 @@
 //! Draws the photographs of a flight into its folder and its report in the background.
 
-use super::window::spare_threads;
+use super::window::software_renderer_threads;
 use crate::io::stop::StopRequest;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 /// Interval at which the drawing processes are checked.
-const LOOK: Duration = Duration::from_millis(50);
+const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Drawing processes that have not finished.
 #[derive(Default)]
@@ -17,7 +17,7 @@ impl PhotographJobs {
     /// Starts drawing a session's photographs. If that fails, the report has placeholders, as without a window.
     pub fn draw(&mut self, session: &Path) {
         let started = std::env::current_exe().and_then(|program| {
-            let (threads, few) = spare_threads();
+            let (threads, few) = software_renderer_threads();
             let mut command = Command::new(program);
             command.args(["--log", "warn", "render"]).arg(session).args(["--snapshots", "--nice"]);
             command.env(threads, few).stdin(Stdio::null()).stdout(Stdio::null()).spawn()
@@ -35,7 +35,7 @@ impl PhotographJobs {
             tracing::info!("drawing the photographs into the report; press Ctrl-C to skip");
         }
         while !self.0.is_empty() && !stop.is_requested() {
-            std::thread::sleep(LOOK);
+            std::thread::sleep(CHECK_INTERVAL);
             self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         }
         for mut child in self.0.drain(..) {

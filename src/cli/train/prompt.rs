@@ -4,7 +4,7 @@ use std::io::{BufRead, IsTerminal};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// Input that starts another flight.
-const AGAIN: &str = "again";
+const AGAIN_INPUT: &str = "again";
 
 /// A line typed at the terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,7 +54,7 @@ impl TerminalPrompt {
 }
 
 fn read(line: &str) -> PromptAnswer {
-    if line.trim().eq_ignore_ascii_case(AGAIN) { PromptAnswer::Again } else { PromptAnswer::Quit }
+    if line.trim().eq_ignore_ascii_case(AGAIN_INPUT) { PromptAnswer::Again } else { PromptAnswer::Quit }
 }
 
 /// Reads standard input in a separate thread, because reading a terminal blocks.
@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_enter_quits_and_the_word_flies_again() {
+    fn exact_enter_quits_and_again_flies_again() {
         for (line, answer) in [
             ("", PromptAnswer::Quit),
             ("again", PromptAnswer::Again),

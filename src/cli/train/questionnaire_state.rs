@@ -1,13 +1,13 @@
 //! Checks whether the questionnaire of a session is complete.
 
-use crate::io::answers::{stored, task_ids};
+use crate::io::answers::{read_answers_of, task_ids};
 use crate::io::session_folder::StoredSession;
 use std::path::Path;
 
 /// Returns true if some of a session's questions have no answer.
 pub fn has_unanswered(session: &Path) -> bool {
-    let Ok(job) = StoredSession::scenario_of(session) else { return false };
-    match stored(session, &job.scenario) {
+    let Ok(job) = StoredSession::read_scenario(session) else { return false };
+    match read_answers_of(session, &job.scenario) {
         Ok(answers) => !answers.unwrap_or_default().complete(&task_ids(&job.scenario)),
         // A page that cannot read the answers cannot accept new ones, either.
         Err(_) => false,

@@ -1,6 +1,6 @@
 //! Sequence of flights in one run of `train`: those chosen in the window, or the one given on the command line.
 
-use super::args::{Args, USUAL, camera};
+use super::args::{Args, DEFAULT_SCENARIO, camera_file};
 use super::flight_processes::{FlightOutcome, FlightProcesses};
 use super::offers;
 use super::photographs::PhotographJobs;
@@ -21,7 +21,7 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Interval at which the window is checked.
-const LOOK: Duration = Duration::from_millis(50);
+const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Web server with the vehicle that its live page shows.
 struct ServedPages {
@@ -80,7 +80,7 @@ impl<'a> TrainRun<'a> {
         self.window = WindowProcess::open(self.args, self.log);
         let usual = FlightChoice {
             trainee: self.args.trainee.as_str().to_owned(),
-            scenario: self.args.scenario.clone().unwrap_or_else(|| USUAL.to_owned()),
+            scenario: self.args.scenario.clone().unwrap_or_else(|| DEFAULT_SCENARIO.to_owned()),
             purpose: self.args.purpose.display_name(),
         };
         let mut next = if self.args.choose || self.args.scenario.is_none() {
@@ -94,7 +94,7 @@ impl<'a> TrainRun<'a> {
             let (flown, session) = match self.fly(&choice) {
                 Ok(done) => done,
                 // An error of the first flight ends the run, as without a window; later errors are shown in the window.
-                Err(error) if last.is_none() && !self.window_asks() => return Err(error),
+                Err(error) if last.is_none() && !self.is_window_in_use() => return Err(error),
                 Err(error) => {
                     tracing::warn!("cannot start the flight: {error}");
                     self.send_to_window(&ToWindow::Refused { words: error.to_string() });
@@ -143,7 +143,7 @@ impl<'a> TrainRun<'a> {
     }
 
     /// Returns true if flights are chosen in the window, not only on the command line.
-    fn window_asks(&mut self) -> bool {
+    fn is_window_in_use(&mut self) -> bool {
         self.web_announced && self.is_open()
     }
 
@@ -186,7 +186,7 @@ impl<'a> TrainRun<'a> {
 
     fn offer(&mut self, choice: &FlightChoice) {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
-        let offers = offers::offers(&self.args.sessions, choice, web.as_deref());
+        let offers = offers::flight_options(&self.args.sessions, choice, web.as_deref());
         self.web_announced = true;
         self.send_to_window(&ToWindow::Offers(offers));
     }
@@ -211,7 +211,7 @@ impl<'a> TrainRun<'a> {
                 return NextFlight::Nobody;
             }
             if self.is_open() {
-                std::thread::sleep(LOOK);
+                std::thread::sleep(CHECK_INTERVAL);
             }
         }
         self.prompt_at_terminal(last)
@@ -224,7 +224,10 @@ impl<'a> TrainRun<'a> {
         }
         println!("{}", self.prompt.help_text());
         if let (Some(web), Some(vehicle)) = (&self.web, &self.vehicle) {
-            println!("questionnaire {}", offers::ended(vehicle.session(), Some(web.server.address()), None).questionnaire);
+            println!(
+                "questionnaire {}",
+                offers::flight_summary(vehicle.session(), Some(web.server.address()), None).questionnaire
+            );
         }
         while self.vehicle.is_some() && !self.stop.is_requested() {
             match self.prompt.answer() {
@@ -233,14 +236,14 @@ impl<'a> TrainRun<'a> {
                 None => {}
             }
             self.check_vehicle();
-            std::thread::sleep(LOOK);
+            std::thread::sleep(CHECK_INTERVAL);
         }
         NextFlight::Leave
     }
 
     /// Drops a vehicle whose simulator has exited.
     fn check_vehicle(&mut self) {
-        if let Some(status) = self.vehicle.as_mut().and_then(FlightProcesses::vehicle_ended) {
+        if let Some(status) = self.vehicle.as_mut().and_then(FlightProcesses::simulator_exit_status) {
             tracing::warn!("the simulator exited early ({status}): ground stations have lost the vehicle");
             self.vehicle = None;
         }
@@ -258,7 +261,7 @@ impl<'a> TrainRun<'a> {
             self.end_vehicle();
             let mut flight = FlightProcesses::start(self.args, choice, self.log)?;
             self.serve(flight.port("payload_port"));
-            if let Some(flying) = flight.flying(self.args) {
+            if let Some(flying) = flight.started_message(self.args) {
                 self.send_to_window(&flying);
             }
             let shown = self.has_display();
@@ -302,7 +305,7 @@ impl<'a> TrainRun<'a> {
             self.offer(choice);
             let web = self.web.as_ref().map(|web| web.server.address());
             let trouble = result.as_ref().err().map(ToString::to_string);
-            let ended = offers::ended(session, web, trouble);
+            let ended = offers::flight_summary(session, web, trouble);
             self.send_to_window(&ToWindow::Ended(ended));
         }
         result
@@ -316,12 +319,12 @@ impl<'a> TrainRun<'a> {
                 self.web = Some(web);
                 return;
             }
-            Some(web) => port = port_of(web.server.address()).unwrap_or(port),
+            Some(web) => port = url_port(web.server.address()).unwrap_or(port),
             None => {}
         }
         // The database is next to the sessions; its folder may not exist before the first session.
         let made = std::fs::create_dir_all(&self.args.sessions);
-        let watched = vehicle.map(|vehicle| WatchedVehicle { vehicle, picture: Some(camera(self.args)) });
+        let watched = vehicle.map(|vehicle| WatchedVehicle { vehicle, picture: Some(camera_file(self.args)) });
         let place = RecordsLocation { sessions: vec![self.args.sessions.clone()], database: None };
         let setup = ServerSetup { place, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
         let started = made
@@ -336,11 +339,11 @@ impl<'a> TrainRun<'a> {
     /// Keeps the web pages available until the user answers at the terminal, because the questionnaire follows the flight.
     fn keep_serving(&mut self, session: &Path) {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
-        let address = offers::ended(session, Some(web.server.address()), None).questionnaire;
+        let address = offers::flight_summary(session, Some(web.server.address()), None).questionnaire;
         println!("questionnaire {address}   (available until you press Enter)");
         // Enter ends only the pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {
-            std::thread::sleep(LOOK);
+            std::thread::sleep(CHECK_INTERVAL);
         }
     }
 }
@@ -351,7 +354,7 @@ fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
     files::scenario(&choice.scenario).map(|_| ())
 }
 
-fn port_of(address: &str) -> Option<u16> {
+fn url_port(address: &str) -> Option<u16> {
     address.rsplit(':').next()?.parse().ok()
 }
 
@@ -362,7 +365,7 @@ mod tests {
     use spandrel_view::flow::pipe::Purpose;
 
     #[test]
-    fn exact_a_window_that_breaks_off_is_released_before_the_flight_is_reported() {
+    fn exact_a_crashed_window_is_dropped_before_the_flight() {
         let args = parsed(&["--scenario", "drill-hover"]);
         let mut course = TrainRun::new(&args, tracing::Level::WARN, StopRequest::default());
         course.window = Some(WindowProcess::failing());

@@ -1,6 +1,6 @@
 //! The window as a separate process, and the pipe to it. A session continues without the window.
 
-use super::args::{Args, camera};
+use super::args::{Args, camera_file};
 use crate::io::addresses::PortChoice;
 use crate::io::children::Child;
 use crate::io::clock::Stopwatch;
@@ -9,19 +9,19 @@ use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
 
 /// Interval at which the window is checked.
-const LOOK: Duration = Duration::from_millis(20);
+const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 /// Time limit for the window to open on a busy machine.
-const OPEN_LIMIT: Duration = Duration::from_secs(60);
+const OPEN_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// Process of the window.
 pub struct WindowProcess {
     child: Child,
-    over: bool,
+    has_exited: bool,
     /// True once the window has reported that it is shown.
     pub ready: bool,
     /// True if the window was closed by the user and did not crash.
     pub closed: bool,
-    flies: bool,
+    is_flying: bool,
     bad_line_reported: bool,
 }
 
@@ -35,13 +35,13 @@ impl WindowProcess {
             tracing::warn!("no window: it needs the payload port, but --payload-port is none");
             return None;
         }
-        let opened = Child::start_sibling("view", &window_args(args, log), &[spare_threads()]);
+        let opened = Child::start_with_env("view", &window_args(args, log), &[software_renderer_threads()]);
         let child = opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()?;
         Some(Self::of(child))
     }
 
     fn of(child: Child) -> Self {
-        Self { child, over: false, ready: false, closed: false, flies: false, bad_line_reported: false }
+        Self { child, has_exited: false, ready: false, closed: false, is_flying: false, bad_line_reported: false }
     }
 
     /// Waits until the window is shown. Returns false if it fails or a stop is requested.
@@ -51,11 +51,11 @@ impl WindowProcess {
             if self.receive() == Some(FromWindow::Ready) {
                 return true;
             }
-            if watch.elapsed() > OPEN_LIMIT {
-                tracing::warn!("the window has not opened after {} s: continuing without waiting", OPEN_LIMIT.as_secs());
+            if watch.elapsed() > OPEN_TIMEOUT {
+                tracing::warn!("the window has not opened after {} s: continuing without waiting", OPEN_TIMEOUT.as_secs());
                 return false;
             }
-            std::thread::sleep(LOOK);
+            std::thread::sleep(CHECK_INTERVAL);
         }
         false
     }
@@ -63,8 +63,8 @@ impl WindowProcess {
     /// Sends a message to the window.
     pub fn send(&mut self, message: &ToWindow) {
         match message {
-            ToWindow::Flying(_) => self.flies = true,
-            ToWindow::Ended(_) => self.flies = false,
+            ToWindow::Flying(_) => self.is_flying = true,
+            ToWindow::Ended(_) => self.is_flying = false,
             ToWindow::Offers(_) | ToWindow::Paused { .. } | ToWindow::Refused { .. } => {}
         }
         self.child.send_line(&pipe::line(message));
@@ -72,7 +72,7 @@ impl WindowProcess {
 
     /// Returns the next message of the window. The first invalid line is logged, further ones are ignored.
     pub fn receive(&mut self) -> Option<FromWindow> {
-        while let Some(line) = self.child.line() {
+        while let Some(line) = self.child.try_read_line() {
             match pipe::read(&line) {
                 Ok(message) => {
                     self.ready |= message == FromWindow::Ready;
@@ -91,17 +91,17 @@ impl WindowProcess {
     /// Returns true while the window runs; logs its exit once.
     pub fn is_open(&mut self) -> bool {
         let ended = self.child.ended();
-        if let Some(status) = ended.filter(|_| !self.over) {
-            self.over = true;
+        if let Some(status) = ended.filter(|_| !self.has_exited) {
+            self.has_exited = true;
             self.closed = status.success();
-            tracing::info!("{}", exit_message(self.closed, self.flies));
+            tracing::info!("{}", exit_message(self.closed, self.is_flying));
         }
-        !self.over
+        !self.has_exited
     }
 
     /// Ends the process; the user has asked to close the window.
     pub fn close(mut self) {
-        self.over = true;
+        self.has_exited = true;
         self.child.finish();
     }
 }
@@ -114,7 +114,7 @@ fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
         ("--device", args.device.clone()),
         ("--profiles", args.profiles.as_ref().map(|folder| folder.display().to_string())),
         ("--stream", args.stream.map(|to| to.to_string())),
-        ("--picture", Some(camera(args).display().to_string())),
+        ("--picture", Some(camera_file(args).display().to_string())),
     ];
     for (name, value) in given {
         words.extend(value.map(|value| [name.to_owned(), value]).into_iter().flatten());
@@ -125,8 +125,8 @@ fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
     words
 }
 
-fn exit_message(closed: bool, flies: bool) -> &'static str {
-    match (closed, flies) {
+fn exit_message(closed: bool, is_flying: bool) -> &'static str {
+    match (closed, is_flying) {
         (true, false) => "window closed",
         (true, true) => "window closed: the session continues without it",
         (false, _) => "the window failed (see its message in the terminal): the session continues without it",
@@ -135,7 +135,7 @@ fn exit_message(closed: bool, flies: bool) -> &'static str {
 
 /// Returns the environment variable that limits Mesa's software renderer to half of the processors; the simulator and the monitor need the other
 /// half.
-pub fn spare_threads() -> (&'static str, String) {
+pub fn software_renderer_threads() -> (&'static str, String) {
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     ("LP_NUM_THREADS", (all / 2).max(1).to_string())
 }
@@ -153,7 +153,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_window_events_reach_train_once() {
+    fn exact_options_are_passed_to_the_window_once() {
         let told = ["--stream", "127.0.0.1:5600", "--device", "Pad", "--no-sound", "--quality", "low"];
         let words = window_args(&super::super::args::parsed(&told), tracing::Level::WARN);
         for pair in [["--stream", "127.0.0.1:5600"], ["--device", "Pad"], ["--quality", "low"], ["--log", "warn"]] {
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_window_that_breaks_off_is_neither_ready_nor_closed() {
+    fn exact_a_crashed_window_is_neither_ready_nor_closed() {
         let mut window = WindowProcess::failing();
         assert!(!window.is_ready(&StopRequest::default()) && !window.is_open());
         assert!(!window.ready && !window.closed);

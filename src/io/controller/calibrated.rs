@@ -24,13 +24,13 @@ struct InputLog {
     path: PathBuf,
     file: File,
     /// Length of the complete lines on disk, bytes.
-    whole: u64,
+    written_len: u64,
 }
 
 impl InputLog {
     fn begin(path: &Path, device: &Device) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::wrong(format!("{}: {error}", path.display()));
-        let mut log = Self { path: path.to_owned(), file: File::create(path).map_err(failed)?, whole: 0 };
+        let mut log = Self { path: path.to_owned(), file: File::create(path).map_err(failed)?, written_len: 0 };
         log.line(input_recording::head(device)).map_err(failed)?;
         Ok(log)
     }
@@ -44,9 +44,9 @@ impl InputLog {
         line.push('\n');
         self.file.write_all(line.as_bytes()).inspect_err(|_| {
             // A partial line would make the entire recording unreadable.
-            let _ = self.file.set_len(self.whole);
+            let _ = self.file.set_len(self.written_len);
         })?;
-        self.whole += line.len() as u64;
+        self.written_len += line.len() as u64;
         Ok(())
     }
 }
@@ -65,13 +65,13 @@ impl CalibratedController {
     ///
     /// # Errors
     /// If the device is not calibrated, or a file is invalid.
-    pub fn take(
+    pub fn open(
         source: EventSource,
         profiles: &ProfileFolder,
         profile: Option<&Path>,
         record: Option<&Path>,
     ) -> Result<Self, AppError> {
-        let device = source.of().clone();
+        let device = source.device_info().clone();
         let profile = match profile {
             Some(path) => Some(read_profile(path)?),
             None => profiles.find(&device)?,
@@ -84,11 +84,11 @@ impl CalibratedController {
             ))
         })?;
         let log = record.map(|path| InputLog::begin(path, &device)).transpose()?;
-        Ok(Self { log, ..Self::with(source, profile) })
+        Ok(Self { log, ..Self::new(source, profile) })
     }
 
     /// Creates a controller from an event source and a profile.
-    pub fn with(source: EventSource, profile: ControllerProfile) -> Self {
+    pub fn new(source: EventSource, profile: ControllerProfile) -> Self {
         tracing::info!("flying with '{}', stick mode {}", profile.device.name, profile.mode.number());
         Self { source, profile, raw: RawInput::default(), log: None }
     }
@@ -97,12 +97,12 @@ impl CalibratedController {
     /// vehicle.
     pub fn poll(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> ControllerReading {
         while let Some(event) = self.source.next(flown) {
-            self.keep(flown, event);
+            self.record_event(flown, event);
             let fresh = matches!(event, DeviceEvent::Button { button, pressed: true } if !self.raw.down.contains(&button));
             self.raw.apply(event);
             match event {
                 DeviceEvent::Button { button, .. } if fresh => {
-                    self.profile.buttons.get(&button).into_iter().for_each(|action| link.act(*action, now));
+                    self.profile.buttons.get(&button).into_iter().for_each(|action| link.request_action(*action, now));
                 }
                 DeviceEvent::Lost => {
                     tracing::warn!("'{}' disconnected: sticks centered, then no longer sent", self.profile.device.name)
@@ -115,7 +115,7 @@ impl CalibratedController {
     }
 
     /// Records an event. A disk error ends the recording, but not the flight.
-    fn keep(&mut self, flown: SimTime, event: DeviceEvent) {
+    fn record_event(&mut self, flown: SimTime, event: DeviceEvent) {
         let Some(log) = &mut self.log else { return };
         if let Err(error) = log.write(flown, event) {
             tracing::warn!("{}: cannot write: {error}; the recording ends here, the flight continues", log.path.display());
@@ -133,7 +133,7 @@ impl CalibratedController {
     }
 
     /// Replaces the calibration profile.
-    pub fn set(&mut self, profile: ControllerProfile) {
+    pub fn set_profile(&mut self, profile: ControllerProfile) {
         self.profile = profile;
     }
 
@@ -155,16 +155,16 @@ mod tests {
     use spandrel_clients::rc::profile::StickMode;
     use std::collections::BTreeMap;
 
-    const RECORD: &str = r#"{"format":1,"device":"Stick","id":"1"}
+    const RECORDING: &str = r#"{"format":1,"device":"Stick","id":"1"}
 {"t_s":0.0,"axis":0,"value":0.5}
 {"t_s":0.1,"axis":0,"value":0.25}
 "#;
 
     #[test]
-    fn regress_a_disk_that_refuses_ends_the_record_and_not_the_flight() {
+    fn regress_a_disk_error_ends_the_recording_but_not_the_flight() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("flown.jsonl");
-        let device = InputRecording::read("in", RECORD).unwrap().device;
+        let device = InputRecording::read("in", RECORDING).unwrap().device;
         let profile =
             ControllerProfile { device: device.clone(), mode: StickMode::Two, axes: BTreeMap::new(), buttons: BTreeMap::new() };
         let mut log = InputLog::begin(&path, &device).unwrap();
@@ -172,7 +172,7 @@ mod tests {
         log.file = File::open(&path).unwrap();
         let mut hand = CalibratedController {
             log: Some(log),
-            ..CalibratedController::with(EventSource::Record(InputRecording::read("in", RECORD).unwrap()), profile)
+            ..CalibratedController::new(EventSource::Record(InputRecording::read("in", RECORDING).unwrap()), profile)
         };
         let mut link = ControllerLink::default();
         let late = SimTime::from_ms(200);

@@ -5,7 +5,7 @@ use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
 use spandrel_clients::rc::{Device, DeviceEvent};
 
 /// Event type of an absolute axis, which Linux stores above the event code (linux/input-event-codes.h, EV_ABS).
-const ABSOLUTE: u32 = 3;
+const EV_ABS: u32 = 3;
 
 /// A connected gamepad or transmitter.
 #[derive(Debug)]
@@ -86,7 +86,7 @@ impl Gamepad {
                     return Some(DeviceEvent::Axis { axis: code.into_u32(), value: f64::from(value) });
                 }
                 // Axis of a trigger, 0 to 1.
-                EventType::ButtonChanged(_, value, code) if code.into_u32() >> 16 == ABSOLUTE => {
+                EventType::ButtonChanged(_, value, code) if code.into_u32() >> 16 == EV_ABS => {
                     return Some(DeviceEvent::Axis { axis: code.into_u32(), value: 2.0 * f64::from(value) - 1.0 });
                 }
                 EventType::ButtonPressed(_, code) => return Some(DeviceEvent::Button { button: code.into_u32(), pressed: true }),

@@ -41,7 +41,7 @@ impl EventSource {
     }
 
     /// Returns the device that the events come from.
-    pub fn of(&self) -> &Device {
+    pub fn device_info(&self) -> &Device {
         match self {
             #[cfg(feature = "gamepad")]
             Self::Gamepad(gamepad) => gamepad.device(),

@@ -7,7 +7,7 @@ use spandrel_clients::rc::{ControllerProfile, Device};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-const NO_HOME: &str = "no home folder is known: specify a folder with --profiles";
+const NO_HOME_FOLDER: &str = "no home folder is known: specify a folder with --profiles";
 
 /// Folder of profiles; `None` if the user has no home folder. Devices then have no profiles, and everything else works.
 #[derive(Debug, Clone, Default)]
@@ -24,7 +24,7 @@ impl ProfileFolder {
     /// # Errors
     /// If no folder was specified and the user has no home folder.
     pub fn folder(&self) -> Result<&Path, AppError> {
-        self.0.as_deref().ok_or_else(|| AppError::wrong(NO_HOME))
+        self.0.as_deref().ok_or_else(|| AppError::wrong(NO_HOME_FOLDER))
     }
 
     /// Returns the path of a device's profile.
@@ -34,7 +34,7 @@ impl ProfileFolder {
 
     /// Returns the reason why a device has no profile.
     pub fn missing(&self, device: &Device) -> String {
-        self.path(device).map_or(NO_HOME.to_owned(), |path| format!("no {}", path.display()))
+        self.path(device).map_or(NO_HOME_FOLDER.to_owned(), |path| format!("no {}", path.display()))
     }
 
     /// Returns a device's profile, if it has one.
@@ -49,7 +49,7 @@ impl ProfileFolder {
     ///
     /// # Errors
     /// If there is no folder, or it cannot be written.
-    pub fn keep(&self, profile: &ControllerProfile) -> Result<PathBuf, AppError> {
+    pub fn save(&self, profile: &ControllerProfile) -> Result<PathBuf, AppError> {
         let folder = self.folder()?;
         let path = folder.join(file_of(&profile.device));
         std::fs::create_dir_all(folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
@@ -84,22 +84,22 @@ mod tests {
     use super::*;
     use spandrel_clients::rc::StickMode;
     use spandrel_clients::rc::axis::AxisCalibration;
-    use spandrel_clients::rc::profile::WAYS;
+    use spandrel_clients::rc::profile::STICK_AXES;
 
     fn profile(device: &Device) -> ControllerProfile {
         let axis = |axis| AxisCalibration { axis, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.05, expo: 0.3 };
-        let ways = WAYS.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let ways = STICK_AXES.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
         ControllerProfile { device: device.clone(), mode: StickMode::Four, axes: ways, buttons: [].into() }
     }
 
     #[test]
-    fn exact_a_profile_outlives_the_program_and_a_broken_one_is_reported() {
+    fn exact_profiles_are_saved_and_invalid_ones_reported() {
         let folder = tempfile::tempdir().unwrap();
         let profiles = ProfileFolder::at(Some(folder.path().join("deep")));
         let device = Device { name: "../Odd/Näme".into(), id: "1:2".into() };
         assert_eq!(profiles.find(&device).unwrap(), None);
         let profile = profile(&device);
-        let path = profiles.keep(&profile).unwrap();
+        let path = profiles.save(&profile).unwrap();
         assert_eq!(path.parent(), Some(folder.path().join("deep").as_path()), "names cannot leave the folder");
         assert_eq!(profiles.find(&device).unwrap(), Some(profile));
         std::fs::write(&path, "format = 9\n").unwrap();
@@ -108,17 +108,17 @@ mod tests {
     }
 
     #[test]
-    fn exact_without_a_home_nothing_is_found_and_what_is_kept_is_reported() {
+    fn exact_without_a_home_folder_saving_fails() {
         let device = Device { name: "Pad".into(), id: "1:2".into() };
         let nowhere = ProfileFolder::default();
         assert_eq!((nowhere.find(&device).unwrap(), nowhere.path(&device)), (None, None));
-        for told in [nowhere.keep(&profile(&device)).unwrap_err().to_string(), nowhere.missing(&device)] {
+        for told in [nowhere.save(&profile(&device)).unwrap_err().to_string(), nowhere.missing(&device)] {
             assert_eq!(told, "no home folder is known: specify a folder with --profiles");
         }
     }
 
     #[test]
-    fn exact_the_usual_folder_lies_in_the_users_configuration() {
+    fn exact_default_folder_is_in_the_users_configuration() {
         let place = |config: &str, home: &str| usual(Some(config.into()), Some(home.into()));
         assert_eq!(place("/c", "/home/a"), Some("/c/spandrel/controllers".into()));
         assert_eq!(place("", "/home/a"), Some("/home/a/.config/spandrel/controllers".into()));

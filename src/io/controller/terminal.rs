@@ -18,17 +18,17 @@ pub enum TerminalKey {
     /// Key released, with its name.
     Up(String),
     /// The terminal lost the focus, so it no longer receives key releases.
-    LetGo,
+    FocusLost,
     /// Ctrl-C or Escape: the user wants to quit.
-    End,
+    Quit,
 }
 
 /// A terminal in raw mode, restored when this is dropped.
 #[derive(Debug)]
 pub struct RawTerminal {
-    asked: bool,
+    features_enabled: bool,
     /// True if the terminal reports key releases.
-    pub tells_releases: bool,
+    pub reports_releases: bool,
 }
 
 impl RawTerminal {
@@ -36,20 +36,20 @@ impl RawTerminal {
     ///
     /// # Errors
     /// If standard input is not a terminal.
-    pub fn take() -> Result<Self, AppError> {
+    pub fn enter() -> Result<Self, AppError> {
         if !stdin().is_terminal() {
             return Err(AppError::failed("--keyboard needs a terminal, but standard input is not one"));
         }
         let failed = |error: std::io::Error| AppError::failed(format!("cannot read single keys from the terminal: {error}"));
         terminal::enable_raw_mode().map_err(failed)?;
         // The terminal's features are requested on standard error; if that is a file, there are no key releases.
-        let asked = stderr().is_terminal();
-        let tells_releases = asked && terminal::supports_keyboard_enhancement().unwrap_or(false);
-        let taken = Self { asked, tells_releases };
-        if asked {
+        let features_enabled = stderr().is_terminal();
+        let reports_releases = features_enabled && terminal::supports_keyboard_enhancement().unwrap_or(false);
+        let taken = Self { features_enabled, reports_releases };
+        if features_enabled {
             execute!(stderr(), EnableFocusChange).map_err(failed)?;
         }
-        if tells_releases {
+        if reports_releases {
             let flags = KeyboardEnhancementFlags::REPORT_EVENT_TYPES
                 | KeyboardEnhancementFlags::DISAMBIGUATE_ESCAPE_CODES
                 | KeyboardEnhancementFlags::REPORT_ALL_KEYS_AS_ESCAPE_CODES;
@@ -61,7 +61,7 @@ impl RawTerminal {
     /// Returns the next key event, if there is one.
     pub fn next(&self) -> Option<TerminalKey> {
         while event::poll(Duration::ZERO).unwrap_or(false) {
-            if let Some(key) = event::read().ok().and_then(|event| parse_escape(&event)) {
+            if let Some(key) = event::read().ok().and_then(|event| parse_event(&event)) {
                 return Some(key);
             }
         }
@@ -72,20 +72,20 @@ impl RawTerminal {
 impl Drop for RawTerminal {
     fn drop(&mut self) {
         // The program is exiting, so errors are ignored.
-        if self.tells_releases {
+        if self.reports_releases {
             let _ = execute!(stderr(), PopKeyboardEnhancementFlags);
         }
-        if self.asked {
+        if self.features_enabled {
             let _ = execute!(stderr(), DisableFocusChange);
         }
         let _ = terminal::disable_raw_mode();
     }
 }
 
-fn parse_escape(event: &Event) -> Option<TerminalKey> {
+fn parse_event(event: &Event) -> Option<TerminalKey> {
     match event {
         Event::Key(key) => pressed(key),
-        Event::FocusLost => Some(TerminalKey::LetGo),
+        Event::FocusLost => Some(TerminalKey::FocusLost),
         _ => None,
     }
 }
@@ -93,7 +93,7 @@ fn parse_escape(event: &Event) -> Option<TerminalKey> {
 fn pressed(key: &KeyEvent) -> Option<TerminalKey> {
     let ctrl_c = key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL);
     if ctrl_c || key.code == KeyCode::Esc {
-        return Some(TerminalKey::End);
+        return Some(TerminalKey::Quit);
     }
     match key.kind {
         KeyEventKind::Press => name(key.code).map(TerminalKey::Down),
@@ -124,12 +124,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_key_that_repeats_is_pressed_once_and_lost_focus_releases() {
+    fn exact_repetitions_are_ignored_and_focus_loss_is_reported() {
         let key = |kind| Event::Key(KeyEvent::new_with_kind(KeyCode::Char('P'), KeyModifiers::NONE, kind));
-        let told = [KeyEventKind::Press, KeyEventKind::Repeat, KeyEventKind::Release].map(|kind| parse_escape(&key(kind)));
+        let told = [KeyEventKind::Press, KeyEventKind::Repeat, KeyEventKind::Release].map(|kind| parse_event(&key(kind)));
         assert_eq!(told, [Some(TerminalKey::Down("p".into())), None, Some(TerminalKey::Up("p".into()))]);
-        assert_eq!([Event::FocusLost, Event::FocusGained].map(|event| parse_escape(&event)), [Some(TerminalKey::LetGo), None]);
+        assert_eq!([Event::FocusLost, Event::FocusGained].map(|event| parse_event(&event)), [Some(TerminalKey::FocusLost), None]);
         let end = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
-        assert_eq!(parse_escape(&Event::Key(end)), Some(TerminalKey::End));
+        assert_eq!(parse_event(&Event::Key(end)), Some(TerminalKey::Quit));
     }
 }

@@ -29,7 +29,7 @@ pub struct Field<'a> {
 }
 
 /// `MetadataVersion.V5`.
-const VERSION: i16 = 4;
+const METADATA_VERSION_V5: i16 = 4;
 /// `MessageHeader.Schema`.
 const HEADER_SCHEMA: u8 = 1;
 /// `Precision.DOUBLE`.
@@ -37,7 +37,7 @@ const PRECISION_DOUBLE: i16 = 2;
 /// Marker at the start of an encapsulated message.
 const CONTINUATION: [u8; 4] = [0xFF; 4];
 /// Alignment of messages and of the widest scalar type, bytes.
-const WIDEST: usize = 8;
+const ALIGNMENT: usize = 8;
 
 impl Kind {
     /// Returns the type's number in the union `Type`.
@@ -77,11 +77,11 @@ impl Slot {
 }
 
 #[derive(Debug, Default)]
-struct Flat {
+struct FlatBufferWriter {
     bytes: Vec<u8>,
 }
 
-impl Flat {
+impl FlatBufferWriter {
     fn align(&mut self, to: usize) {
         self.bytes.resize(self.bytes.len().next_multiple_of(to), 0);
     }
@@ -89,7 +89,7 @@ impl Flat {
     /// Writes a table, preceded by its vtable. Returns the positions of the table and of each slot.
     fn table(&mut self, slots: &[Slot]) -> (usize, Vec<usize>) {
         let places_len = 4 + 2 * slots.len();
-        let start = (self.bytes.len() + places_len).next_multiple_of(WIDEST);
+        let start = (self.bytes.len() + places_len).next_multiple_of(ALIGNMENT);
         // The vtable ends where the table starts, so the distance back to it is its own length.
         self.bytes.resize(start - places_len, 0);
         let mut table = (places_len as i32).to_le_bytes().to_vec();
@@ -108,7 +108,7 @@ impl Flat {
     }
 
     /// Sets the offset at `from` so that it points to `to`.
-    fn point(&mut self, from: usize, to: usize) {
+    fn set_offset(&mut self, from: usize, to: usize) {
         let offset = ((to - from) as u32).to_le_bytes();
         self.bytes[from..from + 4].copy_from_slice(&offset);
     }
@@ -129,7 +129,7 @@ impl Flat {
         self.bytes.extend((text.len() as u32).to_le_bytes());
         self.bytes.extend(text.as_bytes());
         self.bytes.push(0);
-        self.point(from, start);
+        self.set_offset(from, start);
     }
 
     fn field(&mut self, from: usize, field: &Field<'_>) {
@@ -138,21 +138,21 @@ impl Flat {
         // Slots: name, nullable, type's number, type, dictionary, children, metadata.
         let slots = [Slot::Offset, nullable, kind, Slot::Offset, Slot::Absent, Slot::Offset, Slot::Offset];
         let (start, at) = self.table(&slots);
-        self.point(from, start);
+        self.set_offset(from, start);
         self.text(at[0], field.name);
         let (kind, _) = match field.kind {
             Kind::Int64 => self.table(&[Slot::Int(64), Slot::Byte(1)]),
             Kind::Double => self.table(&[Slot::Short(PRECISION_DOUBLE)]),
             Kind::Bool | Kind::Utf8 => self.table(&[]),
         };
-        self.point(at[3], kind);
+        self.set_offset(at[3], kind);
         let (children, _) = self.offsets(0);
-        self.point(at[5], children);
+        self.set_offset(at[5], children);
         let (list, places) = self.offsets(field.metadata.len());
-        self.point(at[6], list);
+        self.set_offset(at[6], list);
         for (place, (key, value)) in places.into_iter().zip(&field.metadata) {
             let (pair, at) = self.table(&[Slot::Offset, Slot::Offset]);
-            self.point(place, pair);
+            self.set_offset(place, pair);
             self.text(at[0], key);
             self.text(at[1], value);
         }
@@ -162,18 +162,18 @@ impl Flat {
 /// Encodes a schema as an encapsulated message.
 #[must_use]
 pub fn message(fields: &[Field<'_>]) -> Vec<u8> {
-    let mut flat = Flat { bytes: vec![0; 4] };
-    let (message, at) = flat.table(&[Slot::Short(VERSION), Slot::Byte(HEADER_SCHEMA), Slot::Offset, Slot::Long(0)]);
-    flat.point(0, message);
+    let mut flat = FlatBufferWriter { bytes: vec![0; 4] };
+    let (message, at) = flat.table(&[Slot::Short(METADATA_VERSION_V5), Slot::Byte(HEADER_SCHEMA), Slot::Offset, Slot::Long(0)]);
+    flat.set_offset(0, message);
     // Slots: endianness (little-endian by default), fields.
     let (schema, schema_at) = flat.table(&[Slot::Absent, Slot::Offset]);
-    flat.point(at[2], schema);
+    flat.set_offset(at[2], schema);
     let (list, places) = flat.offsets(fields.len());
-    flat.point(schema_at[1], list);
+    flat.set_offset(schema_at[1], list);
     for (place, field) in places.into_iter().zip(fields) {
         flat.field(place, field);
     }
-    flat.align(WIDEST);
+    flat.align(ALIGNMENT);
     let mut out = CONTINUATION.to_vec();
     out.extend((flat.bytes.len() as u32).to_le_bytes());
     out.extend(flat.bytes);

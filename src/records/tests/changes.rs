@@ -10,12 +10,12 @@ use spandrel_training::trainee::Role;
 const LATER_US: u64 = 4_102_444_800_000_000;
 
 /// Runs all tests of this file on one database.
-pub fn every_one(target: &str) {
-    what_is_erased_does_not_come_back(target);
-    a_rebuild_deletes_only_what_it_was_told(target);
-    nobodys_change_of_a_person_is_lost(target);
-    a_telemetry_is_found_again(target);
-    lists_go_on_from_page_to_page(target);
+pub fn run_all(target: &str) {
+    erased_sessions_are_not_imported_again(target);
+    rebuild_deletes_only_the_given_sessions(target);
+    concurrent_changes_of_a_person_are_kept(target);
+    session_is_found_by_telemetry_hash(target);
+    list_pages_are_consecutive(target);
     // Leave an empty database for the next test.
     let database = Database::open(target).unwrap();
     for trainee in database.trainees().unwrap() {
@@ -23,19 +23,19 @@ pub fn every_one(target: &str) {
     }
 }
 
-fn gone(database: &Database, id: &str) -> bool {
+fn is_deleted(database: &Database, id: &str) -> bool {
     database.record(id).unwrap().is_none()
 }
 
 /// Two stations: one erases, and the other, which still has the folders, imports what it has read before.
-fn what_is_erased_does_not_come_back(target: &str) {
+fn erased_sessions_are_not_imported_again(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     let flown = [record("erna", 1), record("erna", 2)];
     assert_eq!(here.put(&flown), Ok(2));
     assert_eq!(here.erase("erna", &[]), Ok((true, 2)));
     assert_eq!(there.put(&flown), Ok(0), "an import");
     assert_eq!(there.rebuild(&flown, &[]), Ok(0), "a rebuild");
-    assert!(gone(&there, &flown[0].id) && !there.trainees().unwrap().iter().any(|one| one.pseudonym == "erna"));
+    assert!(is_deleted(&there, &flown[0].id) && !there.trainees().unwrap().iter().any(|one| one.pseudonym == "erna"));
     let erased = there.erased().unwrap();
     assert!(erased.contains(&flown[0].id, "erna", flown[0].started_unix_us) && !erased.contains("x", "erna", LATER_US));
     // A new trainee may reuse the pseudonym.
@@ -46,10 +46,10 @@ fn what_is_erased_does_not_come_back(target: &str) {
     assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2)]), Ok(2));
     assert_eq!(here.delete_sessions(&["session-fritz-001".into()], &[]), Ok(1));
     assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2), record("fritz", 3)]), Ok(1));
-    assert!(gone(&there, "session-fritz-001") && !gone(&there, "session-fritz-003"));
+    assert!(is_deleted(&there, "session-fritz-001") && !is_deleted(&there, "session-fritz-003"));
 }
 
-fn a_rebuild_deletes_only_what_it_was_told(target: &str) {
+fn rebuild_deletes_only_the_given_sessions(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     here.put(&[record("gina", 1), record("gina", 2)]).unwrap();
     // While this station reads its folders, another one adds a session.
@@ -58,11 +58,11 @@ fn a_rebuild_deletes_only_what_it_was_told(target: &str) {
     changed.scores.safety = 12.0;
     assert_eq!(here.rebuild(&[changed.clone()], &["session-gina-002".into()]), Ok(1), "the same fingerprint is made again, too");
     assert_eq!(here.record("session-gina-001").unwrap(), Some(changed));
-    assert!(gone(&here, "session-gina-002") && !gone(&here, "session-gina-003"));
+    assert!(is_deleted(&here, "session-gina-002") && !is_deleted(&here, "session-gina-003"));
     assert_eq!(here.rebuild(&[record("gina", 2)], &[]), Ok(1), "what was deleted so was not erased");
 }
 
-fn nobodys_change_of_a_person_is_lost(target: &str) {
+fn concurrent_changes_of_a_person_are_kept(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     here.set_login("hans", Role::Trainee, "first").unwrap();
     let none = ["", "", ""];
@@ -79,8 +79,8 @@ fn nobodys_change_of_a_person_is_lost(target: &str) {
     assert_eq!(here.account("hans").unwrap().unwrap().person.age_band, None);
     assert_eq!(here.set_details("nobody-of-this-name", none, none), Ok(false));
     // The command line sets only the details that were given.
-    here.set_given("hans", None, [None, Some("some"), None]).unwrap();
-    here.set_given("hans", Some(Role::Trainee), [Some("45-54"), None, None]).unwrap();
+    here.update_details("hans", None, [None, Some("some"), None]).unwrap();
+    here.update_details("hans", Some(Role::Trainee), [Some("45-54"), None, None]).unwrap();
     let person = here.account("hans").unwrap().unwrap().person;
     assert_eq!(
         (person.role, person.age_band.as_deref(), person.drone_experience.as_deref()),
@@ -93,21 +93,21 @@ fn nobodys_change_of_a_person_is_lost(target: &str) {
     let after = there.account("hans").unwrap().unwrap();
     assert_eq!(after.hash.as_deref(), Some("third"));
     assert!(before.is_some() && after.credential().is_some() && before != after.credential());
-    there.set_given("hans", Some(Role::Instructor), [None; 3]).unwrap();
+    there.update_details("hans", Some(Role::Instructor), [None; 3]).unwrap();
     assert_ne!(here.account("hans").unwrap().unwrap().credential(), after.credential(), "another role is another credential");
     assert_eq!(here.erase("hans", &[]), Ok((true, 0)));
 }
 
-fn a_telemetry_is_found_again(target: &str) {
+fn session_is_found_by_telemetry_hash(target: &str) {
     let database = Database::open(target).unwrap();
     let flown = SessionRecord { telemetry_sha256: "'; --".into(), ..record("ines", 1) };
     database.put(std::slice::from_ref(&flown)).unwrap();
-    assert_eq!(database.of_telemetry("'; --"), Ok(Some((flown.id, "ines".into()))));
-    assert_eq!(database.of_telemetry("of nobody"), Ok(None));
+    assert_eq!(database.find_by_telemetry("'; --"), Ok(Some((flown.id, "ines".into()))));
+    assert_eq!(database.find_by_telemetry("of nobody"), Ok(None));
 }
 
 /// Every session is on exactly one page, newest first, including sessions with the same start time.
-fn lists_go_on_from_page_to_page(target: &str) {
+fn list_pages_are_consecutive(target: &str) {
     let database = Database::open(target).unwrap();
     let flown: Vec<SessionRecord> =
         (0..7).map(|k| SessionRecord { started_unix_us: LATER_US + k / 3, ..record("jana", k as usize) }).collect();

@@ -8,18 +8,18 @@ use super::database::Database;
 use server::PostgresServer;
 use spandrel_training::questionnaire::TlxScale;
 use spandrel_training::record::SessionRecord;
-use spandrel_training::testing::faultless;
+use spandrel_training::testing::perfect_record;
 use spandrel_training::trainee::{Role, Trainee};
 use std::path::PathBuf;
 
 /// Number of stations that write at the same time.
-const STATIONS: usize = 20;
+const STATION_COUNT: usize = 20;
 /// Number of sessions that each station writes.
-const EACH: usize = 8;
+const SESSIONS_PER_STATION: usize = 8;
 
 /// Returns a made-up session record.
 fn record(trainee: &str, number: usize) -> SessionRecord {
-    let mut record = faultless(trainee, number);
+    let mut record = perfect_record(trainee, number);
     record.started_unix_us = 1_700_000_000_000_000 + 1_000_000 * number as u64;
     record.scores.conformity = Some(81.25 + (number % 7) as f64 / 3.0);
     record.scores.accuracy = None;
@@ -30,18 +30,18 @@ fn record(trainee: &str, number: usize) -> SessionRecord {
     record
 }
 
-fn every_behaviour(target: &str) {
-    takes_in_once_and_gives_back_the_same(target);
-    keeps_people_and_erases_them(target);
-    lets_people_in_and_forgets_them(target);
-    counts_and_finds_sessions(target);
-    replaces_all_or_nothing(target);
-    changes::every_one(target);
-    takes_strangers_in_any_order(target);
-    loses_nothing_when_stations_write_at_once(target);
+fn run_all_tests(target: &str) {
+    import_is_idempotent_and_round_trips(target);
+    people_are_stored_and_erased(target);
+    logins_are_stored_and_erased(target);
+    sessions_are_counted_and_found(target);
+    rebuild_is_atomic(target);
+    changes::run_all(target);
+    opposite_import_orders_do_not_deadlock(target);
+    concurrent_imports_lose_nothing(target);
 }
 
-fn takes_in_once_and_gives_back_the_same(target: &str) {
+fn import_is_idempotent_and_round_trips(target: &str) {
     let database = Database::open(target).unwrap();
     let mut bare = record("anna", 2);
     bare.scores.conformity = None;
@@ -74,10 +74,10 @@ fn takes_in_once_and_gives_back_the_same(target: &str) {
     assert_eq!(database.records(Some("anna")).unwrap().len(), 1);
 }
 
-fn keeps_people_and_erases_them(target: &str) {
+fn people_are_stored_and_erased(target: &str) {
     let database = Database::open(target).unwrap();
     let someone = Trainee { age_band: Some("25-34".into()), role: Role::Instructor, ..Trainee::new("anna") };
-    database.set_given("anna", Some(Role::Instructor), [Some("25-34"), None, None]).unwrap();
+    database.update_details("anna", Some(Role::Instructor), [Some("25-34"), None, None]).unwrap();
     database.put(&[record("anna", 9)]).unwrap();
     assert_eq!(database.trainees().unwrap(), [someone, Trainee::new("o'brien")], "a new session changes no details");
     assert_eq!(database.erase("anna", &[]), Ok((true, 2)));
@@ -86,7 +86,7 @@ fn keeps_people_and_erases_them(target: &str) {
     assert_eq!(database.records(None).unwrap().len(), 1);
 }
 
-fn lets_people_in_and_forgets_them(target: &str) {
+fn logins_are_stored_and_erased(target: &str) {
     let database = Database::open(target).unwrap();
     assert_eq!(database.account("nobody").unwrap(), None);
     let ada = Trainee { role: Role::Administrator, ..Trainee::new("ada") };
@@ -95,21 +95,21 @@ fn lets_people_in_and_forgets_them(target: &str) {
     database.set_login("o'brien", Role::Trainee, "'; DELETE FROM passwords; --").unwrap();
     // Another process sees the same data.
     let again = Database::open(target).unwrap();
-    assert_eq!(again.with_password().unwrap(), ["ada", "o'brien"]);
+    assert_eq!(again.names_with_password().unwrap(), ["ada", "o'brien"]);
     let account = again.account("ada").unwrap().unwrap();
     assert_eq!((account.person, account.hash.as_deref()), (ada, Some("second")));
-    assert_eq!(again.drop_password("ada"), Ok(true));
-    assert_eq!(again.drop_password("ada"), Ok(false));
+    assert_eq!(again.remove_password("ada"), Ok(true));
+    assert_eq!(again.remove_password("ada"), Ok(false));
     assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "still known, but can no longer log in");
     // An erased person can no longer log in, even if the same name is added again.
     assert_eq!(database.erase("o'brien", &[]), Ok((true, 1)));
-    assert_eq!((database.with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));
-    database.set_given("o'brien", None, [None; 3]).unwrap();
+    assert_eq!((database.names_with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));
+    database.update_details("o'brien", None, [None; 3]).unwrap();
     assert_eq!(database.account("o'brien").unwrap().unwrap().hash, None);
     assert_eq!((database.erase("o'brien", &[]), database.erase("ada", &[])), (Ok((true, 0)), Ok((true, 0))));
 }
 
-fn counts_and_finds_sessions(target: &str) {
+fn sessions_are_counted_and_found(target: &str) {
     let database = Database::open(target).unwrap();
     let assessed = SessionRecord { purpose: Some("assessment".into()), ..record("dan", 3) };
     database.put(&[record("cleo", 1), record("cleo", 2), assessed.clone()]).unwrap();
@@ -125,14 +125,14 @@ fn counts_and_finds_sessions(target: &str) {
 }
 
 /// Two stations that add the same new trainees in opposite orders do not deadlock.
-fn takes_strangers_in_any_order(target: &str) {
-    let people: Vec<SessionRecord> = (0..STATIONS).map(|k| record(&format!("new{k}"), k)).collect();
+fn opposite_import_orders_do_not_deadlock(target: &str) {
+    let people: Vec<SessionRecord> = (0..STATION_COUNT).map(|k| record(&format!("new{k}"), k)).collect();
     let backwards: Vec<SessionRecord> = people.iter().rev().cloned().collect();
     std::thread::scope(|scope| {
         for order in [&people, &backwards] {
             scope.spawn(|| {
                 let database = Database::open(target).unwrap();
-                for _ in 0..EACH {
+                for _ in 0..SESSIONS_PER_STATION {
                     database.put(order).unwrap();
                 }
             });
@@ -141,11 +141,11 @@ fn takes_strangers_in_any_order(target: &str) {
     let database = Database::open(target).unwrap();
     assert_eq!(
         people.iter().map(|one| database.erase(&one.trainee, &[]).unwrap()).filter(|gone| *gone == (true, 1)).count(),
-        STATIONS
+        STATION_COUNT
     );
 }
 
-fn replaces_all_or_nothing(target: &str) {
+fn rebuild_is_atomic(target: &str) {
     let database = Database::open(target).unwrap();
     let there: Vec<String> = database.fingerprints().unwrap().into_keys().collect();
     let records = [record("ben", 1), record("ben", 2)];
@@ -163,16 +163,16 @@ fn replaces_all_or_nothing(target: &str) {
     assert_eq!(database.records(None).unwrap(), []);
 }
 
-fn loses_nothing_when_stations_write_at_once(target: &str) {
-    let stations: Vec<_> = (0..STATIONS)
+fn concurrent_imports_lose_nothing(target: &str) {
+    let stations: Vec<_> = (0..STATION_COUNT)
         .map(|station| {
             let target = target.to_owned();
             std::thread::spawn(move || {
                 let database = Database::open(&target).unwrap();
                 // Each trainee is known to two stations, and all stations import the same shared session.
                 let trainee = format!("t{}", station / 2);
-                for number in 0..EACH {
-                    database.put(&[record(&trainee, station * EACH + number), record("shared", 0)]).unwrap();
+                for number in 0..SESSIONS_PER_STATION {
+                    database.put(&[record(&trainee, station * SESSIONS_PER_STATION + number), record("shared", 0)]).unwrap();
                 }
             })
         })
@@ -181,36 +181,36 @@ fn loses_nothing_when_stations_write_at_once(target: &str) {
         station.join().unwrap();
     }
     let database = Database::open(target).unwrap();
-    assert_eq!(database.records(None).unwrap().len(), STATIONS * EACH + 1);
-    assert_eq!(database.trainees().unwrap().iter().filter(|person| person.pseudonym.starts_with('t')).count(), STATIONS / 2);
+    assert_eq!(database.records(None).unwrap().len(), STATION_COUNT * SESSIONS_PER_STATION + 1);
+    assert_eq!(database.trainees().unwrap().iter().filter(|person| person.pseudonym.starts_with('t')).count(), STATION_COUNT / 2);
 }
 
 #[test]
-fn exact_records_live_in_sqlite() {
+fn exact_sqlite_database() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("a place with 100 % odd #names?").join("records.sqlite");
-    every_behaviour(&file.display().to_string());
+    run_all_tests(&file.display().to_string());
     assert!(file.is_file());
 }
 
 #[test]
-fn exact_twenty_stations_may_make_the_same_new_file_at_once() {
+fn exact_twenty_stations_can_create_the_same_file() {
     let folder = tempfile::tempdir().unwrap();
-    loses_nothing_when_stations_write_at_once(&folder.path().join("new.sqlite").display().to_string());
+    concurrent_imports_lose_nothing(&folder.path().join("new.sqlite").display().to_string());
 }
 
 fn readers_do_not_wait_for_a_writer(target: &str) {
     let writer = Database::open(target).unwrap();
     let there: Vec<String> = writer.fingerprints().unwrap().into_keys().collect();
     writer.rebuild(&[record("rita", 1)], &there).unwrap();
-    writer.keep_writing().unwrap();
+    writer.start_endless_write().unwrap();
     let reader = Database::open(target).unwrap();
     assert_eq!(reader.records(None).unwrap().len(), 1);
     assert_eq!(reader.list(None, 10, 0).unwrap().len(), 1);
 }
 
-fn a_newer_version_is_refused(target: &str) {
-    Database::open(target).unwrap().pretend_version(99).unwrap();
+fn newer_version_is_rejected(target: &str) {
+    Database::open(target).unwrap().set_schema_version(99).unwrap();
     let error = Database::open(target).unwrap_err().to_string();
     assert!(error.contains("version 99") && error.contains("newer"), "{error}");
 }
@@ -222,7 +222,7 @@ fn exact_readers_do_not_wait_for_a_writer() {
 }
 
 #[test]
-fn exact_what_is_erased_is_gone_from_the_file() {
+fn exact_erased_names_are_removed_from_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("records.sqlite");
     let database = Database::open(&file.display().to_string()).unwrap();
@@ -235,7 +235,7 @@ fn exact_what_is_erased_is_gone_from_the_file() {
 
 /// The last task of the web server drops the database while it must not block.
 #[test]
-fn exact_a_database_may_be_released_where_nobody_may_wait() {
+fn exact_dropping_the_database_does_not_block() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("records.sqlite").display().to_string();
     let database = Database::open(&file).unwrap();
@@ -246,22 +246,22 @@ fn exact_a_database_may_be_released_where_nobody_may_wait() {
 }
 
 #[test]
-fn exact_a_database_of_a_newer_version_is_refused() {
+fn exact_newer_database_version_is_rejected() {
     let folder = tempfile::tempdir().unwrap();
-    a_newer_version_is_refused(&folder.path().join("records.sqlite").display().to_string());
+    newer_version_is_rejected(&folder.path().join("records.sqlite").display().to_string());
 }
 
 #[test]
-fn exact_no_message_shows_a_password() {
+fn exact_messages_do_not_show_passwords() {
     let error = Database::open("postgres://spandrel:secret@127.0.0.1:1/none?password=secret").unwrap_err().to_string();
     assert!(error.contains("postgres://spandrel@127.0.0.1:1/none") && !error.contains("secret"), "{error}");
 }
 
 #[test]
-fn val_records_live_in_postgresql() {
+fn val_postgresql_database() {
     let server = PostgresServer::start();
     let url = server.url();
-    every_behaviour(&url);
+    run_all_tests(&url);
     readers_do_not_wait_for_a_writer(&url);
-    a_newer_version_is_refused(&url);
+    newer_version_is_rejected(&url);
 }

@@ -111,7 +111,7 @@ fn unprivileged(program: &Path) -> Command {
 }
 
 /// Gives a file to the user that PostgreSQL runs as, readable only by that user: PostgreSQL rejects any other private key.
-pub fn hand_over(file: &Path) {
+pub fn give_to_postgres(file: &Path) {
     std::fs::set_permissions(file, std::fs::Permissions::from_mode(0o600)).unwrap();
     if is_root() {
         chown(file, Some(NOBODY), Some(NOBODY)).unwrap();

@@ -1,14 +1,14 @@
 //! TLS connections to a real PostgreSQL server, with certificates created by OpenSSL.
 
-use super::server::{PostgresServer, hand_over};
+use super::server::{PostgresServer, give_to_postgres};
 use crate::records::database::Database;
 use sqlx::Row;
 use std::net::TcpListener;
 use std::path::Path;
 use std::process::Command;
 
-const KEY: &str = "-newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes";
-const SUBJECT: &str = "SELECT version, client_dn FROM pg_stat_ssl WHERE pid = pg_backend_pid() AND ssl";
+const KEY_OPTIONS: &str = "-newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes";
+const TLS_INFO_QUERY: &str = "SELECT version, client_dn FROM pg_stat_ssl WHERE pid = pg_backend_pid() AND ssl";
 
 fn openssl(folder: &Path, words: &str) {
     let done = Command::new("openssl").args(words.split(' ')).current_dir(folder).output().unwrap();
@@ -17,13 +17,13 @@ fn openssl(folder: &Path, words: &str) {
 
 /// Creates an authority: `NAME.pem` and `NAME.key`.
 fn authority(folder: &Path, name: &str) {
-    openssl(folder, &format!("req -x509 {KEY} -keyout {name}.key -out {name}.pem -days 2 -subj /CN={name}"));
+    openssl(folder, &format!("req -x509 {KEY_OPTIONS} -keyout {name}.key -out {name}.pem -days 2 -subj /CN={name}"));
 }
 
 /// Creates `NAME.pem` and `NAME.key` for a host, signed by the authority `ours`.
 fn signed(folder: &Path, name: &str, host: &str) {
     std::fs::write(folder.join("more.cnf"), format!("subjectAltName=DNS:{host}\nbasicConstraints=CA:FALSE\n")).unwrap();
-    openssl(folder, &format!("req {KEY} -keyout {name}.key -out {name}.csr -subj /CN={name}"));
+    openssl(folder, &format!("req {KEY_OPTIONS} -keyout {name}.key -out {name}.csr -subj /CN={name}"));
     let sign = "-CA ours.pem -CAkey ours.key -CAcreateserial -days 2 -extfile more.cnf";
     openssl(folder, &format!("x509 -req -in {name}.csr -out {name}.pem {sign}"));
 }
@@ -31,19 +31,19 @@ fn signed(folder: &Path, name: &str, host: &str) {
 /// Returns the TLS version and the subject of the client certificate, as PostgreSQL reports them for this connection.
 fn seen(url: &str) -> Option<(String, String)> {
     let database = Database::open(url).unwrap();
-    let row = database.run(async { sqlx::query(SUBJECT).fetch_optional(&database.pool).await }).unwrap()?;
+    let row = database.run(async { sqlx::query(TLS_INFO_QUERY).fetch_optional(&database.pool).await }).unwrap()?;
     Some((row.get(0), row.try_get(1).unwrap_or_default()))
 }
 
 #[test]
-fn val_tls_to_postgresql_by_its_url() {
+fn val_tls_options_in_the_postgresql_url() {
     let made = tempfile::tempdir().unwrap();
     let folder = made.path();
     authority(folder, "ours");
     authority(folder, "other");
     signed(folder, "server", "localhost");
     signed(folder, "station", "station");
-    hand_over(&folder.join("server.key"));
+    give_to_postgres(&folder.join("server.key"));
     // PostgreSQL runs as another user and has to read the files.
     std::fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
     let at = |name: &str| folder.join(name).display().to_string();
@@ -73,7 +73,7 @@ fn val_tls_to_postgresql_by_its_url() {
 }
 
 #[test]
-fn val_a_postgresql_without_tls_is_not_spoken_to_in_the_clear_when_tls_is_requested() {
+fn val_sslmode_require_rejects_a_server_without_tls() {
     let server = PostgresServer::start();
     let error = Database::open(&format!("{}&sslmode=require", server.url())).unwrap_err().to_string();
     assert!(error.contains("ssl = on") && error.contains("sslmode=disable"), "{error}");

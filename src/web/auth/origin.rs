@@ -16,7 +16,7 @@ pub struct AllowedOrigins {
 
 impl AllowedOrigins {
     /// Returns the setting for a server behind these proxies, or behind a proxy on this machine if none are given.
-    pub fn behind(named: &[IpNet], hosts: &[String]) -> Self {
+    pub fn behind_proxies(named: &[IpNet], hosts: &[String]) -> Self {
         let local = || vec![IpNet::from(IpAddr::from(Ipv4Addr::LOCALHOST)), IpNet::from(IpAddr::from(Ipv6Addr::LOCALHOST))];
         Self { proxies: if named.is_empty() { local() } else { named.to_vec() }, hosts: hosts.to_vec() }
     }
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_other_sites_and_other_names_are_turned_away() {
+    fn exact_other_sites_and_host_names_are_rejected() {
         let guard = named(&["trainer.example"]);
         let ok = |pairs: &[(&'static str, &str)], changes, open| guard.check_origin(&headers(pairs), changes, open).is_ok();
         assert!(ok(&[("host", "127.0.0.1:8080")], true, true));
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_the_host_header_is_one_name_of_this_server() {
+    fn regress_invalid_host_headers_are_rejected() {
         let guard = named(&["trainer.example"]);
         let ok = |pairs: &[(&'static str, &str)]| guard.check_origin(&headers(pairs), false, false).is_ok();
         for good in ["trainer.example", "TRAINER.example:8443", "10.0.0.7:8443", "[2001:db8::7]", "localhost:1"] {
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_only_a_trusted_proxy_reports_for_whom_it_asks() {
+    fn regress_forwarded_addresses_are_accepted_only_from_trusted_proxies() {
         let local: IpAddr = [127, 0, 0, 1].into();
         let (proxy, client): (IpAddr, IpAddr) = ([10, 0, 0, 2].into(), [203, 0, 113, 9].into());
         let forwarded = headers(&[("x-forwarded-for", "1.1.1.1, 203.0.113.9")]);
@@ -227,13 +227,13 @@ mod tests {
             Authenticator::new(true, true, reach).address(socket, headers).ok()
         };
         assert_eq!(address(AllowedOrigins::default(), local, &forwarded), Some(local), "without a proxy, the header is ignored");
-        let here = AllowedOrigins::behind(&[], &[]);
+        let here = AllowedOrigins::behind_proxies(&[], &[]);
         assert_eq!(address(here.clone(), local, &forwarded), Some(client));
         assert_eq!(address(here.clone(), IpAddr::from(Ipv4Addr::LOCALHOST.to_ipv6_mapped()), &forwarded), Some(client));
         assert_eq!(address(here.clone(), local, &headers(&[])), Some(local));
         assert_eq!(address(here.clone(), local, &headers(&[("x-forwarded-for", "1.1.1.1, nonsense")])), Some(local));
         assert_eq!(address(here, proxy, &forwarded), None, "a client that bypasses the proxy");
-        let chain = AllowedOrigins::behind(&["10.0.0.0/24".parse().unwrap()], &[]);
+        let chain = AllowedOrigins::behind_proxies(&["10.0.0.0/24".parse().unwrap()], &[]);
         let through_two = headers(&[("x-forwarded-for", "1.1.1.1, 203.0.113.9"), ("x-forwarded-for", "10.0.0.3")]);
         assert_eq!(address(chain.clone(), proxy, &through_two), Some(client));
         assert_eq!(address(chain, local, &through_two), None);

@@ -2,7 +2,7 @@
 
 use super::picture::version;
 use super::vehicle::LiveVehicle;
-use super::vehicle_choice::chosen;
+use super::vehicle_choice::select_vehicle;
 use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
@@ -12,7 +12,7 @@ const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
 
 /// Responds with a vehicle's image to an instructor.
 pub fn show(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let (_, live) = chosen(state, asked.query_value("vehicle"))?;
+    let (_, live) = select_vehicle(state, asked.query_value("vehicle"))?;
     of(live)
 }
 

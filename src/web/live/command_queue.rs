@@ -3,22 +3,22 @@
 
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
-use spandrel_mavlink::{note, station};
+use spandrel_mavlink::{instructor_note, station};
 use spandrel_monitor::sidecar::COMPONENT as MONITOR;
 use std::collections::VecDeque;
 use std::time::Duration;
 
 /// Interval at which an unanswered step is repeated.
-const AGAIN: Duration = Duration::from_millis(500);
+const RETRY_INTERVAL: Duration = Duration::from_millis(500);
 /// Maximum number of attempts per step.
-const TRIES: u32 = 20;
+const MAX_TRIES: u32 = 20;
 /// MAVLink system ID of the live page. Its component is a companion computer, so that its loss does not trigger the vehicle's ground station
 /// failsafe.
-pub const SYSTEM: u8 = 252;
-pub const COMPONENT: u8 = 192;
+pub const INSTRUCTOR_SYSTEM: u8 = 252;
+pub const INSTRUCTOR_COMPONENT: u8 = 192;
 /// FAILURE_TYPE_OK and FAILURE_TYPE_OFF of MAV_CMD_INJECT_FAILURE.
-const WHOLE: f32 = 0.0;
-const OFF: f32 = 1.0;
+const FAILURE_TYPE_OK: f32 = 0.0;
+const FAILURE_TYPE_OFF: f32 = 1.0;
 
 /// A command of an instructor.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,7 +60,7 @@ enum CommandStep {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ParamNumber {
     Real(f32),
-    Whole(i32),
+    Integer(i32),
 }
 
 impl ParamNumber {
@@ -68,8 +68,8 @@ impl ParamNumber {
     fn to_wire(self, cast: bool) -> f32 {
         match self {
             Self::Real(value) => value,
-            Self::Whole(value) if cast => value as f32,
-            Self::Whole(value) => f32::from_bits(value.cast_unsigned()),
+            Self::Integer(value) if cast => value as f32,
+            Self::Integer(value) => f32::from_bits(value.cast_unsigned()),
         }
     }
 
@@ -108,12 +108,12 @@ impl CommandQueue {
             }
             InstructorCommand::Traffic { open } => {
                 let words = format!("instructor: the bridges are {} to traffic", if open { "open" } else { "closed" });
-                (vec![CommandStep::Parameter("SIM_TRAFFIC", ParamNumber::Whole(i32::from(open)))], words)
+                (vec![CommandStep::Parameter("SIM_TRAFFIC", ParamNumber::Integer(i32::from(open)))], words)
             }
             InstructorCommand::Failure { unit, words, fails } => {
                 let said = format!("instructor: {} {}", words.to_lowercase(), if fails { "fails" } else { "restored" });
-                let inject = CommandStep::Inject { unit, kind: if fails { OFF } else { WHOLE } };
-                (vec![CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Whole(1)), inject], said)
+                let inject = CommandStep::Inject { unit, kind: if fails { FAILURE_TYPE_OFF } else { FAILURE_TYPE_OK } };
+                (vec![CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Integer(1)), inject], said)
             }
         };
         self.0.push_back(QueuedCommand { steps: steps.into(), description: words, last_sent: None, tries: 0 });
@@ -128,10 +128,10 @@ impl CommandQueue {
                 self.0.pop_front();
                 continue;
             };
-            if task.last_sent.is_some_and(|asked| now < asked + AGAIN) {
+            if task.last_sent.is_some_and(|asked| now < asked + RETRY_INTERVAL) {
                 break;
             }
-            if task.tries >= TRIES {
+            if task.tries >= MAX_TRIES {
                 words.push(format!("{}: no answer", task.description));
                 self.0.pop_front();
                 continue;
@@ -166,7 +166,7 @@ impl CommandQueue {
 
 /// Returns the answer to a step: success, or rejection with a reason. Ignores answers to other systems.
 fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'static str>> {
-    let ours = |system: u8, component: u8| (system, component) == (SYSTEM, COMPONENT);
+    let ours = |system: u8, component: u8| (system, component) == (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT);
     match (step, message) {
         // Only the new value counts as an answer; another client may have requested the old one.
         (CommandStep::Parameter(name, number), MavMessage::PARAM_VALUE(value)) => {
@@ -175,7 +175,7 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'stati
         }
         (CommandStep::Parameter(name, _), MavMessage::PARAM_ERROR(error)) => {
             let it = error.param_id.to_str().is_ok_and(|id| id == *name) && ours(error.target_system, error.target_component);
-            it.then(|| Err(error_words(error.error)))
+            it.then(|| Err(param_error_text(error.error)))
         }
         (CommandStep::Inject { .. }, MavMessage::COMMAND_ACK(ack))
             if ack.command == MavCmd::MAV_CMD_INJECT_FAILURE && ours(ack.target_system, ack.target_component) =>
@@ -198,7 +198,7 @@ fn result(result: MavResult) -> Option<Result<(), &'static str>> {
     }
 }
 
-fn error_words(error: MavParamError) -> &'static str {
+fn param_error_text(error: MavParamError) -> &'static str {
     match error {
         MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST => "this vehicle has no such parameter",
         MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE => "the value is out of range",
@@ -214,7 +214,7 @@ fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, cast: bool) -> V
         CommandStep::Parameter(name, number) => {
             let param_type = match number {
                 ParamNumber::Real(_) => MavParamType::MAV_PARAM_TYPE_REAL32,
-                ParamNumber::Whole(_) => MavParamType::MAV_PARAM_TYPE_INT32,
+                ParamNumber::Integer(_) => MavParamType::MAV_PARAM_TYPE_INT32,
             };
             let param_value = number.to_wire(cast);
             let set =
@@ -226,7 +226,7 @@ fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, cast: bool) -> V
             let command: COMMAND_LONG_DATA = station::command(system, 1, MavCmd::MAV_CMD_INJECT_FAILURE, params);
             encoder.encode(&MavMessage::COMMAND_LONG(command))
         }
-        CommandStep::Note(text) => note::encode(encoder, system, MONITOR, text),
+        CommandStep::Note(text) => instructor_note::encode(encoder, system, MONITOR, text),
     }
 }
 
@@ -245,7 +245,7 @@ mod tests {
         (frames.iter().map(|frame| Decoder::new().datagram(frame).remove(0)).collect(), words)
     }
 
-    fn acked(result: MavResult, (target_system, target_component): (u8, u8)) -> MavMessage {
+    fn command_ack(result: MavResult, (target_system, target_component): (u8, u8)) -> MavMessage {
         let command = MavCmd::MAV_CMD_INJECT_FAILURE;
         MavMessage::COMMAND_ACK(COMMAND_ACK_DATA {
             command,
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn wire_a_wind_is_asked_step_by_step_and_again_until_answered() {
+    fn wire_wind_steps_are_repeated_until_answered() {
         let mut orders = CommandQueue::default();
         orders.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
         let name = |frames: &[ReceivedFrame]| match frames[0].message.as_ref() {
@@ -289,18 +289,18 @@ mod tests {
         orders.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut orders, 1);
         assert_eq!(
-            orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_DENIED, (SYSTEM, COMPONENT)))),
+            orders.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
             Some("instructor: satellite navigation fails: rejected, the vehicle denies it".into())
         );
         let (frames, words) = sent(&mut orders, 2);
-        assert_eq!((note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
+        assert_eq!((instructor_note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
         orders.push(InstructorCommand::Wind { speed_m_s: 1.0, from_deg: 0.0 });
         let told: Vec<String> = (0..30).flat_map(|k| sent(&mut orders, 1_000 + 500 * k).1).collect();
         assert_eq!(told, ["instructor: wind 1 m/s from 0°: no answer"]);
     }
 
     #[test]
-    fn wire_a_refused_parameter_is_reported_at_once_and_answers_to_others_count_for_nothing() {
+    fn wire_rejected_parameters_are_reported_and_answers_to_other_systems_ignored() {
         let mut orders = CommandQueue::default();
         orders.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
         sent(&mut orders, 0);
@@ -313,12 +313,14 @@ mod tests {
                 ..PARAM_ERROR_DATA::default()
             }))
         };
-        for other in
-            [error("SIM_WIND_DIR", (255, 190)), error("SIM_WIND_DIR", (SYSTEM, 1)), error("SIM_WIND_SPD", (SYSTEM, COMPONENT))]
-        {
+        for other in [
+            error("SIM_WIND_DIR", (255, 190)),
+            error("SIM_WIND_DIR", (INSTRUCTOR_SYSTEM, 1)),
+            error("SIM_WIND_SPD", (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)),
+        ] {
             assert_eq!(orders.handle_frame(&other), None);
         }
-        let refused = orders.handle_frame(&error("SIM_WIND_DIR", (SYSTEM, COMPONENT)));
+        let refused = orders.handle_frame(&error("SIM_WIND_DIR", (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)));
         assert_eq!(refused.as_deref(), Some("instructor: wind 8 m/s from 270°: rejected, the value is out of range"));
         assert_eq!(sent(&mut orders, 10_000), (vec![], vec![]), "the command has ended");
 
@@ -327,18 +329,25 @@ mod tests {
         orders.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut orders, 10_001);
         assert_eq!(
-            orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_DENIED, (255, 190)))),
+            orders.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (255, 190)))),
             None,
             "an answer to another system"
         );
-        assert_eq!(orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_IN_PROGRESS, (SYSTEM, COMPONENT)))), None);
+        assert_eq!(
+            orders
+                .handle_frame(&told(&command_ack(MavResult::MAV_RESULT_IN_PROGRESS, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
+            None
+        );
         assert_eq!(sent(&mut orders, 10_600).0.len(), 1, "still waiting for its own answer");
-        assert_eq!(orders.handle_frame(&told(&acked(MavResult::MAV_RESULT_ACCEPTED, (SYSTEM, COMPONENT)))), None);
+        assert_eq!(
+            orders.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_ACCEPTED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
+            None
+        );
         assert_eq!(sent(&mut orders, 10_601).1, ["instructor: compass fails"]);
     }
 
     #[test]
-    fn wire_the_bridges_are_closed_by_a_whole_number() {
+    fn wire_bridges_are_closed_with_an_integer_parameter() {
         let mut orders = CommandQueue::default();
         orders.push(InstructorCommand::Traffic { open: false });
         let (frames, _) = sent(&mut orders, 0);
@@ -349,9 +358,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_whole_numbers_travel_as_the_vehicle_takes_them() {
+    fn exact_integer_parameters_use_the_vehicle_encoding() {
         for (cast, bits) in [(false, 1), (true, 1f32.to_bits())] {
-            let step = CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Whole(1));
+            let step = CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Integer(1));
             let frame = Decoder::new().datagram(&frame(&step, &mut Encoder::new(252, 192), 1, cast)).remove(0);
             let Some(MavMessage::PARAM_SET(set)) = frame.message else { panic!() };
             assert_eq!(set.param_value.to_bits(), bits);

@@ -2,20 +2,20 @@
 
 use crate::io::session_folder::ongoing_session;
 use crate::records::session_folders;
-use spandrel_training::web::live_state::JobKey;
+use spandrel_training::web::live_state::JobIdentity;
 use std::path::PathBuf;
 use std::time::Duration;
 
 /// A session whose telemetry has not grown for this long is not the current flight.
-const FRESH: Duration = Duration::from_secs(10);
+const MAX_AGE: Duration = Duration::from_secs(10);
 
 /// Returns the trainee of the only matching ongoing session. `None` if there is none or more than one, so that no trainee sees another one's camera.
-pub fn trainee(sessions: &[PathBuf], key: JobKey) -> Option<String> {
+pub fn current_trainee(sessions: &[PathBuf], key: JobIdentity) -> Option<String> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let folders = session_folders(&here).ok()?;
     let mut found = folders
         .iter()
-        .filter_map(|folder| ongoing_session(folder, FRESH))
+        .filter_map(|folder| ongoing_session(folder, MAX_AGE))
         .filter(|one| (one.crc, one.seed) == (key.crc, key.seed));
     let one = found.next()?;
     found.next().is_none().then_some(one.trainee)
@@ -27,32 +27,32 @@ mod tests {
     use spandrel_monitor::folder::{ASSESSMENT, SESSION, TELEMETRY};
     use std::fs;
 
-    const KEY: JobKey = JobKey { crc: 0x00ab_cdef, seed: 7 };
+    const JOB: JobIdentity = JobIdentity { crc: 0x00ab_cdef, seed: 7 };
 
     fn session(sessions: &tempfile::TempDir, name: &str, trainee: &str, seed: u64) -> PathBuf {
         let folder = sessions.path().join(name);
         fs::create_dir(&folder).unwrap();
         fs::write(folder.join(TELEMETRY), b"x").unwrap();
-        let about = serde_json::json!({ "trainee": trainee, "scenario_crc": format!("{:08x}", KEY.crc), "seed": seed });
+        let about = serde_json::json!({ "trainee": trainee, "scenario_crc": format!("{:08x}", JOB.crc), "seed": seed });
         fs::write(folder.join(SESSION), about.to_string()).unwrap();
         folder
     }
 
     #[test]
-    fn exact_the_flight_belongs_to_the_one_session_that_is_being_written() {
+    fn exact_owner_is_the_trainee_of_the_only_ongoing_session() {
         let sessions = tempfile::tempdir().unwrap();
         let places = [sessions.path().to_path_buf(), PathBuf::from("/none")];
-        assert_eq!(trainee(&places, KEY), None);
-        let anna = session(&sessions, "1-anna", "anna", KEY.seed);
-        session(&sessions, "2-ben", "ben", KEY.seed + 1);
-        assert_eq!(trainee(&places, KEY).as_deref(), Some("anna"));
-        let cleo = session(&sessions, "3-cleo", "cleo", KEY.seed);
-        assert_eq!(trainee(&places, KEY), None, "two sessions match");
+        assert_eq!(current_trainee(&places, JOB), None);
+        let anna = session(&sessions, "1-anna", "anna", JOB.seed);
+        session(&sessions, "2-ben", "ben", JOB.seed + 1);
+        assert_eq!(current_trainee(&places, JOB).as_deref(), Some("anna"));
+        let cleo = session(&sessions, "3-cleo", "cleo", JOB.seed);
+        assert_eq!(current_trainee(&places, JOB), None, "two sessions match");
         fs::write(cleo.join(ASSESSMENT), b"{}").unwrap();
-        assert_eq!(trainee(&places, KEY).as_deref(), Some("anna"), "the other has ended");
+        assert_eq!(current_trainee(&places, JOB).as_deref(), Some("anna"), "the other has ended");
         let file = fs::File::options().write(true).open(anna.join(TELEMETRY)).unwrap();
         let modified = file.metadata().unwrap().modified().unwrap();
-        file.set_modified(modified - 2 * FRESH).unwrap();
-        assert_eq!(trainee(&places, KEY), None, "no longer being written");
+        file.set_modified(modified - 2 * MAX_AGE).unwrap();
+        assert_eq!(current_trainee(&places, JOB), None, "no longer being written");
     }
 }

@@ -1,20 +1,20 @@
 //! Converts the instructor's form fields to commands.
 
 use super::command_queue::InstructorCommand;
-use super::vehicle_choice::chosen;
+use super::vehicle_choice::select_vehicle;
 use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
 use serde_json::json;
-use spandrel_training::web::live::{self as pages, UNITS};
+use spandrel_training::web::live::{self as pages, INJECTABLE_FAILURES};
 
 /// Starts an instructor's action. The result appears later in the stream.
 pub fn run_action(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let (number, live) = chosen(state, asked.form_field("vehicle"))?;
+    let (number, live) = select_vehicle(state, asked.form_field("vehicle"))?;
     let order = parse_command(asked)?;
     live.orders.send(order).map_err(|_| WebError::Failed("the live listener has stopped: restart the server".into()))?;
     let back = format!("/live?vehicle={number}");
-    Ok(if asked.by_script { WebResponse::json(&json!({ "under_way": true })) } else { WebResponse::redirect(&back) })
+    Ok(if asked.expects_json { WebResponse::json(&json!({ "under_way": true })) } else { WebResponse::redirect(&back) })
 }
 
 fn parse_command(asked: &WebRequest) -> Result<InstructorCommand, WebError> {
@@ -22,10 +22,10 @@ fn parse_command(asked: &WebRequest) -> Result<InstructorCommand, WebError> {
         "note" => {
             let text = asked.required_field("text")?;
             let count = text.chars().count();
-            if count > pages::NOTE_MOST || text.chars().any(char::is_control) {
+            if count > pages::MAX_NOTE_LEN || text.chars().any(char::is_control) {
                 return Err(WebError::BadRequest(format!(
                     "text: {count} characters (allowed: 1 to {}, on one line)",
-                    pages::NOTE_MOST
+                    pages::MAX_NOTE_LEN
                 )));
             }
             Ok(InstructorCommand::Note(text.to_owned()))
@@ -36,12 +36,12 @@ fn parse_command(asked: &WebRequest) -> Result<InstructorCommand, WebError> {
                 let allowed = || WebError::BadRequest(format!("{name}: invalid number (allowed: 0 to {most})"));
                 value.filter(|value| (0.0..=most).contains(value)).ok_or_else(allowed)
             };
-            Ok(InstructorCommand::Wind { speed_m_s: number("speed", pages::WIND_MOST_M_S)?, from_deg: number("from", 360.0)? })
+            Ok(InstructorCommand::Wind { speed_m_s: number("speed", pages::MAX_WIND_M_S)?, from_deg: number("from", 360.0)? })
         }
         "traffic" => Ok(InstructorCommand::Traffic { open: asked.required_field("open")? == "yes" }),
         "failure" => {
             let key = asked.required_field("unit")?;
-            let unit = UNITS.iter().find(|(name, ..)| *name == key);
+            let unit = INJECTABLE_FAILURES.iter().find(|(name, ..)| *name == key);
             let (_, words, unit) = unit.ok_or_else(|| WebError::BadRequest("unit: unknown".into()))?;
             Ok(InstructorCommand::Failure { unit: *unit, words, fails: asked.required_field("fails")? == "yes" })
         }

@@ -1,6 +1,6 @@
 //! The instructor's page of a live flight.
 
-use super::vehicle_choice::chosen;
+use super::vehicle_choice::select_vehicle;
 use crate::web::lock::lock;
 use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebResponse};
@@ -10,10 +10,10 @@ use spandrel_training::web::live as pages;
 /// Shows the instructor's live page.
 pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     if state.live.is_empty() {
-        return Ok(WebResponse::page(pages::live(&asked.visitor, None, &pages::VehicleChoice::default())));
+        return Ok(WebResponse::page(pages::live(&asked.visitor, None, &pages::VehicleSelection::default())));
     }
-    let (number, live) = chosen(state, asked.query_value("vehicle"))?;
+    let (number, live) = select_vehicle(state, asked.query_value("vehicle"))?;
     let drawn = lock(&live.known.drawn).clone();
     let vehicles = state.live.iter().map(|live| live.vehicle.to_string()).collect();
-    Ok(WebResponse::page(pages::live(&asked.visitor, drawn.as_ref(), &pages::VehicleChoice { vehicles, number })))
+    Ok(WebResponse::page(pages::live(&asked.visitor, drawn.as_ref(), &pages::VehicleSelection { vehicles, number })))
 }

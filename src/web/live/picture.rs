@@ -4,31 +4,31 @@ use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
 /// Age above which an image is outdated.
-const FRESH: Duration = Duration::from_secs(10);
+const MAX_AGE: Duration = Duration::from_secs(10);
 /// Maximum size of an image, bytes; a full HD view has several hundred thousand.
-const MOST: u64 = 4 * 1024 * 1024;
+const MAX_BYTES: u64 = 4 * 1024 * 1024;
 /// Returns the version of the current image, so that browsers request each image only once; `None` if it is outdated.
 pub fn version(path: &Path) -> Option<u64> {
-    let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MOST)?;
+    let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MAX_BYTES)?;
     let kept = about.modified().ok()?;
     // If the clock was set back, the image counts as current.
     let age = kept.elapsed().unwrap_or_default();
     let since = kept.duration_since(UNIX_EPOCH).ok()?;
-    (age < FRESH).then(|| u64::try_from(since.as_millis()).ok()).flatten()
+    (age < MAX_AGE).then(|| u64::try_from(since.as_millis()).ok()).flatten()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
+    const JPEG_SIGNATURE: [u8; 3] = [0xff, 0xd8, 0xff];
 
     #[test]
-    fn exact_only_a_picture_of_now_has_a_version() {
+    fn exact_only_current_images_have_a_version() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("camera.jpg");
         assert_eq!(version(&path), None);
-        std::fs::write(&path, JPEG).unwrap();
+        std::fs::write(&path, JPEG_SIGNATURE).unwrap();
         let file = std::fs::File::options().write(true).open(&path).unwrap();
         let now = file.metadata().unwrap().modified().unwrap();
         let at = |ago: Duration| file.set_modified(now - ago).unwrap();
@@ -36,7 +36,7 @@ mod tests {
         let first = version(&path).unwrap();
         at(Duration::ZERO);
         assert!(version(&path).unwrap() > first, "every image has its own version");
-        at(2 * FRESH);
+        at(2 * MAX_AGE);
         assert_eq!((version(&path), version(folder.path())), (None, None));
     }
 }

@@ -11,7 +11,7 @@ use std::convert::Infallible;
 use std::sync::Arc;
 
 /// Number of events after which the visitor's access is checked again.
-const LOOK_AGAIN: u32 = 50;
+const ACCESS_CHECK_INTERVAL: u32 = 50;
 
 /// Streams the values until the browser disconnects or the visitor loses access.
 pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, cookie: Option<String>) -> Response<Body> {
@@ -21,7 +21,7 @@ pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, cookie: Option<String
         if count > 0 {
             moments.changed().await.ok()?;
         }
-        if count % LOOK_AGAIN == LOOK_AGAIN - 1 && !still_may(&state, cookie.clone()).await {
+        if count % ACCESS_CHECK_INTERVAL == ACCESS_CHECK_INTERVAL - 1 && !still_has_access(&state, cookie.clone()).await {
             return None;
         }
         let text = moments.borrow_and_update().clone();
@@ -32,10 +32,10 @@ pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, cookie: Option<String
     response
 }
 
-async fn still_may(state: &Arc<ServerState>, cookie: Option<String>) -> bool {
+async fn still_has_access(state: &Arc<ServerState>, cookie: Option<String>) -> bool {
     let state = state.clone();
     let looked = tokio::task::spawn_blocking(move || state.auth.identify(&state.database, cookie)).await;
     looked.is_ok_and(|recognised| {
-        recognised.is_ok_and(|recognised| !recognised.fresh && recognised.visitor.satisfies(AccessLevel::Instructor))
+        recognised.is_ok_and(|recognised| !recognised.is_new && recognised.visitor.satisfies(AccessLevel::Instructor))
     })
 }

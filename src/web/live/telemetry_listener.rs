@@ -1,6 +1,6 @@
 //! Listener thread of one vehicle: subscribes to its payload port.
 
-use super::command_queue::{COMPONENT, CommandQueue, InstructorCommand, SYSTEM};
+use super::command_queue::{CommandQueue, INSTRUCTOR_COMPONENT, INSTRUCTOR_SYSTEM, InstructorCommand};
 use super::{flight_owner, picture};
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -14,8 +14,8 @@ use spandrel_mavlink::station;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_training::report::plots::job::{job_plan, job_side, job_south};
-use spandrel_training::web::live::DrawnJob;
-use spandrel_training::web::live_state::{JobKey, LiveFlightState};
+use spandrel_training::web::live::JobDrawings;
+use spandrel_training::web::live_state::{JobIdentity, LiveFlightState};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
@@ -24,13 +24,13 @@ use std::time::Duration;
 use tokio::sync::watch;
 
 /// Interval of updates to the pages.
-const EVERY: Duration = Duration::from_millis(200);
+const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
 /// Maximum wait for a datagram.
-const WAIT: Duration = Duration::from_millis(50);
+const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Heartbeat interval. The vehicle drops subscribers that stay silent.
-const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
+const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 /// Time without telemetry after which a vehicle counts as silent.
-const SILENT: Duration = Duration::from_secs(3);
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Maximum number of datagrams processed per cycle.
 const BATCH: usize = 256;
 
@@ -54,18 +54,18 @@ pub struct LiveListener {
     encoder: Encoder,
     orders: CommandQueue,
     /// Scenario that was not found, and the time of the search.
-    unknown: Option<(JobKey, Duration)>,
+    not_found: Option<(JobIdentity, Duration)>,
     /// Time of the last search for the trainee.
     trainee_checked: Option<Duration>,
-    known: SharedKnowledge,
-    places: ListenerPaths,
+    known: SharedFlightInfo,
+    paths: ListenerPaths,
 }
 
 /// State of the flight that pages read.
 #[derive(Debug, Clone, Default)]
-pub struct SharedKnowledge {
+pub struct SharedFlightInfo {
     /// Drawings of the scenario.
-    pub drawn: Arc<Mutex<Option<DrawnJob>>>,
+    pub drawn: Arc<Mutex<Option<JobDrawings>>>,
     /// Trainee of the current flight.
     pub trainee: Arc<Mutex<Option<String>>>,
 }
@@ -75,7 +75,7 @@ impl LiveListener {
     ///
     /// # Errors
     /// If the socket cannot be opened.
-    pub fn open(vehicle: SocketAddr, known: SharedKnowledge, places: ListenerPaths) -> Result<Self, AppError> {
+    pub fn open(vehicle: SocketAddr, known: SharedFlightInfo, paths: ListenerPaths) -> Result<Self, AppError> {
         let ip: IpAddr = match vehicle.ip() {
             ip if ip.is_loopback() => ip,
             IpAddr::V4(_) => Ipv4Addr::UNSPECIFIED.into(),
@@ -83,8 +83,9 @@ impl LiveListener {
         };
         let mut hub = SocketHub::new();
         let socket = hub.bind(ip, 0, "--vehicle")?;
-        let (watch, encoder, orders) = (LiveFlightState::new(), Encoder::new(SYSTEM, COMPONENT), CommandQueue::default());
-        Ok(Self { hub, socket, vehicle, flight: watch, encoder, orders, unknown: None, trainee_checked: None, known, places })
+        let (watch, encoder, orders) =
+            (LiveFlightState::new(), Encoder::new(INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT), CommandQueue::default());
+        Ok(Self { hub, socket, vehicle, flight: watch, encoder, orders, not_found: None, trainee_checked: None, known, paths })
     }
 
     /// Listens until the server stops.
@@ -97,7 +98,7 @@ impl LiveListener {
             if self.receive() {
                 heard = Some(clock.elapsed());
             }
-            if due(beat, HEARTBEAT_EVERY) {
+            if due(beat, HEARTBEAT_INTERVAL) {
                 beat = Some(clock.elapsed());
                 self.send(&station::companion_heartbeat());
             }
@@ -105,10 +106,10 @@ impl LiveListener {
                 self.orders.push(order);
             }
             self.send_due_commands(clock.elapsed());
-            self.find_job(clock.elapsed());
-            let lives = heard.is_some_and(|heard: Duration| clock.elapsed() < heard + SILENT);
+            self.find_scenario(clock.elapsed());
+            let lives = heard.is_some_and(|heard: Duration| clock.elapsed() < heard + SILENCE_TIMEOUT);
             self.find_trainee(lives, clock.elapsed());
-            if due(told, EVERY) {
+            if due(told, UPDATE_INTERVAL) {
                 told = Some(clock.elapsed());
                 moments.send_replace(self.moment(lives).to_string());
             }
@@ -117,13 +118,13 @@ impl LiveListener {
 
     fn moment(&self, heard: bool) -> Value {
         let mut moment = self.flight.to_json(heard);
-        moment["picture"] = self.places.picture.as_deref().and_then(picture::version).into();
+        moment["picture"] = self.paths.picture.as_deref().and_then(picture::version).into();
         moment
     }
 
     /// Processes received datagrams. Returns true if there were any from the vehicle.
     fn receive(&mut self) -> bool {
-        let (mut wait, mut spoke) = (WAIT, false);
+        let (mut wait, mut spoke) = (MAX_WAIT, false);
         for _ in 0..BATCH {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;
@@ -161,46 +162,46 @@ impl LiveListener {
     }
 
     /// Finds the scenario with the vehicle's checksum: shipped, uploaded, or in a recent session folder.
-    fn find_job(&mut self, now: Duration) {
-        let Some(key) = self.flight.missing_job().filter(|key| self.flight.job() != Some(*key)) else { return };
-        if self.unknown.is_some_and(|(other, at)| other == key && now < at + SILENT) {
+    fn find_scenario(&mut self, now: Duration) {
+        let Some(key) = self.flight.announced_job().filter(|key| self.flight.job() != Some(*key)) else { return };
+        if self.not_found.is_some_and(|(other, at)| other == key && now < at + SILENCE_TIMEOUT) {
             return;
         }
-        let Some(scenario) = self.scenario_of(key.crc) else {
-            self.unknown = Some((key, now));
+        let Some(scenario) = self.read_scenario(key.crc) else {
+            self.not_found = Some((key, now));
             return;
         };
-        let drawn = draw_job(&scenario, key);
+        let drawn = draw_scenario(&scenario, key);
         *lock(&self.known.drawn) = Some(drawn);
         self.flight.set_job(key, &scenario);
     }
 
     /// Updates the trainee from time to time, because the next flight may be another trainee's.
     fn find_trainee(&mut self, lives: bool, now: Duration) {
-        if self.trainee_checked.is_some_and(|at| now < at + SILENT) {
+        if self.trainee_checked.is_some_and(|at| now < at + SILENCE_TIMEOUT) {
             return;
         }
         self.trainee_checked = Some(now);
-        let flown = self.flight.missing_job().filter(|_| lives);
-        *lock(&self.known.trainee) = flown.and_then(|key| flight_owner::trainee(&self.places.sessions, key));
+        let flown = self.flight.announced_job().filter(|_| lives);
+        *lock(&self.known.trainee) = flown.and_then(|key| flight_owner::current_trainee(&self.paths.sessions, key));
     }
 
-    fn scenario_of(&self, crc: u32) -> Option<Scenario> {
-        let ListenerPaths { sessions, scenarios: uploads, .. } = &self.places;
+    fn read_scenario(&self, crc: u32) -> Option<Scenario> {
+        let ListenerPaths { sessions, scenarios: uploads, .. } = &self.paths;
         let known = scenarios::all(uploads).into_iter().map(|job| job.scenario).find(|scenario| scenario.crc == crc);
         known.or_else(|| {
             let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
             let folders = crate::records::session_folders(&here).ok()?;
             // The newest folders are last.
             folders.iter().rev().take(20).find_map(|folder| {
-                let scenario = crate::io::session_folder::StoredSession::scenario_of(folder).ok()?.scenario;
+                let scenario = crate::io::session_folder::StoredSession::read_scenario(folder).ok()?.scenario;
                 (scenario.crc == crc).then_some(scenario)
             })
         })
     }
 }
 
-fn draw_job(scenario: &Scenario, key: JobKey) -> DrawnJob {
+fn draw_scenario(scenario: &Scenario, key: JobIdentity) -> JobDrawings {
     let site = Site::build(scenario, key.seed);
     let mut drawings = vec![("From above, north up".to_owned(), job_plan(scenario, &site).into_string())];
     for bridge in &scenario.bridges {
@@ -209,5 +210,5 @@ fn draw_job(scenario: &Scenario, key: JobKey) -> DrawnJob {
     if scenario.bridges.is_empty() {
         drawings.push(("From the south".to_owned(), job_south(scenario, &site).into_string()));
     }
-    DrawnJob { key: format!("{:08x}-{}", key.crc, key.seed), title: scenario.title.clone(), drawings }
+    JobDrawings { key: format!("{:08x}-{}", key.crc, key.seed), title: scenario.title.clone(), drawings }
 }

@@ -1,7 +1,7 @@
 //! A flight that is watched.
 
 use super::command_queue::InstructorCommand;
-use super::telemetry_listener::{ListenerPaths, LiveListener, SharedKnowledge};
+use super::telemetry_listener::{ListenerPaths, LiveListener, SharedFlightInfo};
 use crate::errors::AppError;
 use spandrel_training::web::live_state::LiveFlightState;
 use std::net::SocketAddr;
@@ -24,7 +24,7 @@ pub struct LiveVehicle {
     pub vehicle: SocketAddr,
     pub picture: Option<PathBuf>,
     pub moments: watch::Receiver<String>,
-    pub known: SharedKnowledge,
+    pub known: SharedFlightInfo,
     pub orders: Sender<InstructorCommand>,
 }
 
@@ -37,7 +37,7 @@ impl LiveVehicle {
         let WatchedVehicle { vehicle, picture } = watched.clone();
         let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());
         let (orders, received) = channel();
-        let known = SharedKnowledge::default();
+        let known = SharedFlightInfo::default();
         let places = ListenerPaths { sessions: sessions.to_vec(), scenarios: scenarios.to_path_buf(), picture: picture.clone() };
         let mut ear = LiveListener::open(vehicle, known.clone(), places)?;
         std::thread::spawn(move || ear.listen(&sender, &received));

@@ -8,7 +8,7 @@ use crate::web::state::ServerState;
 ///
 /// # Errors
 /// If no vehicle is configured, or the number is too large.
-pub fn chosen<'a>(state: &'a ServerState, word: Option<&str>) -> Result<(usize, &'a LiveVehicle), WebError> {
+pub fn select_vehicle<'a>(state: &'a ServerState, word: Option<&str>) -> Result<(usize, &'a LiveVehicle), WebError> {
     if state.live.is_empty() {
         return Err(WebError::BadRequest("no vehicle is configured (--vehicle)".into()));
     }

@@ -31,7 +31,7 @@ pub struct Bench {
     /// Whether the optical-flow sensor has no valid image.
     pub dark: bool,
     /// Function that modifies the sensor readings.
-    pub tamper: Option<fn(&mut Readings, SimTime)>,
+    pub modify_readings: Option<fn(&mut Readings, SimTime)>,
     /// Failures injected by an instructor.
     pub faults: Faults,
     control: Schedule,
@@ -60,7 +60,7 @@ impl Bench {
             jammed: false,
             dark: false,
             faults: Faults::new(seed),
-            tamper: None,
+            modify_readings: None,
             control: Schedule::new(SimTime::ZERO, CONTROL_HZ),
             stick_clock: Schedule::new(SimTime::ZERO, 25.0),
         }
@@ -81,8 +81,8 @@ impl Bench {
                 let mut readings = self.sensors.sample(&truth, &self.site, self.now);
                 readings.gnss = readings.gnss.filter(|_| !self.jammed);
                 readings.flow = readings.flow.filter(|_| !self.dark);
-                if let Some(tamper) = self.tamper {
-                    tamper(&mut readings, self.now);
+                if let Some(modify_readings) = self.modify_readings {
+                    modify_readings(&mut readings, self.now);
                 }
                 self.faults.corrupt_readings(&mut readings, self.now);
                 self.actuators = self.autopilot.step(&readings, self.now);

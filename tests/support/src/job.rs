@@ -104,7 +104,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             time_max_s: 1500.0,
             beta: 1.0,
             exact_path: false,
-            task_done_share: 0.8,
+            task_completion_fraction: 0.8,
             clearance_m: 2.0,
         },
         crc: CRC,

@@ -6,7 +6,7 @@ use spandrel_mavlink::dialect::*;
 
 const NAN: f32 = f32::NAN;
 /// Degrees of latitude per meter (40,000 km circumference).
-const DEGREES_A_METRE: f64 = 360.0 / 40_000_000.0;
+const DEGREES_PER_METER: f64 = 360.0 / 40_000_000.0;
 
 pub fn origin() -> (i32, i32) {
     let origin = crate::shipped::scenario("drill-hover").origin;
@@ -17,7 +17,7 @@ pub fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_ITEM_INT
     let (lat, lon) = origin();
     MISSION_ITEM_INT_DATA {
         param4: NAN,
-        x: lat + (north_m * DEGREES_A_METRE * 1e7).round() as i32,
+        x: lat + (north_m * DEGREES_PER_METER * 1e7).round() as i32,
         y: lon,
         z,
         seq,
@@ -32,7 +32,7 @@ pub fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_ITEM_INT
 
 /// Returns the position of the landing pad, m north of the origin.
 pub fn home_north(station: &Station) -> f64 {
-    station.site_place()[0]
+    station.site_position_m()[0]
 }
 
 pub fn count(count: u16, mission_type: MavMissionType) -> MavMessage {

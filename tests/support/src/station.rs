@@ -57,17 +57,17 @@ impl Station {
     }
 
     /// Creates a station for another emulated autopilot.
-    pub fn speaking(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
+    pub fn with_flavor(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
         Self::start(flavour, shipped::scenario(scenario_name), "phantom2", (seed, 0), None)
     }
 
     /// Creates a station for one of several vehicles.
-    pub fn numbered(scenario_name: &str, seed: u64, instance: u8) -> Self {
+    pub fn with_instance(scenario_name: &str, seed: u64, instance: u8) -> Self {
         Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, instance), None)
     }
 
     /// Creates a station with a crash rule that overrides the scenario's.
-    pub fn ruled(scenario_name: &str, seed: u64, rule: Option<AfterCrash>) -> Self {
+    pub fn with_crash_rule(scenario_name: &str, seed: u64, rule: Option<AfterCrash>) -> Self {
         Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, 0), rule)
     }
 
@@ -118,7 +118,7 @@ impl Station {
     }
 
     /// Returns true if a status text contains this text.
-    pub fn said(&self, what: &str) -> bool {
+    pub fn has_text(&self, what: &str) -> bool {
         self.texts().iter().any(|text| text.contains(what))
     }
 
@@ -149,7 +149,7 @@ impl Station {
     }
 
     /// Changes the sender's system and component ID on the same link.
-    pub fn speak_as(&mut self, system: u8, component: u8) {
+    pub fn send_as(&mut self, system: u8, component: u8) {
         self.vehicle.encoder = Encoder::new(system, component);
     }
 
@@ -186,7 +186,7 @@ impl Station {
     }
 
     /// Returns the reported geographic position as north, east, down of the scenario origin, m.
-    pub fn site_place(&self) -> [f64; 3] {
+    pub fn site_position_m(&self) -> [f64; 3] {
         let place = self.last_message(|m| match m {
             MavMessage::GLOBAL_POSITION_INT(g) => Some(Geo {
                 latitude_deg: f64::from(g.lat) * 1e-7,
@@ -199,7 +199,7 @@ impl Station {
     }
 
     /// Returns the position after a time, ms.
-    pub fn place_after(&mut self, ms: i64) -> [f32; 3] {
+    pub fn local_position_after(&mut self, ms: i64) -> [f32; 3] {
         self.run_ms(ms.max(25));
         self.place()
     }

@@ -18,7 +18,7 @@ use spandrel_view::stage::{SceneMoment, Stage, camera_aimed_at, drone_on_pad};
 use std::sync::Arc;
 
 /// A midsummer morning, 2026-06-21 09:00 UTC: high sun in the southeast.
-pub const FORENOON: i64 = 1_782_032_400;
+pub const MORNING_S: i64 = 1_782_032_400;
 
 pub fn at(east: f64, north: f64, up: f64) -> Vec3<Enu> {
     Vec3::new(east, north, up)
@@ -33,7 +33,7 @@ pub fn two_bridges() -> Scenario {
 /// Returns the TASBID job on a bright summer day.
 pub fn sunny() -> Scenario {
     let mut scenario = two_bridges();
-    scenario.light.start_unix_s = FORENOON;
+    scenario.light.start_unix_s = MORNING_S;
     scenario.light.cloud_cover = 0.2;
     scenario
 }
@@ -70,7 +70,7 @@ impl Studio {
     }
 
     pub fn on(gpu: Gpu, scenario: Scenario, seed: u64, quality: &str, at: SimTime) -> Self {
-        let quality = Quality::named(quality).unwrap();
+        let quality = Quality::by_name(quality).unwrap();
         let vehicle = phantom();
         let site = Site::build(&scenario, seed);
         let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, &quality, at));
@@ -105,7 +105,7 @@ impl Studio {
         let lens = Camera { hfov_rad: hfov_deg.to_radians(), ..self.vehicle.camera };
         let pose = camera_aimed_at(from, look, lamp);
         let standing = drone_on_pad(&self.scenario, &self.vehicle);
-        self.stage().through(PinholeCamera::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (self.at, size_px))
+        self.stage().camera_view_from(PinholeCamera::of(&pose, &lens), Some(&pose), &lens, Some(&standing), (self.at, size_px))
     }
 
     /// Returns a scene with the aircraft in flight at `from`, its camera aimed at `look`.

@@ -13,36 +13,36 @@ use spandrel_model::math;
 /// Maximum spacing of task waypoints, m. Turns and changes in the line of sight also get a waypoint.
 const TASK_STRIDE_M: f64 = 4.0;
 const TRANSIT_STRIDE_M: f64 = 12.0;
-const TURN_RAD: f64 = 0.15;
+const MIN_TURN_RAD: f64 = 0.15;
 /// Waypoint acceptance radius, m: the narrowest task threshold in the supplied jobs, less the expected path error
 /// (estimate).
 const TASK_ACCEPT_M: f64 = 0.8;
 const TRANSIT_ACCEPT_M: f64 = 1.2;
 /// Maximum leg speed as a fraction of the job's speed limit, which leaves a margin for gusts and estimator error
 /// (estimate).
-const SPEED_SHARE: f64 = 0.9;
+const SPEED_LIMIT_FRACTION: f64 = 0.9;
 /// Clearance added to the job's "too close" distance in transit, m (estimate: GNSS drift reaches 1 m, and corners are
 /// rounded).
-const CLEAR_BY_M: f64 = 2.0;
+const EXTRA_CLEARANCE_M: f64 = 2.0;
 /// Smallest change of the gimbal pitch that gets a mission item, degrees.
 const GIMBAL_STEP_DEG: f64 = 3.0;
 /// Interval between pictures during a task, s (estimate: one for every few meters of path).
-const PICTURE_EVERY_S: f64 = 2.0;
+const PICTURE_INTERVAL_S: f64 = 2.0;
 
 /// Mission item frames: MAV_FRAME_GLOBAL_RELATIVE_ALT and MAV_FRAME_MISSION.
-const RELATIVE: u8 = 3;
-const NO_PLACE: u8 = 2;
+const FRAME_RELATIVE_ALT: u8 = 3;
+const FRAME_MISSION: u8 = 2;
 /// Command numbers in the MAVLink common dialect.
-const WAYPOINT: u16 = 16;
-const RETURN: u16 = 20;
-const TAKEOFF: u16 = 22;
-const CHANGE_SPEED: u16 = 178;
-const SET_ACTUATOR: u16 = 187;
-const MOUNT_CONTROL: u16 = 205;
-const START_CAPTURE: u16 = 2000;
-const STOP_CAPTURE: u16 = 2001;
+const CMD_WAYPOINT: u16 = 16;
+const CMD_RETURN: u16 = 20;
+const CMD_TAKEOFF: u16 = 22;
+const CMD_CHANGE_SPEED: u16 = 178;
+const CMD_SET_ACTUATOR: u16 = 187;
+const CMD_MOUNT_CONTROL: u16 = 205;
+const CMD_START_CAPTURE: u16 = 2000;
+const CMD_STOP_CAPTURE: u16 = 2001;
 /// MAV_MOUNT_MODE_MAVLINK_TARGETING.
-const TARGETING: f64 = 2.0;
+const MOUNT_MODE_TARGETING: f64 = 2.0;
 
 /// Builds a list of mission items in order.
 struct PlanWriter {
@@ -50,7 +50,7 @@ struct PlanWriter {
     pad_up_m: f64,
     items: Vec<Value>,
     speed_m_s: f64,
-    fastest_m_s: f64,
+    max_leg_speed_m_s: f64,
     pitch_deg: f64,
 }
 
@@ -64,7 +64,7 @@ impl PlanWriter {
             "params": params,
             "type": "SimpleItem",
         });
-        if frame == RELATIVE {
+        if frame == FRAME_RELATIVE_ALT {
             item["Altitude"] = json!(params[6]);
             // 1 means an altitude relative to home.
             item["AltitudeMode"] = json!(1);
@@ -74,7 +74,7 @@ impl PlanWriter {
     }
 
     fn command_item(&mut self, command: u16, params: [f64; 7]) {
-        self.item(command, NO_PLACE, params.map(Some));
+        self.item(command, FRAME_MISSION, params.map(Some));
     }
 
     fn geo_position(&self, point_m: Vec3<Enu>) -> [f64; 3] {
@@ -84,27 +84,27 @@ impl PlanWriter {
 
     fn waypoint(&mut self, point_m: Vec3<Enu>, accept_m: f64, yaw_deg: Option<f64>) {
         let [lat, lon, height] = self.geo_position(point_m).map(Some);
-        self.item(WAYPOINT, RELATIVE, [Some(0.0), Some(accept_m), Some(0.0), yaw_deg, lat, lon, height]);
+        self.item(CMD_WAYPOINT, FRAME_RELATIVE_ALT, [Some(0.0), Some(accept_m), Some(0.0), yaw_deg, lat, lon, height]);
     }
 
     fn set_speed(&mut self, speed_m_s: f64) {
-        let speed_m_s = speed_m_s.min(self.fastest_m_s);
+        let speed_m_s = speed_m_s.min(self.max_leg_speed_m_s);
         if (self.speed_m_s - speed_m_s).abs() > 0.05 {
             self.speed_m_s = speed_m_s;
-            self.command_item(CHANGE_SPEED, [1.0, speed_m_s, -1.0, 0.0, 0.0, 0.0, 0.0]);
+            self.command_item(CMD_CHANGE_SPEED, [1.0, speed_m_s, -1.0, 0.0, 0.0, 0.0, 0.0]);
         }
     }
 
     fn tilt_gimbal(&mut self, pitch_deg: f64) {
         if (self.pitch_deg - pitch_deg).abs() > GIMBAL_STEP_DEG {
             self.pitch_deg = pitch_deg;
-            self.command_item(MOUNT_CONTROL, [pitch_deg, 0.0, 0.0, 0.0, 0.0, 0.0, TARGETING]);
+            self.command_item(CMD_MOUNT_CONTROL, [pitch_deg, 0.0, 0.0, 0.0, 0.0, 0.0, MOUNT_MODE_TARGETING]);
         }
     }
 
-    fn lamp(&mut self, on: bool) {
+    fn set_lamp(&mut self, on: bool) {
         let value = if on { 1.0 } else { -1.0 };
-        self.item(SET_ACTUATOR, NO_PLACE, [Some(value), None, None, None, None, None, Some(0.0)]);
+        self.item(CMD_SET_ACTUATOR, FRAME_MISSION, [Some(value), None, None, None, None, None, Some(0.0)]);
     }
 
     fn leg(&mut self, leg: &TrackLeg) {
@@ -140,8 +140,8 @@ fn waypoint_indices(leg: &TrackLeg) -> Vec<usize> {
 fn is_turn(leg: &TrackLeg, k: usize) -> bool {
     let way = |a: usize, b: usize| (leg.points_m[b] - leg.points_m[a]).unit();
     let angle = |a: Vec3<Enu>, b: Vec3<Enu>| math::acos(a.dot(b).clamp(-1.0, 1.0));
-    let bent = angle(way(k - 1, k), way(k, k + 1)) > TURN_RAD;
-    bent || matches!((leg.line_of_sight[k - 1], leg.line_of_sight[k]), (Some(before), Some(now)) if angle(before, now) > TURN_RAD)
+    let bent = angle(way(k - 1, k), way(k, k + 1)) > MIN_TURN_RAD;
+    bent || matches!((leg.line_of_sight[k - 1], leg.line_of_sight[k]), (Some(before), Some(now)) if angle(before, now) > MIN_TURN_RAD)
 }
 
 /// Returns the plan: takeoff, all tasks in order with pictures, and return to launch. Altitudes are relative to the landing pad,
@@ -149,35 +149,35 @@ fn is_turn(leg: &TrackLeg, k: usize) -> bool {
 #[must_use]
 pub fn plan(map: &PlanningContext, firmware: MavAutopilot) -> Value {
     let scenario = map.scenario;
-    let map = &PlanningContext { keep_clear_m: Some(scenario.feedback.too_close_m + CLEAR_BY_M), ..*map };
+    let map = &PlanningContext { transit_clearance_m: Some(scenario.feedback.too_close_m + EXTRA_CLEARANCE_M), ..*map };
     let pad = scenario.ground_team.pad_m;
     let plane = LocalPlane::new(scenario.origin);
     let home = plane.geo_from_enu(pad);
-    let fastest_m_s = SPEED_SHARE * scenario.scoring.speed_limit_m_s;
+    let max_leg_speed_m_s = SPEED_LIMIT_FRACTION * scenario.scoring.speed_limit_m_s;
     let mut w =
-        PlanWriter { plane, pad_up_m: pad.up(), items: Vec::new(), speed_m_s: 0.0, fastest_m_s, pitch_deg: f64::INFINITY };
+        PlanWriter { plane, pad_up_m: pad.up(), items: Vec::new(), speed_m_s: 0.0, max_leg_speed_m_s, pitch_deg: f64::INFINITY };
     let mut here = hover_point_over_pad(scenario);
     let [lat, lon, height] = w.geo_position(here).map(Some);
-    w.item(TAKEOFF, RELATIVE, [Some(0.0), Some(0.0), Some(0.0), None, lat, lon, height]);
+    w.item(CMD_TAKEOFF, FRAME_RELATIVE_ALT, [Some(0.0), Some(0.0), Some(0.0), None, lat, lon, height]);
     for (index, task) in scenario.tasks.iter().enumerate() {
         let leg = map.leg(FlightGoal::Task(index), here);
         let start = leg.task.iter().position(Option::is_some).unwrap_or(0);
         let (way, path) = leg.split_at(start);
         w.leg(&way);
         if task.dark {
-            w.lamp(true);
+            w.set_lamp(true);
         }
-        w.command_item(START_CAPTURE, [0.0, PICTURE_EVERY_S, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        w.command_item(CMD_START_CAPTURE, [0.0, PICTURE_INTERVAL_S, 0.0, 0.0, 0.0, 0.0, 0.0]);
         w.leg(&path);
-        w.command_item(STOP_CAPTURE, [0.0; 7]);
+        w.command_item(CMD_STOP_CAPTURE, [0.0; 7]);
         if task.dark {
-            w.lamp(false);
+            w.set_lamp(false);
         }
         here = path.points_m.last().copied().unwrap_or(here);
     }
     w.leg(&map.leg(FlightGoal::Home, here));
-    w.item(RETURN, NO_PLACE, [Some(0.0); 7]);
-    plan_file(w.items, home, firmware, fastest_m_s)
+    w.item(CMD_RETURN, FRAME_MISSION, [Some(0.0); 7]);
+    plan_file(w.items, home, firmware, max_leg_speed_m_s)
 }
 
 fn plan_file(items: Vec<Value>, home: Geo, firmware: MavAutopilot, speed_m_s: f64) -> Value {

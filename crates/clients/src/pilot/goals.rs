@@ -12,9 +12,9 @@ use spandrel_model::vehicle::Vehicle;
 /// Transit speed in the open, m/s (estimate: moderate for a camera drone).
 const TRANSIT_M_S: f64 = 6.0;
 /// Transit speed near obstacles, m/s (estimate).
-const CAREFUL_M_S: f64 = 2.5;
+const NEAR_OBSTACLE_M_S: f64 = 2.5;
 /// Distance below which an obstacle counts as near in transit, m (estimate).
-const NEAR_M: f64 = 4.0;
+const NEAR_OBSTACLE_M: f64 = 4.0;
 /// Height above the landing pad at which takeoff ends and landing begins, m (estimate).
 pub const PAD_HOVER_M: f64 = 6.0;
 
@@ -56,7 +56,7 @@ pub struct PlanningContext<'a> {
     /// Simulation time of planning.
     pub at: SimTime,
     /// Clearance in transit, m, except near an endpoint that has less. `None` uses the pilot's default.
-    pub keep_clear_m: Option<f64>,
+    pub transit_clearance_m: Option<f64>,
 }
 
 impl PlanningContext<'_> {
@@ -67,7 +67,7 @@ impl PlanningContext<'_> {
 
     fn route(&self, from: Vec3<Enu>, to: Vec3<Enu>) -> Vec<Vec3<Enu>> {
         let ceiling = from.up().max(to.up()) + 60.0;
-        route_search::route(self.site, (from, to), self.clearance_m(), self.keep_clear_m, ceiling, self.at)
+        route_search::route(self.site, (from, to), self.clearance_m(), self.transit_clearance_m, ceiling, self.at)
     }
 
     /// Appends a transit to a leg: fast in the open and slow near obstacles.
@@ -78,8 +78,8 @@ impl PlanningContext<'_> {
             let steps = ((point - last).norm() / STEP_M).ceil().max(1.0) as usize;
             for k in 1..=steps {
                 let p = last.lerp(point, k as f64 / steps as f64);
-                let near = self.site.nearest(p, NEAR_M, self.at).is_some();
-                leg.push(p, if near { CAREFUL_M_S } else { TRANSIT_M_S }, None, None);
+                let near = self.site.nearest(p, NEAR_OBSTACLE_M, self.at).is_some();
+                leg.push(p, if near { NEAR_OBSTACLE_M_S } else { TRANSIT_M_S }, None, None);
             }
             last = point;
         }

@@ -17,24 +17,24 @@ use spandrel_model::site::DefectView;
 use spandrel_model::time::SimTime;
 
 /// Time without progress after which the aircraft counts as stuck, s.
-const STUCK_S: f64 = 6.0;
+const STUCK_TIMEOUT_S: f64 = 6.0;
 /// Duration of the back-off maneuver after the aircraft was stuck, s.
-const BACK_OFF_S: f64 = 2.0;
+const BACK_OFF_DURATION_S: f64 = 2.0;
 /// Maximum duration of an approach to a noticed defect, s.
-const INSPECT_S: f64 = 7.0;
+const MAX_INSPECTION_S: f64 = 7.0;
 /// Battery level at which the pilot aborts the job, %.
-const BREAK_OFF_PCT: f64 = 12.0;
+const ABORT_BATTERY_PCT: f64 = 12.0;
 /// Maximum aiming error for taking a picture, rad.
-const AIMED_RAD: f64 = 0.12;
+const MAX_AIM_ERROR_RAD: f64 = 0.12;
 /// Maximum number of picture attempts per defect.
-const TRIES: u32 = 2;
+const MAX_PICTURE_ATTEMPTS: u32 = 2;
 /// Time for which a poorly visible defect is ignored, s; it may be easier to see from a later point on the path
 /// (estimate).
-const LEAVE_S: f64 = 15.0;
+const IGNORE_DEFECT_S: f64 = 15.0;
 /// Standard deviation of the incidence angle estimated by eye, trained pilot, rad (4 degrees, estimate).
-const JUDGE_RAD: f64 = 0.07;
+const ANGLE_JUDGMENT_SIGMA_RAD: f64 = 0.07;
 /// Relative standard deviation of size and brightness estimated on a screen, trained pilot (estimate).
-const JUDGE_SHARE: f64 = 0.15;
+const SIZE_JUDGMENT_SIGMA: f64 = 0.15;
 
 impl Pilot {
     /// Runs one control step in the flight phase and returns the stick axes.
@@ -68,14 +68,14 @@ impl Pilot {
     }
 
     fn map<'a>(config: &'a PilotConfig, site: &'a spandrel_model::site::Site, at: SimTime) -> PlanningContext<'a> {
-        PlanningContext { scenario: &config.scenario, site, vehicle: &config.vehicle, at, keep_clear_m: None }
+        PlanningContext { scenario: &config.scenario, site, vehicle: &config.vehicle, at, transit_clearance_m: None }
     }
 
     /// Plans the next leg, or a route back to the current one.
     fn plan_next_leg(&mut self, belief: &MotionState) {
         let Some(site) = &self.site else { return };
         let map = Self::map(&self.config, site, self.now);
-        if self.link.status.battery_pct.is_some_and(|pct| pct < BREAK_OFF_PCT)
+        if self.link.status.battery_pct.is_some_and(|pct| pct < ABORT_BATTERY_PCT)
             && !matches!(self.guidance.leg, Some((FlightGoal::Home, _)))
         {
             self.goals = [FlightGoal::Home].into();
@@ -121,9 +121,9 @@ impl Pilot {
         let Some(site) = &self.site else { return Vec3::zero() };
         let safe_m = 0.5 * self.config.vehicle.hull.tip_to_tip_m + 0.7;
         let Some(near) = site.nearest(belief.position_m, safe_m + 1.0, self.now) else { return Vec3::zero() };
-        if (self.now - self.guidance.best_since).s() > STUCK_S {
+        if (self.now - self.guidance.best_since).s() > STUCK_TIMEOUT_S {
             self.guidance.best_since = self.now;
-            self.guidance.back_off_until = self.now + SimTime::from_s(BACK_OFF_S);
+            self.guidance.back_off_until = self.now + SimTime::from_s(BACK_OFF_DURATION_S);
             self.guidance.needs_plan = true;
         }
         let push = if self.now < self.guidance.back_off_until { 1.5 } else { 0.0 };
@@ -135,9 +135,9 @@ impl Pilot {
     fn search_picture(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
         self.glimpse(wish.task.is_some());
         let Some(target) = self.guidance.target else { return };
-        if (self.now - target.since).s() > INSPECT_S || target.attempts >= TRIES {
+        if (self.now - target.since).s() > MAX_INSPECTION_S || target.attempts >= MAX_PICTURE_ATTEMPTS {
             if target.attempts == 0 {
-                self.visual_search.ignore_until(target.defect, self.now + SimTime::from_s(LEAVE_S));
+                self.visual_search.ignore_until(target.defect, self.now + SimTime::from_s(IGNORE_DEFECT_S));
             }
             self.guidance.target = None;
             return;
@@ -164,7 +164,7 @@ impl Pilot {
             return;
         }
         match self.visual_search.glimpse(views, site, &skill, self.now, true) {
-            Glimpse::Defect { id, misjudged } => {
+            Glimpse::Defect { id, judgment_error } => {
                 self.guidance.target = site.defects().iter().find(|d| d.id == id).map(|d| PhotoTarget {
                     defect: id,
                     position_m: d.position_m,
@@ -172,7 +172,7 @@ impl Pilot {
                     since: self.now,
                     triggered: None,
                     attempts: 0,
-                    misjudged,
+                    judgment_error,
                 });
             }
             Glimpse::Distractor => self.guidance.distractor_trigger = Some(self.now + SimTime::from_s(skill.delay_s)),
@@ -194,7 +194,7 @@ impl Pilot {
         }
         let (yaw, pitch) = angles(line.unit());
         let off = math::wrap_pi(yaw - belief.yaw_rad).abs().max((pitch - self.link.status.gimbal_pitch_rad).abs());
-        if off < AIMED_RAD && belief.velocity_m_s.norm() < 0.8 && self.is_well_framed(&target) {
+        if off < MAX_AIM_ERROR_RAD && belief.velocity_m_s.norm() < 0.8 && self.is_well_framed(&target) {
             target.triggered = Some(self.now);
             target.attempts += 1;
             self.trigger_camera();
@@ -208,11 +208,11 @@ impl Pilot {
         let (Some(site), Some(picture)) = (&self.site, self.perception.delayed_view(skill.delay_s)) else { return true };
         let pose = camera_pose(&picture, self.link.status.gimbal_pitch_rad, self.lamp, vehicle);
         let views = site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, picture.time);
-        let error = skill.noise * target.misjudged;
-        let flattered = math::exp(JUDGE_SHARE * error);
+        let error = skill.noise * target.judgment_error;
+        let flattered = math::exp(SIZE_JUDGMENT_SIGMA * error);
         views.iter().find(|view| view.defect_id == target.defect).is_some_and(|view| {
             let seen = DefectView {
-                incidence_rad: view.incidence_rad - JUDGE_RAD * error,
+                incidence_rad: view.incidence_rad - ANGLE_JUDGMENT_SIGMA_RAD * error,
                 extent_px: view.extent_px * flattered,
                 width_px: view.width_px * flattered,
                 illuminance_lux: view.illuminance_lux * flattered,

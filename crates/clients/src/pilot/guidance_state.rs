@@ -15,7 +15,7 @@ pub(super) struct PhotoTarget {
     pub(super) triggered: Option<SimTime>,
     pub(super) attempts: u32,
     /// The pilot's judgment error for this defect, in standard deviations of the trained pilot.
-    pub(super) misjudged: f64,
+    pub(super) judgment_error: f64,
 }
 
 /// Guidance state in flight.

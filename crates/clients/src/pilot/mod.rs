@@ -33,13 +33,13 @@ use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
 
 /// Interval after which a command that has not taken effect is sent again, s.
-const RETRY_S: f64 = 1.5;
+const RETRY_INTERVAL_S: f64 = 1.5;
 /// Maximum horizontal distance from the pad's center for a descent, m (estimate: within reach of the last correction).
-const OVER_PAD_M: f64 = 2.5;
+const MAX_PAD_OFFSET_M: f64 = 2.5;
 /// Minimum height during the approach to the pad, m (estimate: clears the truck).
-const APPROACH_M: f64 = 5.0;
+const MIN_APPROACH_HEIGHT_M: f64 = 5.0;
 /// Timeout for the vehicle to become ready and the aircraft to climb, s of simulation time.
-const PATIENCE_S: f64 = 60.0;
+const START_TIMEOUT_S: f64 = 60.0;
 
 /// Report of the end of a flight, as perceived by the pilot.
 #[derive(Debug, Clone, PartialEq)]
@@ -229,7 +229,7 @@ impl Pilot {
 
     /// Checks whether enough time has passed to send a command again.
     fn may_retry(&mut self) -> bool {
-        let may = (self.now - self.last_attempt).s() > RETRY_S;
+        let may = (self.now - self.last_attempt).s() > RETRY_INTERVAL_S;
         if may {
             self.last_attempt = self.now;
         }
@@ -249,7 +249,7 @@ impl Pilot {
         } else if self.link.status.ready && self.site.is_some() && self.phase_time_s() > 1.0 {
             self.arm();
         }
-        if self.phase_time_s() > PATIENCE_S {
+        if self.phase_time_s() > START_TIMEOUT_S {
             self.finish("the vehicle never became ready");
         }
         [0.0; 4]
@@ -262,7 +262,7 @@ impl Pilot {
         }
         if belief.position_m.up() > up - 1.0 {
             self.enter(PilotPhase::Fly);
-        } else if self.phase_time_s() > PATIENCE_S {
+        } else if self.phase_time_s() > START_TIMEOUT_S {
             self.finish("the aircraft did not climb");
         }
         let rate = if belief.position_m.up() > up - 3.0 { 0.8 } else { 1.8 };
@@ -288,17 +288,17 @@ impl Pilot {
             }
             return [0.0, 0.0, if home || !self.link.status.armed { -1.0 } else { 0.5 }, 0.0];
         }
-        let rate = match (aside_m > OVER_PAD_M, height_m) {
-            (true, ..APPROACH_M) => -0.8,
+        let rate = match (aside_m > MAX_PAD_OFFSET_M, height_m) {
+            (true, ..MIN_APPROACH_HEIGHT_M) => -0.8,
             (true, _) => 0.0,
             (false, ..=3.0) => 0.5,
             (false, _) => 1.2,
         };
-        let speed_m_s = if aside_m > OVER_PAD_M { 2.0 } else { 1.0 };
+        let speed_m_s = if aside_m > MAX_PAD_OFFSET_M { 2.0 } else { 1.0 };
         let wish =
             (level * (0.6 * self.config.skill.gain)).limited(speed_m_s) + spandrel_model::frames::Vec3::new(0.0, 0.0, -rate);
         let mut axes = stick_command::sticks(wish, belief, None, &self.config);
-        if height_m < 0.5 && aside_m <= OVER_PAD_M {
+        if height_m < 0.5 && aside_m <= MAX_PAD_OFFSET_M {
             axes[2] = -1.0_f64.min(0.5 / self.config.vehicle.limits.descend_m_s).abs();
         }
         axes

@@ -60,7 +60,7 @@ pub struct Perception {
     position: [DriftProcess; 3],
     speed: DriftProcess,
     heading: DriftProcess,
-    speed_sense: f64,
+    last_speed_scale: f64,
 }
 
 impl Perception {
@@ -71,7 +71,7 @@ impl Perception {
         let position = [(); 3].map(|()| DriftProcess::new(POSITION_TAU_S, &mut random));
         let speed = DriftProcess::new(SPEED_TAU_S, &mut random);
         let heading = DriftProcess::new(SPEED_TAU_S, &mut random);
-        Self { history: VecDeque::new(), random, position, speed, heading, speed_sense: 1.0 }
+        Self { history: VecDeque::new(), random, position, speed, heading, last_speed_scale: 1.0 }
     }
 
     /// Adds the current motion to the delay line.
@@ -99,11 +99,11 @@ impl Perception {
         }
         let speed_error = self.speed.step(dt_s, &mut self.random) * SPEED_ERROR * skill.noise;
         let heading_error = self.heading.step(dt_s, &mut self.random) * HEADING_ERROR_RAD * skill.noise;
-        self.speed_sense = (1.0 + speed_error).clamp(0.4, 2.0);
+        self.last_speed_scale = (1.0 + speed_error).clamp(0.4, 2.0);
         Some(MotionState {
             time: truth.time,
             position_m: truth.position_m + Vec3::new(offset[0], offset[1], offset[2]),
-            velocity_m_s: truth.velocity_m_s * self.speed_sense,
+            velocity_m_s: truth.velocity_m_s * self.last_speed_scale,
             yaw_rad: math::wrap_pi(truth.yaw_rad + heading_error),
         })
     }
@@ -112,7 +112,7 @@ impl Perception {
     /// versa.
     #[must_use]
     pub fn speed_scale(&self) -> f64 {
-        self.speed_sense
+        self.last_speed_scale
     }
 
     /// Discards the history after the aircraft has been repositioned.
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_picture_is_as_old_as_the_delay() {
+    fn exact_delayed_view_lags_by_the_delay() {
         let mut eyes = Perception::new(1);
         for ms in (0..=1000).step_by(20) {
             let t = SimTime::from_ms(ms);
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_drift_has_unit_variance() {
+    fn exact_drift_has_unit_variance() {
         // Correlated samples: 40 000 s at 0.2 s with tau 4 s are equivalent to about 5 000 independent samples; the
         // tolerance is five standard errors.
         const TOLERANCE: f64 = 0.1;

@@ -9,22 +9,22 @@ use std::collections::{BTreeMap, BinaryHeap};
 /// Grid spacing, m: finer than the height of the interlayer.
 const CELL_M: f64 = 2.0;
 /// Preferred clearance, m (typical practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
-const COMFORT_M: f64 = 4.0;
+const PREFERRED_CLEARANCE_M: f64 = 4.0;
 /// Radius around an endpoint with too little clearance within which the route may come as close to obstacles as the
 /// endpoint is, m (estimate: within a task's own "too close" distance).
-const CRAMPED_M: f64 = 8.0;
+const ENDPOINT_RADIUS_M: f64 = 8.0;
 /// Margin by which the route may come closer to obstacles than such an endpoint, m (estimate: stand-offs are rounded).
-const END_SLACK_M: f64 = 0.1;
+const ENDPOINT_MARGIN_M: f64 = 0.1;
 /// Clearances to try in order, as fractions of the difference between the preferred and the minimum clearance.
-const SHARES: [f64; 3] = [1.0, 0.7, 0.4];
+const CLEARANCE_FRACTIONS: [f64; 3] = [1.0, 0.7, 0.4];
 /// Search margin around the two endpoints, m.
-const MARGIN_M: f64 = 40.0;
+const SEARCH_MARGIN_M: f64 = 40.0;
 /// Maximum number of expanded cells; the two-bridge site needs about a tenth.
 const MAX_EXPANSIONS: usize = 400_000;
 
 type GridCell = [i32; 3];
 
-/// Returns a polyline from `from` to `to`, both included, that keeps `clearance_m` where possible. If `keep_m` is
+/// Returns a polyline from `from` to `to`, both included, that keeps `clearance_m` where possible. If `required_clearance_m` is
 /// given, the route keeps that clearance, also from traffic at any time, except near an endpoint that has less. Falls
 /// back to a smaller clearance if no such route exists, and to a straight line if no route is found.
 #[must_use]
@@ -32,34 +32,34 @@ pub fn route(
     site: &Site,
     (from, to): (Vec3<Enu>, Vec3<Enu>),
     clearance_m: f64,
-    keep_m: Option<f64>,
+    required_clearance_m: Option<f64>,
     ceiling_up_m: f64,
     at: SimTime,
 ) -> Vec<Vec3<Enu>> {
     let mut space = SearchSpace { site, clearance_m, at, origin: from, to, ceiling_up_m, keep: None };
-    let found = match keep_m {
-        Some(keep_m) => SHARES.into_iter().find_map(|share| {
-            space.keep = Some(space.clearance_rule(clearance_m + share * (keep_m - clearance_m).max(0.0)));
-            space.is_line_clear(from, to, COMFORT_M).then(Vec::new).or_else(|| search(&space))
+    let found = match required_clearance_m {
+        Some(required_clearance_m) => CLEARANCE_FRACTIONS.into_iter().find_map(|share| {
+            space.keep = Some(space.clearance_rule(clearance_m + share * (required_clearance_m - clearance_m).max(0.0)));
+            space.is_line_clear(from, to, PREFERRED_CLEARANCE_M).then(Vec::new).or_else(|| search(&space))
         }),
         None => None,
     };
     let found = found.or_else(|| {
         space.keep = None;
-        if space.is_line_clear(from, to, COMFORT_M) { Some(Vec::new()) } else { search(&space) }
+        if space.is_line_clear(from, to, PREFERRED_CLEARANCE_M) { Some(Vec::new()) } else { search(&space) }
     });
     let cells = found.unwrap_or_default();
     let mut points = vec![from];
     points.extend(cells.iter().map(|c| space.center(*c)));
     points.push(to);
-    remove_detours(&space, &points)
+    straighten(&space, &points)
 }
 
 /// A clearance that applies except near constrained endpoints.
 struct ClearanceRule {
-    keep_m: f64,
+    required_clearance_m: f64,
     /// Required clearance near the origin and near the goal, m.
-    ends_m: [f64; 2],
+    endpoint_clearances_m: [f64; 2],
 }
 
 struct SearchSpace<'a> {
@@ -77,38 +77,42 @@ impl SearchSpace<'_> {
         self.origin + Vec3::new(f64::from(cell[0]), f64::from(cell[1]), f64::from(cell[2])) * CELL_M
     }
 
-    /// Returns the clearance rule for `keep_m`, relaxed where an endpoint has less.
-    fn clearance_rule(&self, keep_m: f64) -> ClearanceRule {
-        let still = |end| self.site.nearest(end, keep_m, self.at).map_or(keep_m, |near| near.distance_m);
-        ClearanceRule { keep_m, ends_m: [self.origin, self.to].map(|end| (still(end) - END_SLACK_M).max(self.clearance_m)) }
+    /// Returns the clearance rule for `required_clearance_m`, relaxed where an endpoint has less.
+    fn clearance_rule(&self, required_clearance_m: f64) -> ClearanceRule {
+        let still =
+            |end| self.site.nearest(end, required_clearance_m, self.at).map_or(required_clearance_m, |near| near.distance_m);
+        ClearanceRule {
+            required_clearance_m,
+            endpoint_clearances_m: [self.origin, self.to].map(|end| (still(end) - ENDPOINT_MARGIN_M).max(self.clearance_m)),
+        }
     }
 
     fn clearance(&self, p: Vec3<Enu>) -> f64 {
         let Some(keep) = &self.keep else {
-            return self.site.nearest(p, COMFORT_M, self.at).map_or(COMFORT_M, |near| near.distance_m);
+            return self.site.nearest(p, PREFERRED_CLEARANCE_M, self.at).map_or(PREFERRED_CLEARANCE_M, |near| near.distance_m);
         };
-        let reach_m = keep.keep_m.max(COMFORT_M);
+        let reach_m = keep.required_clearance_m.max(PREFERRED_CLEARANCE_M);
         let still = self.site.nearest(p, reach_m, self.at).map_or(reach_m, |near| near.distance_m);
         self.site.traffic().min_distance_ever_m(p, still).unwrap_or(still)
     }
 
     /// Returns the required clearance at a point, m.
-    fn required(&self, p: Vec3<Enu>) -> f64 {
+    fn required_clearance_at_m(&self, p: Vec3<Enu>) -> f64 {
         let Some(keep) = &self.keep else { return self.clearance_m };
-        let near = [self.origin, self.to].map(|end| (p - end).norm() < CRAMPED_M);
-        let ends = keep.ends_m.into_iter().zip(near).filter_map(|(end_m, near)| near.then_some(end_m));
-        ends.fold(keep.keep_m, f64::min).max(self.clearance_m)
+        let near = [self.origin, self.to].map(|end| (p - end).norm() < ENDPOINT_RADIUS_M);
+        let ends = keep.endpoint_clearances_m.into_iter().zip(near).filter_map(|(end_m, near)| near.then_some(end_m));
+        ends.fold(keep.required_clearance_m, f64::min).max(self.clearance_m)
     }
 
     fn inside(&self, p: Vec3<Enu>) -> bool {
-        let low = |a: f64, b: f64| a.min(b) - MARGIN_M;
-        let high = |a: f64, b: f64| a.max(b) + MARGIN_M;
+        let low = |a: f64, b: f64| a.min(b) - SEARCH_MARGIN_M;
+        let high = |a: f64, b: f64| a.max(b) + SEARCH_MARGIN_M;
         let (a, b) = (self.origin, self.to);
         p.east() >= low(a.east(), b.east())
             && p.east() <= high(a.east(), b.east())
             && p.north() >= low(a.north(), b.north())
             && p.north() <= high(a.north(), b.north())
-            && p.up() <= self.ceiling_up_m.max(a.up().max(b.up()) + MARGIN_M)
+            && p.up() <= self.ceiling_up_m.max(a.up().max(b.up()) + SEARCH_MARGIN_M)
             && p.up() >= low(a.up(), b.up())
     }
 
@@ -118,9 +122,9 @@ impl SearchSpace<'_> {
         (0..=steps).all(|k| {
             let p = a.lerp(b, k as f64 / steps as f64);
             // Near its ends the line may be as close to obstacles as the endpoints are.
-            let near_end = (p - a).norm().min((p - b).norm()) < COMFORT_M;
+            let near_end = (p - a).norm().min((p - b).norm()) < PREFERRED_CLEARANCE_M;
             let least = if near_end { self.clearance_m.min(clearance_m) } else { clearance_m };
-            self.clearance(p) >= if self.keep.is_some() { self.required(p) } else { least }
+            self.clearance(p) >= if self.keep.is_some() { self.required_clearance_at_m(p) } else { least }
         })
     }
 }
@@ -140,7 +144,7 @@ fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
             return Some(trace(&best, goal));
         }
         let cost = best[&cell].0;
-        for next in neighbours(cell) {
+        for next in neighbors(cell) {
             let Some(step) = step_cost(space, cell, next, goal) else { continue };
             let total = cost + step;
             if best.get(&next).is_none_or(|(known, _)| total < *known) {
@@ -160,14 +164,14 @@ fn step_cost(space: &SearchSpace, from: GridCell, to: GridCell, goal: GridCell) 
         return None;
     }
     let clearance = space.clearance(p);
-    if clearance < space.required(p) && to != goal {
+    if clearance < space.required_clearance_at_m(p) && to != goal {
         return None;
     }
-    let closeness = (COMFORT_M - clearance).max(0.0) / COMFORT_M;
+    let closeness = (PREFERRED_CLEARANCE_M - clearance).max(0.0) / PREFERRED_CLEARANCE_M;
     Some(distance(from, to) * (1.0 + 6.0 * closeness * closeness))
 }
 
-fn neighbours(c: GridCell) -> impl Iterator<Item = GridCell> {
+fn neighbors(c: GridCell) -> impl Iterator<Item = GridCell> {
     (-1..=1)
         .flat_map(|x| (-1..=1).flat_map(move |y| (-1..=1).map(move |z| [x, y, z])))
         .filter(|d| *d != [0, 0, 0])
@@ -194,11 +198,11 @@ fn trace(best: &BTreeMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<Grid
 }
 
 /// Removes every point that a clear straight line can skip.
-fn remove_detours(space: &SearchSpace, points: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
+fn straighten(space: &SearchSpace, points: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
     let mut kept = vec![points[0]];
     let mut at = 0;
     while at + 1 < points.len() {
-        let wish = 0.75 * COMFORT_M;
+        let wish = 0.75 * PREFERRED_CLEARANCE_M;
         let far = (at + 1..points.len()).rev().find(|k| space.is_line_clear(points[at], points[*k], wish)).unwrap_or(at + 1);
         kept.push(points[far]);
         at = far;

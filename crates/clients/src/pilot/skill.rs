@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_raising_all_five_skills_makes_the_novice_an_expert() {
+    fn exact_replacing_all_factors_turns_a_novice_into_an_expert() {
         let gifted = SkillFactor::ALL.into_iter().fold(Skill::NOVICE, |pilot, factor| pilot.with(factor, Skill::EXPERT));
         assert_eq!(gifted, Skill::EXPERT);
     }

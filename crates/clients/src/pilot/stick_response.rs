@@ -10,13 +10,13 @@ use spandrel_model::time::SimTime;
 /// Neuromuscular lag, s (docs/src/reference/domain.md, "Human operators").
 const LAG_S: f64 = 0.1;
 /// Motor noise proportional to the deflection, trained pilot (-25 dB, docs/src/reference/domain.md, "Human operators").
-const PROPORTIONAL: f64 = 0.056;
+const PROPORTIONAL_NOISE: f64 = 0.056;
 /// Tremor around the center, trained pilot (estimate).
 const TREMOR: f64 = 0.006;
 /// Correlation time of the motor noise, s (estimate).
 const NOISE_TAU_S: f64 = 0.25;
 /// Shortest and longest duration of a lapse, s (estimate).
-const LAPSE_S: (f64, f64) = (1.0, 3.0);
+const LAPSE_DURATION_S: (f64, f64) = (1.0, 3.0);
 
 /// Stick axes in [-1, 1]: forward, right, up, yaw.
 pub type StickAxes = [f64; 4];
@@ -49,7 +49,7 @@ impl StickResponse {
     pub fn step(&mut self, wanted: StickAxes, skill: &Skill, now: SimTime, dt_s: f64) -> StickAxes {
         let lapse = self.random.uniform() < skill.lapses_per_min / 60.0 * dt_s;
         if lapse && !self.is_lapsed(now) {
-            self.lapse_until = now + SimTime::from_s(self.random.range(LAPSE_S.0, LAPSE_S.1));
+            self.lapse_until = now + SimTime::from_s(self.random.range(LAPSE_DURATION_S.0, LAPSE_DURATION_S.1));
         }
         let follow = 1.0 - math::exp(-dt_s / LAG_S);
         for (axis, target) in wanted.iter().enumerate() {
@@ -57,7 +57,7 @@ impl StickResponse {
             if now < self.lapse_until {
                 continue;
             }
-            let noisy = target + drift * skill.noise * (PROPORTIONAL * target.abs() + TREMOR);
+            let noisy = target + drift * skill.noise * (PROPORTIONAL_NOISE * target.abs() + TREMOR);
             self.out[axis] += follow * (noisy.clamp(-1.0, 1.0) - self.out[axis]);
         }
         self.out
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_lapse_freezes_the_sticks() {
+    fn exact_lapse_freezes_the_sticks() {
         let mut hand = StickResponse::new(1);
         let dreamer = Skill { lapses_per_min: 6000.0, ..Skill::TRAINED };
         let frozen = hand.step([0.5; 4], &dreamer, SimTime::from_ms(0), 0.02);

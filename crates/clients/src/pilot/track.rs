@@ -6,11 +6,11 @@ use spandrel_model::frames::{Enu, Vec3};
 
 /// Cross-track gain of the trained pilot, 1/s (a third of the crossover of a rate-command loop, docs/src/reference/domain.md,
 /// "Human operators").
-const PULL_PER_S: f64 = 0.9;
+const CROSS_TRACK_GAIN_PER_S: f64 = 0.9;
 /// Planned braking deceleration, m/s² (estimate).
 const BRAKE_M_S2: f64 = 1.2;
 /// Minimum distance to the aim point, m (estimate).
-const MIN_AIM_M: f64 = 1.0;
+const MIN_AIM_DISTANCE_M: f64 = 1.0;
 
 /// A polyline to fly with a target speed and line of sight at each point.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,7 +83,7 @@ impl TrackLeg {
     }
 
     /// Returns the point `distance_m` ahead of `progress`.
-    fn ahead(&self, progress: LegProgress, distance_m: f64) -> Vec3<Enu> {
+    fn point_ahead(&self, progress: LegProgress, distance_m: f64) -> Vec3<Enu> {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut left = progress.along_m - start + distance_m;
         for next in progress.next..self.points_m.len() {
@@ -131,7 +131,7 @@ impl TrackLeg {
                 break;
             }
             let there = match self.speed_m_s.get(next + 1) {
-                Some(following) => following * self.corner(next),
+                Some(following) => following * self.bend_speed_factor(next),
                 None => 0.0,
             };
             speed = speed.min((there * there + 2.0 * BRAKE_M_S2 * ahead_m.max(0.0)).sqrt());
@@ -140,7 +140,7 @@ impl TrackLeg {
     }
 
     /// Returns the speed factor for the bend at a point: 1 for straight on, 0.3 for a reversal.
-    fn corner(&self, at: usize) -> f64 {
+    fn bend_speed_factor(&self, at: usize) -> f64 {
         let Some(after) = self.points_m.get(at + 1) else { return 0.0 };
         let into = (self.points_m[at] - self.points_m[at - 1]).unit();
         let out = (*after - self.points_m[at]).unit();
@@ -151,10 +151,10 @@ impl TrackLeg {
     pub fn command(&self, progress: &mut LegProgress, motion: &MotionState, skill: &Skill) -> TrackCommand {
         self.advance(progress, motion.position_m);
         let speed = self.speed(*progress, skill, motion.velocity_m_s.norm());
-        let here = self.ahead(*progress, 0.0);
+        let here = self.point_ahead(*progress, 0.0);
         // Trained pilots look 1.5 s ahead. A shorter preview moves the aim point closer.
-        let aim = self.ahead(*progress, (speed * skill.preview_s).max(MIN_AIM_M));
-        let pull = (here - motion.position_m) * (PULL_PER_S * skill.gain);
+        let aim = self.point_ahead(*progress, (speed * skill.preview_s).max(MIN_AIM_DISTANCE_M));
+        let pull = (here - motion.position_m) * (CROSS_TRACK_GAIN_PER_S * skill.gain);
         let run = (aim - here).unit() * speed;
         let end = self.points_m[self.points_m.len() - 1];
         let total: f64 = (1..self.points_m.len()).map(|k| self.segment_m(k)).sum();
@@ -169,7 +169,7 @@ impl TrackLeg {
     }
 
     fn heading_ahead(&self, progress: LegProgress) -> Option<Vec3<Enu>> {
-        let ahead = self.ahead(progress, 4.0) - self.ahead(progress, 0.0);
+        let ahead = self.point_ahead(progress, 4.0) - self.point_ahead(progress, 0.0);
         let level = Vec3::new(ahead.east(), ahead.north(), 0.0);
         (level.norm() > 0.5).then(|| level.unit())
     }
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_off_the_line_the_command_leads_back_to_it() {
+    fn exact_command_leads_back_to_the_leg() {
         let leg = straight();
         let mut progress = LegProgress { next: 1, along_m: 0.0 };
         let wish = leg.command(&mut progress, &at(2.0, 1.0), &Skill::TRAINED);
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_short_preview_brakes_later_than_a_long_one() {
+    fn exact_short_preview_brakes_later() {
         let leg = straight();
         let mut a = LegProgress { next: 17, along_m: 16.5 };
         let mut b = a;

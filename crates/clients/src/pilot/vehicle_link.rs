@@ -2,7 +2,7 @@
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::contract::contact::ContactKind;
-use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::named_values::Named;
 use spandrel_mavlink::contract::truth::{self, Truth};
 use spandrel_mavlink::dialect::{
     MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState, MavMessage, MavModeFlag, MavSysStatusSensor, TIMESYNC_DATA,

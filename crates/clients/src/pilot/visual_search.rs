@@ -11,17 +11,17 @@ use spandrel_model::vehicle::Vehicle;
 use std::collections::BTreeMap;
 
 /// Interval between fixations, s (estimate from eye movements).
-const GLIMPSE_S: f64 = 0.25;
+const GLIMPSE_INTERVAL_S: f64 = 0.25;
 /// Spread of the lognormal detection curve (Campbell et al. 2020: 50 % at 26 mm, 90 % at 113 mm).
 const POD_SIGMA_LN: f64 = 1.147;
 /// Extent from which an object is clearly visible in a picture, px (estimate).
 const CLEAR_PX: f64 = 40.0;
 /// Minimum extent for detection, px (a tenth of the pixels of a clear picture; estimate).
-const LEAST_PX: f64 = 6.0;
+const MIN_EXTENT_PX: f64 = 6.0;
 /// Maximum incidence angle for detection, rad (60 degrees, where inspection practice rejects pictures).
-const LEAST_SQUARE_RAD: f64 = 1.05;
+const MAX_INCIDENCE_RAD: f64 = 1.05;
 /// Surface noise above which a surface is mistaken for a defect, in standard deviations of the trained pilot (estimate).
-const CRITERION: f64 = 4.6;
+const FALSE_ALARM_SIGMAS: f64 = 4.6;
 
 /// Result of a glimpse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +33,7 @@ pub enum Glimpse {
         /// Defect ID.
         id: u32,
         /// Judgment error for this defect, in standard deviations of the trained pilot.
-        misjudged: f64,
+        judgment_error: f64,
     },
     /// A false alarm.
     Distractor,
@@ -71,13 +71,13 @@ impl VisualSearch {
         if now < self.next_glimpse {
             return Glimpse::Nothing;
         }
-        self.next_glimpse = now + SimTime::from_s(GLIMPSE_S);
-        let deceived = self.random.normal() * skill.noise > CRITERION;
+        self.next_glimpse = now + SimTime::from_s(GLIMPSE_INTERVAL_S);
+        let deceived = self.random.normal() * skill.noise > FALSE_ALARM_SIGMAS;
         for view in views() {
             // A defect that is seen edge-on, too small or in the dark cannot be noticed now, but may become detectable
             // later.
             let lit = view.illuminance_lux >= view.needed_lux;
-            let plain = lit && view.unoccluded && view.extent_px >= LEAST_PX && view.incidence_rad < LEAST_SQUARE_RAD;
+            let plain = lit && view.unoccluded && view.extent_px >= MIN_EXTENT_PX && view.incidence_rad < MAX_INCIDENCE_RAD;
             if self.ignored_until.get(&view.defect_id).is_some_and(|until| now < *until) || !plain {
                 continue;
             }
@@ -85,7 +85,7 @@ impl VisualSearch {
             let luck = *self.notice_threshold.entry(view.defect_id).or_insert_with(|| random.uniform());
             if luck < probability(&view, site, skill) {
                 self.ignored_until.insert(view.defect_id, SimTime::NEVER);
-                return Glimpse::Defect { id: view.defect_id, misjudged: self.random.normal() };
+                return Glimpse::Defect { id: view.defect_id, judgment_error: self.random.normal() };
             }
         }
         if deceived && surface_in_view { Glimpse::Distractor } else { Glimpse::Nothing }

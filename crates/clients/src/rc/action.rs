@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_action_has_a_name_of_its_own() {
+    fn exact_action_names_are_unique() {
         let names: std::collections::BTreeSet<_> = ALL.iter().map(|(_, action)| action.name()).collect();
         assert_eq!(names.len(), ALL.len());
         assert!(!names.contains(""));

@@ -2,7 +2,7 @@
 
 /// Minimum distance of each endpoint from the center, as part of the raw range of 2 (estimate: a stick axis moves
 /// farther).
-pub const LEAST_WAY: f64 = 0.1;
+pub const MIN_ENDPOINT_DISTANCE: f64 = 0.1;
 
 /// Calibration of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,27 +42,27 @@ mod tests {
     /// Rounding error of a few products of numbers below 1.
     const ROUNDING: f64 = 1e-15;
 
-    fn plain() -> AxisCalibration {
+    fn full_range_axis() -> AxisCalibration {
         AxisCalibration { axis: 0, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 }
     }
 
     #[test]
-    fn exact_ends_and_centre_wherever_they_are() {
-        let axis = AxisCalibration { low: -0.8, centre: 0.1, high: 0.9, ..plain() };
+    fn exact_endpoints_and_center_map_to_one_and_zero() {
+        let axis = AxisCalibration { low: -0.8, centre: 0.1, high: 0.9, ..full_range_axis() };
         for (raw, read) in [(-0.8, -1.0), (-1.0, -1.0), (0.1, 0.0), (0.5, 0.5), (0.9, 1.0), (1.0, 1.0), (-0.35, -0.5)] {
             assert!((axis.read(raw) - read).abs() < ROUNDING, "{raw}");
         }
     }
 
     #[test]
-    fn exact_an_axis_that_counts_down_is_turned_round() {
-        let axis = AxisCalibration { low: 1.0, centre: 0.0, high: -1.0, ..plain() };
+    fn exact_reversed_axis_is_inverted() {
+        let axis = AxisCalibration { low: 1.0, centre: 0.0, high: -1.0, ..full_range_axis() };
         assert_eq!([axis.read(1.0), axis.read(0.5), axis.read(-0.25), axis.read(-1.0)], [-1.0, -0.5, 0.25, 1.0]);
     }
 
     #[test]
-    fn exact_the_dead_band_has_no_step_and_expo_keeps_the_ends() {
-        let axis = AxisCalibration { dead_band: 0.2, expo: 0.5, ..plain() };
+    fn exact_dead_band_is_continuous_and_expo_keeps_the_endpoints() {
+        let axis = AxisCalibration { dead_band: 0.2, expo: 0.5, ..full_range_axis() };
         assert_eq!((axis.read(0.2), axis.read(-0.2), axis.read(1.0), axis.read(-1.0)), (0.0, 0.0, 1.0, -1.0));
         let just = axis.read(0.2 + 1e-9);
         assert!(just > 0.0 && just < 1e-8);

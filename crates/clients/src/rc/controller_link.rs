@@ -1,6 +1,6 @@
 //! MAVLink link from a controller to a vehicle: MANUAL_CONTROL at 50 Hz, commands with retries, and a heartbeat.
 //!
-//! After a device is lost, the link sends centered sticks for [`NEUTRAL_S`] and then stops sending, so that the
+//! After a device is lost, the link sends centered sticks for [`CENTERED_DURATION_S`] and then stops sending, so that the
 //! vehicle's own failsafe responds instead of a program that pretends to be a pilot.
 
 use super::{ControllerAction, Sticks};
@@ -19,21 +19,21 @@ const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
 const CAMERA: u8 = 100;
 /// Interval between MANUAL_CONTROL messages, s (50 Hz, the rate at which the monitor records them).
-const STICKS_EVERY_S: f64 = 0.02;
-const HEARTBEAT_EVERY_S: f64 = 1.0;
+const STICK_INTERVAL_S: f64 = 0.02;
+const HEARTBEAT_INTERVAL_S: f64 = 1.0;
 /// Time for which centered sticks are sent after a device is lost, s (estimate: long enough to be received over a poor
 /// radio link).
-pub const NEUTRAL_S: f64 = 0.3;
+pub const CENTERED_DURATION_S: f64 = 0.3;
 /// Retry interval of an unacknowledged command, s, and maximum number of transmissions (MAVLink command protocol;
 /// estimate).
-const AGAIN_S: f64 = 0.5;
-const TIMES: u8 = 5;
+const RETRY_INTERVAL_S: f64 = 0.5;
+const MAX_TRANSMISSIONS: u8 = 5;
 /// Messages that button actions depend on and their rates, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
 const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
 /// Interval after which missing streams are requested again, s, because an acknowledgment was lost or the vehicle
 /// restarted (estimate).
-const STREAMS_AGAIN_S: f64 = 5.0;
-const TELLING: &str = "lamp and gimbal telemetry";
+const STREAM_RETRY_S: f64 = 5.0;
+const STREAM_REQUEST_NAME: &str = "lamp and gimbal telemetry";
 /// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: each press zooms by one step of the camera.
 const ZOOM_STEP: f32 = 0.0;
 /// Gimbal step per button press, degrees.
@@ -41,7 +41,7 @@ const GIMBAL_STEP_DEG: f32 = 10.0;
 /// Time for which a press adds to the last commanded pitch, s, because the gimbal may still be moving (estimate: two
 /// taps and a move of several steps). Later presses add to the reported pitch, because other clients also control the
 /// gimbal.
-const AIM_S: f64 = 2.0;
+const AIM_HOLD_S: f64 = 2.0;
 
 /// Latest state reported by the vehicle.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -85,7 +85,7 @@ pub struct ControllerLink {
     pending: Vec<PendingCommand>,
     aim: Option<(f32, SimTime)>,
     /// Whether the result of the stream requests has been reported.
-    streams_known: bool,
+    streams_reported: bool,
     pictures: u16,
     arm_hint: String,
 }
@@ -101,12 +101,12 @@ impl Default for ControllerLink {
             streams_received: [false; 2],
             vehicle: LastReported::default(),
             sticks: Sticks::default(),
-            device_lost: Some(SimTime::ZERO - SimTime::from_s(NEUTRAL_S)),
+            device_lost: Some(SimTime::ZERO - SimTime::from_s(CENTERED_DURATION_S)),
             next_sticks: SimTime::ZERO,
             next_heartbeat: SimTime::ZERO,
             pending: Vec::new(),
             aim: None,
-            streams_known: false,
+            streams_reported: false,
             pictures: 0,
             arm_hint: String::new(),
         }
@@ -141,11 +141,11 @@ impl ControllerLink {
                     self.vehicle.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
                 }
                 Some(MavMessage::ILLUMINATOR_STATUS(status)) => {
-                    (self.streams_received[0], self.streams_known) = (true, true);
+                    (self.streams_received[0], self.streams_reported) = (true, true);
                     self.vehicle.lamp = status.enable != 0;
                 }
                 Some(MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(status)) => {
-                    (self.streams_received[1], self.streams_known) = (true, true);
+                    (self.streams_received[1], self.streams_reported) = (true, true);
                     let attitude =
                         spandrel_model::frames::Rotation::<spandrel_model::frames::Frd, spandrel_model::frames::Ned>::from_wxyz(
                             status.q.map(f64::from),
@@ -176,18 +176,18 @@ impl ControllerLink {
                 // Updates the state immediately, because the next heartbeat may arrive a second later.
                 self.vehicle.armed = done.command.param1 == 1.0;
             }
-            let known = done.description == TELLING && std::mem::replace(&mut self.streams_known, true);
+            let known = done.description == STREAM_REQUEST_NAME && std::mem::replace(&mut self.streams_reported, true);
             if result != MavResult::MAV_RESULT_ACCEPTED && !known {
                 if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
                     self.aim = None;
                 }
-                self.push_message(done.description, refusal(command, result));
+                self.push_message(done.description, rejection_text(command, result));
             }
         }
     }
 
     /// Requests an action from the vehicle. Queues a message if no vehicle is connected.
-    pub fn act(&mut self, action: ControllerAction, now: SimTime) {
+    pub fn request_action(&mut self, action: ControllerAction, now: SimTime) {
         let Some(system) = self.vehicle.system else {
             return self.push_message(action.name(), "no vehicle connected");
         };
@@ -215,7 +215,7 @@ impl ControllerLink {
     /// Requests the streams that button actions depend on when a vehicle connects, and again whenever they stop.
     fn request_streams(&mut self, now: SimTime) {
         let Some(system) = self.vehicle.system.filter(|_| now >= self.next_stream_request) else { return };
-        self.next_stream_request = now + SimTime::from_s(STREAMS_AGAIN_S);
+        self.next_stream_request = now + SimTime::from_s(STREAM_RETRY_S);
         let came = std::mem::take(&mut self.streams_received);
         for (n, (id, rate_hz)) in STREAMS.into_iter().enumerate() {
             if came[n] {
@@ -224,7 +224,7 @@ impl ControllerLink {
             let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
             let command = station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
             self.pending.retain(|p| p.command != command);
-            self.pending.push(PendingCommand { description: TELLING, command, sent: 0, next: now });
+            self.pending.push(PendingCommand { description: STREAM_REQUEST_NAME, command, sent: 0, next: now });
         }
     }
 
@@ -263,7 +263,7 @@ impl ControllerLink {
 
     fn aim(&mut self, step: f32, now: SimTime) -> (u8, MavCmd, [f32; 7]) {
         let aimed = self.aim.map(|(aim, _)| aim);
-        let fresh = self.aim.filter(|(_, at)| (now - *at).s() < AIM_S).map(|(aim, _)| aim);
+        let fresh = self.aim.filter(|(_, at)| (now - *at).s() < AIM_HOLD_S).map(|(aim, _)| aim);
         let from = fresh.or(self.vehicle.gimbal_deg).or(aimed).unwrap_or(0.0);
         let to = (from + step).clamp(-90.0, 90.0);
         self.aim = Some((to, now));
@@ -274,12 +274,12 @@ impl ControllerLink {
     pub fn handle_timeout(&mut self, now: SimTime) {
         self.request_streams(now);
         if now >= self.next_heartbeat {
-            self.next_heartbeat = now + SimTime::from_s(HEARTBEAT_EVERY_S);
+            self.next_heartbeat = now + SimTime::from_s(HEARTBEAT_INTERVAL_S);
             self.send(&station::heartbeat());
         }
-        let pilot = self.device_lost.is_none_or(|since| (now - since).s() < NEUTRAL_S);
+        let pilot = self.device_lost.is_none_or(|since| (now - since).s() < CENTERED_DURATION_S);
         if pilot && now >= self.next_sticks {
-            self.next_sticks = (self.next_sticks + SimTime::from_s(STICKS_EVERY_S)).max(now);
+            self.next_sticks = (self.next_sticks + SimTime::from_s(STICK_INTERVAL_S)).max(now);
             self.send_sticks();
         }
         self.send_commands(now);
@@ -307,15 +307,15 @@ impl ControllerLink {
             if now < p.next {
                 return true;
             }
-            if p.sent == TIMES {
+            if p.sent == MAX_TRANSMISSIONS {
                 // Stream requests repeat anyway, and a vehicle that has answered once may only be paused.
-                if p.description != TELLING || !std::mem::replace(&mut self.streams_known, true) {
+                if p.description != STREAM_REQUEST_NAME || !std::mem::replace(&mut self.streams_reported, true) {
                     self.push_message(p.description, "no response from vehicle");
                 }
                 return false;
             }
             p.command.confirmation = p.sent;
-            (p.sent, p.next) = (p.sent + 1, now + SimTime::from_s(AGAIN_S));
+            (p.sent, p.next) = (p.sent + 1, now + SimTime::from_s(RETRY_INTERVAL_S));
             let bytes = self.encoder.encode(&MavMessage::COMMAND_LONG(p.command.clone()));
             self.out.push_back(bytes);
             true
@@ -343,7 +343,7 @@ impl ControllerLink {
     }
 }
 
-fn refusal(command: MavCmd, result: MavResult) -> &'static str {
+fn rejection_text(command: MavCmd, result: MavResult) -> &'static str {
     match (command, result) {
         (_, MavResult::MAV_RESULT_TEMPORARILY_REJECTED) => "temporarily rejected",
         (_, MavResult::MAV_RESULT_DENIED) => "denied",
@@ -396,7 +396,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_lamp_and_gimbal_are_requested_again_while_they_do_not_come_and_what_is_wrong_is_reported_once() {
+    fn exact_missing_streams_are_requested_again_and_reported_once() {
         let mut link = known();
         let asked = |messages: &[MavMessage]| -> Vec<u32> {
             let ids =
@@ -406,16 +406,16 @@ mod tests {
         let gimbal =
             MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(spandrel_mavlink::dialect::GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::default());
         link.receive(&Encoder::new(1, 1).encode(&gimbal));
-        let again = sent(&mut link, 0.0, STREAMS_AGAIN_S + 0.1);
+        let again = sent(&mut link, 0.0, STREAM_RETRY_S + 0.1);
         assert_eq!(asked(&again), [STREAMS[0].0], "only the missing stream must be requested");
         answer(&mut link, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
-        let later = sent(&mut link, STREAMS_AGAIN_S + 0.1, 2.0 * STREAMS_AGAIN_S + 0.1);
+        let later = sent(&mut link, STREAM_RETRY_S + 0.1, 2.0 * STREAM_RETRY_S + 0.1);
         assert_eq!(asked(&later), STREAMS.map(|(id, _)| id), "all stopped streams must be requested");
-        sent(&mut link, 2.0 * STREAMS_AGAIN_S + 0.1, 60.0);
+        sent(&mut link, 2.0 * STREAM_RETRY_S + 0.1, 60.0);
         let told = |link: &mut ControllerLink| std::iter::from_fn(|| link.poll_message()).collect::<Vec<_>>();
         assert!(told(&mut link).is_empty(), "no message if one of the streams arrives");
         let mut refused = known();
-        sent(&mut refused, 0.0, STREAMS_AGAIN_S + 0.1);
+        sent(&mut refused, 0.0, STREAM_RETRY_S + 0.1);
         for _ in STREAMS {
             answer(&mut refused, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
         }
@@ -430,7 +430,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_a_take_off_with_the_motors_off_reports_what_is_missing() {
+    fn regress_takeoff_while_disarmed_reports_the_missing_arming() {
         let take_offs = |messages: &[MavMessage]| {
             let is = |m: &&MavMessage| matches!(m, MavMessage::COMMAND_LONG(c) if c.command == MavCmd::MAV_CMD_NAV_TAKEOFF);
             messages.iter().filter(is).count()
@@ -438,31 +438,31 @@ mod tests {
         let mut link = known();
         link.vehicle.armed = false;
         link.set_arm_key("M");
-        link.act(ControllerAction::TakeOff, at(0.0));
+        link.request_action(ControllerAction::TakeOff, at(0.0));
         assert_eq!(link.poll_message().as_deref(), Some("Arm the motors first (key M)"));
         assert_eq!(take_offs(&sent(&mut link, 0.0, 0.1)), 0, "no takeoff command must be sent");
         // Both keys are pressed in quick succession; takeoff must not wait for a heartbeat.
-        link.act(ControllerAction::Arm, at(0.1));
-        link.act(ControllerAction::TakeOff, at(0.1));
+        link.request_action(ControllerAction::Arm, at(0.1));
+        link.request_action(ControllerAction::TakeOff, at(0.1));
         assert_eq!((take_offs(&sent(&mut link, 0.1, 0.2)), link.poll_message()), (1, None));
         let mut armed = known();
         armed.vehicle.armed = false;
-        armed.act(ControllerAction::Arm, at(0.0));
+        armed.request_action(ControllerAction::Arm, at(0.0));
         sent(&mut armed, 0.0, 0.1);
         answer(&mut armed, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, MavResult::MAV_RESULT_ACCEPTED);
-        armed.act(ControllerAction::TakeOff, at(0.1));
+        armed.request_action(ControllerAction::TakeOff, at(0.1));
         assert_eq!((take_offs(&sent(&mut armed, 0.1, 0.2)), armed.poll_message()), (1, None));
     }
 
     #[test]
-    fn exact_sticks_go_out_fifty_times_a_second() {
+    fn exact_sticks_are_sent_at_50_hz() {
         let mut link = known();
         link.set_sticks(Some(Sticks { forward: 1.0, right: -0.5, up: -1.0, yaw: 0.25 }), at(0.0));
         assert_eq!(sticks(&sent(&mut link, 0.0, 1.0)), vec![(1000, -500, 0, 250); 50]);
     }
 
     #[test]
-    fn exact_a_lost_device_is_neutral_and_then_silent_and_comes_back() {
+    fn exact_lost_device_centers_sticks_then_stops_until_it_returns() {
         let mut link = known();
         link.set_sticks(Some(Sticks { forward: 1.0, ..Sticks::default() }), at(0.0));
         sent(&mut link, 0.0, 0.1);
@@ -470,13 +470,13 @@ mod tests {
             link.set_sticks(None, SimTime::from_us(ms * 1000));
         }
         let after = sticks(&sent(&mut link, 0.1, 2.0));
-        assert_eq!(after, vec![(0, 0, 500, 0); (NEUTRAL_S / STICKS_EVERY_S) as usize]);
+        assert_eq!(after, vec![(0, 0, 500, 0); (CENTERED_DURATION_S / STICK_INTERVAL_S) as usize]);
         link.set_sticks(Some(Sticks { up: 1.0, ..Sticks::default() }), at(2.0));
         assert_eq!(sticks(&sent(&mut link, 2.0, 2.1)), vec![(0, 0, 1000, 0); 5]);
     }
 
     #[test]
-    fn exact_no_sticks_are_sent_without_a_device() {
+    fn exact_sticks_require_a_device() {
         let mut link = known();
         let messages = sent(&mut link, 0.0, 2.0);
         assert!(messages.iter().all(|m| matches!(m, MavMessage::HEARTBEAT(_))), "{messages:?}");
@@ -489,10 +489,10 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_camera_zooms_by_steps_and_one_that_cannot_is_reported_in_plain_words() {
+    fn exact_camera_zooms_in_steps_or_reports_that_it_cannot() {
         let mut link = known();
         for (action, step) in [(ControllerAction::CameraZoomIn, 1.0), (ControllerAction::CameraZoomOut, -1.0)] {
-            link.act(action, at(0.0));
+            link.request_action(action, at(0.0));
             let messages = sent(&mut link, 0.0, 0.1);
             let asked = messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c) } else { None }).unwrap();
             assert_eq!((asked.command, asked.target_component), (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, CAMERA));
@@ -509,20 +509,20 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_picture_that_is_requested_again_keeps_its_number_and_a_new_press_has_the_next() {
+    fn exact_retried_picture_keeps_its_number() {
         let mut link = known();
-        link.act(ControllerAction::Snapshot, at(0.0));
+        link.request_action(ControllerAction::Snapshot, at(0.0));
         assert_eq!(pictures(&sent(&mut link, 0.0, 1.1)), [1.0; 3]);
         answer(&mut link, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, MavResult::MAV_RESULT_ACCEPTED);
-        link.act(ControllerAction::Snapshot, at(1.2));
+        link.request_action(ControllerAction::Snapshot, at(1.2));
         assert_eq!(pictures(&sent(&mut link, 1.2, 1.8)), [2.0; 2]);
     }
 
     #[test]
-    fn exact_a_press_aims_on_from_the_last_one_and_later_from_where_the_gimbal_is() {
+    fn exact_gimbal_steps_start_from_the_last_command_or_the_reported_pitch() {
         let mut link = known();
         let aimed = |link: &mut ControllerLink, action: ControllerAction, s: f64| {
-            link.act(action, at(s));
+            link.request_action(action, at(s));
             let messages = sent(link, s, s + 0.1);
             messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c.param1) } else { None }).unwrap()
         };
@@ -533,23 +533,23 @@ mod tests {
         );
         link.vehicle.gimbal_deg = Some(-60.0);
         assert_eq!(
-            aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_S),
+            aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_HOLD_S),
             -50.0,
             "a late press must start from the reported pitch"
         );
         answer(&mut link, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, MavResult::MAV_RESULT_DENIED);
         assert_eq!(
-            aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_S),
+            aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_HOLD_S),
             -50.0,
             "a rejected command must not change the target"
         );
     }
 
     #[test]
-    fn exact_a_command_is_repeated_until_it_is_answered() {
+    fn exact_commands_are_repeated_until_acknowledged() {
         let mut link = known();
-        link.streams_known = true;
-        link.act(ControllerAction::Lamp, at(0.0));
+        link.streams_reported = true;
+        link.request_action(ControllerAction::Lamp, at(0.0));
         let streams = MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL;
         let wished = |m: &&MavMessage| matches!(m, MavMessage::COMMAND_LONG(c) if c.command != streams);
         let count = |messages: &[MavMessage]| messages.iter().filter(wished).count();
@@ -557,11 +557,11 @@ mod tests {
         answer(&mut link, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, MavResult::MAV_RESULT_DENIED);
         assert_eq!(count(&sent(&mut link, 1.1, 5.0)), 0);
         assert_eq!(link.poll_message().as_deref(), Some("lamp: denied"));
-        link.act(ControllerAction::Snapshot, at(5.0));
-        assert_eq!(count(&sent(&mut link, 5.0, 20.0)), usize::from(TIMES));
+        link.request_action(ControllerAction::Snapshot, at(5.0));
+        assert_eq!(count(&sent(&mut link, 5.0, 20.0)), usize::from(MAX_TRANSMISSIONS));
         assert_eq!(link.poll_message().as_deref(), Some("snapshot: no response from vehicle"));
         let mut alone = ControllerLink::default();
-        alone.act(ControllerAction::Arm, at(0.0));
+        alone.request_action(ControllerAction::Arm, at(0.0));
         assert_eq!(alone.poll_message().as_deref(), Some("arm: no vehicle connected"));
     }
 }

@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_what_is_written_down_is_played_again_in_its_time() {
+    fn exact_recording_plays_back_with_its_timing() {
         let device = Device { name: "Pad".into(), id: "1:2".into() };
         let events = [
             (0.0, DeviceEvent::Found),
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_wrong_line_is_named() {
+    fn exact_invalid_line_is_reported() {
         let head = head(&Device { name: "Pad".into(), id: "1:2".into() });
         for (line, told) in [
             ("{", "is not a JSON object"),

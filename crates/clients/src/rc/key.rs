@@ -1,23 +1,23 @@
 //! Key names, in configuration files and for display.
 
 /// Non-character keys by their names in configuration files.
-pub const NAMED: [&str; 11] =
+pub const SPECIAL_KEYS: [&str; 11] =
     ["up", "down", "left", "right", "space", "enter", "pageup", "pagedown", "tab", "escape", "backspace"];
 
-/// Checks whether `name` is a valid key name: one lowercase character or one of [`NAMED`].
+/// Checks whether `name` is a valid key name: one lowercase character or one of [`SPECIAL_KEYS`].
 #[must_use]
 pub fn is_key(name: &str) -> bool {
     let mut signs = name.chars();
     match (signs.next(), signs.next()) {
         (Some(sign), None) => !sign.is_whitespace() && !sign.is_control() && sign.to_lowercase().eq([sign]),
-        _ => NAMED.contains(&name),
+        _ => SPECIAL_KEYS.contains(&name),
     }
 }
 
 /// Returns the allowed key names, for error messages.
 #[must_use]
 pub fn allowed() -> String {
-    format!("one character, or {}", NAMED.join(", "))
+    format!("one character, or {}", SPECIAL_KEYS.join(", "))
 }
 
 /// Returns the display name of a key.
@@ -47,8 +47,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_keys_are_single_signs_and_the_named_ones() {
-        for name in ["a", "ü", "ß", "7", "+", "[", ",", "я"].into_iter().chain(NAMED) {
+    fn exact_valid_keys_are_characters_and_special_keys() {
+        for name in ["a", "ü", "ß", "7", "+", "[", ",", "я"].into_iter().chain(SPECIAL_KEYS) {
             assert!(is_key(name), "{name}");
         }
         for name in ["", " ", "\n", "\u{7}", "A", "f5", "shift", "Up", "ab", "page up", "esc"] {

@@ -6,13 +6,13 @@ use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 
 /// Stick deflection of a key (estimate: half, so that beginners do not fly at full speed).
-pub const PUSH: f64 = 0.5;
+pub const DEFAULT_DEFLECTION: f64 = 0.5;
 /// Time for which a key counts as held after its last event, s. Used in terminals, which report no key releases. Longer
 /// than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
-pub const HELD_S: f64 = 0.7;
+pub const KEY_HOLD_TIMEOUT_S: f64 = 0.7;
 /// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than the usual
 /// repeat interval of a held key, 0.03 s.
-const TAP_S: f64 = 0.12;
+const MIN_TAP_INTERVAL_S: f64 = 0.12;
 
 /// Direction of a stick deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,7 +35,7 @@ pub enum StickDirection {
     TurnRight,
 }
 
-const PUSHES: [(&str, StickDirection, &str); 8] = [
+const STICK_BINDINGS: [(&str, StickDirection, &str); 8] = [
     ("forward", StickDirection::Forward, "up"),
     ("back", StickDirection::Back, "down"),
     ("left", StickDirection::Left, "left"),
@@ -46,7 +46,7 @@ const PUSHES: [(&str, StickDirection, &str); 8] = [
     ("turn_right", StickDirection::TurnRight, "d"),
 ];
 
-const KEYS: [(ControllerAction, &str); 13] = [
+const ACTION_BINDINGS: [(ControllerAction, &str); 13] = [
     (ControllerAction::Lamp, "b"),
     (ControllerAction::Snapshot, "p"),
     (ControllerAction::Arm, "1"),
@@ -91,7 +91,7 @@ pub enum WindowAction {
     Sound,
 }
 
-const WISHES: [(&str, WindowAction, &str); 12] = [
+const WINDOW_BINDINGS: [(&str, WindowAction, &str); 12] = [
     ("swap", WindowAction::Swap, "tab"),
     ("map", WindowAction::Map, "m"),
     ("follow", WindowAction::Follow, "f"),
@@ -139,10 +139,10 @@ pub struct KeyBindings {
 impl Default for KeyBindings {
     fn default() -> Self {
         Self {
-            push: PUSH,
-            pushes: PUSHES.iter().map(|(_, push, key)| ((*key).to_owned(), *push)).collect(),
-            actions: KEYS.iter().map(|(action, key)| ((*key).to_owned(), *action)).collect(),
-            window_actions: WISHES.iter().map(|(_, wish, key)| ((*key).to_owned(), *wish)).collect(),
+            push: DEFAULT_DEFLECTION,
+            pushes: STICK_BINDINGS.iter().map(|(_, push, key)| ((*key).to_owned(), *push)).collect(),
+            actions: ACTION_BINDINGS.iter().map(|(action, key)| ((*key).to_owned(), *action)).collect(),
+            window_actions: WINDOW_BINDINGS.iter().map(|(_, wish, key)| ((*key).to_owned(), *wish)).collect(),
             sounds: SoundPreferences::default(),
         }
     }
@@ -159,7 +159,7 @@ impl KeyBindings {
             let mut root = r.root(&document);
             r.integer(&mut root, "format", (1, 1), None);
             let mut keys = Self {
-                push: r.number(&mut root, "push", (0.05, 1.0), Some(PUSH)),
+                push: r.number(&mut root, "push", (0.05, 1.0), Some(DEFAULT_DEFLECTION)),
                 pushes: BTreeMap::new(),
                 actions: BTreeMap::new(),
                 window_actions: BTreeMap::new(),
@@ -167,17 +167,17 @@ impl KeyBindings {
             };
             let mut taken = BTreeMap::new();
             let mut s = r.section(&mut root, "sticks");
-            for (name, push, usual) in PUSHES {
+            for (name, push, usual) in STICK_BINDINGS {
                 keys.pushes.insert(read_binding(&mut r, &mut s, (name, usual), &mut taken), push);
             }
             r.finish(&s);
             let mut s = r.section(&mut root, "actions");
-            for (action, usual) in KEYS {
+            for (action, usual) in ACTION_BINDINGS {
                 keys.actions.insert(read_binding(&mut r, &mut s, (action.name(), usual), &mut taken), action);
             }
             r.finish(&s);
             let mut s = r.section(&mut root, "window");
-            for (name, wish, usual) in WISHES {
+            for (name, wish, usual) in WINDOW_BINDINGS {
                 keys.window_actions.insert(read_binding(&mut r, &mut s, (name, usual), &mut taken), wish);
             }
             r.finish(&s);
@@ -206,7 +206,7 @@ impl KeyBindings {
     /// Returns the stick direction or vehicle action of a key, as the name used in configuration files.
     #[must_use]
     pub fn binding_name(&self, key: &str) -> Option<&'static str> {
-        let push = self.pushes.get(key).and_then(|push| PUSHES.iter().find(|p| p.1 == *push)).map(|p| p.0);
+        let push = self.pushes.get(key).and_then(|push| STICK_BINDINGS.iter().find(|p| p.1 == *push)).map(|p| p.0);
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
 
@@ -220,9 +220,9 @@ impl KeyBindings {
     /// Returns the display name of every bound key, by the binding's name in configuration files.
     #[must_use]
     pub fn labels(&self) -> BTreeMap<&'static str, String> {
-        let sticks = PUSHES.into_iter().map(|(name, ..)| name);
-        let actions = KEYS.into_iter().map(|(action, _)| action.name());
-        let wishes = WISHES.into_iter().map(|(name, ..)| name);
+        let sticks = STICK_BINDINGS.into_iter().map(|(name, ..)| name);
+        let actions = ACTION_BINDINGS.into_iter().map(|(action, _)| action.name());
+        let wishes = WINDOW_BINDINGS.into_iter().map(|(name, ..)| name);
         sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
     }
 
@@ -230,8 +230,8 @@ impl KeyBindings {
     /// configuration files.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&str> {
-        let push = PUSHES.iter().find(|p| p.0 == name).map(|p| p.1);
-        let wish = WISHES.iter().find(|w| w.0 == name).map(|w| w.1);
+        let push = STICK_BINDINGS.iter().find(|p| p.0 == name).map(|p| p.1);
+        let wish = WINDOW_BINDINGS.iter().find(|w| w.0 == name).map(|w| w.1);
         let pushes = self.pushes.iter().filter(|(_, p)| Some(**p) == push).map(|(key, _)| key);
         let wishes = self.window_actions.iter().filter(|(_, w)| Some(**w) == wish).map(|(key, _)| key);
         let actions = self.actions.iter().filter(|(_, a)| a.name() == name).map(|(key, _)| key);
@@ -244,7 +244,7 @@ impl KeyBindings {
         let pushes = self
             .pushes
             .iter()
-            .map(|(key, push)| format!("{key:10} {}", PUSHES.iter().find(|p| p.1 == *push).map_or("", |p| p.0)));
+            .map(|(key, push)| format!("{key:10} {}", STICK_BINDINGS.iter().find(|p| p.1 == *push).map_or("", |p| p.0)));
         let actions = self.actions.iter().map(|(key, action)| format!("{key:10} {}", action.name()));
         pushes.chain(actions).collect::<Vec<_>>().join("\n")
     }
@@ -254,9 +254,9 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
     let usual = SoundPreferences::default();
     let mut s = r.section(root, "sound");
     let sounds = SoundPreferences {
-        propellers: r.flag(&mut s, "propellers", usual.propellers),
-        warnings: r.flag(&mut s, "warnings", usual.warnings),
-        speech: r.flag(&mut s, "speech", usual.speech),
+        propellers: r.boolean(&mut s, "propellers", usual.propellers),
+        warnings: r.boolean(&mut s, "warnings", usual.warnings),
+        speech: r.boolean(&mut s, "speech", usual.speech),
         volume: r.number(&mut s, "volume", (0.0, 1.0), Some(usual.volume)),
     };
     r.finish(&s);
@@ -302,15 +302,15 @@ impl KeyboardState {
 
     /// Handles a key press and returns its action unless the key controls a stick. If the system reports key releases
     /// (`until_released`), do not pass on the repeats of a held key. Otherwise, a stick key counts as held for
-    /// [`HELD_S`], and repeats are ignored: an action must have been idle for that time, a gimbal or zoom step for
-    /// `TAP_S`.
+    /// [`KEY_HOLD_TIMEOUT_S`], and repeats are ignored: an action must have been idle for that time, a gimbal or zoom step for
+    /// `MIN_TAP_INTERVAL_S`.
     pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<ControllerAction> {
         let key = key.to_lowercase();
         if let Some(push) = self.keys.pushes.get(&key) {
-            self.held.insert(*push, (!until_released).then(|| now + SimTime::from_s(HELD_S)));
+            self.held.insert(*push, (!until_released).then(|| now + SimTime::from_s(KEY_HOLD_TIMEOUT_S)));
         }
         let action = self.keys.actions.get(&key).copied()?;
-        let rest_s = if action.is_repeatable() { TAP_S } else { HELD_S };
+        let rest_s = if action.is_repeatable() { MIN_TAP_INTERVAL_S } else { KEY_HOLD_TIMEOUT_S };
         let before = self.last_repeats.insert(action, now);
         let repeated = before.is_some_and(|before| (now - before).s() < rest_s);
         (until_released || !repeated).then_some(action)
@@ -350,15 +350,18 @@ mod tests {
     }
 
     #[test]
-    fn exact_held_keys_push_and_opposite_ones_cancel() {
+    fn exact_held_keys_deflect_and_opposite_keys_cancel() {
         let mut board = KeyboardState::default();
         assert_eq!(board.press("w", true, at(0.0)), None);
         board.press("Up", true, at(0.0));
         board.press("d", true, at(0.0));
-        assert_eq!(board.sticks(at(100.0)), Sticks { forward: PUSH, right: 0.0, up: PUSH, yaw: PUSH });
+        assert_eq!(
+            board.sticks(at(100.0)),
+            Sticks { forward: DEFAULT_DEFLECTION, right: 0.0, up: DEFAULT_DEFLECTION, yaw: DEFAULT_DEFLECTION }
+        );
         board.press("a", true, at(100.0));
         board.release("up");
-        assert_eq!(board.sticks(at(100.0)), Sticks { up: PUSH, ..Sticks::default() });
+        assert_eq!(board.sticks(at(100.0)), Sticks { up: DEFAULT_DEFLECTION, ..Sticks::default() });
         board.release_all();
         assert_eq!(board.sticks(at(100.0)), Sticks::default());
         assert_eq!(
@@ -372,12 +375,12 @@ mod tests {
         let mut board = KeyboardState::default();
         board.press("w", false, at(0.0));
         board.press("w", false, at(0.5));
-        assert_eq!(board.sticks(at(0.5 + HELD_S - 0.01)).up, PUSH);
-        assert_eq!(board.sticks(at(0.5 + HELD_S)).up, 0.0);
+        assert_eq!(board.sticks(at(0.5 + KEY_HOLD_TIMEOUT_S - 0.01)).up, DEFAULT_DEFLECTION);
+        assert_eq!(board.sticks(at(0.5 + KEY_HOLD_TIMEOUT_S)).up, 0.0);
     }
 
     #[test]
-    fn exact_what_a_held_key_repeats_does_nothing_and_steps_may_be_tapped() {
+    fn exact_key_repeats_are_ignored_except_tapped_steps() {
         let mut board = KeyboardState::default();
         // One second of events: 0.5 s until the first repeat, then 30 repeats per second.
         let held: Vec<f64> = std::iter::once(0.0).chain((0..15).map(|k| 0.5 + f64::from(k) / 30.0)).collect();
@@ -387,7 +390,7 @@ mod tests {
         assert_eq!(done(&mut board, "p", &held), [ControllerAction::Snapshot]);
         assert_eq!(done(&mut board, "b", &held), [ControllerAction::Lamp], "a held key must not repeat its action");
         assert_eq!(
-            done(&mut board, "p", &[1.0, 1.0 + HELD_S]),
+            done(&mut board, "p", &[1.0, 1.0 + KEY_HOLD_TIMEOUT_S]),
             [ControllerAction::Snapshot],
             "a new press must repeat the action"
         );
@@ -398,7 +401,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_keys_come_from_a_file_and_a_key_has_one_duty() {
+    fn exact_key_file_binds_each_key_once() {
         let keys = KeyBindings::read("keys.toml", "format = 1\npush = 1.0\n[sticks]\nup = \"space\"\n").unwrap();
         let mut board = KeyboardState::new(keys);
         board.press("space", true, at(0.0));
@@ -415,7 +418,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_key_that_no_keyboard_has_is_reported_with_its_line() {
+    fn exact_unknown_key_is_reported_with_its_line() {
         let text = "format = 1\n[actions]\nlamp = \"F5\"\n[window]\nmap = \"shift\"\n";
         let told = KeyBindings::read("keys.toml", text).unwrap_err().to_string();
         assert!(told.contains("keys.toml:3: actions.lamp = f5: unknown key (allowed: one character, or up, "), "{told}");
@@ -423,8 +426,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_duty_has_a_key_that_people_can_read() {
-        let (usual, every) = (KeyBindings::default(), PUSHES.len() + KEYS.len() + WISHES.len());
+    fn exact_every_binding_has_a_readable_key_label() {
+        let (usual, every) = (KeyBindings::default(), STICK_BINDINGS.len() + ACTION_BINDINGS.len() + WINDOW_BINDINGS.len());
         let labels = usual.labels();
         let keys: std::collections::BTreeSet<&str> = labels.keys().filter_map(|name| usual.of(name)).collect();
         assert_eq!((labels.len(), keys.len()), (every, every), "each binding must have its own key");

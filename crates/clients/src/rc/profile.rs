@@ -1,7 +1,7 @@
 //! Controller profile: assignment of axes to sticks and of buttons to actions, with its file format.
 
 use super::action::{self, ControllerAction};
-use super::axis::{AxisCalibration, LEAST_WAY};
+use super::axis::{AxisCalibration, MIN_ENDPOINT_DISTANCE};
 use super::{Device, RawInput, Sticks};
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
@@ -10,11 +10,11 @@ use std::fmt::Write;
 /// Newest supported format version.
 pub const FORMAT: i64 = 1;
 /// Default dead band of a new profile (estimate: the play of a worn gamepad stick).
-pub const DEAD_BAND: f64 = 0.05;
+pub const DEFAULT_DEAD_BAND: f64 = 0.05;
 /// Default expo of a new profile (estimate: between a transmitter's usual 0.2 and 0.4).
-pub const EXPO: f64 = 0.3;
+pub const DEFAULT_EXPO: f64 = 0.3;
 /// Maximum axis or button number: the largest 32-bit unsigned integer.
-const MOST: i64 = u32::MAX as i64;
+const MAX_NUMBER: i64 = u32::MAX as i64;
 
 /// A stick axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,7 +30,7 @@ pub enum StickMotion {
 }
 
 /// All four axes, with their names in configuration files and in prompts.
-pub const WAYS: [(&str, StickMotion, &str); 4] = [
+pub const STICK_AXES: [(&str, StickMotion, &str); 4] = [
     ("left_vertical", StickMotion::LeftVertical, "the LEFT stick fully UP"),
     ("left_horizontal", StickMotion::LeftHorizontal, "the LEFT stick fully to the RIGHT"),
     ("right_vertical", StickMotion::RightVertical, "the RIGHT stick fully UP"),
@@ -53,7 +53,7 @@ pub enum StickMode {
 impl StickMode {
     /// Returns the mode with this number, or `None` if the number is not 1 to 4.
     #[must_use]
-    pub fn numbered(number: i64) -> Option<Self> {
+    pub fn from_number(number: i64) -> Option<Self> {
         [Self::One, Self::Two, Self::Three, Self::Four].into_iter().find(|mode| mode.number() == number)
     }
 
@@ -71,7 +71,7 @@ impl StickMode {
     /// Returns the positions of the physical sticks for stick inputs in this mode: left up, left right, right up, right
     /// right.
     #[must_use]
-    pub fn sticks_by_hand(self, sticks: Sticks) -> [f64; 4] {
+    pub fn physical_sticks(self, sticks: Sticks) -> [f64; 4] {
         let Sticks { forward, right, up, yaw } = sticks;
         match self {
             Self::One => [forward, yaw, up, right],
@@ -84,7 +84,7 @@ impl StickMode {
     /// Maps the positions of the physical sticks to stick inputs. Every mode is a permutation.
     #[must_use]
     pub fn sticks(self, read: impl Fn(StickMotion) -> f64) -> Sticks {
-        let [lv, lh, rv, rh] = WAYS.map(|(_, way, _)| read(way));
+        let [lv, lh, rv, rh] = STICK_AXES.map(|(_, way, _)| read(way));
         match self {
             Self::One => Sticks { forward: lv, yaw: lh, up: rv, right: rh },
             Self::Two => Sticks { up: lv, yaw: lh, forward: rv, right: rh },
@@ -126,7 +126,7 @@ impl ControllerProfile {
             quoted(&self.device.id),
             self.mode.number(),
         );
-        for (name, way, _) in WAYS {
+        for (name, way, _) in STICK_AXES {
             if let Some(a) = self.axes.get(&way) {
                 let _ = write!(
                     text,
@@ -153,7 +153,7 @@ impl ControllerProfile {
         let mut reader = Reader::new(file, text);
         let profile = reader.parse().map(|document| {
             let mut root = reader.root(&document);
-            let profile = whole(&mut reader, &mut root);
+            let profile = read_profile(&mut reader, &mut root);
             reader.finish(&root);
             profile
         });
@@ -168,16 +168,16 @@ fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-fn whole(r: &mut Reader, root: &mut Section) -> ControllerProfile {
+fn read_profile(r: &mut Reader, root: &mut Section) -> ControllerProfile {
     r.integer(root, "format", (1, FORMAT), None);
     let device = Device { name: r.text(root, "device", None), id: r.text(root, "id", None) };
-    let mode = StickMode::numbered(r.integer(root, "stick_mode", (1, 4), Some(2))).unwrap_or(StickMode::Two);
+    let mode = StickMode::from_number(r.integer(root, "stick_mode", (1, 4), Some(2))).unwrap_or(StickMode::Two);
     let mut ways: BTreeMap<StickMotion, AxisCalibration> = BTreeMap::new();
-    for (name, way, _) in WAYS {
+    for (name, way, _) in STICK_AXES {
         let mut section = r.section(root, name);
         let axis = axis(r, &mut section);
         if let Some((other, _)) = ways.iter().find(|(_, known)| known.axis == axis.axis) {
-            let other = WAYS.iter().find(|(_, way, _)| way == other).map_or("", |(name, ..)| name);
+            let other = STICK_AXES.iter().find(|(_, way, _)| way == other).map_or("", |(name, ..)| name);
             r.add_problem(&section, "axis", &axis.axis.to_string(), "an unused axis", &format!("already used by {other}"));
         }
         r.finish(&section);
@@ -186,7 +186,7 @@ fn whole(r: &mut Reader, root: &mut Section) -> ControllerProfile {
     let mut section = r.section(root, "buttons");
     let mut buttons = BTreeMap::new();
     for (name, action) in action::ALL {
-        for number in r.integers(&mut section, name, (0, MOST)) {
+        for number in r.integers(&mut section, name, (0, MAX_NUMBER)) {
             let number = u32::try_from(number).unwrap_or(u32::MAX);
             if let Some(before) = buttons.insert(number, action) {
                 r.add_problem(
@@ -205,16 +205,16 @@ fn whole(r: &mut Reader, root: &mut Section) -> ControllerProfile {
 
 fn axis(r: &mut Reader, s: &mut Section) -> AxisCalibration {
     let axis = AxisCalibration {
-        axis: u32::try_from(r.integer(s, "axis", (0, MOST), None)).unwrap_or(u32::MAX),
+        axis: u32::try_from(r.integer(s, "axis", (0, MAX_NUMBER), None)).unwrap_or(u32::MAX),
         low: r.number(s, "low", (-1.0, 1.0), None),
         centre: r.number(s, "centre", (-1.0, 1.0), None),
         high: r.number(s, "high", (-1.0, 1.0), None),
-        dead_band: r.number(s, "dead_band", (0.0, 0.5), Some(DEAD_BAND)),
-        expo: r.number(s, "expo", (0.0, 1.0), Some(EXPO)),
+        dead_band: r.number(s, "dead_band", (0.0, 0.5), Some(DEFAULT_DEAD_BAND)),
+        expo: r.number(s, "expo", (0.0, 1.0), Some(DEFAULT_EXPO)),
     };
     let (below, above) = (axis.centre - axis.low, axis.high - axis.centre);
-    if below * above <= 0.0 || below.abs() < LEAST_WAY || above.abs() < LEAST_WAY {
-        let allowed = format!("between low and high, at least {LEAST_WAY} from both");
+    if below * above <= 0.0 || below.abs() < MIN_ENDPOINT_DISTANCE || above.abs() < MIN_ENDPOINT_DISTANCE {
+        let allowed = format!("between low and high, at least {MIN_ENDPOINT_DISTANCE} from both");
         r.add_problem(s, "centre", &axis.centre.to_string(), &allowed, "range too small for a stick");
     }
     axis
@@ -230,7 +230,7 @@ mod tests {
         ControllerProfile {
             device: Device { name: "A \"quoted\" transmitter".into(), id: "0483:5710".into() },
             mode: StickMode::Two,
-            axes: WAYS
+            axes: STICK_AXES
                 .iter()
                 .enumerate()
                 .map(|(k, (_, way, _))| (*way, axis(k as u32 + 3, if k == 1 { -1.0 } else { 1.0 })))
@@ -246,13 +246,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_written_is_read_again() {
+    fn exact_profile_survives_writing_and_reading() {
         let profile = profile();
         assert_eq!(ControllerProfile::read("p.toml", &profile.write()).unwrap(), profile);
     }
 
     #[test]
-    fn exact_modes_are_what_transmitters_call_them() {
+    fn exact_stick_modes_match_transmitters() {
         let mut raw = RawInput::default();
         for (axis, value) in [(3, 1.0), (4, 1.0), (5, -1.0), (6, 1.0)] {
             raw.apply(DeviceEvent::Axis { axis, value });
@@ -265,12 +265,12 @@ mod tests {
         assert_eq!(flown(StickMode::Four), Sticks { up: 1.0, right: -1.0, forward: -1.0, yaw: 1.0 });
         assert_eq!(profile().sticks(&RawInput::default()), Sticks::default(), "axes without readings must be centered");
         for mode in [StickMode::One, StickMode::Two, StickMode::Three, StickMode::Four] {
-            assert_eq!(mode.sticks_by_hand(flown(mode)), [1.0, -1.0, -1.0, 1.0], "the mapping must be reversible");
+            assert_eq!(mode.physical_sticks(flown(mode)), [1.0, -1.0, -1.0, 1.0], "the mapping must be reversible");
         }
     }
 
     #[test]
-    fn exact_a_wrong_file_is_reported_line_by_line() {
+    fn exact_invalid_file_is_reported_line_by_line() {
         let text = profile()
             .write()
             .replace("axis = 4", "axis = 3")

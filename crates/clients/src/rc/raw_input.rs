@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_lost_device_forgets_where_it_stood_and_nonsense_moves_nothing() {
+    fn exact_lost_device_clears_its_state_and_invalid_values_are_ignored() {
         let mut raw = RawInput::default();
         raw.apply(DeviceEvent::Axis { axis: 1, value: 0.5 });
         raw.apply(DeviceEvent::Axis { axis: 1, value: f64::NAN });

@@ -1,44 +1,44 @@
 //! Interactive calibration of center, range, axis assignment and direction, and buttons. A window and a terminal use
 //! the same steps.
 
-use super::axis::{AxisCalibration, LEAST_WAY};
-use super::profile::{ControllerProfile, DEAD_BAND, EXPO, StickMode, StickMotion, WAYS};
+use super::axis::{AxisCalibration, MIN_ENDPOINT_DISTANCE};
+use super::profile::{ControllerProfile, DEFAULT_DEAD_BAND, DEFAULT_EXPO, STICK_AXES, StickMode, StickMotion};
 use super::{ControllerAction, Device, DeviceEvent, RawInput};
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Duration of the rest measurement (center and noise), s (estimate).
-const REST_S: f64 = 1.5;
+const REST_DURATION_S: f64 = 1.5;
 /// Minimum travel of a stick axis, as part of the raw range of 2 (estimate).
-const MOVED: f64 = 0.6;
-/// Fraction of the travel above which a stick counts as pushed, and [`LET_GO`] below which it counts as released; in
+const MIN_TRAVEL: f64 = 0.6;
+/// Fraction of the travel above which a stick counts as pushed, and [`RELEASED_FRACTION`] below which it counts as released; in
 /// between, it counts as neither (estimates).
-const PUSHED: f64 = 0.8;
-const LET_GO: f64 = 0.3;
+const PUSHED_FRACTION: f64 = 0.8;
+const RELEASED_FRACTION: f64 = 0.3;
 /// Time for which a stick must stay pushed, s, so that a brief touch is not accepted (estimate).
-const PUSHED_S: f64 = 0.3;
+const PUSHED_DURATION_S: f64 = 0.3;
 /// Minimum movement since the prompt as a fraction of the travel, so that an axis that was already at an end is not
 /// accepted.
-const COME: f64 = 0.5;
+const MIN_DISPLACEMENT: f64 = 0.5;
 /// Movement below which an axis counts as still, as part of the raw range of 2 (estimate: above the noise of a worn
 /// stick).
-const STILL: f64 = 0.2;
-/// Time for which sticks must be still at the center, s. An axis that stays elsewhere for [`ASIDE_S`] is a trigger,
+const STILL_TOLERANCE: f64 = 0.2;
+/// Time for which sticks must be still at the center, s. An axis that stays elsewhere for [`NON_RETURNING_S`] is a trigger,
 /// switch or knob that does not return (estimates).
-const STILL_S: f64 = 0.2;
-const ASIDE_S: f64 = 1.0;
-/// Dead band as a multiple of the noise at rest. It is at least the default and at most [`MOST_DEAD`].
-const NOISES: f64 = 2.0;
-const MOST_DEAD: f64 = 0.2;
+const STILL_DURATION_S: f64 = 0.2;
+const NON_RETURNING_S: f64 = 1.0;
+/// Dead band as a multiple of the noise at rest. It is at least the default and at most [`MAX_DEAD_BAND`].
+const NOISE_FACTOR: f64 = 2.0;
+const MAX_DEAD_BAND: f64 = 0.2;
 /// Fraction of the range from its middle beyond which a rest position cannot be a spring center, as on a throttle
 /// without a spring.
-const OFF_CENTRE: f64 = 0.25;
+const MAX_CENTER_OFFSET: f64 = 0.25;
 
 /// A step of the calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum WizardStep {
     /// Waiting for the user to release everything and confirm.
-    LetGo,
+    Release,
     /// Measuring the axes at rest.
     Rest,
     /// Waiting for the user to move both sticks through their full range and confirm.
@@ -87,7 +87,7 @@ impl AxisStatistics {
 
     fn take(&mut self, value: f64, now: SimTime) {
         self.ends = (self.ends.0.min(value), self.ends.1.max(value));
-        if (value - self.steady.0).abs() > STILL {
+        if (value - self.steady.0).abs() > STILL_TOLERANCE {
             self.steady = (value, now);
         }
     }
@@ -129,7 +129,7 @@ impl CalibrationWizard {
         Self {
             device,
             mode,
-            step: WizardStep::LetGo,
+            step: WizardStep::Release,
             raw: RawInput::default(),
             since: SimTime::ZERO,
             statistics: BTreeMap::new(),
@@ -146,14 +146,14 @@ impl CalibrationWizard {
     #[must_use]
     pub fn prompt(&self) -> String {
         let asked = match self.step {
-            WizardStep::LetGo => "Let go of both sticks (center a throttle that has no spring), then press Enter.".to_owned(),
+            WizardStep::Release => "Let go of both sticks (center a throttle that has no spring), then press Enter.".to_owned(),
             WizardStep::Rest => "Do not touch the sticks ...".to_owned(),
             WizardStep::Range => format!(
                 "Move both sticks around their full range, then press Enter. Axes found: {} of 4.",
-                self.statistics.values().filter(|seen| moved(seen)).count().min(4)
+                self.statistics.values().filter(|seen| is_fully_moved(seen)).count().min(4)
             ),
             WizardStep::Middle(_) => "Center the sticks ...".to_owned(),
-            WizardStep::Push(k) => format!("Push {} and hold it there.", WAYS[k].2),
+            WizardStep::Push(k) => format!("Push {} and hold it there.", STICK_AXES[k].2),
             WizardStep::Button(k) => format!("Press the button for {}, or Enter to skip.", BUTTONS[k].1),
             WizardStep::Done => "Done.".to_owned(),
         };
@@ -193,7 +193,7 @@ impl CalibrationWizard {
         }
         if event == DeviceEvent::Lost {
             self.note = Some("Device disconnected. Plug it in again.");
-            self.start_step(WizardStep::LetGo, now);
+            self.start_step(WizardStep::Release, now);
         }
     }
 
@@ -201,7 +201,7 @@ impl CalibrationWizard {
     pub fn confirm(&mut self, now: SimTime) {
         self.note = None;
         match self.step {
-            WizardStep::LetGo => {
+            WizardStep::Release => {
                 // The position of an axis without a reading is unknown; it is measured when the axis returns to its
                 // center.
                 self.statistics = self.raw.axes.iter().map(|(axis, value)| (*axis, AxisStatistics::at(*value, now))).collect();
@@ -215,9 +215,9 @@ impl CalibrationWizard {
     }
 
     fn end_range(&mut self, now: SimTime) {
-        self.fully_moved = self.statistics.iter().filter(|(_, seen)| moved(seen)).map(|(axis, _)| *axis).collect();
+        self.fully_moved = self.statistics.iter().filter(|(_, seen)| is_fully_moved(seen)).map(|(axis, _)| *axis).collect();
         self.found.clear();
-        if self.fully_moved.len() < WAYS.len() {
+        if self.fully_moved.len() < STICK_AXES.len() {
             self.note = Some("Fewer than four axes moved.");
         } else {
             self.start_step(WizardStep::Middle(0), now);
@@ -236,25 +236,25 @@ impl CalibrationWizard {
     /// Advances time; call it every few milliseconds.
     pub fn handle_timeout(&mut self, now: SimTime) {
         match self.step {
-            WizardStep::Rest => self.rest(now),
-            WizardStep::Middle(k) if self.is_middle(now) => {
-                self.measure_middle();
+            WizardStep::Rest => self.measure_rest(now),
+            WizardStep::Middle(k) if self.is_centered(now) => {
+                self.measure_center();
                 self.push_start.clone_from(&self.raw.axes);
                 self.start_step(WizardStep::Push(k), now);
             }
             WizardStep::Push(k) => self.push(k, now),
-            WizardStep::LetGo | WizardStep::Range | WizardStep::Middle(_) | WizardStep::Button(_) | WizardStep::Done => {}
+            WizardStep::Release | WizardStep::Range | WizardStep::Middle(_) | WizardStep::Button(_) | WizardStep::Done => {}
         }
     }
 
-    fn rest(&mut self, now: SimTime) {
+    fn measure_rest(&mut self, now: SimTime) {
         for (axis, seen) in &mut self.statistics {
             if let Some(value) = self.raw.axes.get(axis) {
                 seen.measure(*value);
                 seen.rested = true;
             }
         }
-        if (now - self.since).s() >= REST_S {
+        if (now - self.since).s() >= REST_DURATION_S {
             self.start_step(WizardStep::Range, now);
         }
     }
@@ -262,7 +262,7 @@ impl CalibrationWizard {
     /// Returns the reading of an axis and its deflection from the center, -1 to 1 of its range.
     fn deflection(&self, axis: u32) -> Option<(f64, f64)> {
         let (value, seen) = (*self.raw.axes.get(&axis)?, self.statistics.get(&axis)?);
-        let centre = centre(seen);
+        let centre = rest_position(seen);
         let way = if value >= centre { seen.ends.1 - centre } else { centre - seen.ends.0 };
         Some((value, if way == 0.0 { 0.0 } else { (value - centre) / way }))
     }
@@ -271,20 +271,20 @@ impl CalibrationWizard {
         self.found.values().any(|(known, _)| *known == axis)
     }
 
-    fn is_middle(&self, now: SimTime) -> bool {
+    fn is_centered(&self, now: SimTime) -> bool {
         let still = |axis: u32, seconds: f64| self.statistics.get(&axis).is_none_or(|seen| seen.is_still(seconds, now));
         self.fully_moved.iter().all(|axis| match self.deflection(*axis) {
-            Some((_, part)) if part.abs() < LET_GO => still(*axis, STILL_S),
-            Some(_) => !self.is_known(*axis) && still(*axis, ASIDE_S),
+            Some((_, part)) if part.abs() < RELEASED_FRACTION => still(*axis, STILL_DURATION_S),
+            Some(_) => !self.is_known(*axis) && still(*axis, NON_RETURNING_S),
             None => true,
         })
     }
 
     /// Measures the center of axes that have just returned to it. Some systems do not report an axis before it moves.
-    fn measure_middle(&mut self) {
+    fn measure_center(&mut self) {
         for axis in self.fully_moved.clone() {
             let Some((value, part)) = self.deflection(axis) else { continue };
-            if let Some(seen) = self.statistics.get_mut(&axis).filter(|seen| !seen.rested && part.abs() < LET_GO) {
+            if let Some(seen) = self.statistics.get_mut(&axis).filter(|seen| !seen.rested && part.abs() < RELEASED_FRACTION) {
                 seen.measure(value);
             }
         }
@@ -296,7 +296,7 @@ impl CalibrationWizard {
         if now_pushed != self.pushed {
             (self.pushed, self.since) = (now_pushed, now);
         }
-        let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= PUSHED_S) else { return };
+        let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= PUSHED_DURATION_S) else { return };
         if !self.fully_moved.contains(&axis) {
             self.note = Some("That stick was not moved through its full range.");
             return self.start_step(WizardStep::Range, now);
@@ -306,8 +306,8 @@ impl CalibrationWizard {
             return self.start_step(WizardStep::Middle(k), now);
         }
         self.note = None;
-        self.found.insert(WAYS[k].1, (axis, up));
-        if k + 1 < WAYS.len() {
+        self.found.insert(STICK_AXES[k].1, (axis, up));
+        if k + 1 < STICK_AXES.len() {
             self.start_step(WizardStep::Middle(k + 1), now);
         } else {
             self.start_step(WizardStep::Button(0), now);
@@ -318,7 +318,9 @@ impl CalibrationWizard {
     fn track_released_sticks(&mut self, now: SimTime) {
         for axis in &self.fully_moved {
             let Some((value, part)) = self.deflection(*axis) else { continue };
-            if part.abs() < LET_GO && self.statistics.get(axis).is_some_and(|seen| seen.is_still(PUSHED_S, now)) {
+            if part.abs() < RELEASED_FRACTION
+                && self.statistics.get(axis).is_some_and(|seen| seen.is_still(PUSHED_DURATION_S, now))
+            {
                 self.push_start.insert(*axis, value);
             }
         }
@@ -336,11 +338,12 @@ impl CalibrationWizard {
         let pushed = |axis: &u32| {
             let ends = self.statistics.get(axis)?.ends;
             let (_, part) = self.deflection(*axis)?;
-            (part.abs() >= PUSHED && self.displacement(*axis) >= COME * (ends.1 - ends.0) / 2.0).then_some((*axis, part > 0.0))
+            (part.abs() >= PUSHED_FRACTION && self.displacement(*axis) >= MIN_DISPLACEMENT * (ends.1 - ends.0) / 2.0)
+                .then_some((*axis, part > 0.0))
         };
         let sticks: Vec<(u32, bool)> = self.fully_moved.iter().filter_map(pushed).collect();
         let mut others =
-            self.statistics.keys().filter(|axis| !self.fully_moved.contains(axis) && self.displacement(**axis) >= MOVED);
+            self.statistics.keys().filter(|axis| !self.fully_moved.contains(axis) && self.displacement(**axis) >= MIN_TRAVEL);
         match sticks.as_slice() {
             [] => others.next().map(|axis| (*axis, true)),
             [one] => Some(*one),
@@ -363,25 +366,32 @@ impl CalibrationWizard {
     }
 }
 
-fn moved(seen: &AxisStatistics) -> bool {
-    seen.ends.1 - seen.ends.0 >= MOVED
+fn is_fully_moved(seen: &AxisStatistics) -> bool {
+    seen.ends.1 - seen.ends.0 >= MIN_TRAVEL
 }
 
 /// Returns the rest position of the stick: the measured one, or the middle of the range if the stick rests near an end,
 /// as a throttle without a spring may.
-fn centre(seen: &AxisStatistics) -> f64 {
+fn rest_position(seen: &AxisStatistics) -> f64 {
     let middle = f64::midpoint(seen.ends.0, seen.ends.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };
-    let off = (rest - middle).abs() > OFF_CENTRE * (seen.ends.1 - seen.ends.0) / 2.0;
+    let off = (rest - middle).abs() > MAX_CENTER_OFFSET * (seen.ends.1 - seen.ends.0) / 2.0;
     if off { middle } else { rest }
 }
 
 fn axis_calibration(axis: u32, up: bool, seen: &AxisStatistics) -> AxisCalibration {
-    let centre = centre(seen);
-    let way = (seen.ends.1 - centre).min(centre - seen.ends.0).max(LEAST_WAY);
+    let centre = rest_position(seen);
+    let way = (seen.ends.1 - centre).min(centre - seen.ends.0).max(MIN_ENDPOINT_DISTANCE);
     let noise = (seen.rest_range.1 - seen.rest_range.0) / 2.0 / way;
     let (low, high) = if up { seen.ends } else { (seen.ends.1, seen.ends.0) };
-    AxisCalibration { axis, low, centre, high, dead_band: (NOISES * noise).clamp(DEAD_BAND, MOST_DEAD), expo: EXPO }
+    AxisCalibration {
+        axis,
+        low,
+        centre,
+        high,
+        dead_band: (NOISE_FACTOR * noise).clamp(DEFAULT_DEAD_BAND, MAX_DEAD_BAND),
+        expo: DEFAULT_EXPO,
+    }
 }
 
 #[cfg(test)]
@@ -442,7 +452,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_wizard_finds_axes_ends_and_directions() {
+    fn exact_wizard_finds_axes_endpoints_and_directions() {
         let mut person = SimulatedUser::new();
         person.jitter_axes();
         person.confirm();
@@ -474,7 +484,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_done_wrong_is_reported_and_asked_again() {
+    fn exact_wrong_input_is_reported_and_requested_again() {
         let mut person = SimulatedUser::new();
         person.confirm();
         person.wait(2.0);
@@ -493,7 +503,7 @@ mod tests {
 
     /// Events of a gamepad as Linux reports it: no readings before something moves, triggers start at -1. Sticks 0, 1
     /// and 3, 4 (up is -1), triggers 2 and 5, hat 16. Time in s, axis, value.
-    const PAD: [(f64, u32, f64); 38] = [
+    const GAMEPAD_EVENTS: [(f64, u32, f64); 38] = [
         // Both triggers and the hat move before any stick; the right trigger does not return completely.
         (2.2, 2, -0.9),
         (2.3, 2, 1.0),
@@ -540,9 +550,10 @@ mod tests {
     ];
 
     #[test]
-    fn exact_triggers_that_were_touched_first_are_no_sticks_and_an_axis_unheard_of_is_measured_where_it_comes_back_to() {
+    fn exact_triggers_are_not_sticks_and_late_axes_are_measured_at_their_center() {
         let device = Device { name: "Pad".into(), id: "1:2".into() };
-        let lines = PAD.map(|(s, axis, value)| input_recording::line(SimTime::from_s(s), DeviceEvent::Axis { axis, value }));
+        let lines =
+            GAMEPAD_EVENTS.map(|(s, axis, value)| input_recording::line(SimTime::from_s(s), DeviceEvent::Axis { axis, value }));
         let text: Vec<String> = std::iter::once(input_recording::head(&device)).chain(lines).collect();
         let mut record = input_recording::InputRecording::read("pad.jsonl", &text.join("\n")).unwrap();
         let mut wizard = CalibrationWizard::new(device, StickMode::Two);
@@ -568,7 +579,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_stick_that_was_not_moved_along_its_ends_is_sent_back_there() {
+    fn exact_unmoved_stick_returns_to_the_range_step() {
         let mut person = SimulatedUser::new();
         person.jitter_axes();
         person.confirm();

@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_codes_come_back_and_unknown_ones_are_other() {
+    fn exact_contact_codes_round_trip_and_unknown_codes_are_other() {
         for contact in ContactKind::ALL {
             assert_eq!(ContactKind::from_code(contact.code()), contact);
         }

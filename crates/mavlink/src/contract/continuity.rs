@@ -1,26 +1,26 @@
 //! Detects whether two truth messages belong to different flights.
 //!
-//! A time jump means that the simulator was restarted: the clock runs backward by more than [`RESTART_AFTER`] in
-//! [`RESTART_CONFIRM`] consecutive messages, so that a single late datagram does not count. A position jump means that the
+//! A time jump means that the simulator was restarted: the clock runs backward by more than [`RESTART_THRESHOLD`] in
+//! [`RESTART_CONFIRM_COUNT`] consecutive messages, so that a single late datagram does not count. A position jump means that the
 //! aircraft was respawned: nothing is drawn, measured or interpolated across it.
 
 use spandrel_model::time::SimTime;
 
 /// Difference by which the clock must run backward to indicate another or a restarted simulator.
-pub const RESTART_AFTER: SimTime = SimTime::from_ms(1_000);
+pub const RESTART_THRESHOLD: SimTime = SimTime::from_ms(1_000);
 /// Number of consecutive truth messages required to confirm a restart.
-pub const RESTART_CONFIRM: usize = 3;
+pub const RESTART_CONFIRM_COUNT: usize = 3;
 /// Constant part of the jump threshold, m (estimate: more than a gust moves a hovering aircraft during one second without data).
-const SLACK_M: f64 = 1.5;
+const JUMP_MARGIN_M: f64 = 1.5;
 /// Factor by which the higher of the two speeds is multiplied in the jump threshold (estimate: no supported aircraft accelerates
 /// that much within a gap).
-const FACTOR: f64 = 4.0;
+const JUMP_SPEED_FACTOR: f64 = 4.0;
 
 /// Returns whether a displacement of `distance_m` within `span` is too large to have been flown. `fastest_m_s` is the higher of
 /// the speeds at both ends.
 #[must_use]
 pub fn is_jump(distance_m: f64, fastest_m_s: f64, span: SimTime) -> bool {
-    distance_m > SLACK_M + FACTOR * fastest_m_s * span.s()
+    distance_m > JUMP_MARGIN_M + JUMP_SPEED_FACTOR * fastest_m_s * span.s()
 }
 
 #[cfg(test)]
@@ -28,7 +28,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_fast_flight_is_none_and_a_respawn_is_one() {
+    fn exact_respawn_is_a_jump_and_fast_flight_is_not() {
         let span = SimTime::from_ms(20);
         assert!(!is_jump(0.4, 20.0, span));
         assert!(!is_jump(1.6, 2.0, span));

@@ -7,7 +7,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`truth`] | ground truth: HIL_STATE_QUATERNION, its timestamps and units |
-//! | [`named`] | NAMED_VALUE_INT and NAMED_VALUE_FLOAT: names, types and meanings |
+//! | [`named_values`] | NAMED_VALUE_INT and NAMED_VALUE_FLOAT: names, types and meanings |
 //! | [`contact`] | contact codes and their order of severity |
 //! | [`cue`] | bit flags of the monitor's cues |
 //! | [`modes`] | flight modes of PX4 and ArduCopter: name and control source |
@@ -18,7 +18,7 @@ pub mod contact;
 pub mod continuity;
 pub mod cue;
 pub mod modes;
-pub mod named;
+pub mod named_values;
 pub mod sticks;
 pub mod truth;
 

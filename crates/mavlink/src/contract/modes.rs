@@ -20,7 +20,7 @@ pub enum ControlSource {
 use ControlSource::{Autopilot, Mission, Pilot, Script};
 
 /// Value of MAV_AUTOPILOT_ARDUPILOTMEGA.
-const ARDUPILOT: u8 = 3;
+const ARDUPILOT_TYPE: u8 = 3;
 
 /// PX4 modes: main mode, sub-mode (`None` for any other), name, control source.
 const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
@@ -61,8 +61,8 @@ const COPTER: [(u32, &str, ControlSource); 15] = [
 
 /// Returns the name and control source of a mode; `None` if it is unknown. As in common SDKs, a generic autopilot type is treated
 /// as PX4.
-fn known(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource)> {
-    if autopilot == ARDUPILOT {
+fn lookup(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource)> {
+    if autopilot == ARDUPILOT_TYPE {
         return COPTER.iter().find(|(number, ..)| *number == custom_mode).map(|(_, name, source)| (*name, *source));
     }
     let [_, _, main, sub] = custom_mode.to_le_bytes();
@@ -73,7 +73,7 @@ fn known(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource
 /// Returns the mode's name as shown by ground stations, or `mode N` if it is unknown.
 #[must_use]
 pub fn name(autopilot: u8, custom_mode: u32) -> String {
-    known(autopilot, custom_mode).map_or_else(|| format!("mode {custom_mode}"), |(name, _)| name.to_owned())
+    lookup(autopilot, custom_mode).map_or_else(|| format!("mode {custom_mode}"), |(name, _)| name.to_owned())
 }
 
 impl ControlSource {
@@ -81,7 +81,7 @@ impl ControlSource {
     /// pilot.
     #[must_use]
     pub fn of(autopilot: u8, custom_mode: u32) -> Self {
-        known(autopilot, custom_mode).map_or(Self::Pilot, |(_, source)| source)
+        lookup(autopilot, custom_mode).map_or(Self::Pilot, |(_, source)| source)
     }
 
     /// Returns the label used in session records.
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn val_modes_of_both_autopilots_name_what_controls_the_aircraft() {
+    fn val_modes_of_both_autopilots_have_control_sources() {
         for (mode, source) in [(3 << 16, Pilot), (4 << 24 | 4 << 16, Mission), (5 << 24 | 4 << 16, Autopilot), (6 << 16, Script)]
         {
             assert_eq!(ControlSource::of(12, mode), source);
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_modes_have_the_names_of_their_ground_stations() {
+    fn exact_mode_names_match_ground_stations() {
         assert_eq!(name(12, 4 << 16 | 5 << 24), "Return");
         assert_eq!(name(12, 4 << 16 | 99 << 24), "Auto");
         assert_eq!(name(3, 5), "Loiter");

@@ -39,7 +39,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_sticks_come_back_within_half_a_microsecond() {
+    fn exact_sticks_round_trip_within_half_a_microsecond() {
         let sticks = [0.25, -1.0, 1.0, -0.0021];
         let back = Sticks::from_us(to_us(sticks)).axes();
         for (sent, read) in sticks.iter().zip(back) {

@@ -30,7 +30,7 @@ impl Truth {
 
 /// Ground truth as published by the vehicle, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Published {
+pub struct PublishedTruth {
     /// Time since simulation start, us.
     pub time_us: u64,
     /// Position; the altitude is above the WGS84 ellipsoid.
@@ -47,7 +47,7 @@ pub struct Published {
     pub airspeed_m_s: f64,
 }
 
-impl Published {
+impl PublishedTruth {
     /// Encodes the ground truth as a HIL_STATE_QUATERNION message.
     #[must_use]
     pub fn message(&self) -> HIL_STATE_QUATERNION_DATA {

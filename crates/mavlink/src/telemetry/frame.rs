@@ -8,11 +8,11 @@ use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 
 /// Minimum distance between truth messages that counts as a gap (docs/src/reference/assessment.md, "Frames").
-pub const GAP_AFTER: SimTime = SimTime::from_ms(200);
+pub const MIN_GAP: SimTime = SimTime::from_ms(200);
 /// Maximum length of a gap that is interpolated. Frames in longer gaps are missing.
-pub const INTERPOLATED_UP_TO: SimTime = SimTime::from_ms(1_000);
+pub const MAX_INTERPOLATED_GAP: SimTime = SimTime::from_ms(1_000);
 /// Maximum delay of a `contact` message after the `hits` message that counts it (`contact` is repeated at 10 Hz).
-const HIT_REPORT_WITHIN: SimTime = SimTime::from_ms(200);
+const MAX_CONTACT_DELAY: SimTime = SimTime::from_ms(200);
 
 /// A scoring frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,18 +93,14 @@ impl Flight {
         if before.time == time {
             return Some(held(false));
         }
-        if span > INTERPOLATED_UP_TO {
+        if span > MAX_INTERPOLATED_GAP {
             return Some(held(true));
         }
         if self.respawned_between(before, next) {
             return Some(held(false));
         }
         let t = (time - before.time).ns() as f64 / span.ns() as f64;
-        Some(InterpolatedState {
-            motion: before.motion.lerp_held(&next.motion, t),
-            interpolated: span > GAP_AFTER,
-            ..held(false)
-        })
+        Some(InterpolatedState { motion: before.motion.lerp_held(&next.motion, t), interpolated: span > MIN_GAP, ..held(false) })
     }
 
     fn respawned_between(&self, before: &Truth, next: &Truth) -> bool {
@@ -153,7 +149,7 @@ impl Flight {
         let mut accounted = None;
         let mut onsets = ContactOnsets::default();
         for (time, _, count) in self.hits.all() {
-            let surplus = i64::from(*count) - onsets.until(self, *time + HIT_REPORT_WITHIN);
+            let surplus = i64::from(*count) - onsets.until(self, *time + MAX_CONTACT_DELAY);
             match accounted {
                 // Contacts counted before the first message do not belong to this flight.
                 None => accounted = Some(surplus.max(0)),

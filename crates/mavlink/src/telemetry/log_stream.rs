@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 /// Maximum length of a record: timestamp and a MAVLink 2 frame with maximum payload and signature (MAVLink guide,
 /// "Serialization").
-const RECORD_MOST: usize = STAMP_BYTES + 10 + 255 + 2 + 13;
+const MAX_RECORD_LEN: usize = STAMP_BYTES + 10 + 255 + 2 + 13;
 
 /// A telemetry log that can be read repeatedly.
 pub trait TelemetryLog {
@@ -37,7 +37,7 @@ pub struct RecordSplitter {
     at: usize,
     /// Number of log bytes before `bytes`.
     before: u64,
-    end_of_whole: u64,
+    complete_bytes: u64,
     /// Whether the data was corrupt and the next record with a valid checksum is searched.
     searching: bool,
 }
@@ -49,7 +49,7 @@ impl RecordSplitter {
         self.before += self.at as u64;
         self.at = 0;
         self.bytes.extend_from_slice(piece);
-        self.split(RECORD_MOST, take)
+        self.split(MAX_RECORD_LEN, take)
     }
 
     /// Calls `take` with the remaining records after the last chunk.
@@ -59,19 +59,19 @@ impl RecordSplitter {
 
     /// Returns the length of the log up to the end of the last complete record read so far, bytes.
     #[must_use]
-    pub fn end_of_whole(&self) -> u64 {
-        self.end_of_whole
+    pub fn complete_bytes(&self) -> u64 {
+        self.complete_bytes
     }
 
     /// Splits while at least `least` bytes remain. A record in fewer bytes might continue in the next chunk.
     fn split(&mut self, least: usize, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
-        let Self { bytes, at, before, end_of_whole, searching } = self;
+        let Self { bytes, at, before, complete_bytes, searching } = self;
         while bytes.len() - *at >= least {
-            let good = if *searching { FrameHeader::verified } else { FrameHeader::is_plausible };
+            let good = if *searching { FrameHeader::has_valid_checksum } else { FrameHeader::is_plausible };
             match record_at(bytes, *at).filter(|(record, _)| good(record.frame)) {
                 Some((record, end)) => {
                     *at = end;
-                    *end_of_whole = *before + end as u64;
+                    *complete_bytes = *before + end as u64;
                     *searching = false;
                     take(record)?;
                 }

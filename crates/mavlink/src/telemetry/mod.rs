@@ -2,10 +2,10 @@
 //! gaps), and a flight is resampled at the scoring rate to [`frame::Frame`]s. [`tlog`] is the format of log files, and
 //! [`log_stream`] reads them in chunks. Monitor, pilot, view and report use this module. It does not depend on scoring.
 
+mod block_list;
 pub mod frame;
 pub mod log_stream;
 pub mod navigation;
-mod rows;
 pub mod sample;
 pub mod signal;
 pub mod timeline;

@@ -1,6 +1,6 @@
 //! Wind and the position estimated by the autopilot. They are read only for exports; scoring does not use them.
 
-use super::frame::INTERPOLATED_UP_TO;
+use super::frame::MAX_INTERPOLATED_GAP;
 use super::sample::FrameHeader;
 use super::signal::Signal;
 use super::{Flight, Timeline};
@@ -14,9 +14,9 @@ use spandrel_model::time::SimTime;
 const AUTOPILOT: u8 = 1;
 /// Maximum difference between a message's own timestamp and truth time at which the timestamp is used. Otherwise, the message
 /// gets the time of the preceding truth message.
-const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
+const MAX_CLOCK_DIFFERENCE: SimTime = SimTime::from_ms(2_000);
 /// Maximum age of a wind report (estimate: reports are sent once per second, and one may be lost).
-const WIND_LASTS: SimTime = SimTime::from_ms(2_500);
+const MAX_WIND_AGE: SimTime = SimTime::from_ms(2_500);
 
 /// Wind and estimated position of one flight.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,7 +38,7 @@ impl Navigation {
         }
         let (to, _, after_m) = reports.get(after)?;
         let span = *to - *from;
-        if span > INTERPOLATED_UP_TO || flight.respawns.at(*from) != flight.respawns.at(*to) {
+        if span > MAX_INTERPOLATED_GAP || flight.respawns.at(*from) != flight.respawns.at(*to) {
             return None;
         }
         Some(before_m.lerp(*after_m, (time - *from).ns() as f64 / span.ns() as f64))
@@ -47,7 +47,7 @@ impl Navigation {
     /// Returns the last reported wind velocity, m/s; `None` if the last report is older than 2.5 s.
     #[must_use]
     pub fn wind_m_s(&self, time: SimTime) -> Option<Vec3<Enu>> {
-        self.wind_m_s.between(time - WIND_LASTS, time).last().map(|report| report.2)
+        self.wind_m_s.between(time - MAX_WIND_AGE, time).last().map(|report| report.2)
     }
 }
 
@@ -72,12 +72,12 @@ impl NavigationReader {
         let Some(header) = FrameHeader::peek(frame) else { return };
         let wanted = matches!(header.message_id, GLOBAL_POSITION_INT_DATA::ID | WIND_COV_DATA::ID);
         let ours = header.sender.1 == AUTOPILOT && timeline.system() == Some(header.sender.0);
-        let Some(newest) = timeline.newest().filter(|_| wanted && ours && FrameHeader::verified(frame)) else { return };
+        let Some(newest) = timeline.newest().filter(|_| wanted && ours && FrameHeader::has_valid_checksum(frame)) else { return };
         let Some(payload) = frame.get(header.payload_at..header.payload_end) else { return };
         self.count += 1;
         let order = self.count;
-        self.epochs.resize_with(timeline.simulator_runs().max(self.epochs.len()), Navigation::default);
-        let Some(epoch) = self.epochs.get_mut(timeline.simulator_runs() - 1) else { return };
+        self.epochs.resize_with(timeline.epoch_count().max(self.epochs.len()), Navigation::default);
+        let Some(epoch) = self.epochs.get_mut(timeline.epoch_count() - 1) else { return };
         if let Some((own, position_m)) = position(&header, payload, &self.plane) {
             epoch.estimate_m.push(time(own, newest), order, position_m);
         } else if let Some((own, wind_m_s)) = wind(&header, payload) {
@@ -97,7 +97,7 @@ impl NavigationReader {
 
 fn time(own: SimTime, newest: SimTime) -> SimTime {
     let apart = own.saturating_sub(newest).max(newest.saturating_sub(own));
-    if apart <= OWN_CLOCK_WITHIN { own } else { newest }
+    if apart <= MAX_CLOCK_DIFFERENCE { own } else { newest }
 }
 
 fn position(header: &FrameHeader, payload: &[u8], plane: &LocalPlane) -> Option<(SimTime, Vec3<Enu>)> {

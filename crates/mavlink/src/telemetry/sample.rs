@@ -3,7 +3,7 @@
 
 use crate::contract::contact::ContactKind;
 use crate::contract::modes::ControlSource;
-use crate::contract::named::Named;
+use crate::contract::named_values::Named;
 use crate::contract::sticks::Sticks;
 use crate::contract::truth::{self, Truth, clock};
 use crate::dialect::{
@@ -54,7 +54,7 @@ pub enum SampleValue {
     /// Horizontal field of view of the camera, rad.
     FieldOfView(f64),
     /// Heartbeat of the autopilot.
-    Beat {
+    Heartbeat {
         /// Whether the motors are armed.
         armed: bool,
         /// Source that controls the aircraft.
@@ -126,7 +126,7 @@ impl FrameHeader {
 
     /// Returns whether the message is known and its checksum is valid.
     #[must_use]
-    pub fn verified(frame: &[u8]) -> bool {
+    pub fn has_valid_checksum(frame: &[u8]) -> bool {
         let Some(header) = Self::peek(frame) else { return false };
         // The dialect returns 0 for unknown messages.
         let extra = MavMessage::extra_crc(header.message_id);
@@ -137,14 +137,14 @@ impl FrameHeader {
     #[must_use]
     pub fn is_plausible(frame: &[u8]) -> bool {
         match Self::peek(frame) {
-            Some(header) => !is_of_interest(header.message_id) || Self::verified(frame),
+            Some(header) => !is_stored(header.message_id) || Self::has_valid_checksum(frame),
             None => false,
         }
     }
 }
 
 /// Returns whether the timeline stores messages of this type.
-fn is_of_interest(message_id: u32) -> bool {
+fn is_stored(message_id: u32) -> bool {
     matches!(
         message_id,
         HEARTBEAT_DATA::ID
@@ -176,7 +176,7 @@ pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
 #[must_use]
 pub fn read(frame: &[u8], plane: &LocalPlane) -> Option<Sample> {
     let header = FrameHeader::peek(frame)?;
-    if !is_of_interest(header.message_id) {
+    if !is_stored(header.message_id) {
         return None;
     }
     let payload = frame.get(header.payload_at..header.payload_end)?;
@@ -188,7 +188,7 @@ fn body<T: MessageData>(payload: &[u8]) -> Option<T> {
     T::deser(MavlinkVersion::V2, payload).ok()
 }
 
-fn boot(ms: u32) -> Option<SimTime> {
+fn time_since_boot(ms: u32) -> Option<SimTime> {
     Some(SimTime::from_ms(i64::from(ms)))
 }
 
@@ -206,11 +206,11 @@ fn decode_value(header: &FrameHeader, payload: &[u8]) -> Option<(Option<SimTime>
         RC_CHANNELS_DATA::ID => {
             let rc: RC_CHANNELS_DATA = body(payload)?;
             let sticks = Sticks::from_us([rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw]);
-            Some((boot(rc.time_boot_ms), SampleValue::Sticks(sticks)))
+            Some((time_since_boot(rc.time_boot_ms), SampleValue::Sticks(sticks)))
         }
         ILLUMINATOR_STATUS_DATA::ID => {
             let lamp: ILLUMINATOR_STATUS_DATA = body(payload)?;
-            Some((boot(lamp.uptime_ms), SampleValue::Light(lamp.enable != 0)))
+            Some((time_since_boot(lamp.uptime_ms), SampleValue::Light(lamp.enable != 0)))
         }
         BATTERY_STATUS_DATA::ID => {
             let battery: BATTERY_STATUS_DATA = body(payload)?;
@@ -220,8 +220,10 @@ fn decode_value(header: &FrameHeader, payload: &[u8]) -> Option<(Option<SimTime>
         HEARTBEAT_DATA::ID => {
             let beat: HEARTBEAT_DATA = body(payload)?;
             let armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
-            (header.sender.1 == 1)
-                .then_some((None, SampleValue::Beat { armed, by: ControlSource::of(beat.autopilot as u8, beat.custom_mode) }))
+            (header.sender.1 == 1).then_some((
+                None,
+                SampleValue::Heartbeat { armed, by: ControlSource::of(beat.autopilot as u8, beat.custom_mode) },
+            ))
         }
         EXTENDED_SYS_STATE_DATA::ID => {
             let state: EXTENDED_SYS_STATE_DATA = body(payload)?;
@@ -231,31 +233,33 @@ fn decode_value(header: &FrameHeader, payload: &[u8]) -> Option<(Option<SimTime>
         GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::ID => {
             let gimbal: GIMBAL_DEVICE_ATTITUDE_STATUS_DATA = body(payload)?;
             let attitude: Rotation<Frd, Ned> = Rotation::from_wxyz(gimbal.q.map(f64::from))?;
-            Some((boot(gimbal.time_boot_ms), SampleValue::GimbalPitch(attitude.euler().1)))
+            Some((time_since_boot(gimbal.time_boot_ms), SampleValue::GimbalPitch(attitude.euler().1)))
         }
         CAMERA_IMAGE_CAPTURED_DATA::ID => {
             let image: CAMERA_IMAGE_CAPTURED_DATA = body(payload)?;
-            (image.capture_result.bits() == 1).then(|| (boot(image.time_boot_ms), SampleValue::Snapshot(image.image_index)))
+            (image.capture_result.bits() == 1)
+                .then(|| (time_since_boot(image.time_boot_ms), SampleValue::Snapshot(image.image_index)))
         }
         CAMERA_FOV_STATUS_DATA::ID => {
             let camera: CAMERA_FOV_STATUS_DATA = body(payload)?;
             let hfov_rad = f64::from(camera.hfov).to_radians();
-            (hfov_rad > 0.0 && hfov_rad < math::PI).then(|| (boot(camera.time_boot_ms), SampleValue::FieldOfView(hfov_rad)))
+            (hfov_rad > 0.0 && hfov_rad < math::PI)
+                .then(|| (time_since_boot(camera.time_boot_ms), SampleValue::FieldOfView(hfov_rad)))
         }
         NAMED_VALUE_INT_DATA::ID => {
             let named: NAMED_VALUE_INT_DATA = body(payload)?;
-            Some((boot(named.time_boot_ms), kept_value(Named::from_int(&named)?)?))
+            Some((time_since_boot(named.time_boot_ms), stored_value(Named::from_int(&named)?)?))
         }
         NAMED_VALUE_FLOAT_DATA::ID => {
             let named: NAMED_VALUE_FLOAT_DATA = body(payload)?;
-            Some((boot(named.time_boot_ms), kept_value(Named::from_float(&named)?)?))
+            Some((time_since_boot(named.time_boot_ms), stored_value(Named::from_float(&named)?)?))
         }
         _ => None,
     }
 }
 
 /// Returns the sample of a named value; `None` if the timeline does not store it.
-fn kept_value(named: Named) -> Option<SampleValue> {
+fn stored_value(named: Named) -> Option<SampleValue> {
     Some(match named {
         Named::Contact(contact) => SampleValue::Contact(contact),
         Named::Hits(count) => SampleValue::Hits(count),

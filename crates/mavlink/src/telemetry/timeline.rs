@@ -4,12 +4,12 @@
 //! the time of the truth message that precedes it in its sender's sequence, so that reordered or duplicate datagrams have no
 //! effect. If the clock runs backward, the simulator was restarted: a new epoch starts, and the previous one is kept.
 
+use super::block_list::BlockList;
 use super::log_stream::TelemetryLog;
-use super::rows::Rows;
 use super::sample::{self, FrameHeader, Sample, SampleContent, SampleValue};
 use super::signal::Signal;
 use crate::contract::contact::ContactKind;
-use crate::contract::continuity::{RESTART_AFTER, RESTART_CONFIRM};
+use crate::contract::continuity::{RESTART_CONFIRM_COUNT, RESTART_THRESHOLD};
 use crate::contract::modes::ControlSource;
 use crate::contract::truth::Truth;
 use serde::Serialize;
@@ -18,22 +18,22 @@ use spandrel_model::time::SimTime;
 use std::ops::ControlFlow;
 
 /// Maximum difference between a message's own timestamp and truth time at which the timestamp is used.
-const OWN_CLOCK_WITHIN: SimTime = SimTime::from_ms(2_000);
+const MAX_CLOCK_DIFFERENCE: SimTime = SimTime::from_ms(2_000);
 /// Maximum difference between the time found by sequence number and the time of arrival.
-const NUMBER_WITHIN: SimTime = SimTime::from_ms(500);
+const MAX_SEQUENCE_TIME_DIFFERENCE: SimTime = SimTime::from_ms(500);
 /// Maximum number of sequence numbers by which a late frame can be behind. Larger differences indicate a large loss, because the
 /// numbers wrap at 256.
-const LATE_WITHIN: i64 = 64;
+const MAX_LATE_FRAMES: i64 = 64;
 /// Component ID of the monitor, whose own messages are ignored.
 const MONITOR_COMPONENT: u8 = 191;
 /// Period after which a 32-bit counter of milliseconds wraps: 49.7 days.
-const CLOCK_MS: i64 = 1 << 32;
+const CLOCK_PERIOD_MS: i64 = 1 << 32;
 
 /// Unwraps a 32-bit timestamp in milliseconds: returns the nonnegative value that is closest to `near`.
-fn unwrapped(own: SimTime, near: SimTime) -> SimTime {
-    let rounds = (near.ms() - own.ms() + CLOCK_MS / 2).div_euclid(CLOCK_MS);
+fn unwrap_timestamp(own: SimTime, near: SimTime) -> SimTime {
+    let rounds = (near.ms() - own.ms() + CLOCK_PERIOD_MS / 2).div_euclid(CLOCK_PERIOD_MS);
     // Saturates at the end of the clock's range.
-    SimTime::from_ms((own.ms() + CLOCK_MS * rounds.max(0)).min(i64::MAX / 1_000_000))
+    SimTime::from_ms((own.ms() + CLOCK_PERIOD_MS * rounds.max(0)).min(i64::MAX / 1_000_000))
 }
 
 /// Statistics of the telemetry link.
@@ -56,7 +56,7 @@ pub struct LinkCounts {
 struct SequenceUnwrapper {
     sender: (u8, u8),
     newest: i64,
-    newest_truth: i64,
+    newest_truth_order: i64,
     epochs: Vec<(i64, u16)>,
 }
 
@@ -69,7 +69,7 @@ impl SequenceUnwrapper {
     fn new(sender: (u8, u8), sequence: u8) -> Self {
         // High enough that late frames before the first one still get positive numbers.
         let newest = 256 * 1_000 + i64::from(sequence) - 1;
-        Self { sender, newest, newest_truth: -1, epochs: vec![(-1, 0); 256] }
+        Self { sender, newest, newest_truth_order: -1, epochs: vec![(-1, 0); 256] }
     }
 
     /// Returns the order of a frame. `ahead` means that the frame is the latest truth message so far, so its number cannot be
@@ -82,14 +82,14 @@ impl SequenceUnwrapper {
             return FrameOrder::Duplicate;
         }
         let taken = self.epochs[slot].0 == order;
-        if taken || difference < -LATE_WITHIN || (ahead && order < self.newest_truth) {
+        if taken || difference < -MAX_LATE_FRAMES || (ahead && order < self.newest_truth_order) {
             order += 256;
         }
         let late = order < self.newest;
         let skipped = if late { -1 } else { order - self.newest - 1 };
         self.newest = self.newest.max(order);
         if ahead {
-            self.newest_truth = order;
+            self.newest_truth_order = order;
         }
         self.epochs[slot] = (order, checksum);
         FrameOrder::New { order, late, skipped }
@@ -114,14 +114,14 @@ struct OptionalTime(i64);
 
 impl OptionalTime {
     /// Represents a missing time. No MAVLink timestamp has this value, because timestamps are not negative.
-    const UNKNOWN: i64 = i64::MIN;
+    const MISSING: i64 = i64::MIN;
 
     fn of(time: Option<SimTime>) -> Self {
-        Self(time.map_or(Self::UNKNOWN, SimTime::ns))
+        Self(time.map_or(Self::MISSING, SimTime::ns))
     }
 
     fn get(self) -> Option<SimTime> {
-        (self.0 != Self::UNKNOWN).then_some(SimTime::from_ns(self.0))
+        (self.0 != Self::MISSING).then_some(SimTime::from_ns(self.0))
     }
 }
 
@@ -138,12 +138,12 @@ struct TruthEntry {
 pub struct Timeline {
     plane: LocalPlane,
     sequencers: Vec<SequenceUnwrapper>,
-    truths: Rows<TruthEntry>,
-    entries: Rows<TimedSample>,
-    suspects: Vec<TruthEntry>,
+    truths: BlockList<TruthEntry>,
+    entries: BlockList<TimedSample>,
+    restart_candidates: Vec<TruthEntry>,
     newest: Option<SimTime>,
     /// Last truth time of each completed epoch.
-    ended: Vec<SimTime>,
+    epoch_ends: Vec<SimTime>,
     /// System that sends the truth messages, once known.
     system: Option<u8>,
     counts: LinkCounts,
@@ -153,9 +153,9 @@ pub struct Timeline {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrameDisposition {
     /// The frame was not stored: its message is not needed, or it is a duplicate.
-    Nothing,
+    Ignored,
     /// The frame was stored as a sample of the current epoch.
-    Kept(Sample),
+    Stored(Sample),
     /// The simulator was restarted. Contains the truth message that confirmed the restart.
     Restarted(Sample),
 }
@@ -167,11 +167,11 @@ impl Timeline {
         Self {
             plane,
             sequencers: Vec::new(),
-            truths: Rows::default(),
-            entries: Rows::default(),
-            suspects: Vec::new(),
+            truths: BlockList::default(),
+            entries: BlockList::default(),
+            restart_candidates: Vec::new(),
             newest: None,
-            ended: Vec::new(),
+            epoch_ends: Vec::new(),
             system: None,
             counts: LinkCounts::default(),
         }
@@ -198,14 +198,14 @@ impl Timeline {
 
     /// Returns the number of epochs, which is one more than the number of restarts.
     #[must_use]
-    pub fn simulator_runs(&self) -> usize {
-        self.ended.len() + 1
+    pub fn epoch_count(&self) -> usize {
+        self.epoch_ends.len() + 1
     }
 
     /// Returns the total duration of the epochs before `epoch`. Each epoch lasts from time zero to its last truth message.
     #[must_use]
-    pub fn apply_pushed(&self, epoch: usize) -> SimTime {
-        self.ended.iter().take(epoch).fold(SimTime::ZERO, |sum, last| sum + *last)
+    pub fn elapsed_before_epoch(&self, epoch: usize) -> SimTime {
+        self.epoch_ends.iter().take(epoch).fold(SimTime::ZERO, |sum, last| sum + *last)
     }
 
     /// Adds all complete records of a log.
@@ -221,9 +221,9 @@ impl Timeline {
 
     /// Adds one complete frame.
     pub fn push(&mut self, frame: &[u8]) -> FrameDisposition {
-        let Some(header) = FrameHeader::peek(frame) else { return FrameDisposition::Nothing };
+        let Some(header) = FrameHeader::peek(frame) else { return FrameDisposition::Ignored };
         if header.sender.1 == MONITOR_COMPONENT || frame.len() < header.payload_end + 2 {
-            return FrameDisposition::Nothing;
+            return FrameDisposition::Ignored;
         }
         // Messages from other systems may be routed here, too. They are ignored once the vehicle's system is known.
         let sample = sample::read(frame, &self.plane).filter(|s| self.system.is_none_or(|system| system == s.sender.0));
@@ -232,10 +232,10 @@ impl Timeline {
         if ahead {
             self.system = self.system.or(Some(header.sender.0));
         }
-        let Some(order) = self.place(&header, checksum, ahead) else { return FrameDisposition::Nothing };
+        let Some(order) = self.place(&header, checksum, ahead) else { return FrameDisposition::Ignored };
         match sample {
-            None => FrameDisposition::Nothing,
-            Some(sample) => self.keep(sample, order),
+            None => FrameDisposition::Ignored,
+            Some(sample) => self.store_sample(sample, order),
         }
     }
 
@@ -263,53 +263,57 @@ impl Timeline {
         }
     }
 
-    fn keep(&mut self, sample: Sample, order: i64) -> FrameDisposition {
+    fn store_sample(&mut self, sample: Sample, order: i64) -> FrameDisposition {
         let (epoch, sender) = (self.epoch(), sample.sender);
         let truth = match sample.content {
             SampleContent::Truth(truth) => truth,
             SampleContent::Value(value) => {
-                let own_time = sample.own_time.map(|own| self.newest.map_or(own, |newest| unwrapped(own, newest)));
+                let own_time = sample.own_time.map(|own| self.newest.map_or(own, |newest| unwrap_timestamp(own, newest)));
                 let (arrival, stamp) = (OptionalTime::of(self.newest), OptionalTime::of(own_time));
                 self.entries.push(TimedSample { value, order, arrival, own_time: stamp, epoch, sender });
-                return FrameDisposition::Kept(Sample { own_time, ..sample });
+                return FrameDisposition::Stored(Sample { own_time, ..sample });
             }
         };
         let entry = TruthEntry { truth, order, epoch, sender };
-        if self.newest.is_some_and(|newest| truth.time + RESTART_AFTER < newest) {
-            self.suspects.push(entry);
-            return if self.suspects.len() < RESTART_CONFIRM { FrameDisposition::Kept(sample) } else { self.restart(sample) };
+        if self.newest.is_some_and(|newest| truth.time + RESTART_THRESHOLD < newest) {
+            self.restart_candidates.push(entry);
+            return if self.restart_candidates.len() < RESTART_CONFIRM_COUNT {
+                FrameDisposition::Stored(sample)
+            } else {
+                self.restart(sample)
+            };
         }
         // These were late frames, not a restart. They are sorted by their timestamps later.
-        self.truths.extend(self.suspects.drain(..));
+        self.truths.extend(self.restart_candidates.drain(..));
         self.truths.push(entry);
         self.newest = Some(self.newest.map_or(truth.time, |newest| newest.max(truth.time)));
-        FrameDisposition::Kept(sample)
+        FrameDisposition::Stored(sample)
     }
 
     fn epoch(&self) -> u32 {
         // The count cannot saturate in practice, because every restart takes several frames.
-        u32::try_from(self.ended.len()).unwrap_or(u32::MAX)
+        u32::try_from(self.epoch_ends.len()).unwrap_or(u32::MAX)
     }
 
     fn restart(&mut self, sample: Sample) -> FrameDisposition {
-        self.ended.extend(self.newest);
+        self.epoch_ends.extend(self.newest);
         self.counts.restarts += 1;
-        self.newest = self.suspects.iter().map(|entry| entry.truth.time).max();
+        self.newest = self.restart_candidates.iter().map(|entry| entry.truth.time).max();
         let epoch = self.epoch();
-        self.truths.extend(self.suspects.drain(..).map(|entry| TruthEntry { epoch, ..entry }));
+        self.truths.extend(self.restart_candidates.drain(..).map(|entry| TruthEntry { epoch, ..entry }));
         FrameDisposition::Restarted(sample)
     }
 
     /// Returns the flight of one epoch, sorted by time.
     #[must_use]
     pub fn flight(&self, epoch: usize) -> Flight {
-        let mut flight = Flight { ended_by_restart: epoch < self.ended.len(), ..Flight::default() };
+        let mut flight = Flight { ended_by_restart: epoch < self.epoch_ends.len(), ..Flight::default() };
         let counts = |sender: (u8, u8), of: u32| usize::try_from(of) == Ok(epoch) && Some(sender.0) == self.system;
         let mut kept: Vec<&TruthEntry> = self.truths.iter().filter(|t| counts(t.sender, t.epoch)).collect();
         kept.sort_by_key(|entry| (entry.truth.time, entry.order));
         kept.dedup_by_key(|entry| entry.truth.time);
         flight.truths = kept.iter().map(|entry| entry.truth).collect();
-        kept.sort_unstable_by_key(|entry| numbering(entry));
+        kept.sort_unstable_by_key(|entry| sequence_key(entry));
         for entry in self.entries.iter().filter(|e| counts(e.sender, e.epoch)) {
             flight.take(entry, time_of(entry, &kept));
         }
@@ -319,25 +323,27 @@ impl Timeline {
 }
 
 /// Returns the sort key by which a sender's truth messages are found by sequence number.
-fn numbering(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
+fn sequence_key(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
     (entry.sender, entry.order, entry.truth.time)
 }
 
-/// Returns the time of a sample. `numbered` contains the truth messages of the flight, sorted by [`numbering`].
+/// Returns the time of a sample. `numbered` contains the truth messages of the flight, sorted by [`sequence_key`].
 fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
     let arrival = entry.arrival.get();
     if let Some(own) = entry.own_time.get() {
         // The message of a lost picture is sent again much later, with the original timestamp.
         let late = matches!(entry.value, SampleValue::Snapshot(_)) && arrival.is_some_and(|arrival| own <= arrival);
-        if late || arrival.is_none_or(|arrival| near(own, arrival, OWN_CLOCK_WITHIN)) {
+        if late || arrival.is_none_or(|arrival| near(own, arrival, MAX_CLOCK_DIFFERENCE)) {
             return own;
         }
     }
     let arrival = arrival.unwrap_or(SimTime::ZERO);
     let before = numbered.partition_point(|truth| (truth.sender, truth.order) < (entry.sender, entry.order));
     match before.checked_sub(1).map(|k| numbered[k]) {
-        Some(last) if last.sender == entry.sender && near(last.truth.time, arrival, NUMBER_WITHIN) => last.truth.time,
+        Some(last) if last.sender == entry.sender && near(last.truth.time, arrival, MAX_SEQUENCE_TIME_DIFFERENCE) => {
+            last.truth.time
+        }
         Some(_) | None => arrival,
     }
 }
@@ -399,7 +405,7 @@ impl Flight {
             SampleValue::Clearance(v) => self.clearance.push(time, order, v),
             SampleValue::GimbalPitch(v) => self.gimbal.push(time, order, v),
             SampleValue::FieldOfView(v) => self.field_of_view.push(time, order, v),
-            SampleValue::Beat { armed, by } => {
+            SampleValue::Heartbeat { armed, by } => {
                 self.armed.push(time, order, armed);
                 self.flown_by.push(time, order, by);
             }

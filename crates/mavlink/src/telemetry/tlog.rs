@@ -32,7 +32,7 @@ pub fn record(stamp_us: u64, frame: &[u8]) -> Vec<u8> {
 pub struct TlogReader<'a> {
     bytes: &'a [u8],
     at: usize,
-    end_of_whole: usize,
+    complete_bytes: usize,
     skipped: usize,
 }
 
@@ -40,14 +40,14 @@ impl<'a> TlogReader<'a> {
     /// Creates a reader at the start of `bytes`.
     #[must_use]
     pub fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, end_of_whole: 0, skipped: 0 }
+        Self { bytes, at: 0, complete_bytes: 0, skipped: 0 }
     }
 
     /// Returns the length of the log up to the end of the last complete record read so far, bytes. A restarted monitor truncates
     /// the file to this length and continues.
     #[must_use]
-    pub fn end_of_whole(&self) -> usize {
-        self.end_of_whole
+    pub fn complete_bytes(&self) -> usize {
+        self.complete_bytes
     }
 
     /// Returns the number of bytes read so far that belong to no record.
@@ -61,9 +61,9 @@ impl<'a> TlogReader<'a> {
     }
 
     /// Returns the offset of the next record after the current position with a valid checksum.
-    fn resynchronise(&self) -> Option<usize> {
+    fn resynchronize(&self) -> Option<usize> {
         (self.at + 1..self.bytes.len())
-            .find(|at| self.record_at(*at).is_some_and(|(record, _)| FrameHeader::verified(record.frame)))
+            .find(|at| self.record_at(*at).is_some_and(|(record, _)| FrameHeader::has_valid_checksum(record.frame)))
     }
 }
 
@@ -82,7 +82,7 @@ impl<'a> Iterator for TlogReader<'a> {
 
     fn next(&mut self) -> Option<TlogRecord<'a>> {
         if self.record_at(self.at).is_none() {
-            let next = self.resynchronise()?;
+            let next = self.resynchronize()?;
             self.skipped += next - self.at;
             self.at = next;
         }
@@ -90,13 +90,13 @@ impl<'a> Iterator for TlogReader<'a> {
         // After a corrupt length, a byte inside a record can look like the start of a frame. The checksum of known messages
         // detects this.
         if !FrameHeader::is_plausible(record.frame) {
-            let next = self.resynchronise()?;
+            let next = self.resynchronize()?;
             self.skipped += next - self.at;
             self.at = next;
             return self.next();
         }
         self.at = end;
-        self.end_of_whole = end;
+        self.complete_bytes = end;
         Some(record)
     }
 }
@@ -107,7 +107,7 @@ impl<'a> Iterator for TlogReader<'a> {
 pub fn complete_len(bytes: &[u8]) -> usize {
     let mut reader = TlogReader::new(bytes);
     while reader.next().is_some() {}
-    reader.end_of_whole()
+    reader.complete_bytes()
 }
 
 /// Returns the Unix time of the first record of a log, µs; `None` for an empty log.
@@ -120,13 +120,13 @@ pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
 /// for a log without truth messages.
 #[must_use]
 pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
-    TlogReader::new(bytes).find_map(|record| zero_us(&record))
+    TlogReader::new(bytes).find_map(|record| zero_of_record_us(&record))
 }
 
 /// Returns the Unix time of simulation time zero, µs, from a single record: its timestamp minus its simulation time. `None` if
 /// the record is not a truth message.
 #[must_use]
-pub fn zero_us(record: &TlogRecord<'_>) -> Option<u64> {
+pub fn zero_of_record_us(record: &TlogRecord<'_>) -> Option<u64> {
     let time = super::sample::truth_time(record.frame)?;
     Some(record.stamp_us.saturating_sub(u64::try_from(time.us()).unwrap_or(0)))
 }
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_log_cut_at_any_byte_keeps_every_whole_record() {
+    fn exact_truncated_log_keeps_complete_records() {
         let (bytes, ends) = log(6);
         for cut in 0..=bytes.len() {
             let whole = ends.iter().rposition(|end| *end <= cut).unwrap();
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_damage_in_the_middle_costs_only_the_damaged_record() {
+    fn exact_corruption_loses_only_the_damaged_record() {
         let (bytes, ends) = log(6);
         for at in ends[2]..ends[3] {
             let mut damaged = bytes.clone();
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_stamps_come_back() {
+    fn exact_timestamps_round_trip() {
         let (bytes, _) = log(3);
         assert_eq!(TlogReader::new(&bytes).map(|r| r.stamp_us).collect::<Vec<_>>(), [1_000, 1_001, 1_002]);
         assert_eq!(session_start_us(&bytes), Some(1_000));

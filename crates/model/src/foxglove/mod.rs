@@ -12,7 +12,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use serde_json::{Value, json};
 
 /// Frame ID of the estimated aircraft pose.
-pub const BELIEVED: &str = "drone_estimate";
+pub const DRONE_ESTIMATE: &str = "drone_estimate";
 /// Frame ID of the true aircraft pose.
 pub const DRONE: &str = "drone";
 /// Frame ID of the camera.
@@ -281,41 +281,41 @@ mod tests {
     /// Tolerance for rounding errors of unit quaternions.
     const ROUNDING: f64 = 1e-12;
 
-    fn turned(pose: &FramePose, axis: [f64; 3]) -> [f64; 3] {
+    fn rotated(pose: &FramePose, axis: [f64; 3]) -> [f64; 3] {
         (pose.rotation * Vector3::from(axis)).into()
     }
 
-    fn same(a: [f64; 3], b: [f64; 3]) {
+    fn assert_close(a: [f64; 3], b: [f64; 3]) {
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < ROUNDING), "{a:?} {b:?}");
     }
 
     #[test]
-    fn exact_frames_point_where_they_say() {
+    fn exact_frames_have_the_documented_axes() {
         let east = Rotation::from_euler(0.0, 0.0, std::f64::consts::FRAC_PI_2);
         let drone = FramePose::drone(Vec3::new(1.0, 2.0, -3.0), east);
         assert_eq!(drone.position_m, [2.0, 1.0, 3.0]);
-        same(turned(&drone, [1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
-        same(turned(&drone, [0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]);
-        same(turned(&drone, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
+        assert_close(rotated(&drone, [1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+        assert_close(rotated(&drone, [0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]);
+        assert_close(rotated(&drone, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
         // Looking straight up at a soffit: forward points up, and the image's top points backward.
         let up = FramePose::camera(Vec3::zero(), east, Vec3::new(0.1, 0.0, 0.0), std::f64::consts::FRAC_PI_2);
-        same(up.position_m, [0.1, 0.0, 0.0]);
-        same(turned(&up, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
-        same(turned(&up, [1.0, 0.0, 0.0]), [0.0, -1.0, 0.0]);
+        assert_close(up.position_m, [0.1, 0.0, 0.0]);
+        assert_close(rotated(&up, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]);
+        assert_close(rotated(&up, [1.0, 0.0, 0.0]), [0.0, -1.0, 0.0]);
         let level = FramePose::camera(Vec3::zero(), east, Vec3::zero(), 0.0);
-        same(turned(&level, [0.0, 0.0, 1.0]), [1.0, 0.0, 0.0]);
-        same(turned(&level, [0.0, 1.0, 0.0]), [0.0, 0.0, -1.0]);
+        assert_close(rotated(&level, [0.0, 0.0, 1.0]), [1.0, 0.0, 0.0]);
+        assert_close(rotated(&level, [0.0, 1.0, 0.0]), [0.0, 0.0, -1.0]);
     }
 
     /// Checks that a message and its schema have the same fields with the same types.
-    fn fits(value: &Value, schema: &Value, at: &str) {
+    fn assert_matches_schema(value: &Value, schema: &Value, at: &str) {
         match (schema["type"].as_str().expect("typed"), value) {
             ("object", Value::Object(fields)) => {
                 let known = schema["properties"].as_object().expect("fields");
                 assert_eq!(known.keys().collect::<Vec<_>>(), fields.keys().collect::<Vec<_>>(), "{at}");
-                known.iter().for_each(|(name, kind)| fits(&fields[name], kind, &format!("{at}.{name}")));
+                known.iter().for_each(|(name, kind)| assert_matches_schema(&fields[name], kind, &format!("{at}.{name}")));
             }
-            ("array", Value::Array(items)) => items.iter().for_each(|item| fits(item, &schema["items"], at)),
+            ("array", Value::Array(items)) => items.iter().for_each(|item| assert_matches_schema(item, &schema["items"], at)),
             ("integer", Value::Number(n)) => assert!(n.is_i64() || n.is_u64(), "{at}"),
             ("number", Value::Number(_)) | ("string", Value::String(_)) | ("boolean", Value::Bool(_)) => {}
             (kind, other) => panic!("{at}: {kind} {other}"),
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_messages_have_the_fields_of_their_schemas() {
+    fn exact_messages_match_their_schemas() {
         let pose = FramePose::drone(Vec3::zero(), Rotation::identity());
         let geo = Geo { latitude_deg: 1.0, longitude_deg: 2.0, altitude_m: 3.0 };
         let at = 1_700_000_000_123_456_789;
@@ -339,7 +339,7 @@ mod tests {
         for (number, message) in all.iter().enumerate() {
             assert_eq!(message.topic as usize, number);
             let schema: Value = serde_json::from_str(&CHANNELS[number].json_schema()).unwrap();
-            fits(&serde_json::from_str(&message.json).unwrap(), &schema, CHANNELS[number].topic);
+            assert_matches_schema(&serde_json::from_str(&message.json).unwrap(), &schema, CHANNELS[number].topic);
         }
         assert!(all[2].json.contains(r#""sec":1700000000,"nsec":123456789"#));
         assert!(

@@ -7,100 +7,100 @@ fn object(fields: &[(&str, Value)]) -> Value {
     json!({ "type": "object", "properties": fields })
 }
 
-fn list(of: &Value) -> Value {
+fn array(of: &Value) -> Value {
     json!({ "type": "array", "items": of })
 }
 
-fn kind(name: &str) -> Value {
+fn primitive(name: &str) -> Value {
     json!({ "type": name })
 }
 
 fn number() -> Value {
-    kind("number")
+    primitive("number")
 }
 
-fn numbers(names: &[&str]) -> Value {
+fn number_fields(names: &[&str]) -> Value {
     object(&names.iter().map(|name| (*name, number())).collect::<Vec<_>>())
 }
 
 fn time_schema() -> Value {
-    object(&[("sec", kind("integer")), ("nsec", kind("integer"))])
+    object(&[("sec", primitive("integer")), ("nsec", primitive("integer"))])
 }
 
 pub(super) fn transforms() -> Value {
     let one = object(&[
         ("timestamp", time_schema()),
-        ("parent_frame_id", kind("string")),
-        ("child_frame_id", kind("string")),
-        ("translation", numbers(&["x", "y", "z"])),
-        ("rotation", numbers(&["x", "y", "z", "w"])),
+        ("parent_frame_id", primitive("string")),
+        ("child_frame_id", primitive("string")),
+        ("translation", number_fields(&["x", "y", "z"])),
+        ("rotation", number_fields(&["x", "y", "z", "w"])),
     ]);
-    object(&[("transforms", list(&one))])
+    object(&[("transforms", array(&one))])
 }
 
 pub(super) fn fix() -> Value {
     object(&[
         ("timestamp", time_schema()),
-        ("frame_id", kind("string")),
+        ("frame_id", primitive("string")),
         ("latitude", number()),
         ("longitude", number()),
         ("altitude", number()),
-        ("position_covariance", list(&number())),
-        ("position_covariance_type", kind("integer")),
+        ("position_covariance", array(&number())),
+        ("position_covariance_type", primitive("integer")),
     ])
 }
 
 pub(super) fn log() -> Value {
     object(&[
         ("timestamp", time_schema()),
-        ("level", kind("integer")),
-        ("message", kind("string")),
-        ("name", kind("string")),
-        ("file", kind("string")),
-        ("line", kind("integer")),
+        ("level", primitive("integer")),
+        ("message", primitive("string")),
+        ("name", primitive("string")),
+        ("file", primitive("string")),
+        ("line", primitive("integer")),
     ])
 }
 
 pub(super) fn camera() -> Value {
     object(&[
         ("timestamp", time_schema()),
-        ("frame_id", kind("string")),
-        ("width", kind("integer")),
-        ("height", kind("integer")),
-        ("distortion_model", kind("string")),
-        ("D", list(&number())),
-        ("K", list(&number())),
-        ("R", list(&number())),
-        ("P", list(&number())),
+        ("frame_id", primitive("string")),
+        ("width", primitive("integer")),
+        ("height", primitive("integer")),
+        ("distortion_model", primitive("string")),
+        ("D", array(&number())),
+        ("K", array(&number())),
+        ("R", array(&number())),
+        ("P", array(&number())),
     ])
 }
 
 pub(super) fn site() -> Value {
-    let pose = object(&[("position", numbers(&["x", "y", "z"])), ("orientation", numbers(&["x", "y", "z", "w"]))]);
+    let pose = object(&[("position", number_fields(&["x", "y", "z"])), ("orientation", number_fields(&["x", "y", "z", "w"]))]);
     let model = object(&[
         ("pose", pose),
-        ("scale", numbers(&["x", "y", "z"])),
-        ("color", numbers(&["r", "g", "b", "a"])),
-        ("override_color", kind("boolean")),
-        ("url", kind("string")),
-        ("media_type", kind("string")),
+        ("scale", number_fields(&["x", "y", "z"])),
+        ("color", number_fields(&["r", "g", "b", "a"])),
+        ("override_color", primitive("boolean")),
+        ("url", primitive("string")),
+        ("media_type", primitive("string")),
         ("data", json!({ "type": "string", "contentEncoding": "base64" })),
     ]);
-    let pair = object(&[("key", kind("string")), ("value", kind("string"))]);
+    let pair = object(&[("key", primitive("string")), ("value", primitive("string"))]);
     let mut fields = vec![
         ("timestamp", time_schema()),
-        ("frame_id", kind("string")),
-        ("id", kind("string")),
+        ("frame_id", primitive("string")),
+        ("id", primitive("string")),
         ("lifetime", time_schema()),
-        ("frame_locked", kind("boolean")),
-        ("metadata", list(&pair)),
+        ("frame_locked", primitive("boolean")),
+        ("metadata", array(&pair)),
     ];
     // Foxglove requires all shape lists; only models are used.
     let shapes = ["arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts"];
-    fields.extend(shapes.map(|name| (name, list(&object(&[])))));
-    fields.push(("models", list(&model)));
-    let deletion = object(&[("timestamp", time_schema()), ("type", kind("integer")), ("id", kind("string"))]);
-    object(&[("deletions", list(&deletion)), ("entities", list(&object(&fields)))])
+    fields.extend(shapes.map(|name| (name, array(&object(&[])))));
+    fields.push(("models", array(&model)));
+    let deletion = object(&[("timestamp", time_schema()), ("type", primitive("integer")), ("id", primitive("string"))]);
+    object(&[("deletions", array(&deletion)), ("entities", array(&object(&fields)))])
 }
 
 pub(super) fn battery() -> Value {
@@ -112,10 +112,10 @@ pub(super) fn scoring() -> Value {
         ("timestamp", time_schema()),
         ("clearance_m", number()),
         ("lux", number()),
-        ("contact", kind("string")),
-        ("hits", kind("integer")),
-        ("respawns", kind("integer")),
-        ("lamp_on", kind("boolean")),
+        ("contact", primitive("string")),
+        ("hits", primitive("integer")),
+        ("respawns", primitive("integer")),
+        ("lamp_on", primitive("boolean")),
         ("speed_m_s", number()),
     ])
 }

@@ -333,5 +333,5 @@ pub struct ScoringParams {
     /// Clearance below which the certification profile accumulates exposure time, m.
     pub clearance_m: f64,
     /// Fraction of a task's path that must be flown to complete the task, 0 to 1.
-    pub task_done_share: f64,
+    pub task_completion_fraction: f64,
 }

@@ -15,5 +15,5 @@ pub use job::{
     AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, PlacedDefect, Scenario, ScoringParams,
     SessionRules, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };
-pub use read::{FORMAT, SiblingLoader, read, read_asked};
+pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
 pub use resolve::resolve;

@@ -16,9 +16,9 @@ use std::collections::BTreeMap;
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
 /// Maximum number of cells per side of the height grid; building 4 million cells takes about one second and 32 MB.
-const MOST_CELLS: f64 = 2_000.0;
+const MAX_CELLS_PER_SIDE: f64 = 2_000.0;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
-const MOST_BRIDGES: usize = 16;
+const MAX_BRIDGES: usize = 16;
 
 /// Function that loads a file by name from the folder of the scenario; returns its text or an error message.
 pub type SiblingLoader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
@@ -28,11 +28,11 @@ pub type SiblingLoader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 /// # Errors
 /// Returns all problems in the file, each with line, key, value and allowed range.
 pub fn read(file: &str, text: &str, siblings: SiblingLoader) -> Result<Scenario, Problems> {
-    read_asked(file, text, siblings).0
+    read_with_keys(file, text, siblings).0
 }
 
 /// Parses a scenario file. Also returns the keys that were read, for the test of the documentation.
-pub fn read_asked(
+pub fn read_with_keys(
     file: &str,
     text: &str,
     siblings: SiblingLoader,
@@ -40,7 +40,7 @@ pub fn read_asked(
     let mut reader = Reader::new(file, text);
     let scenario = reader.parse().map(|document| {
         let mut root = reader.root(&document);
-        let mut scenario = as_integer(&mut reader, &mut root, siblings);
+        let mut scenario = read_scenario(&mut reader, &mut root, siblings);
         reader.finish(&root);
         scenario.crc = super::resolve::crc(text);
         scenario
@@ -52,17 +52,17 @@ pub fn read_asked(
     (result, reader.documented_keys)
 }
 
-fn as_integer(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Scenario {
+fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Scenario {
     r.integer(root, "format", (1, FORMAT), None);
-    let name = name(r, root, "name");
+    let name = read_name(r, root, "name");
     let title = r.text(root, "title", None);
     // The protocol transmits the seed in a signed 32-bit field.
     let seed = r.optional_integer(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
     let origin = origin(r, root);
     let terrain = terrain(r, root, siblings);
     let ground_team = ground_team(r, root);
-    let bridges = bridges_of(r, root);
-    if bridges.len() > MOST_BRIDGES {
+    let bridges = read_bridges(r, root);
+    if bridges.len() > MAX_BRIDGES {
         r.add_problem(root, "bridges", &bridges.len().to_string(), "at most 16 [[bridges]]", "too many");
     }
     let tasks = super::tasks::read(r, root, &bridges);
@@ -87,7 +87,7 @@ fn as_integer(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Sc
 }
 
 /// Reads a machine-readable name of 1 to 40 lowercase letters, digits and hyphens.
-fn name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
+fn read_name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
     let before = r.problems.len();
     let name = r.text(s, key, None);
     let legal =
@@ -110,7 +110,7 @@ fn origin(r: &mut Reader, root: &mut Section) -> Geo {
 }
 
 #[derive(Clone, Copy)]
-enum Source {
+enum TerrainSourceKind {
     Flat,
     Valley,
     File,
@@ -120,35 +120,39 @@ fn terrain(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Terra
     let mut s = r.section(root, "terrain");
     let size_m = r.number(&mut s, "size_m", (50.0, 4_000.0), Some(800.0));
     let spacing_m = r.number(&mut s, "spacing_m", (1.0, 50.0), Some(4.0));
-    if size_m / spacing_m > MOST_CELLS {
-        let allowed = format!("at least {} for this size_m", size_m / MOST_CELLS);
+    if size_m / spacing_m > MAX_CELLS_PER_SIDE {
+        let allowed = format!("at least {} for this size_m", size_m / MAX_CELLS_PER_SIDE);
         r.add_problem(&s, "spacing_m", &spacing_m.to_string(), &allowed, "more than 2000 cells per side");
     }
     let water_level_m = r.number(&mut s, "water_level_m", (-500.0, 500.0), Some(-100.0));
-    let source =
-        r.choice(&mut s, "source", &[("flat", Source::Flat), ("valley", Source::Valley), ("file", Source::File)], Some(0));
+    let source = r.keyword(
+        &mut s,
+        "source",
+        &[("flat", TerrainSourceKind::Flat), ("valley", TerrainSourceKind::Valley), ("file", TerrainSourceKind::File)],
+        Some(0),
+    );
     let source = match source {
-        Source::Flat => TerrainSource::Flat { height_m: r.number(&mut s, "height_m", (-500.0, 500.0), Some(0.0)) },
-        Source::Valley => TerrainSource::Valley {
+        TerrainSourceKind::Flat => TerrainSource::Flat { height_m: r.number(&mut s, "height_m", (-500.0, 500.0), Some(0.0)) },
+        TerrainSourceKind::Valley => TerrainSource::Valley {
             seed: r.integer(&mut s, "seed", (0, i64::from(i32::MAX)), Some(1)) as u64,
             lake_width_m: r.number(&mut s, "lake_width_m", (20.0, 2_000.0), Some(180.0)),
             axis_deg: r.number(&mut s, "axis_deg", (0.0, 360.0), Some(0.0)),
             relief_m: r.number(&mut s, "relief_m", (0.0, 1_000.0), Some(120.0)),
             lake_depth_m: r.number(&mut s, "lake_depth_m", (0.5, 100.0), Some(8.0)),
         },
-        Source::File => height_file(r, &mut s, siblings),
+        TerrainSourceKind::File => read_height_file(r, &mut s, siblings),
     };
     r.finish(&s);
     TerrainSpec { size_m, spacing_m, water_level_m, source }
 }
 
-fn height_file(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) -> TerrainSource {
+fn read_height_file(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) -> TerrainSource {
     let before = r.problems.len();
     let file = r.text(s, "file", None);
     if r.problems.len() > before {
         return TerrainSource::Flat { height_m: 0.0 };
     }
-    let rows = siblings(&file).and_then(|text| heights(&text));
+    let rows = siblings(&file).and_then(|text| parse_heights(&text));
     let heights_m = rows.unwrap_or_else(|problem| {
         r.add_problem(s, "file", &file, "rows of comma-separated heights in meters", &problem);
         vec![vec![0.0]]
@@ -156,7 +160,7 @@ fn height_file(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) -> Terr
     TerrainSource::File { heights_m }
 }
 
-fn heights(text: &str) -> Result<Vec<Vec<f64>>, String> {
+fn parse_heights(text: &str) -> Result<Vec<Vec<f64>>, String> {
     let mut rows: Vec<Vec<f64>> = Vec::new();
     for (k, line) in text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty()) {
         let row: Result<Vec<f64>, _> = line.split(',').map(|cell| cell.trim().parse::<f64>()).collect();
@@ -187,30 +191,30 @@ fn ground_team(r: &mut Reader, root: &mut Section) -> GroundTeam {
     team
 }
 
-fn bridges_of(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
+fn read_bridges(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     let mut out: Vec<Bridge> = Vec::new();
     for mut s in r.sections(root, "bridges") {
-        let bridge_name = name(r, &mut s, "name");
+        let bridge_name = read_name(r, &mut s, "name");
         if out.iter().any(|b| b.name == bridge_name) {
             r.add_problem(&s, "name", &bridge_name, "a unique name", "duplicate name");
         }
-        let centre_m = point(r, &mut s, "centre_m", None);
+        let center_m = point(r, &mut s, "centre_m", None);
         let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
         let types = BridgeKind::TYPES.map(|bridge| (bridge.name, bridge));
-        let bridge = r.choice(&mut s, "type", &types, None);
-        let kind = dimensions(r, &mut s, &bridge);
+        let bridge = r.keyword(&mut s, "type", &types, None);
+        let kind = read_dimensions(r, &mut s, &bridge);
         r.finish(&s);
-        out.push(Bridge { name: bridge_name, centre_m, heading_deg, kind });
+        out.push(Bridge { name: bridge_name, center_m, heading_deg, kind });
     }
     out
 }
 
 /// Reads the table with the dimensions of a bridge and checks that they are consistent with each other.
-fn dimensions(r: &mut Reader, s: &mut Section, bridge: &BridgeType) -> BridgeKind {
+fn read_dimensions(r: &mut Reader, s: &mut Section, bridge: &BridgeType) -> BridgeKind {
     let mut s = r.section(s, bridge.name);
     let values: Vec<f64> = bridge.fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();
     let kind = (bridge.create)(&values);
-    for misfit in kind.misfits() {
+    for misfit in kind.inconsistencies() {
         r.add_problem(&s, misfit.key, &misfit.value.to_string(), &misfit.allowed, "inconsistent with other values");
     }
     r.finish(&s);
@@ -224,7 +228,7 @@ fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
         size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
         elements: r.integers(&mut s, "elements", (1, 999)).into_iter().map(|i| Element::from_number(i as u16)).collect(),
         kinds: r.integers(&mut s, "kinds", (1000, 9999)).into_iter().map(|i| i as u32).collect(),
-        placed: super::resolve::with_placed_defects(r, &mut s),
+        placed: super::resolve::read_placed_defects(r, &mut s),
     };
     r.finish(&s);
     defects
@@ -245,7 +249,7 @@ fn traffic(r: &mut Reader, root: &mut Section) -> TrafficSpec {
 fn light(r: &mut Reader, root: &mut Section) -> LightSpec {
     let mut s = r.section(root, "light");
     let start = r.text(&mut s, "start_utc", Some("2026-06-21T10:00:00Z"));
-    let start_unix_s = super::weather::unix_s(&start).unwrap_or_else(|| {
+    let start_unix_s = super::weather::parse_unix_s(&start).unwrap_or_else(|| {
         r.add_problem(&s, "start_utc", &start, "YYYY-MM-DDTHH:MM:SSZ", "not a UTC time");
         0
     });
@@ -263,12 +267,12 @@ fn rules(r: &mut Reader, root: &mut Section) -> SessionRules {
     let mut s = r.section(root, "rules");
     let after = [("continue", AfterCrash::Continue), ("respawn", AfterCrash::Respawn), ("end", AfterCrash::End)];
     let rules = SessionRules {
-        after_crash: r.choice(&mut s, "after_crash", &after, Some(1)),
-        battery: r.choice(&mut s, "battery", &[("paper", BatteryModel::Paper), ("physical", BatteryModel::Physical)], Some(0)),
-        low_battery_return: r.flag(&mut s, "low_battery_return", false),
+        after_crash: r.keyword(&mut s, "after_crash", &after, Some(1)),
+        battery: r.keyword(&mut s, "battery", &[("paper", BatteryModel::Paper), ("physical", BatteryModel::Physical)], Some(0)),
+        low_battery_return: r.boolean(&mut s, "low_battery_return", false),
         low_battery_pct: r.number(&mut s, "low_battery_pct", (1.0, 90.0), Some(30.0)),
         critical_battery_pct: r.number(&mut s, "critical_battery_pct", (0.0, 50.0), Some(10.0)),
-        gnss_shadow: r.flag(&mut s, "gnss_shadow", false),
+        gnss_shadow: r.boolean(&mut s, "gnss_shadow", false),
         respawn_after: SimTime::from_s(r.number(&mut s, "respawn_after_s", (0.5, 60.0), Some(3.0))),
     };
     if rules.critical_battery_pct > rules.low_battery_pct {
@@ -323,8 +327,8 @@ fn scoring(r: &mut Reader, root: &mut Section) -> ScoringParams {
         time_max_s: 60.0 * time_max_min,
         beta: n("beta", (0.0, f64::INFINITY), 1.0),
         clearance_m: n("clearance_m", (0.1, 20.0), 2.0),
-        task_done_share: n("task_done_pct", (1.0, 100.0), 80.0) / 100.0,
-        exact_path: r.flag(&mut s, "exact_path", false),
+        task_completion_fraction: n("task_done_pct", (1.0, 100.0), 80.0) / 100.0,
+        exact_path: r.boolean(&mut s, "exact_path", false),
     };
     for (least, value, key, than) in [
         (speed_limit_mph, max_speed_mph, "max_speed_mph", "speed_limit_mph"),

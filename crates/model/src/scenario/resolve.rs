@@ -19,7 +19,7 @@ pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
     document["seed"] = value(i64::try_from(seed).unwrap_or(i64::MAX));
     let mut tables = ArrayOfTables::new();
     for defect in placed {
-        tables.push(table(defect));
+        tables.push(defect_table(defect));
     }
     let defects = document.entry("defects").or_insert_with(|| Item::Table(Table::new()));
     if let Some(defects) = defects.as_table_like_mut() {
@@ -32,7 +32,7 @@ pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
     document.to_string()
 }
 
-fn table(defect: &PlacedDefect) -> Table {
+fn defect_table(defect: &PlacedDefect) -> Table {
     let list = |v: Vec3<Enu>| value(v.array().into_iter().collect::<Array>());
     let mut t = Table::new();
     t["id"] = value(i64::from(defect.id));
@@ -50,17 +50,17 @@ fn table(defect: &PlacedDefect) -> Table {
 }
 
 /// Reads the placed defects of a resolved file; `None` for a source file.
-pub(super) fn with_placed_defects(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect>> {
-    let none_placed = r.flag(s, "none_placed", false);
+pub(super) fn read_placed_defects(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect>> {
+    let none_placed = r.boolean(s, "none_placed", false);
     let mut out = Vec::new();
     for mut t in r.sections(s, "placed") {
-        out.push(one(r, &mut t));
+        out.push(read_placed_defect(r, &mut t));
         r.finish(&t);
     }
     (none_placed || !out.is_empty()).then_some(out)
 }
 
-fn one(r: &mut Reader, t: &mut Section) -> PlacedDefect {
+fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
     let unit = |r: &mut Reader, t: &mut Section, key| {
         let [e, n, u] = r.numbers(t, key, (-1.0, 1.0), None);
         let v = Vec3::new(e, n, u);
@@ -80,7 +80,7 @@ fn one(r: &mut Reader, t: &mut Section) -> PlacedDefect {
         along: unit(r, t, "along"),
         length_m: r.number(t, "length_m", (1e-4, 50.0), None),
         width_m: r.number(t, "width_m", (1e-6, 50.0), None),
-        line: r.flag(t, "line", false),
+        line: r.boolean(t, "line", false),
     }
 }
 
@@ -94,28 +94,28 @@ pub fn crc(text: &str) -> u32 {
         defects.remove("placed");
         defects.remove("none_placed");
     }
-    crc32fast::hash(canonical(document.as_item()).as_bytes())
+    crc32fast::hash(canonical_form(document.as_item()).as_bytes())
 }
 
 /// Returns the canonical form of a TOML item: sorted keys without comments and formatting.
-fn canonical(item: &Item) -> String {
+fn canonical_form(item: &Item) -> String {
     let mut out = String::new();
-    write(item, "", &mut out);
+    write_canonical(item, "", &mut out);
     out
 }
 
-fn write(item: &Item, path: &str, out: &mut String) {
+fn write_canonical(item: &Item, path: &str, out: &mut String) {
     if let Some(table) = item.as_table_like() {
         let mut keys: Vec<&str> = table.iter().map(|(key, _)| key).collect();
         keys.sort_unstable();
         for key in keys {
             if let Some(inner) = table.get(key) {
-                write(inner, &format!("{path}.{key}"), out);
+                write_canonical(inner, &format!("{path}.{key}"), out);
             }
         }
     } else if let Some(tables) = item.as_array_of_tables() {
         for (k, table) in tables.iter().enumerate() {
-            write(&Item::Table(table.clone()), &format!("{path}[{k}]"), out);
+            write_canonical(&Item::Table(table.clone()), &format!("{path}[{k}]"), out);
         }
     } else if let Some(value) = item.as_value() {
         let mut value = value.clone();

@@ -3,22 +3,22 @@
 use super::bridges::Bridge;
 use super::bridges::path::{SPACING_M, TaskKind, TaskPath};
 use super::job::Task;
-use super::point::FAR_M;
+use super::point::MAX_COORDINATE_M;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 
 /// Minimum stand-off distance of task paths derived from a bridge, m. It leaves a margin to the too-close warning at 2.5 m.
-const LEAST_STAND_OFF_M: f64 = 4.0;
+const MIN_STAND_OFF_M: f64 = 4.0;
 /// Maximum on-path threshold, m. The threshold must be below 8 m, the outer limit of the off-path band.
-const MOST_THRESHOLD_M: f64 = 7.999;
+const MAX_THRESHOLD_M: f64 = 7.999;
 
 /// Maximum number of tasks per job (estimate; the TASBID paper has four).
-const MOST_TASKS: usize = 64;
+const MAX_TASKS: usize = 64;
 /// Maximum length of a path in a file, m (estimate: twice the distance flown on one battery). A longer path is likely a typing
 /// error.
-const LONGEST_PATH_M: f64 = 20_000.0;
+const MAX_PATH_LENGTH_M: f64 = 20_000.0;
 
-const KINDS: [(&str, TaskKind); 5] = [
+const TASK_KINDS: [(&str, TaskKind); 5] = [
     ("slab_side", TaskKind::SlabSide),
     ("arch_bottom", TaskKind::ArchBottom),
     ("interlayer", TaskKind::Interlayer),
@@ -28,7 +28,7 @@ const KINDS: [(&str, TaskKind); 5] = [
 
 /// Returns the default on-path threshold of a task kind, m (docs/src/reference/assessment.md, "On path"; the TASBID paper does
 /// not specify any).
-fn usual_threshold_m(kind: TaskKind) -> f64 {
+fn default_threshold_m(kind: TaskKind) -> f64 {
     match kind {
         TaskKind::SlabSide | TaskKind::ArchBottom => 3.0,
         TaskKind::Interlayer => 1.75,
@@ -40,37 +40,37 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Ve
     let mut out = Vec::new();
     for mut s in r.sections(root, "tasks") {
         let id = out.len() as u32 + 1;
-        out.push(task(r, &mut s, id, bridges));
+        out.push(read_task(r, &mut s, id, bridges));
         r.finish(&s);
     }
     if out.is_empty() {
-        r.problem(1, "tasks", "", "at least one [[tasks]]", "no tasks");
+        r.add_problem_at(1, "tasks", "", "at least one [[tasks]]", "no tasks");
     }
-    if out.len() > MOST_TASKS {
+    if out.len() > MAX_TASKS {
         r.add_problem(root, "tasks", &out.len().to_string(), "at most 64 [[tasks]]", "too many");
     }
     out
 }
 
-fn task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
+fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
     let name = r.text(s, "name", None);
-    let kind = r.choice(s, "kind", &KINDS, None);
-    let bridge = bridge_of(r, s, kind, bridges);
-    let stand_off_m = r.number(s, "stand_off_m", (LEAST_STAND_OFF_M, 50.0), Some(LEAST_STAND_OFF_M));
-    let threshold_m = r.number(s, "threshold_m", (0.2, MOST_THRESHOLD_M), Some(usual_threshold_m(kind)));
-    r.default_depends(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 2");
-    let closed = r.flag(s, "closed", false);
-    let points = r.points(s, "points_m", (-FAR_M, FAR_M));
-    let look_at = r.points(s, "look_at_m", (-FAR_M, FAR_M));
+    let kind = r.keyword(s, "kind", &TASK_KINDS, None);
+    let bridge = read_bridge_index(r, s, kind, bridges);
+    let stand_off_m = r.number(s, "stand_off_m", (MIN_STAND_OFF_M, 50.0), Some(MIN_STAND_OFF_M));
+    let threshold_m = r.number(s, "threshold_m", (0.2, MAX_THRESHOLD_M), Some(default_threshold_m(kind)));
+    r.describe_default(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 2");
+    let closed = r.boolean(s, "closed", false);
+    let points = r.points(s, "points_m", (-MAX_COORDINATE_M, MAX_COORDINATE_M));
+    let look_at = r.points(s, "look_at_m", (-MAX_COORDINATE_M, MAX_COORDINATE_M));
     let path = match bridge {
         Some(index) => bridges[index].task_path(kind, stand_off_m).unwrap_or_else(|problem| {
             r.add_problem(s, "kind", "", &problem, "not available for this bridge");
             TaskPath { path_m: Vec::new(), look: Vec::new(), closed }
         }),
-        None => free(r, s, kind, &points, &look_at, closed),
+        None => free_path(r, s, kind, &points, &look_at, closed),
     };
-    let dark = r.flag(s, "dark", matches!(kind, TaskKind::ArchBottom | TaskKind::Interlayer));
-    r.default_depends(s, "dark", "true for arch_bottom and interlayer");
+    let dark = r.boolean(s, "dark", matches!(kind, TaskKind::ArchBottom | TaskKind::Interlayer));
+    r.describe_default(s, "dark", "true for arch_bottom and interlayer");
     Task {
         id,
         name,
@@ -80,12 +80,12 @@ fn task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
         closed: path.closed,
         path_m: path.path_m,
         look: path.look,
-        too_close_m: r.optional(s, "too_close_m", (0.2, 20.0)),
+        too_close_m: r.optional_number(s, "too_close_m", (0.2, 20.0)),
         dark,
     }
 }
 
-fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]) -> Option<usize> {
+fn read_bridge_index(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]) -> Option<usize> {
     if kind == TaskKind::Free {
         return None;
     }
@@ -99,23 +99,30 @@ fn bridge_of(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]
 }
 
 /// Creates a path from the points in the file, resampled. The camera points along the path unless the file gives a target.
-fn free(r: &mut Reader, s: &mut Section, kind: TaskKind, points: &[[f64; 3]], look_at: &[[f64; 3]], closed: bool) -> TaskPath {
+fn free_path(
+    r: &mut Reader,
+    s: &mut Section,
+    kind: TaskKind,
+    points: &[[f64; 3]],
+    look_at: &[[f64; 3]],
+    closed: bool,
+) -> TaskPath {
     let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     if points.is_empty() && kind == TaskKind::Free {
         r.add_problem(s, "points_m", "", "one or more [east, north, up]", "a free path needs points");
     }
     let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-    if length_m > LONGEST_PATH_M {
+    if length_m > MAX_PATH_LENGTH_M {
         r.add_problem(s, "points_m", &format!("{length_m:.0} m long"), "at most 20000 m of path", "too long");
         return TaskPath { path_m: Vec::new(), look: Vec::new(), closed };
     }
     let path_m = resample(&points, closed);
     let target = look_at.first().map(|p| Vec3::new(p[0], p[1], p[2]));
-    let look = (0..path_m.len()).map(|k| look(&path_m, k, target)).collect();
+    let look = (0..path_m.len()).map(|k| look_direction(&path_m, k, target)).collect();
     TaskPath { path_m, look, closed }
 }
 
-fn look(path: &[Vec3<Enu>], k: usize, target: Option<Vec3<Enu>>) -> Vec3<Enu> {
+fn look_direction(path: &[Vec3<Enu>], k: usize, target: Option<Vec3<Enu>>) -> Vec3<Enu> {
     let ahead = match target {
         Some(target) => target - path[k],
         None if path.len() > 1 => path[(k + 1).min(path.len() - 1)] - path[k.min(path.len() - 2)],

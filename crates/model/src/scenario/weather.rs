@@ -7,17 +7,17 @@ use crate::toml::{Reader, Section};
 
 /// Wind levels of the TASBID paper: speed, mph, and force, N. The speed of the light level is 2.2 mph, so that its 0.12 N follow
 /// the same square law as the 3 N and 12 N of the other levels.
-const LEVELS: [(&str, (f64, f64)); 4] =
+const WIND_LEVELS: [(&str, (f64, f64)); 4] =
     [("calm", (0.0, 0.0)), ("light", (2.2, 0.12)), ("gentle", (11.0, 3.0)), ("medium", (22.0, 12.0))];
 
 pub(super) fn read(r: &mut Reader, root: &mut Section) -> WindSpec {
     let mut s = r.section(root, "wind");
-    let model = r.choice(&mut s, "model", &[("physical", WindModel::Physical), ("paper", WindModel::Paper)], Some(0));
-    let (mph, force_n) = r.choice(&mut s, "level", &LEVELS, Some(0));
+    let model = r.keyword(&mut s, "model", &[("physical", WindModel::Physical), ("paper", WindModel::Paper)], Some(0));
+    let (mph, force_n) = r.keyword(&mut s, "level", &WIND_LEVELS, Some(0));
     let speed_m_s = r.number(&mut s, "speed_m_s", (0.0, 30.0), Some(mph * M_S_PER_MPH));
     let paper_force_n = r.number(&mut s, "paper_force_n", (0.0, 100.0), Some(force_n));
-    r.default_depends(&s, "speed_m_s", "by level: 0, 0.98, 4.92, 9.83");
-    r.default_depends(&s, "paper_force_n", "by level: 0, 0.12, 3, 12");
+    r.describe_default(&s, "speed_m_s", "by level: 0, 0.98, 4.92, 9.83");
+    r.describe_default(&s, "paper_force_n", "by level: 0, 0.12, 3, 12");
     let mut wind = WindSpec {
         model,
         speed_m_s,
@@ -28,22 +28,22 @@ pub(super) fn read(r: &mut Reader, root: &mut Section) -> WindSpec {
         events: Vec::new(),
     };
     for mut event in r.sections(&mut s, "events") {
-        wind.events.push(one_event(r, &mut event));
+        wind.events.push(read_event(r, &mut event));
         r.finish(&event);
     }
-    wind.events.sort_by_key(start);
+    wind.events.sort_by_key(start_time);
     r.finish(&s);
     wind
 }
 
-fn start(event: &WindEvent) -> SimTime {
+fn start_time(event: &WindEvent) -> SimTime {
     match event {
         WindEvent::Gust { at, .. } | WindEvent::Change { at, .. } => *at,
     }
 }
 
-fn one_event(r: &mut Reader, s: &mut Section) -> WindEvent {
-    let gust = r.choice(s, "kind", &[("gust", true), ("change", false)], None);
+fn read_event(r: &mut Reader, s: &mut Section) -> WindEvent {
+    let gust = r.keyword(s, "kind", &[("gust", true), ("change", false)], None);
     let at = SimTime::from_s(r.number(s, "at_s", (0.0, 86_400.0), None));
     let from_deg = r.number(s, "from_deg", (0.0, 360.0), None);
     if gust {
@@ -57,6 +57,6 @@ fn one_event(r: &mut Reader, s: &mut Section) -> WindEvent {
 
 /// Parses a UTC time `YYYY-MM-DDTHH:MM:SSZ`; returns seconds since the Unix epoch.
 #[must_use]
-pub fn unix_s(text: &str) -> Option<i64> {
+pub fn parse_unix_s(text: &str) -> Option<i64> {
     text.parse::<jiff::Timestamp>().ok().map(jiff::Timestamp::as_second)
 }

@@ -1,13 +1,13 @@
 //! Oriented boxes, which represent all moving or parked objects, with exact distance, ray and contact queries.
 
-use super::queries::HullProbe;
+use super::query_types::HullProbe;
 use crate::frames::{Enu, Vec3};
 
 /// A box with an arbitrary orientation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrientedBox {
     /// Center, m.
-    pub centre_m: Vec3<Enu>,
+    pub center_m: Vec3<Enu>,
     /// Unit vectors along length, width and height.
     pub axes: [Vec3<Enu>; 3],
     /// Half length, width and height, m.
@@ -17,9 +17,9 @@ pub struct OrientedBox {
 /// Number of steps of the golden-section search along a capsule's axis, which narrow 10 m to less than a micrometer.
 const SEARCH_STEPS: usize = 36;
 /// (√5 - 1)/2.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 /// Minimum axis length of a capsule whose ends are separate contacts, m.
-const AXIS_MIN_M: f64 = 1e-6;
+const MIN_AXIS_LENGTH_M: f64 = 1e-6;
 
 impl OrientedBox {
     /// Returns the radius of the bounding sphere about the center, m.
@@ -28,24 +28,24 @@ impl OrientedBox {
         self.half_m.iter().map(|h| h * h).sum::<f64>().sqrt()
     }
 
-    fn local(&self, point_m: Vec3<Enu>) -> [f64; 3] {
-        let from_centre = point_m - self.centre_m;
+    fn to_local(&self, point_m: Vec3<Enu>) -> [f64; 3] {
+        let from_centre = point_m - self.center_m;
         self.axes.map(|axis| axis.dot(from_centre))
     }
 
-    fn world(&self, local: [f64; 3]) -> Vec3<Enu> {
+    fn to_world(&self, local: [f64; 3]) -> Vec3<Enu> {
         self.axes[0] * local[0] + self.axes[1] * local[1] + self.axes[2] * local[2]
     }
 
     /// Returns the signed distance (m, negative inside), surface point and outward unit normal nearest to a point.
     #[must_use]
     pub fn nearest(&self, point_m: Vec3<Enu>) -> (f64, Vec3<Enu>, Vec3<Enu>) {
-        let p = self.local(point_m);
+        let p = self.to_local(point_m);
         let inside = [0, 1, 2].map(|k: usize| p[k].clamp(-self.half_m[k], self.half_m[k]));
-        let away = self.world([p[0] - inside[0], p[1] - inside[1], p[2] - inside[2]]);
+        let away = self.to_world([p[0] - inside[0], p[1] - inside[1], p[2] - inside[2]]);
         let distance = away.norm();
         if distance > 0.0 {
-            return (distance, self.centre_m + self.world(inside), away / distance);
+            return (distance, self.center_m + self.to_world(inside), away / distance);
         }
         let depth = [0, 1, 2].map(|k: usize| self.half_m[k] - p[k].abs());
         let k = (0..3).fold(0, |best, k| if depth[k] < depth[best] { k } else { best });
@@ -58,7 +58,7 @@ impl OrientedBox {
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
         let (mut enter, mut leave, mut normal) = (0.0_f64, max_m, -direction);
-        for ((axis, half), o) in self.axes.into_iter().zip(self.half_m).zip(self.local(origin_m)) {
+        for ((axis, half), o) in self.axes.into_iter().zip(self.half_m).zip(self.to_local(origin_m)) {
             let d = axis.dot(direction);
             if d.abs() < 1e-15 {
                 if o.abs() > half {
@@ -79,21 +79,21 @@ impl OrientedBox {
     /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe. A ball has one contact. A capsule
     /// has contacts at its deepest point and at both ends, so that a capsule lying on a face rests on two points.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, mut found: impl FnMut(f64, Vec3<Enu>, Vec3<Enu>)) {
-        let mut test = |centre: Vec3<Enu>, radius: f64| {
-            let (distance, point, normal) = self.nearest(centre);
+        let mut test = |center: Vec3<Enu>, radius: f64| {
+            let (distance, point, normal) = self.nearest(center);
             if distance - radius <= margin_m {
                 found(distance - radius, point, normal);
             }
         };
         match *probe {
-            HullProbe::Ball { centre_m, radius_m } => test(centre_m, radius_m),
+            HullProbe::Ball { center_m, radius_m } => test(center_m, radius_m),
             HullProbe::Capsule { a_m, b_m, radius_m } => {
                 test(a_m, radius_m);
-                if (b_m - a_m).norm() < AXIS_MIN_M {
+                if (b_m - a_m).norm() < MIN_AXIS_LENGTH_M {
                     return;
                 }
                 test(b_m, radius_m);
-                let t = self.closest_share(a_m, b_m);
+                let t = self.closest_fraction(a_m, b_m);
                 if t > 1e-3 && t < 1.0 - 1e-3 {
                     test(a_m.lerp(b_m, t), radius_m);
                 }
@@ -103,19 +103,19 @@ impl OrientedBox {
 
     /// Returns the fraction of the segment from `a` to `b` at which the signed distance is minimal. The distance is convex along
     /// a line, so a golden-section search finds the minimum.
-    fn closest_share(&self, a_m: Vec3<Enu>, b_m: Vec3<Enu>) -> f64 {
+    fn closest_fraction(&self, a_m: Vec3<Enu>, b_m: Vec3<Enu>) -> f64 {
         let at = |t: f64| self.nearest(a_m.lerp(b_m, t)).0;
         let (mut low, mut high) = (0.0, 1.0);
-        let (mut x1, mut x2) = (1.0 - GOLDEN, GOLDEN);
+        let (mut x1, mut x2) = (1.0 - INVERSE_GOLDEN_RATIO, INVERSE_GOLDEN_RATIO);
         let (mut f1, mut f2) = (at(x1), at(x2));
         for _ in 0..SEARCH_STEPS {
             if f1 <= f2 {
                 (high, x2, f2) = (x2, x1, f1);
-                x1 = high - GOLDEN * (high - low);
+                x1 = high - INVERSE_GOLDEN_RATIO * (high - low);
                 f1 = at(x1);
             } else {
                 (low, x1, f1) = (x1, x2, f2);
-                x2 = low + GOLDEN * (high - low);
+                x2 = low + INVERSE_GOLDEN_RATIO * (high - low);
                 f2 = at(x2);
             }
         }
@@ -125,9 +125,9 @@ impl OrientedBox {
 
 /// Returns the bounding sphere of a probe: its center and radius, m.
 #[must_use]
-pub fn bounding_ball(probe: &HullProbe) -> (Vec3<Enu>, f64) {
+pub fn bounding_sphere(probe: &HullProbe) -> (Vec3<Enu>, f64) {
     match *probe {
-        HullProbe::Ball { centre_m, radius_m } => (centre_m, radius_m),
+        HullProbe::Ball { center_m, radius_m } => (center_m, radius_m),
         HullProbe::Capsule { a_m, b_m, radius_m } => ((a_m + b_m) * 0.5, (b_m - a_m).norm() * 0.5 + radius_m),
     }
 }
@@ -139,14 +139,14 @@ mod tests {
     fn cube() -> OrientedBox {
         let r = 0.5_f64.sqrt();
         OrientedBox {
-            centre_m: Vec3::new(10.0, 0.0, 1.0),
+            center_m: Vec3::new(10.0, 0.0, 1.0),
             axes: [Vec3::new(r, r, 0.0), Vec3::new(-r, r, 0.0), Vec3::new(0.0, 0.0, 1.0)],
             half_m: [1.0, 1.0, 1.0],
         }
     }
 
     #[test]
-    fn exact_distance_to_face_edge_and_inside() {
+    fn exact_distances_to_face_and_edge_and_from_inside() {
         let b = cube();
         assert!((b.nearest(Vec3::new(10.0, 0.0, 5.0)).0 - 3.0).abs() < 1e-12);
         // The vertical edge at east 10 - √2.
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_a_ray_ends_on_the_surface_and_misses_what_is_behind() {
+    fn prop_rays_end_on_the_surface_and_miss_boxes_behind_them() {
         let b = cube();
         for k in 0..60 {
             let from = Vec3::new(f64::from(k) * 0.3, -7.0, f64::from(k % 7));
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_capsule_over_a_face_touches_with_both_ends_and_across_an_edge_in_between() {
+    fn exact_capsule_contacts_on_a_face_and_across_an_edge() {
         let b = cube();
         let mut gaps = Vec::new();
         let flat = HullProbe::Capsule { a_m: Vec3::new(9.5, 0.0, 2.1), b_m: Vec3::new(10.5, 0.0, 2.1), radius_m: 0.05 };

@@ -22,12 +22,12 @@ impl BridgeClosures {
     #[must_use]
     pub fn from_codes(codes: impl IntoIterator<Item = i32>) -> Self {
         let mut gates = Self::default();
-        codes.into_iter().for_each(|code| gates.apply_codes(code));
+        codes.into_iter().for_each(|code| gates.apply_code(code));
         gates
     }
 
     /// Adds the change with the given code. Ignores 0 and codes that were added before.
-    pub fn apply_codes(&mut self, code: i32) {
+    pub fn apply_code(&mut self, code: i32) {
         let change = (SimTime::from_ms(i64::from(code.unsigned_abs())), code > 0);
         if code != 0 && !self.0.contains(&change) {
             self.0.push(change);
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_bridges_are_open_until_closed_and_the_codes_carry_every_closure() {
+    fn exact_codes_reconstruct_closures() {
         let (close, open) =
             (BridgeClosures::code(SimTime::from_ms(4_000), false), BridgeClosures::code(SimTime::from_s(9.000_9), true));
         assert_eq!((close, open), (-4_000, 9_000), "whole milliseconds");

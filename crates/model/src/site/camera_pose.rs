@@ -21,7 +21,7 @@ impl CameraPose {
     /// Returns the camera pose for an aircraft pose. The attitude determines the heading. The gimbal keeps the camera free of
     /// roll at the pitch angle `gimbal_rad` above the horizon, rad.
     #[must_use]
-    pub fn on(camera: &Camera, Pose { position_m, ned_from_frd }: Pose<Enu>, gimbal_rad: f64, lamp_on: bool) -> Self {
+    pub fn on_aircraft(camera: &Camera, Pose { position_m, ned_from_frd }: Pose<Enu>, gimbal_rad: f64, lamp_on: bool) -> Self {
         let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, gimbal_rad, ned_from_frd.yaw_rad());
         Self {
             position_m: position_m + (ned_from_frd * camera.position_m).enu(),

@@ -5,14 +5,14 @@ use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Solid;
 
 /// Maximum number of iterations of the search along a capsule's axis. The search stops earlier if the result cannot improve
-/// noticeably (see [`LEVEL_M`]).
-const SEARCH_ROUNDS: usize = 40;
+/// noticeably (see [`DISTANCE_TOLERANCE_M`]).
+const MAX_SEARCH_ROUNDS: usize = 40;
 /// Tolerance within which two distances count as equal, m. Identifies segments that lie flat on a face.
-const LEVEL_M: f64 = 1e-7;
+const DISTANCE_TOLERANCE_M: f64 = 1e-7;
 /// Maximum distance from the surface at which a point gets the normal of the face, m.
-const TOUCHING_M: f64 = 1e-9;
+const CONTACT_TOLERANCE_M: f64 = 1e-9;
 /// Tolerance on the cosine between the normals of perpendicular faces of a box.
-const SQUARE: f64 = 1e-12;
+const PERPENDICULAR_TOLERANCE: f64 = 1e-12;
 
 /// A convex polyhedron, preprocessed for queries.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +37,7 @@ pub struct SurfacePoint {
 enum ConvexShape {
     /// A box. Equivalent to a hull with six faces, but evaluates pairs of opposite faces together.
     Box {
-        centre: Vec3<Enu>,
+        center: Vec3<Enu>,
         axes: [Vec3<Enu>; 3],
         half: [f64; 3],
     },
@@ -89,8 +89,8 @@ impl Convex {
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>) -> SurfacePoint {
         match &self.shape {
-            ConvexShape::Box { centre, axes, half } => nearest_of_box(p, *centre, axes, half),
-            ConvexShape::Hull(faces) => nearest_of_hull(p, faces),
+            ConvexShape::Box { center, axes, half } => nearest_on_box(p, *center, axes, half),
+            ConvexShape::Hull(faces) => nearest_on_hull(p, faces),
         }
     }
 
@@ -99,16 +99,16 @@ impl Convex {
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
         let mut clip = RayInterval { enter: f64::NEG_INFINITY, leave: max_m, normal: -direction };
         match &self.shape {
-            ConvexShape::Box { centre, axes, half } => {
+            ConvexShape::Box { center, axes, half } => {
                 for k in 0..3 {
-                    let (at, rate) = (axes[k].dot(origin - *centre), axes[k].dot(direction));
-                    clip.plane(at - half[k], rate, || axes[k]);
-                    clip.plane(-at - half[k], -rate, || -axes[k]);
+                    let (at, rate) = (axes[k].dot(origin - *center), axes[k].dot(direction));
+                    clip.clip_by_plane(at - half[k], rate, || axes[k]);
+                    clip.clip_by_plane(-at - half[k], -rate, || -axes[k]);
                 }
             }
             ConvexShape::Hull(faces) => {
                 for face in faces {
-                    clip.plane(face.normal.dot(origin) - face.offset, face.normal.dot(direction), || face.normal);
+                    clip.clip_by_plane(face.normal.dot(origin) - face.offset, face.normal.dot(direction), || face.normal);
                     if clip.enter > clip.leave {
                         return None;
                     }
@@ -125,39 +125,43 @@ impl Convex {
     /// edge. `ends` contains the surface points nearest to the ends. For a segment that lies flat on a face and extends beyond an
     /// edge, returns the point at that edge.
     #[must_use]
-    pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends: [&SurfacePoint; 2], enough_m: f64) -> Option<SurfacePoint> {
+    pub fn interior_minimum(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends: [&SurfacePoint; 2], enough_m: f64) -> Option<SurfacePoint> {
         let along = b - a;
         let length = along.norm();
         let (at_a, at_b) = (ends[0].distance_m, ends[1].distance_m);
         // The distance to a surface changes by at most one meter per meter.
-        if 0.5 * (at_a + at_b - length) > enough_m || length < TOUCHING_M {
+        if 0.5 * (at_a + at_b - length) > enough_m || length < CONTACT_TOLERANCE_M {
             return None;
         }
-        let lowest = self.lowest(a, along, ends);
-        if lowest.1.distance_m < at_a.min(at_b) - LEVEL_M {
+        let lowest = self.find_minimum(a, along, ends);
+        if lowest.1.distance_m < at_a.min(at_b) - DISTANCE_TOLERANCE_M {
             return Some(lowest.1);
         }
         // If one end lies flat on a face, bisection finds the end of the flat part.
         let (from, to) = if at_a <= at_b { (a, b) } else { (b, a) };
         let least = at_a.min(at_b);
-        if (at_a - at_b).abs() <= LEVEL_M {
+        if (at_a - at_b).abs() <= DISTANCE_TOLERANCE_M {
             return None;
         }
         let (mut flat, mut rising) = (0.0, 1.0);
-        for _ in 0..SEARCH_ROUNDS / 2 {
+        for _ in 0..MAX_SEARCH_ROUNDS / 2 {
             let middle = 0.5 * (flat + rising);
-            if self.nearest(from.lerp(to, middle)).distance_m <= least + LEVEL_M { flat = middle } else { rising = middle }
+            if self.nearest(from.lerp(to, middle)).distance_m <= least + DISTANCE_TOLERANCE_M {
+                flat = middle
+            } else {
+                rising = middle
+            }
         }
         (flat > 0.02).then(|| self.nearest(from.lerp(to, flat)))
     }
 
     /// Finds the point along a segment with the smallest distance. The tangents at two points bracket the minimum of a convex
     /// function, and their intersection is a lower bound.
-    fn lowest(&self, a: Vec3<Enu>, along: Vec3<Enu>, ends: [&SurfacePoint; 2]) -> (f64, SurfacePoint) {
+    fn find_minimum(&self, a: Vec3<Enu>, along: Vec3<Enu>, ends: [&SurfacePoint; 2]) -> (f64, SurfacePoint) {
         let slope = |near: &SurfacePoint| near.normal.dot(along);
         let (mut left, mut right) = ((0.0, *ends[0]), (1.0, *ends[1]));
         let mut best = if ends[0].distance_m <= ends[1].distance_m { left } else { right };
-        for round in 0..SEARCH_ROUNDS {
+        for round in 0..MAX_SEARCH_ROUNDS {
             let (rise_left, rise_right) = (slope(&left.1), slope(&right.1));
             if rise_left >= 0.0 {
                 return if left.1.distance_m <= best.1.distance_m { left } else { best };
@@ -168,7 +172,7 @@ impl Convex {
             let width = right.0 - left.0;
             let step = (right.1.distance_m - left.1.distance_m - rise_right * width) / (rise_left - rise_right);
             let floor = left.1.distance_m + rise_left * step;
-            if best.1.distance_m - floor < 0.1 * LEVEL_M {
+            if best.1.distance_m - floor < 0.1 * DISTANCE_TOLERANCE_M {
                 break;
             }
             // Near a rounded minimum, tangents converge slowly from one side. A bisection in every third round keeps the bracket
@@ -193,7 +197,7 @@ struct RayInterval {
 
 impl RayInterval {
     /// Clips the interval by a plane, given the height of the ray's origin above it and the rate at which the ray climbs.
-    fn plane(&mut self, height: f64, rate: f64, normal: impl Fn() -> Vec3<Enu>) {
+    fn clip_by_plane(&mut self, height: f64, rate: f64, normal: impl Fn() -> Vec3<Enu>) {
         if rate == 0.0 {
             if height > 0.0 {
                 self.leave = f64::NEG_INFINITY;
@@ -209,8 +213,8 @@ impl RayInterval {
     }
 }
 
-fn nearest_of_box(p: Vec3<Enu>, centre: Vec3<Enu>, axes: &[Vec3<Enu>; 3], half: &[f64; 3]) -> SurfacePoint {
-    let d = p - centre;
+fn nearest_on_box(p: Vec3<Enu>, center: Vec3<Enu>, axes: &[Vec3<Enu>; 3], half: &[f64; 3]) -> SurfacePoint {
+    let d = p - center;
     let at = [axes[0].dot(d), axes[1].dot(d), axes[2].dot(d)];
     let over = [at[0].abs() - half[0], at[1].abs() - half[1], at[2].abs() - half[2]];
     let highest = if over[0] >= over[1] && over[0] >= over[2] { 0 } else { 1 + usize::from(over[2] > over[1]) };
@@ -227,11 +231,11 @@ fn nearest_of_box(p: Vec3<Enu>, centre: Vec3<Enu>, axes: &[Vec3<Enu>; 3], half: 
         }
     }
     let distance_m = away.norm();
-    let normal = if distance_m > TOUCHING_M { away / distance_m } else { axes[highest] * 1f64.copysign(at[highest]) };
+    let normal = if distance_m > CONTACT_TOLERANCE_M { away / distance_m } else { axes[highest] * 1f64.copysign(at[highest]) };
     SurfacePoint { distance_m, point_m: p - away, normal }
 }
 
-fn nearest_of_hull(p: Vec3<Enu>, faces: &[HullFace]) -> SurfacePoint {
+fn nearest_on_hull(p: Vec3<Enu>, faces: &[HullFace]) -> SurfacePoint {
     let mut highest = (f64::NEG_INFINITY, 0);
     let mut best = (f64::INFINITY, Vec3::zero());
     for (k, face) in faces.iter().enumerate() {
@@ -253,7 +257,7 @@ fn nearest_of_hull(p: Vec3<Enu>, faces: &[HullFace]) -> SurfacePoint {
         return SurfacePoint { distance_m: highest.0, point_m: p - face.normal * highest.0, normal: face.normal };
     }
     let distance_m = best.0.sqrt();
-    let normal = if distance_m > TOUCHING_M { (p - best.1) / distance_m } else { face.normal };
+    let normal = if distance_m > CONTACT_TOLERANCE_M { (p - best.1) / distance_m } else { face.normal };
     SurfacePoint { distance_m, point_m: best.1, normal }
 }
 
@@ -264,20 +268,22 @@ fn as_box(faces: &[HullFace]) -> Option<ConvexShape> {
     }
     let mut axes = [Vec3::zero(); 3];
     let mut half = [0.0; 3];
-    let mut centre = Vec3::zero();
+    let mut center = Vec3::zero();
     let mut used = [false; 6];
     for (axis, half) in axes.iter_mut().zip(&mut half) {
         let first = used.iter().position(|u| !u)?;
         let face = &faces[first];
-        let other = (0..6).find(|k| !used[*k] && *k != first && faces[*k].normal.dot(face.normal) < SQUARE - 1.0)?;
+        let other =
+            (0..6).find(|k| !used[*k] && *k != first && faces[*k].normal.dot(face.normal) < PERPENDICULAR_TOLERANCE - 1.0)?;
         (used[first], used[other]) = (true, true);
         *axis = face.normal;
         *half = 0.5 * (face.offset + faces[other].offset);
-        centre += face.normal * (0.5 * (face.offset - faces[other].offset));
+        center += face.normal * (0.5 * (face.offset - faces[other].offset));
     }
-    let square =
-        axes[0].dot(axes[1]).abs() < SQUARE && axes[1].dot(axes[2]).abs() < SQUARE && axes[2].dot(axes[0]).abs() < SQUARE;
-    square.then_some(ConvexShape::Box { centre, axes, half })
+    let square = axes[0].dot(axes[1]).abs() < PERPENDICULAR_TOLERANCE
+        && axes[1].dot(axes[2]).abs() < PERPENDICULAR_TOLERANCE
+        && axes[2].dot(axes[0]).abs() < PERPENDICULAR_TOLERANCE;
+    square.then_some(ConvexShape::Box { center, axes, half })
 }
 
 impl HullFace {
@@ -334,16 +340,16 @@ mod tests {
 
     fn cube() -> Convex {
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::zero(), 90.0));
-        b.block("cube", Element::RcDeck, [-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]);
+        b.add_box("cube", Element::RcDeck, [-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]);
         Convex::new(&b.finish()[0].solid)
     }
 
     /// Returns a box, a wedge and an eight-sided rod.
     fn shapes() -> Vec<Convex> {
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(0.3, -0.2, 0.1), 37.0));
-        b.block("block", Element::RcDeck, [-1.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
-        b.across("wedge", Element::RcArch, &[[-1.0, -0.5], [1.0, -0.3], [0.9, 0.4], [-1.0, 0.1]], -0.4, 0.3);
-        b.rod("rod", Element::MainCable, [-1.0, 0.2, -0.4], [0.8, -0.1, 0.6], 0.3, 8);
+        b.add_box("block", Element::RcDeck, [-1.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
+        b.add_extrusion("wedge", Element::RcArch, &[[-1.0, -0.5], [1.0, -0.3], [0.9, 0.4], [-1.0, 0.1]], -0.4, 0.3);
+        b.add_rod("rod", Element::MainCable, [-1.0, 0.2, -0.4], [0.8, -0.1, 0.6], 0.3, 8);
         b.finish().iter().map(|m| Convex::new(&m.solid)).collect()
     }
 
@@ -359,11 +365,11 @@ mod tests {
     }
 
     #[test]
-    fn prop_a_box_answers_as_its_faces_do() {
+    fn prop_box_and_hull_queries_agree() {
         // Tolerance for the rounding of the corners of a rotated box, m.
-        const SAME_M: f64 = 1e-9;
+        const TOLERANCE_M: f64 = 1e-9;
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(11.0, -40.0, 7.0), 71.0));
-        b.block("block", Element::RcDeck, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
+        b.add_box("block", Element::RcDeck, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);
         let solid = &b.finish()[0].solid;
         let boxed = Convex::new(solid);
         assert!(matches!(boxed.shape, ConvexShape::Box { .. }));
@@ -375,15 +381,18 @@ mod tests {
             let p = Vec3::new(11.0, -40.0, 7.0)
                 + Vec3::new(random.range(-4.0, 4.0), random.range(-4.0, 4.0), random.range(-1.0, 1.0));
             let (a, b) = (boxed.nearest(p), hull.nearest(p));
-            assert!((a.distance_m - b.distance_m).abs() < SAME_M && (a.point_m + a.normal * a.distance_m - p).norm() < SAME_M);
+            assert!(
+                (a.distance_m - b.distance_m).abs() < TOLERANCE_M
+                    && (a.point_m + a.normal * a.distance_m - p).norm() < TOLERANCE_M
+            );
             let direction = Vec3::new(random.normal(), random.normal(), random.normal()).unit();
             let (a, b) = (boxed.ray(p, direction, 9.0), hull.ray(p, direction, 9.0));
-            assert!(a.is_some() == b.is_some() && a.zip(b).is_none_or(|(a, b)| (a.0 - b.0).abs() < SAME_M), "{a:?} {b:?}");
+            assert!(a.is_some() == b.is_some() && a.zip(b).is_none_or(|(a, b)| (a.0 - b.0).abs() < TOLERANCE_M), "{a:?} {b:?}");
         }
     }
 
     #[test]
-    fn prop_a_ray_ends_on_the_surface() {
+    fn prop_rays_end_on_the_surface() {
         for shape in shapes().iter().chain([&cube()]) {
             let mut random = RandomStream::new(5, "rays");
             for _ in 0..800 {
@@ -400,9 +409,9 @@ mod tests {
     }
 
     #[test]
-    fn prop_no_point_of_a_segment_lies_deeper_than_the_contact_between_its_ends() {
+    fn prop_interior_minimum_of_a_segment_matches_sampling() {
         // Tolerance for equal distances and for the spacing of the sample points, m.
-        const DEEPER_M: f64 = 2e-7;
+        const TOLERANCE_M: f64 = 2e-7;
         let mut random = RandomStream::new(8, "segments");
         let mut across = 0;
         for shape in &shapes() {
@@ -410,34 +419,37 @@ mod tests {
                 let mut point = || Vec3::<Enu>::new(random.range(-1.6, 1.6), random.range(-1.0, 1.0), random.range(-1.0, 1.0));
                 let (a, b) = (point(), point());
                 let (at_a, at_b) = (shape.nearest(a), shape.nearest(b));
-                let between = shape.between(a, b, [&at_a, &at_b], f64::INFINITY);
+                let between = shape.interior_minimum(a, b, [&at_a, &at_b], f64::INFINITY);
                 across += usize::from(between.is_some());
                 let least =
                     [Some(at_a), Some(at_b), between].into_iter().flatten().map(|n| n.distance_m).fold(f64::INFINITY, f64::min);
                 let tried =
                     (0..=400).map(|k| shape.nearest(a.lerp(b, f64::from(k) / 400.0)).distance_m).fold(f64::INFINITY, f64::min);
-                assert!(least <= tried + DEEPER_M, "{least} but {tried}");
+                assert!(least <= tried + TOLERANCE_M, "{least} but {tried}");
             }
         }
         assert!(across > 1000, "{across}");
     }
 
     #[test]
-    fn exact_a_segment_across_an_edge_touches_at_the_edge() {
+    fn exact_segment_across_an_edge_touches_the_edge() {
         let cube = cube();
         let (a, b) = (Vec3::new(0.0, 2.0, 2.0), Vec3::new(0.0, 2.0, -6.0));
-        let near = cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
+        let near = cube.interior_minimum(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
         assert!((near.distance_m - 1.0).abs() < ROUNDING_M);
         // The nearest point of a segment across the top edge at 45 degrees is on the edge.
         let (a, b) = (Vec3::new(0.0, 0.0, 2.5), Vec3::new(0.0, 2.5, 0.0));
-        let near = cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
-        assert!((near.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-6 && (near.distance_m - 0.125f64.sqrt()).abs() < LEVEL_M);
+        let near = cube.interior_minimum(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
+        assert!(
+            (near.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-6
+                && (near.distance_m - 0.125f64.sqrt()).abs() < DISTANCE_TOLERANCE_M
+        );
     }
 
     #[test]
-    fn exact_a_segment_flat_on_a_face_touches_at_both_ends_or_at_the_edge_it_sticks_out_over() {
+    fn exact_segment_flat_on_a_face_touches_its_ends_or_the_edge() {
         let cube = cube();
-        let ends = |a: Vec3<Enu>, b: Vec3<Enu>| cube.between(a, b, [&cube.nearest(a), &cube.nearest(b)], 1.0);
+        let ends = |a: Vec3<Enu>, b: Vec3<Enu>| cube.interior_minimum(a, b, [&cube.nearest(a), &cube.nearest(b)], 1.0);
         assert_eq!(ends(Vec3::new(-0.5, 0.2, 1.1), Vec3::new(0.5, 0.1, 1.1)), None);
         let over = ends(Vec3::new(0.0, 0.0, 1.1), Vec3::new(0.0, 3.0, 1.1)).unwrap();
         assert!((over.point_m - Vec3::new(0.0, 1.0, 1.0)).norm() < 1e-3, "{over:?}");

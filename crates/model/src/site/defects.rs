@@ -4,8 +4,8 @@
 
 use super::camera_pose::CameraPose;
 use super::faces::{MemberFace, face_at};
-use super::light::{RayCast, tangents};
-use super::queries::Surface;
+use super::light::{RayCast, tangent_vectors};
+use super::query_types::Surface;
 use super::visibility;
 use crate::defect_codes;
 use crate::elements::Element;
@@ -36,10 +36,10 @@ pub const REFERENCE_CAMERA: Camera = Camera {
 pub const REFERENCE_LAMP: Lamp = Lamp { flux_lm: 1000.0, beam_rad: math::PI / 3.0 };
 
 /// Minimum distance of the reference camera from any surface, m (half of 0.59 m tip to tip, plus a margin).
-pub const CLEARANCE_M: f64 = 0.8;
+pub const CAMERA_CLEARANCE_M: f64 = 0.8;
 /// Distances from the path toward the defect at which the reference camera is tried, as fractions of the task's threshold. The
 /// largest leaves a margin.
-const APPROACH: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
+const APPROACH_FRACTIONS: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
 /// Half angle of the search cone about the viewing direction of the path, rad (estimate of camera pan and tilt).
 const SEARCH_CONE_RAD: f64 = 0.9;
 /// Unit vector that points up.
@@ -47,15 +47,15 @@ const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Maximum distance at which faces are searched, m (estimate; thin lines fail the visibility check at much shorter distances).
 const SEARCH_REACH_M: f64 = 20.0;
 /// Minimum width of bare surface around a defect, m, which keeps defects away from joints and edges.
-const MARGIN_M: f64 = 0.03;
+const EDGE_MARGIN_M: f64 = 0.03;
 /// Minimum free space in front of a defect, along its normal, m.
-const ROOM_M: f64 = 0.5;
+const FREE_SPACE_M: f64 = 0.5;
 /// Minimum distance between the centers of two defects, m, so that a photo rarely shows two of them.
-const SEPARATION_M: f64 = 2.0;
+const MIN_SEPARATION_M: f64 = 2.0;
 /// Maximum number of attempts per defect. The first third requires the full separation; the others reduce it gradually.
-const ATTEMPTS: usize = 3000;
+const MAX_ATTEMPTS: usize = 3000;
 /// Number of path points that are tried as positions of the reference camera, nearest first.
-const PLACES: usize = 5;
+const CANDIDATE_POINTS: usize = 5;
 
 /// Returns the properties in which an aircraft's camera or lamp falls short of the reference, with both values; empty if it meets
 /// the reference.
@@ -90,7 +90,7 @@ pub struct PlacementContext<'a> {
     pub cast: RayCast<'a>,
     /// Ambient light at session start by position and normal, lx.
     pub ambient: visibility::AmbientLight<'a>,
-    /// Distance from a point to the nearest surface, m; infinity if it exceeds [`CLEARANCE_M`].
+    /// Distance from a point to the nearest surface, m; infinity if it exceeds [`CAMERA_CLEARANCE_M`].
     pub clearance_m: &'a dyn Fn(Vec3<Enu>) -> f64,
 }
 
@@ -98,11 +98,11 @@ pub struct PlacementContext<'a> {
 /// requested only if the settings leave no position that can be photographed (for example, no bridge within reach of a task, or
 /// defect codes that are not permitted on any element within reach).
 #[must_use]
-pub fn place(settings: &DefectSpec, ground: &PlacementContext, seed: u64) -> Vec<PlacedDefect> {
+pub fn place_defects(settings: &DefectSpec, context: &PlacementContext, seed: u64) -> Vec<PlacedDefect> {
     if let Some(placed) = &settings.placed {
         return placed.clone();
     }
-    let tasks: Vec<&Task> = ground.tasks.iter().filter(|t| !t.path_m.is_empty()).collect();
+    let tasks: Vec<&Task> = context.tasks.iter().filter(|t| !t.path_m.is_empty()).collect();
     let mut stream = RandomStream::new(seed, "site.defects");
     let mut defects: Vec<PlacedDefect> = Vec::new();
     if tasks.is_empty() {
@@ -112,7 +112,7 @@ pub fn place(settings: &DefectSpec, ground: &PlacementContext, seed: u64) -> Vec
     for k in 0..settings.count {
         let found = (0..tasks.len()).find_map(|turn| {
             let task = tasks[(first + k + turn) % tasks.len()];
-            (0..ATTEMPTS).find_map(|attempt| try_place(settings, ground, task, (attempt, &defects), &mut stream))
+            (0..MAX_ATTEMPTS).find_map(|attempt| try_place(settings, context, task, (attempt, &defects), &mut stream))
         });
         if let Some(mut defect) = found {
             defect.id = defects.len() as u32 + 1;
@@ -125,7 +125,7 @@ pub fn place(settings: &DefectSpec, ground: &PlacementContext, seed: u64) -> Vec
 /// Draws a line of sight, a defect code and a size; `None` if the defect cannot be placed there.
 fn try_place(
     settings: &DefectSpec,
-    ground: &PlacementContext,
+    context: &PlacementContext,
     task: &Task,
     (attempt, others): (usize, &[PlacedDefect]),
     stream: &mut RandomStream,
@@ -133,18 +133,18 @@ fn try_place(
     let n = stream.below(task.path_m.len());
     let direction = match task.kind {
         // On a free path the camera does not necessarily point toward a structure.
-        TaskKind::Free => in_cone(UP, math::PI, stream),
+        TaskKind::Free => draw_direction_in_cone(UP, math::PI, stream),
         TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle => {
-            in_cone(task.look.get(n).copied().unwrap_or(UP), SEARCH_CONE_RAD, stream)
+            draw_direction_in_cone(task.look.get(n).copied().unwrap_or(UP), SEARCH_CONE_RAD, stream)
         }
     };
     let kind_draw = stream.uniform();
     let condition_state = if stream.uniform() < 0.5 { 2 } else { 3 };
     let roll = stream.range(0.0, math::PI);
-    let hit = (ground.cast)(task.path_m[n], direction, SEARCH_REACH_M)?;
-    let member = (hit.surface == Surface::Bridge).then(|| ground.members.get(hit.object.0 as usize)).flatten()?;
-    let kind = choose_kind(settings, member.element, kind_draw)?;
-    let (length_m, width_m) = defect_codes::draw(kind, condition_state, settings.size_factor, stream);
+    let hit = (context.cast)(task.path_m[n], direction, SEARCH_REACH_M)?;
+    let member = (hit.surface == Surface::Bridge).then(|| context.members.get(hit.object.0 as usize)).flatten()?;
+    let kind = choose_code(settings, member.element, kind_draw)?;
+    let (length_m, width_m) = defect_codes::draw_size(kind, condition_state, settings.size_factor, stream);
     let face = face_at(&member.solid, task.path_m[n] + direction * hit.distance_m)?;
     let defect = PlacedDefect {
         id: 0,
@@ -154,18 +154,21 @@ fn try_place(
         condition_state,
         position_m: face.point_m,
         normal: face.normal,
-        along: along(kind, &face, roll),
+        along: defect_direction(kind, &face, roll),
         length_m,
         width_m,
         line: defect_codes::is_line(kind),
     };
-    let separation = SEPARATION_M * (1.5 - 1.5 * attempt as f64 / ATTEMPTS as f64).min(1.0);
+    let separation = MIN_SEPARATION_M * (1.5 - 1.5 * attempt as f64 / MAX_ATTEMPTS as f64).min(1.0);
     let apart = others.iter().all(|o| (o.position_m - defect.position_m).norm() >= separation);
-    (apart && has_room(&defect, &face) && exposed(&defect, hit.object.0, ground) && best_view(&defect, task, ground).is_some())
-        .then_some(defect)
+    (apart
+        && fits_in_face(&defect, &face)
+        && is_exposed(&defect, hit.object.0, context)
+        && find_view(&defect, task, context).is_some())
+    .then_some(defect)
 }
 
-fn choose_kind(settings: &DefectSpec, element: Element, draw: f64) -> Option<u32> {
+fn choose_code(settings: &DefectSpec, element: Element, draw: f64) -> Option<u32> {
     if !settings.elements.is_empty() && !settings.elements.contains(&element) {
         return None;
     }
@@ -176,7 +179,7 @@ fn choose_kind(settings: &DefectSpec, element: Element, draw: f64) -> Option<u32
 
 /// Returns the direction of a defect's longest dimension. Stains run down walls; corrosion, exposed reinforcement and connection
 /// defects follow the member; all others have a random angle.
-fn along(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
+fn defect_direction(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     let down = Vec3::new(0.0, 0.0, -1.0);
     let downhill = down - face.normal * face.normal.dot(down);
     let long = face.long_axis();
@@ -191,7 +194,7 @@ fn along(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
 }
 
 /// Returns the ends of a defect's length and of its width, each extended by a margin.
-fn ends(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
+fn end_points(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
     let across = defect.normal.cross(defect.along);
     let (l, w) = (0.5 * defect.length_m + margin_m, 0.5 * defect.width_m + margin_m);
     let c = defect.position_m;
@@ -199,44 +202,45 @@ fn ends(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
 }
 
 /// Returns true if the defect and its margin are entirely inside the face.
-fn has_room(defect: &PlacedDefect, face: &MemberFace) -> bool {
-    ends(defect, MARGIN_M).iter().all(|p| face.inset_m(*p) > 0.0)
+fn fits_in_face(defect: &PlacedDefect, face: &MemberFace) -> bool {
+    end_points(defect, EDGE_MARGIN_M).iter().all(|p| face.edge_distance_m(*p) > 0.0)
 }
 
 /// Returns true if no other member covers the defect or touches its surroundings. Rays from slightly above the center and the
 /// ends of the defect must hit this member first.
-fn exposed(defect: &PlacedDefect, object: u32, ground: &PlacementContext) -> bool {
-    let mut points = ends(defect, MARGIN_M).to_vec();
+fn is_exposed(defect: &PlacedDefect, object: u32, context: &PlacementContext) -> bool {
+    let mut points = end_points(defect, EDGE_MARGIN_M).to_vec();
     points.push(defect.position_m);
     points.iter().all(|p| {
-        let above = *p + defect.normal * ROOM_M;
-        let room_up = (ground.cast)(*p + defect.normal * 0.005, defect.normal, ROOM_M).is_none();
-        let back = (ground.cast)(above, -defect.normal, ROOM_M + 0.01);
-        room_up && back.is_some_and(|h| h.object.0 == object && (h.distance_m - ROOM_M).abs() < 0.002)
+        let above = *p + defect.normal * FREE_SPACE_M;
+        let room_up = (context.cast)(*p + defect.normal * 0.005, defect.normal, FREE_SPACE_M).is_none();
+        let back = (context.cast)(above, -defect.normal, FREE_SPACE_M + 0.01);
+        room_up && back.is_some_and(|h| h.object.0 == object && (h.distance_m - FREE_SPACE_M).abs() < 0.002)
     })
 }
 
 /// Returns a camera pose within the task's threshold of its path, with sufficient clearance, from which the reference camera
 /// captures the defect; `None` if no candidate qualifies.
 #[must_use]
-pub fn best_view(defect: &PlacedDefect, task: &Task, ground: &PlacementContext) -> Option<CameraPose> {
+pub fn find_view(defect: &PlacedDefect, task: &Task, context: &PlacementContext) -> Option<CameraPose> {
     let mut order: Vec<usize> = (0..task.path_m.len()).collect();
     order.sort_by(|a, b| {
         let d = |k: usize| (task.path_m[k] - defect.position_m).norm_squared();
         d(*a).total_cmp(&d(*b)).then(a.cmp(b))
     });
-    order.iter().step_by(2).take(PLACES).find_map(|k| {
-        APPROACH.iter().find_map(|share| {
+    order.iter().step_by(2).take(CANDIDATE_POINTS).find_map(|k| {
+        APPROACH_FRACTIONS.iter().find_map(|share| {
             let to = defect.position_m - task.path_m[*k];
-            let step = (share * task.threshold_m).min(to.norm() - CLEARANCE_M).max(0.0);
+            let step = (share * task.threshold_m).min(to.norm() - CAMERA_CLEARANCE_M).max(0.0);
             let pose = camera_aimed_at(task.path_m[*k] + to.unit() * step, defect.position_m);
             // Checks the cheapest conditions first: line of sight and pixels, then clearance, then light.
-            let bright = visibility::judge(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), ground.cast, &|_, _| 1e9);
-            let air = || (ground.clearance_m)(pose.position_m) >= CLEARANCE_M;
+            let bright =
+                visibility::evaluate_defect(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), context.cast, &|_, _| 1e9);
+            let air = || (context.clearance_m)(pose.position_m) >= CAMERA_CLEARANCE_M;
             let lit = || {
                 let lamp = visibility::lamp_lux(&REFERENCE_LAMP, &pose, defect.position_m, defect.normal);
                 let needed = visibility::needed_lux(&REFERENCE_CAMERA);
-                lamp >= needed || lamp + (ground.ambient)(defect.position_m, defect.normal) >= needed
+                lamp >= needed || lamp + (context.ambient)(defect.position_m, defect.normal) >= needed
             };
             (bright.is_some_and(|v| v.hit) && air() && lit()).then_some(pose)
         })
@@ -252,23 +256,23 @@ fn camera_aimed_at(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
 }
 
 /// Draws a direction uniformly within a cone about an axis.
-fn in_cone(axis: Vec3<Enu>, half_angle_rad: f64, stream: &mut RandomStream) -> Vec3<Enu> {
+fn draw_direction_in_cone(axis: Vec3<Enu>, half_angle_rad: f64, stream: &mut RandomStream) -> Vec3<Enu> {
     let z = stream.range(math::cos(half_angle_rad), 1.0);
     let (s, c) = math::sin_cos(stream.range(0.0, math::TAU));
     let r = (1.0 - z * z).max(0.0).sqrt();
     let axis = axis.unit();
-    let (a, b) = tangents(axis);
+    let (a, b) = tangent_vectors(axis);
     a * (r * c) + b * (r * s) + axis * z
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::boxes::OrientedBox;
-    use super::super::queries::{ObjectId, RayHit};
+    use super::super::query_types::{ObjectId, RayHit};
     use super::*;
     use crate::scenario::bridges::Solid;
 
-    const SEEDS: u64 = 50;
+    const SEED_COUNT: u64 = 50;
 
     /// Creates a box-shaped member between two corners. Faces are counterclockwise seen from outside.
     fn member(name: &str, element: Element, low: [f64; 3], high: [f64; 3]) -> Member {
@@ -313,7 +317,7 @@ mod tests {
                 let (a, b) = (m.solid.vertices_m[0], m.solid.vertices_m[7]);
                 let half = (b - a) * 0.5;
                 let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
-                OrientedBox { centre_m: (a + b) * 0.5, axes, half_m: half.array() }
+                OrientedBox { center_m: (a + b) * 0.5, axes, half_m: half.array() }
             })
             .collect()
     }
@@ -323,7 +327,7 @@ mod tests {
     }
 
     /// Calls `with` with the placement context and the boxes of the test site, under the given ambient illuminance.
-    fn on_ground<T>(lux: f64, with: impl FnOnce(&PlacementContext, &[OrientedBox]) -> T) -> T {
+    fn with_test_site<T>(lux: f64, with: impl FnOnce(&PlacementContext, &[OrientedBox]) -> T) -> T {
         let (members, tasks) = (members(), [task()]);
         let solids = solids(&members);
         let cast = |o: Vec3<Enu>, d: Vec3<Enu>, max: f64| {
@@ -341,69 +345,69 @@ mod tests {
         };
         let clearance = |p: Vec3<Enu>| solids.iter().map(|s| s.nearest(p).0).fold(f64::INFINITY, f64::min);
         let ambient = move |_: Vec3<Enu>, _: Vec3<Enu>| lux;
-        let ground =
+        let context =
             PlacementContext { members: &members, tasks: &tasks, cast: &cast, ambient: &ambient, clearance_m: &clearance };
-        with(&ground, &solids)
+        with(&context, &solids)
     }
 
     #[test]
-    fn prop_defects_are_legal_on_the_surface_and_photographable_for_fifty_seeds() {
+    fn prop_defects_are_permitted_on_the_surface_and_photographable() {
         /// Maximum distance of a defect's ends from its member, m.
         const ON_SURFACE_M: f64 = 1e-3;
-        on_ground(1000.0, |ground, solids| {
-            for seed in 0..SEEDS {
-                let placed = place(&settings(), ground, seed);
+        with_test_site(1000.0, |context, solids| {
+            for seed in 0..SEED_COUNT {
+                let placed = place_defects(&settings(), context, seed);
                 assert_eq!(placed.len(), 10, "seed {seed}");
                 for d in &placed {
                     assert!(d.element.permitted_defects().contains(&d.kind), "{d:?}");
-                    let k = ground.members.iter().position(|m| m.name == d.member).expect("a member of the site");
-                    assert_eq!(ground.members[k].element, d.element);
-                    for p in ends(d, 0.0).iter().chain([&d.position_m]) {
+                    let k = context.members.iter().position(|m| m.name == d.member).expect("a member of the site");
+                    assert_eq!(context.members[k].element, d.element);
+                    for p in end_points(d, 0.0).iter().chain([&d.position_m]) {
                         assert!(solids[k].nearest(*p).0.abs() < ON_SURFACE_M, "{d:?}");
                         let covered = solids.iter().enumerate().any(|(j, s)| j != k && s.nearest(*p).0 < ON_SURFACE_M);
                         assert!(!covered, "covered by another member: {d:?}");
                     }
-                    let pose = best_view(d, &ground.tasks[0], ground).expect("photographable");
+                    let pose = find_view(d, &context.tasks[0], context).expect("photographable");
                     let near = |p: &Vec3<Enu>| (*p - pose.position_m).norm();
-                    let off = ground.tasks[0].path_m.iter().map(near).fold(f64::INFINITY, f64::min);
-                    assert!(off <= ground.tasks[0].threshold_m, "{off} m off the path");
+                    let off = context.tasks[0].path_m.iter().map(near).fold(f64::INFINITY, f64::min);
+                    assert!(off <= context.tasks[0].threshold_m, "{off} m off the path");
                 }
             }
         });
     }
 
     #[test]
-    fn prop_other_seeds_give_other_places_and_the_same_seed_the_same() {
-        on_ground(1000.0, |ground, _| {
-            let all: Vec<_> = (0..SEEDS).map(|seed| place(&settings(), ground, seed)).collect();
+    fn prop_positions_depend_on_the_seed() {
+        with_test_site(1000.0, |context, _| {
+            let all: Vec<_> = (0..SEED_COUNT).map(|seed| place_defects(&settings(), context, seed)).collect();
             for (k, a) in all.iter().enumerate() {
                 assert!(all[k + 1..].iter().all(|b| a.iter().all(|d| b.iter().all(|e| d.position_m != e.position_m))));
             }
-            assert_eq!(all[7], place(&settings(), ground, 7));
+            assert_eq!(all[7], place_defects(&settings(), context, 7));
         });
     }
 
     #[test]
-    fn prop_elements_and_kinds_are_respected_and_a_resolved_file_is_kept() {
-        on_ground(1000.0, |ground, _| {
+    fn prop_placement_respects_elements_codes_and_resolved_files() {
+        with_test_site(1000.0, |context, _| {
             let cracks = DefectSpec { elements: vec![Element::RcPierWall], kinds: vec![defect_codes::CRACK], ..settings() };
-            let placed = place(&cracks, ground, 3);
+            let placed = place_defects(&cracks, context, 3);
             assert_eq!(placed.len(), 10);
             assert!(placed.iter().all(|d| d.element == Element::RcPierWall && d.kind == defect_codes::CRACK && d.line));
             let resolved = DefectSpec { placed: Some(placed[..2].to_vec()), ..settings() };
-            assert_eq!(place(&resolved, ground, 99), placed[..2].to_vec());
+            assert_eq!(place_defects(&resolved, context, 99), placed[..2].to_vec());
             let illegal = DefectSpec { elements: vec![Element::SteelGirder], kinds: vec![defect_codes::CRACK], ..settings() };
-            assert!(place(&illegal, ground, 3).is_empty());
+            assert!(place_defects(&illegal, context, 3).is_empty());
         });
     }
 
     #[test]
-    fn prop_in_the_dark_only_places_within_the_lamps_reach_are_used() {
-        on_ground(0.0, |ground, _| {
-            let placed = place(&settings(), ground, 5);
+    fn prop_dark_sites_have_defects_only_within_lamp_range() {
+        with_test_site(0.0, |context, _| {
+            let placed = place_defects(&settings(), context, 5);
             assert_eq!(placed.len(), 10);
             for d in &placed {
-                let pose = best_view(d, &ground.tasks[0], ground).expect("photographable");
+                let pose = find_view(d, &context.tasks[0], context).expect("photographable");
                 let lamp = visibility::lamp_lux(&REFERENCE_LAMP, &pose, d.position_m, d.normal);
                 assert!(lamp >= visibility::needed_lux(&REFERENCE_CAMERA), "{lamp} lx");
             }
@@ -411,7 +415,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_reference_covers_itself_and_each_shortfall_is_named() {
+    fn exact_shortfalls_of_camera_and_lamp_are_listed() {
         assert!(reference_shortfalls(&REFERENCE_CAMERA, &REFERENCE_LAMP).is_empty());
         let coarse = Camera { width_px: 1920, gimbal_pitch_max_rad: 0.5, ..REFERENCE_CAMERA };
         let dark = Lamp { flux_lm: 0.0, ..REFERENCE_LAMP };
@@ -421,12 +425,14 @@ mod tests {
     }
 
     #[test]
-    fn prop_catalogue_sizes_keep_their_condition_states_apart() {
-        for kind in defect_codes::KINDS {
-            let (fair, poor) = (defect_codes::sizes(*kind, 2), defect_codes::sizes(*kind, 3));
+    fn prop_size_ranges_differ_by_condition_state() {
+        for kind in defect_codes::ALL {
+            let (fair, poor) = (defect_codes::size_ranges(*kind, 2), defect_codes::size_ranges(*kind, 3));
             assert!(fair.length_m.0 > 0.0 && fair.length_m.0 < fair.length_m.1);
             assert!(poor.length_m.1 > fair.length_m.1, "{kind}");
         }
-        assert!(defect_codes::sizes(defect_codes::CRACK, 2).width.1 < defect_codes::sizes(defect_codes::CRACK, 3).width.0);
+        assert!(
+            defect_codes::size_ranges(defect_codes::CRACK, 2).width.1 < defect_codes::size_ranges(defect_codes::CRACK, 3).width.0
+        );
     }
 }

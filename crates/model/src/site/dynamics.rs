@@ -4,7 +4,7 @@
 use super::camera_pose::CameraPose;
 use super::defects::{self, PlacementContext};
 use super::light::{LightModel, RayCast};
-use super::queries::{NearestPoint, QueryTime, RayHit};
+use super::query_types::{NearestPoint, QueryTime, RayHit};
 use super::traffic::TrafficPlan;
 use super::visibility::{self, DefectView};
 use crate::frames::{Enu, Vec3};
@@ -39,10 +39,10 @@ impl Dynamics {
     pub fn build(scenario: &Scenario, seed: u64, members: &[Member], lanes: &[Lane], still: StaticQueries) -> Self {
         let light = LightModel::new(&scenario.light, scenario.origin);
         let ambient = |p, n| light.ambient_lux(p, Some(n), SimTime::ZERO, still.cast);
-        let clearance = |p| (still.nearest)(p, defects::CLEARANCE_M).map_or(f64::INFINITY, |n| n.distance_m);
+        let clearance = |p| (still.nearest)(p, defects::CAMERA_CLEARANCE_M).map_or(f64::INFINITY, |n| n.distance_m);
         let ground =
             PlacementContext { members, tasks: &scenario.tasks, cast: still.cast, ambient: &ambient, clearance_m: &clearance };
-        let placed = defects::place(&scenario.defects, &ground, seed);
+        let placed = defects::place_defects(&scenario.defects, &ground, seed);
         Self { traffic: TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed), light, defects: placed }
     }
 
@@ -67,13 +67,20 @@ impl Dynamics {
         self.traffic.ray(origin_m, direction, reach, at).or(still)
     }
 
-    /// Returns the visibility of each defect within [`visibility::REACH_M`] in front of the camera. Traffic can block the view,
+    /// Returns the visibility of each defect within [`visibility::MAX_RANGE_M`] in front of the camera. Traffic can block the view,
     /// but casts no shadows.
     #[must_use]
-    pub fn look(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime, still: RayCast) -> Vec<DefectView> {
+    pub fn view_defects(
+        &self,
+        pose: &CameraPose,
+        camera: &Camera,
+        lamp: &Lamp,
+        at: QueryTime,
+        still: RayCast,
+    ) -> Vec<DefectView> {
         let cast = |o, d, max| self.ray(still(o, d, max), o, d, max, at);
         let ambient = |p, n| self.light.ambient_lux(p, Some(n), at, still);
-        self.defects.iter().filter_map(|d| visibility::judge(d, pose, (camera, lamp), &cast, &ambient)).collect()
+        self.defects.iter().filter_map(|d| visibility::evaluate_defect(d, pose, (camera, lamp), &cast, &ambient)).collect()
     }
 }
 
@@ -86,13 +93,13 @@ mod tests {
     use crate::scenario::*;
 
     /// Number of seeds for which the placement is checked.
-    const SEEDS: u64 = 50;
+    const SEED_COUNT: u64 = 50;
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 
     fn bridges() -> Vec<Bridge> {
         let at = |name: &str, north: f64, kind| Bridge {
             name: name.into(),
-            centre_m: Vec3::new(0.0, north, 45.0),
+            center_m: Vec3::new(0.0, north, 45.0),
             heading_deg: 80.0,
             kind,
         };
@@ -155,7 +162,7 @@ mod tests {
             time_max_s: 1500.0,
             beta: 1.0,
             exact_path: false,
-            task_done_share: 0.8,
+            task_completion_fraction: 0.8,
             clearance_m: 1.5,
         };
         (rules, feedback, scoring)
@@ -208,16 +215,16 @@ mod tests {
     }
 
     #[test]
-    fn prop_on_both_bridges_defects_are_legal_on_the_surface_spread_and_photographable() {
+    fn prop_defects_on_both_bridges_are_valid_and_photographable() {
         /// Maximum distance of a defect from its member, m.
         const ON_SURFACE_M: f64 = 1e-3;
         let mut scenario = scenario(0.5);
         let mut all: Vec<[f64; 3]> = Vec::new();
-        for seed in 0..SEEDS {
+        for seed in 0..SEED_COUNT {
             let site = Site::build(&scenario, seed);
             let still = site.cast();
             let ambient = |p, n| site.ambient_lux(p, Some(n), SimTime::ZERO);
-            let clearance = |p| site.geometry().nearest(p, defects::CLEARANCE_M).map_or(f64::INFINITY, |n| n.distance_m);
+            let clearance = |p| site.geometry().nearest(p, defects::CAMERA_CLEARANCE_M).map_or(f64::INFINITY, |n| n.distance_m);
             let ground = PlacementContext {
                 members: site.members(),
                 tasks: &scenario.tasks,
@@ -233,13 +240,13 @@ mod tests {
                 assert_eq!(site.members()[k].element, d.element);
                 let near = site.geometry().shape(k).expect("has a shape").nearest(d.position_m);
                 assert!(near.distance_m.abs() < ON_SURFACE_M, "{d:?}");
-                let views = (0..4).filter(|t| defects::best_view(d, &scenario.tasks[*t], &ground).is_some());
+                let views = (0..4).filter(|t| defects::find_view(d, &scenario.tasks[*t], &ground).is_some());
                 let first = views.fold(None, |first, t| {
                     per_task[t] += 1;
                     first.or(Some(t))
                 });
                 let task = &scenario.tasks[first.expect("photographable from a task's path")];
-                let pose = defects::best_view(d, task, &ground).expect("found above");
+                let pose = defects::find_view(d, task, &ground).expect("found above");
                 let shown = site.view_defects(&pose, &defects::REFERENCE_CAMERA, &defects::REFERENCE_LAMP, SimTime::ZERO);
                 let view = shown.iter().find(|v| v.defect_id == d.id).expect("listed");
                 let traffic = site.ray(pose.position_m, pose.forward, view.distance_m - 0.05, SimTime::ZERO);
@@ -268,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn val_light_on_the_bridges_lies_in_the_published_ranges() {
+    fn val_light_on_the_bridges_is_in_the_published_ranges() {
         // docs/src/reference/domain.md, "Light levels": sun 50 to 100 klx (with the sky up to 125), overcast 5 to 20, under a 12
         // m deck with water reflection 200 to 2000 lx (for bright overcast; reflected sun on the lake yields more).
         for (cloud, range) in [(0.0, 50e3..125e3), (1.0, 5e3..20.5e3)] {
@@ -287,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_the_sky_closes_from_the_slabs_side_to_the_interlayer() {
+    fn prop_sky_view_decreases_toward_the_interlayer() {
         let scenario = scenario(0.0);
         let site = Site::build(&scenario, 1);
         let sky = |k: usize| site.sky_view(scenario.tasks[k].path_m[scenario.tasks[k].path_m.len() / 2]);
@@ -295,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_traffic_stands_on_the_decks_and_touches_no_member() {
+    fn prop_traffic_is_on_the_decks_and_clear_of_members() {
         // Vehicles may intersect only the deck: a point 0.3 m above the bottom of every box is free.
         let scenario = scenario(0.0);
         let site = Site::build(&scenario, 4);
@@ -303,7 +310,7 @@ mod tests {
             let at = SimTime::from_s(f64::from(s) * 3.1);
             for (object, _, solid) in site.dynamics.traffic.solids(at) {
                 let [_, _, half_up] = solid.half_m;
-                let free = site.geometry().nearest_member(solid.centre_m + UP * (0.3 - half_up), 1.0);
+                let free = site.geometry().nearest_member(solid.center_m + UP * (0.3 - half_up), 1.0);
                 assert!(free.is_none_or(|n| n.distance_m > 0.0), "{} in {free:?}", site.object_name(object));
             }
         }

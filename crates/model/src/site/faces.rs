@@ -15,16 +15,16 @@ pub(super) struct MemberFace {
 /// Returns the face of a solid that contains a point, with the point projected onto its plane; `None` if there is none.
 pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
     /// Maximum distance at which a point counts as on a face, m.
-    const ON_FACE_M: f64 = 0.002;
+    const FACE_TOLERANCE_M: f64 = 0.002;
     let mut best: Option<(f64, MemberFace)> = None;
     for indices in &solid.faces {
         let corners_m: Vec<Vec3<Enu>> = indices.iter().filter_map(|k| solid.vertices_m.get(*k as usize).copied()).collect();
-        let normal = newell(&corners_m);
+        let normal = polygon_normal(&corners_m);
         let Some(corner) = corners_m.first() else { continue };
         let off = (point_m - *corner).dot(normal);
         let face = MemberFace { point_m: point_m - normal * off, normal, corners_m };
-        let apart = off.abs().max(-face.inset_m(face.point_m));
-        if apart < best.as_ref().map_or(ON_FACE_M, |b| b.0) {
+        let apart = off.abs().max(-face.edge_distance_m(face.point_m));
+        if apart < best.as_ref().map_or(FACE_TOLERANCE_M, |b| b.0) {
             best = Some((apart, face));
         }
     }
@@ -32,14 +32,14 @@ pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
 }
 
 /// Returns the unit normal of a planar polygon by Newell's method, which is robust against collinear corners.
-fn newell(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
+fn polygon_normal(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
     let count = corners_m.len();
     (0..count).fold(Vec3::zero(), |sum, k| sum + corners_m[k].cross(corners_m[(k + 1) % count])).unit()
 }
 
 impl MemberFace {
     /// Returns the distance from a point in the plane of the face to the nearest edge, m; negative outside the face.
-    pub(super) fn inset_m(&self, point_m: Vec3<Enu>) -> f64 {
+    pub(super) fn edge_distance_m(&self, point_m: Vec3<Enu>) -> f64 {
         let count = self.corners_m.len();
         (0..count)
             .map(|k| {

@@ -2,7 +2,7 @@
 //! members; [`Convex`] and [`HeightGrid`](super::heights::HeightGrid) compute the exact results.
 
 use super::convex::{Convex, SurfacePoint};
-use super::queries::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
+use super::query_types::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use super::terrain::Terrain;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
@@ -22,7 +22,7 @@ pub const PAD: ObjectId = ObjectId(900_002);
 
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Thickness of the landing pad, m. Its upper surface is 0.05 m above the ground.
-const PAD_THICK_M: f64 = 0.3;
+const PAD_THICKNESS_M: f64 = 0.3;
 
 /// Static geometry of a site, with its spatial queries.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ fn vector(v: Vec3<Enu>) -> Vector {
 /// A leaf found in the bounding-volume tree, ordered by distance.
 struct LeafHit<T> {
     distance_m: f64,
-    what: T,
+    result: T,
 }
 
 impl<T> BvhLeafCost for LeafHit<T> {
@@ -92,7 +92,7 @@ impl Geometry {
         self.shapes.get(member)
     }
 
-    fn over_pad(&self, p: Vec3<Enu>) -> bool {
+    fn is_over_pad(&self, p: Vec3<Enu>) -> bool {
         (p.east() - self.pad_m.east()).abs() <= self.pad_half_m && (p.north() - self.pad_m.north()).abs() <= self.pad_half_m
     }
 
@@ -100,7 +100,7 @@ impl Geometry {
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
         let height = self.terrain.ground.ground(east_m, north_m).0;
-        if self.over_pad(Vec3::new(east_m, north_m, 0.0)) { height.max(self.pad_m.up()) } else { height }
+        if self.is_over_pad(Vec3::new(east_m, north_m, 0.0)) { height.max(self.pad_m.up()) } else { height }
     }
 
     /// Returns the nearest member within `max_m`.
@@ -116,10 +116,10 @@ impl Geometry {
         };
         let to_member = |leaf: u32, best_m: f64| {
             let near = self.shapes[leaf as usize].nearest(p);
-            (near.distance_m < best_m).then_some(LeafHit { distance_m: near.distance_m, what: near })
+            (near.distance_m < best_m).then_some(LeafHit { distance_m: near.distance_m, result: near })
         };
         let (leaf, found) = self.tree.find_best(limit, to_box, to_member)?;
-        let SurfacePoint { distance_m, point_m, normal } = found.what;
+        let SurfacePoint { distance_m, point_m, normal } = found.result;
         Some(NearestPoint { distance_m, point_m, normal, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
@@ -136,8 +136,9 @@ impl Geometry {
             }
             best.map_or(max_m, |b| b.distance_m)
         };
-        let reach = offer(Some(self.over_water(p)), Surface::Water, WATER);
-        let reach = if self.over_pad(p) { reach } else { offer(self.terrain.ground.nearest(p, reach), Surface::Terrain, GROUND) };
+        let reach = offer(Some(self.water_point(p)), Surface::Water, WATER);
+        let reach =
+            if self.is_over_pad(p) { reach } else { offer(self.terrain.ground.nearest(p, reach), Surface::Terrain, GROUND) };
         self.nearest_member(p, reach).or(best)
     }
 
@@ -146,7 +147,7 @@ impl Geometry {
     #[must_use]
     pub fn free_radius(&self, p: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let slab = self.pad_shape.nearest(p).distance_m.min(max_m);
-        let reach = self.terrain.ground.nearest(p, slab).map_or(slab, |near| near.distance_m).min(self.over_water(p).distance_m);
+        let reach = self.terrain.ground.nearest(p, slab).map_or(slab, |near| near.distance_m).min(self.water_point(p).distance_m);
         let free = self.nearest_member(p, reach).map_or(reach, |near| near.distance_m);
         (free < max_m).then_some(free)
     }
@@ -154,8 +155,8 @@ impl Geometry {
     /// Returns the point of a segment with the smallest distance to any surface, and the nearest surface point, if the distance
     /// is below `less_than_m`. The result is accurate to one millimeter.
     #[must_use]
-    pub fn tightest(&self, from: Vec3<Enu>, to: Vec3<Enu>, less_than_m: f64) -> Option<(Vec3<Enu>, NearestPoint)> {
-        const CLOSE_M: f64 = 1e-3;
+    pub fn min_clearance(&self, from: Vec3<Enu>, to: Vec3<Enu>, less_than_m: f64) -> Option<(Vec3<Enu>, NearestPoint)> {
+        const ACCURACY_M: f64 = 1e-3;
         let middle = (from + to) * 0.5;
         let half_m = 0.5 * (to - from).norm();
         // The distance to a surface changes by at most one meter per meter.
@@ -164,15 +165,15 @@ impl Geometry {
             return None;
         }
         let here = (near.distance_m < less_than_m).then_some((middle, near));
-        if half_m <= CLOSE_M {
+        if half_m <= ACCURACY_M {
             return here;
         }
         let limit = |best: &Option<(Vec3<Enu>, NearestPoint)>| best.map_or(less_than_m, |b| b.1.distance_m);
-        let first = self.tightest(from, middle, limit(&here)).or(here);
-        self.tightest(middle, to, limit(&first)).or(first)
+        let first = self.min_clearance(from, middle, limit(&here)).or(here);
+        self.min_clearance(middle, to, limit(&first)).or(first)
     }
 
-    fn over_water(&self, p: Vec3<Enu>) -> SurfacePoint {
+    fn water_point(&self, p: Vec3<Enu>) -> SurfacePoint {
         let distance_m = p.up() - self.terrain.water_m;
         SurfacePoint { distance_m, point_m: p - UP * distance_m, normal: UP }
     }
@@ -210,10 +211,10 @@ impl Geometry {
         };
         let to_member = |leaf: u32, best_m: f64| {
             let (distance_m, normal) = self.shapes[leaf as usize].ray(origin, direction, best_m)?;
-            Some(LeafHit { distance_m, what: normal })
+            Some(LeafHit { distance_m, result: normal })
         };
         let (leaf, found) = self.tree.find_best(max_m.next_up(), to_box, to_member)?;
-        Some(RayHit { distance_m: found.distance_m, normal: found.what, surface: Surface::Bridge, object: ObjectId(leaf) })
+        Some(RayHit { distance_m: found.distance_m, normal: found.result, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
     /// Appends the contacts of a probe with members, ground, landing pad and water.
@@ -222,25 +223,31 @@ impl Geometry {
         let around = Aabb::new(vector(low), vector(high));
         let first = out.len();
         for leaf in self.tree.intersect_aabb(&around) {
-            touch(probe, margin_m, &self.shapes[leaf as usize], (Surface::Bridge, ObjectId(leaf)), out);
+            add_shape_contacts(probe, margin_m, &self.shapes[leaf as usize], (Surface::Bridge, ObjectId(leaf)), out);
         }
         // The search order depends on the shape of the tree, so the contacts are sorted by member.
         out[first..].sort_by_key(|c| c.object.0);
-        if near_pad(&self.pad_shape, low, high) {
-            touch(probe, margin_m, &self.pad_shape, (Surface::Pad, PAD), out);
+        if overlaps_pad(&self.pad_shape, low, high) {
+            add_shape_contacts(probe, margin_m, &self.pad_shape, (Surface::Pad, PAD), out);
         }
-        self.floor_contacts(probe, margin_m, (low, high), out);
+        self.ground_and_water_contacts(probe, margin_m, (low, high), out);
     }
 
-    fn floor_contacts(&self, probe: &HullProbe, margin_m: f64, (low, high): (Vec3<Enu>, Vec3<Enu>), out: &mut Vec<Contact>) {
-        if !self.terrain.ground.lies_under(low, high, low.up()) {
+    fn ground_and_water_contacts(
+        &self,
+        probe: &HullProbe,
+        margin_m: f64,
+        (low, high): (Vec3<Enu>, Vec3<Enu>),
+        out: &mut Vec<Contact>,
+    ) {
+        if !self.terrain.ground.is_below(low, high, low.up()) {
             self.ground_contacts(probe, margin_m, out);
         }
         if low.up() > self.terrain.water_m {
             return;
         }
         for (p, radius) in probe_ends(probe) {
-            let water = self.over_water(p);
+            let water = self.water_point(p);
             // There is water only where the ground is below the water level.
             if water.distance_m <= radius + margin_m && self.terrain.ground.ground(p.east(), p.north()).0 < self.terrain.water_m {
                 out.push(contact(water, radius, Surface::Water, WATER));
@@ -258,21 +265,21 @@ impl Geometry {
             }
         }
         if let HullProbe::Capsule { a_m, b_m, radius_m } = *probe
-            && let Some(near) = self.terrain.ground.between(a_m, b_m, ends_m, radius_m + margin_m)
+            && let Some(near) = self.terrain.ground.interior_minimum(a_m, b_m, ends_m, radius_m + margin_m)
         {
             out.push(contact(near, radius_m, Surface::Terrain, GROUND));
         }
     }
 }
 
-fn pad_slab(centre_m: Vec3<Enu>, half_m: f64) -> Member {
-    let mut builder = MemberBuilder::new("site", Placement::new(centre_m, 90.0));
+fn pad_slab(center_m: Vec3<Enu>, half_m: f64) -> Member {
+    let mut builder = MemberBuilder::new("site", Placement::new(center_m, 90.0));
     // The pad is not part of a bridge and has no element number.
-    builder.block("pad", Element::Unlisted(0), [-half_m, -half_m, -PAD_THICK_M], [half_m, half_m, 0.0]);
+    builder.add_box("pad", Element::Unlisted(0), [-half_m, -half_m, -PAD_THICKNESS_M], [half_m, half_m, 0.0]);
     builder.finish().swap_remove(0)
 }
 
-fn near_pad(pad: &Convex, low: Vec3<Enu>, high: Vec3<Enu>) -> bool {
+fn overlaps_pad(pad: &Convex, low: Vec3<Enu>, high: Vec3<Enu>) -> bool {
     let (pad_low, pad_high) = pad.bounds();
     let apart = |k: usize| low.array()[k] > pad_high.array()[k] || high.array()[k] < pad_low.array()[k];
     !(0..3).any(apart)
@@ -291,7 +298,7 @@ fn contact(near: SurfacePoint, radius_m: f64, surface: Surface, object: ObjectId
 
 fn probe_ends(probe: &HullProbe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
     let (ends, count, radius) = match *probe {
-        HullProbe::Ball { centre_m, radius_m } => ([centre_m, centre_m], 1, radius_m),
+        HullProbe::Ball { center_m, radius_m } => ([center_m, center_m], 1, radius_m),
         HullProbe::Capsule { a_m, b_m, radius_m } => ([a_m, b_m], 2, radius_m),
     };
     ends.into_iter().take(count).map(move |p| (p, radius))
@@ -300,7 +307,7 @@ fn probe_ends(probe: &HullProbe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
 /// Returns the corners of the axis-aligned bounding box of a probe including its margin.
 fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     let (a, b, radius) = match *probe {
-        HullProbe::Ball { centre_m, radius_m } => (centre_m.array(), centre_m.array(), radius_m),
+        HullProbe::Ball { center_m, radius_m } => (center_m.array(), center_m.array(), radius_m),
         HullProbe::Capsule { a_m, b_m, radius_m } => (a_m.array(), b_m.array(), radius_m),
     };
     let reach = radius + margin_m;
@@ -310,18 +317,24 @@ fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
 
 /// Appends the contacts of a probe with one convex shape: one contact for a ball; contacts at both ends of a capsule, and between
 /// the ends if the capsule lies across an edge.
-fn touch(probe: &HullProbe, margin_m: f64, shape: &Convex, (surface, object): (Surface, ObjectId), out: &mut Vec<Contact>) {
+fn add_shape_contacts(
+    probe: &HullProbe,
+    margin_m: f64,
+    shape: &Convex,
+    (surface, object): (Surface, ObjectId),
+    out: &mut Vec<Contact>,
+) {
     let mut offer = |near: SurfacePoint, radius_m: f64| {
         if near.distance_m - radius_m <= margin_m {
             out.push(contact(near, radius_m, surface, object));
         }
     };
     match *probe {
-        HullProbe::Ball { centre_m, radius_m } => offer(shape.nearest(centre_m), radius_m),
+        HullProbe::Ball { center_m, radius_m } => offer(shape.nearest(center_m), radius_m),
         HullProbe::Capsule { a_m, b_m, radius_m } => {
             let ends = [shape.nearest(a_m), shape.nearest(b_m)];
             ends.into_iter().for_each(|near| offer(near, radius_m));
-            if let Some(near) = shape.between(a_m, b_m, [&ends[0], &ends[1]], radius_m + margin_m) {
+            if let Some(near) = shape.interior_minimum(a_m, b_m, [&ends[0], &ends[1]], radius_m + margin_m) {
                 offer(near, radius_m);
             }
         }

@@ -40,28 +40,28 @@ pub fn glb(site: &Site) -> Vec<u8> {
     if let (Some(first), Some(last)) = (corners.first(), corners.last()) {
         let up = geometry.terrain.water_m;
         let water = square([first.east(), first.north()], [last.east(), last.north()], up);
-        parts.add("water", &water, &SQUARE, 2, &json!({ "surface": "water" }));
+        parts.add("water", &water, &SQUARE_TRIANGLES, 2, &json!({ "surface": "water" }));
     }
     let pad = &geometry.pad().solid;
     parts.add("pad", &pad.vertices_m, &pad.triangles(), 3, &json!({ "surface": "pad" }));
-    parts.file()
+    parts.finish()
 }
 
 /// Vertex indices of the two upward-facing triangles of a square.
-const SQUARE: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+const SQUARE_TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
 fn square([west, south]: [f64; 2], [east, north]: [f64; 2], up: f64) -> [Vec3<Enu>; 4] {
     [Vec3::new(west, south, up), Vec3::new(east, south, up), Vec3::new(east, north, up), Vec3::new(west, north, up)]
 }
 
 /// Converts a point from east, north, up to glTF's right-handed axes with y up.
-fn axes(point: &Vec3<Enu>) -> [f32; 3] {
+fn to_gltf_axes(point: &Vec3<Enu>) -> [f32; 3] {
     [point.east() as f32, point.up() as f32, -point.north() as f32]
 }
 
 impl GlbWriter {
     fn add(&mut self, name: &str, corners: &[Vec3<Enu>], triangles: &[[u32; 3]], material: usize, extras: &Value) {
-        let points: Vec<[f32; 3]> = corners.iter().map(axes).collect();
+        let points: Vec<[f32; 3]> = corners.iter().map(to_gltf_axes).collect();
         let bound = |start: f32, pick: fn(f32, f32) -> f32| {
             points.iter().fold([start; 3], |so_far, p| [pick(so_far[0], p[0]), pick(so_far[1], p[1]), pick(so_far[2], p[2])])
         };
@@ -81,7 +81,7 @@ impl GlbWriter {
         self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
     }
 
-    fn file(self) -> Vec<u8> {
+    fn finish(self) -> Vec<u8> {
         let material = |(name, r, g, b): &(&str, f64, f64, f64)| {
             json!({ "name": name, "pbrMetallicRoughness":
                 { "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9 } })
@@ -102,13 +102,13 @@ impl GlbWriter {
             "buffers": [{ "byteLength": positions + indices }]
         });
         let binary = [self.positions, self.indices].concat();
-        container(document.to_string().into_bytes(), binary)
+        glb_container(document.to_string().into_bytes(), binary)
     }
 }
 
 /// Builds the GLB container: header, JSON chunk padded with spaces, binary chunk padded with zeros (glTF 2.0 specification,
 /// section 4.4).
-fn container(mut json: Vec<u8>, mut binary: Vec<u8>) -> Vec<u8> {
+fn glb_container(mut json: Vec<u8>, mut binary: Vec<u8>) -> Vec<u8> {
     json.resize(json.len().next_multiple_of(4), b' ');
     binary.resize(binary.len().next_multiple_of(4), 0);
     let length = |bytes: usize| u32::try_from(bytes).unwrap_or(u32::MAX).to_le_bytes();
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn val_another_reader_finds_every_member_with_its_element_and_its_corners() {
+    fn val_gltf_crate_reads_all_members_with_elements_and_vertices() {
         // 32-bit floats represent positions within 1 km to 6e-5 m.
         const ROUNDING_M: f64 = 6e-5;
         let site = Site::build(&two_bridges(), 1);

@@ -2,17 +2,17 @@
 //! Outside the grid, the ground continues horizontally at the heights of the border.
 
 use super::convex::SurfacePoint;
-use super::nearest::{nearest_of_triangle, over_crease};
+use super::nearest_points::{nearest_on_crease, nearest_on_triangle};
 use crate::frames::{Enu, Vec3};
 
 /// Number of cells along each side of a block. Queries use the minimum and maximum heights of blocks to skip cells.
-const BLOCK: i64 = 8;
+const BLOCK_CELLS: i64 = 8;
 /// Maximum distance from the surface at which a point gets the normal of the triangle, m.
-const TOUCHING_M: f64 = 1e-9;
+const CONTACT_TOLERANCE_M: f64 = 1e-9;
 /// Tolerance within which two distances count as equal, m.
-const LEVEL_M: f64 = 1e-7;
+const DISTANCE_TOLERANCE_M: f64 = 1e-7;
 /// Maximum length of a ray, m; scenario files allow terrain of up to 4 km.
-const FARTHEST_M: f64 = 20_000.0;
+const MAX_RAY_LENGTH_M: f64 = 20_000.0;
 
 /// Heights at the corners of square grid cells, each split into two triangles from its southwest to its northeast corner.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +22,7 @@ pub struct HeightGrid {
     spacing_m: f64,
     origin_m: f64,
     blocks: Vec<(f64, f64)>,
-    blocks_a_side: usize,
+    blocks_per_side: usize,
     highest_m: f64,
 }
 
@@ -46,13 +46,13 @@ impl TerrainCell {
     }
 
     /// Returns the slope per cell to the east and to the north of the triangle on the given side of the diagonal.
-    fn rise(&self, south_east: bool) -> (f64, f64) {
+    fn slope(&self, south_east: bool) -> (f64, f64) {
         if south_east { (self.se - self.sw, self.ne - self.se) } else { (self.ne - self.nw, self.nw - self.sw) }
     }
 }
 
 /// Cell and distance at which a ray continues after a skipped block.
-struct RayClearance {
+struct RayPosition {
     column: i64,
     row: i64,
     t: f64,
@@ -64,7 +64,7 @@ fn exit_distance(cell: i64, from: f64, rate: f64) -> f64 {
 }
 
 /// Returns the row or column of a ray after it has crossed all cell sides at distances for which `before` is true.
-fn lane(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i64 {
+fn advance_cell(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i64 {
     let forward = if rate > 0.0 { 1 } else { -1 };
     while before(exit_distance(cell, from, rate)) {
         cell += forward;
@@ -84,24 +84,24 @@ impl HeightGrid {
         assert!(side >= 2 && side * side == heights_m.len(), "{} heights do not form a square grid", heights_m.len());
         let highest_m = heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let origin_m = -0.5 * spacing_m * (side - 1) as f64;
-        let blocks_a_side = (side - 1).div_ceil(BLOCK as usize);
-        let mut grid = Self { heights_m, side, spacing_m, origin_m, blocks: Vec::new(), blocks_a_side, highest_m };
+        let blocks_per_side = (side - 1).div_ceil(BLOCK_CELLS as usize);
+        let mut grid = Self { heights_m, side, spacing_m, origin_m, blocks: Vec::new(), blocks_per_side, highest_m };
         grid.blocks =
-            (0..blocks_a_side * blocks_a_side).map(|k| grid.block_bounds(k / blocks_a_side, k % blocks_a_side)).collect();
+            (0..blocks_per_side * blocks_per_side).map(|k| grid.block_bounds(k / blocks_per_side, k % blocks_per_side)).collect();
         grid
     }
 
     fn block_bounds(&self, block_row: usize, block_column: usize) -> (f64, f64) {
-        let span = |block: usize| block * BLOCK as usize..=((block + 1) * BLOCK as usize).min(self.side - 1);
+        let span = |block: usize| block * BLOCK_CELLS as usize..=((block + 1) * BLOCK_CELLS as usize).min(self.side - 1);
         let heights =
             span(block_row).flat_map(|row| span(block_column).map(move |column| self.heights_m[row * self.side + column]));
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
     }
 
     /// Returns the minimum and maximum height of a block. Blocks outside the grid have the heights of the nearest block inside.
-    fn block(&self, row: i64, column: i64) -> (f64, f64) {
-        let last = self.blocks_a_side as i64 - 1;
-        self.blocks[row.clamp(0, last) as usize * self.blocks_a_side + column.clamp(0, last) as usize]
+    fn block_height_range(&self, row: i64, column: i64) -> (f64, f64) {
+        let last = self.blocks_per_side as i64 - 1;
+        self.blocks[row.clamp(0, last) as usize * self.blocks_per_side + column.clamp(0, last) as usize]
     }
 
     fn cell(&self, column: i64, row: i64) -> TerrainCell {
@@ -114,7 +114,7 @@ impl HeightGrid {
     }
 
     /// Converts a point to grid steps from the southwest corner.
-    fn steps(&self, p: Vec3<Enu>) -> (f64, f64) {
+    fn grid_position(&self, p: Vec3<Enu>) -> (f64, f64) {
         ((p.east() - self.origin_m) / self.spacing_m, (p.north() - self.origin_m) / self.spacing_m)
     }
 
@@ -125,10 +125,10 @@ impl HeightGrid {
     /// Returns the height and upward unit normal of the ground at a point.
     #[must_use]
     pub fn ground(&self, east_m: f64, north_m: f64) -> (f64, Vec3<Enu>) {
-        let (x, y) = self.steps(Vec3::new(east_m, north_m, 0.0));
+        let (x, y) = self.grid_position(Vec3::new(east_m, north_m, 0.0));
         let cell = self.cell(x.floor() as i64, y.floor() as i64);
         let (u, v) = (x - x.floor(), y - y.floor());
-        let rise = cell.rise(u >= v);
+        let rise = cell.slope(u >= v);
         (cell.sw + u * rise.0 + v * rise.1, self.normal(rise))
     }
 
@@ -138,7 +138,7 @@ impl HeightGrid {
     pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<SurfacePoint> {
         let (height, normal) = self.ground(p.east(), p.north());
         let above = p.up() - height;
-        if !above.is_finite() || above * normal.up() > FARTHEST_M {
+        if !above.is_finite() || above * normal.up() > MAX_RAY_LENGTH_M {
             return None;
         }
         let below = above < 0.0;
@@ -152,14 +152,14 @@ impl HeightGrid {
         }
         let distance = (p - best.1).norm();
         let signed = if below { -distance } else { distance };
-        let normal = if distance > TOUCHING_M { (p - best.1) / signed } else { normal };
+        let normal = if distance > CONTACT_TOLERANCE_M { (p - best.1) / signed } else { normal };
         Some(SurfacePoint { distance_m: signed, point_m: best.1, normal })
     }
 
     /// Returns true only if the ground is below `up_m` everywhere in a rectangle. May return false near the limit.
     #[must_use]
-    pub fn lies_under(&self, low: Vec3<Enu>, high: Vec3<Enu>, up_m: f64) -> bool {
-        let ((west, south), (east, north)) = (self.steps(low), self.steps(high));
+    pub fn is_below(&self, low: Vec3<Enu>, high: Vec3<Enu>, up_m: f64) -> bool {
+        let ((west, south), (east, north)) = (self.grid_position(low), self.grid_position(high));
         (south.floor() as i64..=north.floor() as i64)
             .all(|row| (west.floor() as i64..=east.floor() as i64).all(|column| self.cell(column, row).highest() < up_m))
     }
@@ -167,8 +167,8 @@ impl HeightGrid {
     /// Returns the point on a crease of the ground that is nearest to a segment across a ridge, if it is nearer than `enough_m`
     /// and nearer than both ends of the segment. `ends_m` is the smaller distance of the two ends.
     #[must_use]
-    pub fn between(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends_m: f64, enough_m: f64) -> Option<SurfacePoint> {
-        let ((xa, ya), (xb, yb)) = (self.steps(a), self.steps(b));
+    pub fn interior_minimum(&self, a: Vec3<Enu>, b: Vec3<Enu>, ends_m: f64, enough_m: f64) -> Option<SurfacePoint> {
+        let ((xa, ya), (xb, yb)) = (self.grid_position(a), self.grid_position(b));
         let reach = enough_m / self.spacing_m;
         let range = |a: f64, b: f64| ((a.min(b) - reach).floor() as i64)..=((a.max(b) + reach).floor() as i64 + 1);
         let mut nearest: Option<(f64, SurfacePoint)> = None;
@@ -182,29 +182,31 @@ impl HeightGrid {
                 let sw = corner(0, 0, cell.sw);
                 for to in [corner(1, 0, cell.se), corner(0, 1, cell.nw), corner(1, 1, cell.ne)] {
                     // Creases that the segment penetrates take precedence, the deepest first.
-                    let (rank, near) = over_crease((a, b), (sw, to));
-                    if near.distance_m.abs() > TOUCHING_M && nearest.is_none_or(|n| rank < n.0) {
+                    let (rank, near) = nearest_on_crease((a, b), (sw, to));
+                    if near.distance_m.abs() > CONTACT_TOLERANCE_M && nearest.is_none_or(|n| rank < n.0) {
                         nearest = Some((rank, near));
                     }
                 }
             }
         }
-        nearest.map(|n| n.1).filter(|n| n.distance_m < enough_m.min(ends_m - LEVEL_M))
+        nearest.map(|n| n.1).filter(|n| n.distance_m < enough_m.min(ends_m - DISTANCE_TOLERANCE_M))
     }
 
     fn search(&self, p: Vec3<Enu>, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
-        let (x, y) = self.steps(p);
+        let (x, y) = self.grid_position(p);
         let reach = best.0.sqrt() / self.spacing_m;
         let range = |at: f64| ((at - reach).floor() as i64, (at + reach).floor() as i64);
         let ((west, east), (south, north)) = (range(x), range(y));
-        for block_row in south.div_euclid(BLOCK)..=north.div_euclid(BLOCK) {
-            for block_column in west.div_euclid(BLOCK)..=east.div_euclid(BLOCK) {
-                let whole = (block_column * BLOCK, block_row * BLOCK, BLOCK);
-                if self.gap_squared(p, whole, self.block(block_row, block_column)) >= best.0 {
+        for block_row in south.div_euclid(BLOCK_CELLS)..=north.div_euclid(BLOCK_CELLS) {
+            for block_column in west.div_euclid(BLOCK_CELLS)..=east.div_euclid(BLOCK_CELLS) {
+                let whole = (block_column * BLOCK_CELLS, block_row * BLOCK_CELLS, BLOCK_CELLS);
+                if self.squared_distance_to_box(p, whole, self.block_height_range(block_row, block_column)) >= best.0 {
                     continue;
                 }
-                for row in (block_row * BLOCK).max(south)..=(block_row * BLOCK + BLOCK - 1).min(north) {
-                    for column in (block_column * BLOCK).max(west)..=(block_column * BLOCK + BLOCK - 1).min(east) {
+                for row in (block_row * BLOCK_CELLS).max(south)..=(block_row * BLOCK_CELLS + BLOCK_CELLS - 1).min(north) {
+                    for column in
+                        (block_column * BLOCK_CELLS).max(west)..=(block_column * BLOCK_CELLS + BLOCK_CELLS - 1).min(east)
+                    {
                         self.search_cell(p, &self.cell(column, row), best, found);
                     }
                 }
@@ -214,7 +216,7 @@ impl HeightGrid {
 
     /// Returns the squared distance from a point to the box over a square of cells (column, row, cells per side) between two
     /// heights.
-    fn gap_squared(&self, p: Vec3<Enu>, (column, row, cells): (i64, i64, i64), (low, high): (f64, f64)) -> f64 {
+    fn squared_distance_to_box(&self, p: Vec3<Enu>, (column, row, cells): (i64, i64, i64), (low, high): (f64, f64)) -> f64 {
         let west = self.origin_m + column as f64 * self.spacing_m;
         let south = self.origin_m + row as f64 * self.spacing_m;
         let side = cells as f64 * self.spacing_m;
@@ -225,7 +227,7 @@ impl HeightGrid {
     }
 
     fn search_cell(&self, p: Vec3<Enu>, cell: &TerrainCell, best: &mut (f64, Vec3<Enu>), found: &mut bool) {
-        if self.gap_squared(p, (cell.column, cell.row, 1), (cell.lowest(), cell.highest())) >= best.0 {
+        if self.squared_distance_to_box(p, (cell.column, cell.row, 1), (cell.lowest(), cell.highest())) >= best.0 {
             return;
         }
         let west = self.origin_m + cell.column as f64 * self.spacing_m;
@@ -234,7 +236,7 @@ impl HeightGrid {
         let sw = Vec3::new(west, south, cell.sw);
         let ne = Vec3::new(east, north, cell.ne);
         for other in [Vec3::new(east, south, cell.se), Vec3::new(west, north, cell.nw)] {
-            let q = nearest_of_triangle(p, sw, ne, other);
+            let q = nearest_on_triangle(p, sw, ne, other);
             let d = (p - q).norm_squared();
             if d < best.0 {
                 *best = (d, q);
@@ -259,21 +261,21 @@ impl HeightGrid {
             (false, true) => (0.0, max_m),
             (false, false) => (0.0, if direction.up() > 0.0 { max_m.min(to_top) } else { max_m }),
         };
-        let (start, end) = (start.max(0.0), end.min(FARTHEST_M));
+        let (start, end) = (start.max(0.0), end.min(MAX_RAY_LENGTH_M));
         // A nearly level ray can reach the maximum ground height so far away that cell indices would overflow.
         if start < end { self.walk_cells(origin, direction, start, end) } else { None }
     }
 
     /// Tests the cells below a ray in order, from distance `start` to `end`.
     fn walk_cells(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> Option<(f64, Vec3<Enu>)> {
-        let (x0, y0) = self.steps(origin);
+        let (x0, y0) = self.grid_position(origin);
         let (dx, dy) = (direction.east() / self.spacing_m, direction.north() / self.spacing_m);
         let mut column = (x0 + dx * start).floor() as i64;
         let mut row = (y0 + dy * start).floor() as i64;
         let (mut next_x, mut next_y) = (exit_distance(column, x0, dx), exit_distance(row, y0, dy));
         let mut t = start;
         while t < end {
-            if let Some(over) = self.over_block((origin, direction), (x0, y0), (dx, dy), (column, row), (t, end)) {
+            if let Some(over) = self.skip_block((origin, direction), (x0, y0), (dx, dy), (column, row), (t, end)) {
                 if over.t >= end {
                     return None;
                 }
@@ -304,32 +306,32 @@ impl HeightGrid {
 
     /// Skips the rest of a block if the ray is entirely above its ground. The walk continues at the same cell as if it had tested
     /// every cell.
-    fn over_block(
+    fn skip_block(
         &self,
         (origin, direction): (Vec3<Enu>, Vec3<Enu>),
         from: (f64, f64),
         rate: (f64, f64),
         cell: (i64, i64),
         (t, end): (f64, f64),
-    ) -> Option<RayClearance> {
-        let block = (cell.0.div_euclid(BLOCK), cell.1.div_euclid(BLOCK));
+    ) -> Option<RayPosition> {
+        let block = (cell.0.div_euclid(BLOCK_CELLS), cell.1.div_euclid(BLOCK_CELLS));
         // The last cell of the block along one axis.
-        let last = |block: i64, rate: f64| block * BLOCK + if rate > 0.0 { BLOCK - 1 } else { 0 };
+        let last = |block: i64, rate: f64| block * BLOCK_CELLS + if rate > 0.0 { BLOCK_CELLS - 1 } else { 0 };
         let (last_column, last_row) = (last(block.0, rate.0), last(block.1, rate.1));
         let (out_x, out_y) = (exit_distance(last_column, from.0, rate.0), exit_distance(last_row, from.1, rate.1));
         let leave = out_x.min(out_y).min(end).max(t);
         let low = (origin.up() + direction.up() * t).min(origin.up() + direction.up() * leave);
-        if low <= self.block(block.1, block.0).1 {
+        if low <= self.block_height_range(block.1, block.0).1 {
             return None;
         }
         let forward = |rate: f64| if rate > 0.0 { 1 } else { -1 };
         let (column, row) = if out_x <= out_y {
             // If the ray passes through a corner, it crosses the eastern or western side first.
-            (last_column + forward(rate.0), lane(cell.1, from.1, rate.1, |side| side < out_x))
+            (last_column + forward(rate.0), advance_cell(cell.1, from.1, rate.1, |side| side < out_x))
         } else {
-            (lane(cell.0, from.0, rate.0, |side| side <= out_y), last_row + forward(rate.1))
+            (advance_cell(cell.0, from.0, rate.0, |side| side <= out_y), last_row + forward(rate.1))
         };
-        Some(RayClearance { column, row, t: leave })
+        Some(RayPosition { column, row, t: leave })
     }
 
     /// Returns distance and normal at the first point between two distances at which the ray is not above the cell's two
@@ -347,7 +349,7 @@ impl HeightGrid {
         let cross = if turn == 0.0 { enter } else { ((v - u) / turn).clamp(enter, leave) };
         for (a, b) in [(enter, cross), (cross, leave)] {
             let middle = at(0.5 * (a + b));
-            let rise = cell.rise(middle.0 >= middle.1);
+            let rise = cell.slope(middle.0 >= middle.1);
             let over = |t: f64| from[2] + rate[2] * t - (cell.sw + at(t).0 * rise.0 + at(t).1 * rise.1);
             let (first, last) = (over(a), over(b));
             if last <= 0.0 {

@@ -5,7 +5,7 @@
 //! reflection of that surface. Interreflection between members is modeled as an enclosure: visible members are assumed to receive
 //! the same indirect light as the point itself.
 
-use super::queries::{RayHit, Surface};
+use super::query_types::{RayHit, Surface};
 use super::sun;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
@@ -18,15 +18,15 @@ pub type RayCast<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit>;
 
 /// Number of rays per estimate. With 64 rays, the error for a half-open sky is a few percent, and an estimate takes less than 200
 /// us.
-const RAYS: usize = 64;
+const RAY_COUNT: usize = 64;
 /// Number of rays in the upper hemisphere that measure the open sky.
-const SKY_RAYS: usize = 64;
+const SKY_RAY_COUNT: usize = 64;
 /// Maximum distance at which a structure obstructs the sky, m (estimate: a structure farther away covers less than one ray).
 const SKY_REACH_M: f64 = 250.0;
 /// Maximum length of a shadow, m (estimate).
 const SHADOW_REACH_M: f64 = 600.0;
 /// Offset of the start of a ray from its surface, m.
-const LIFT_M: f64 = 0.01;
+const SURFACE_OFFSET_M: f64 = 0.01;
 /// Extraterrestrial solar illuminance, lx (IES RP-21, 127.5 klx).
 const SOLAR_LUX: f64 = 127_500.0;
 /// Clear-sky optical extinction coefficient (IES RP-21).
@@ -80,7 +80,7 @@ impl Daylight {
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightModel {
     light: LightSpec,
-    place: Geo,
+    location: Geo,
     sphere: Vec<Vec3<Enu>>,
     upper: Vec<Vec3<Enu>>,
     disc: Vec<(f64, f64)>,
@@ -88,7 +88,7 @@ pub struct LightModel {
 
 /// Type of the surface that a ray hits, with its properties.
 #[derive(Debug, Clone, Copy)]
-enum RayOutcome {
+enum RayTarget {
     /// The sky.
     Sky,
     /// Land or water beyond the maximum length of the ray.
@@ -104,20 +104,26 @@ enum RayOutcome {
 struct LightSums {
     outside_lux: f64,
     structure_lux: f64,
-    structure_share: f64,
+    structure_fraction: f64,
 }
 
 impl LightModel {
     /// Creates the model from the light settings of a scenario and the geographic position of its origin.
     #[must_use]
-    pub fn new(light: &LightSpec, place: Geo) -> Self {
-        Self { light: light.clone(), place, sphere: fibonacci(RAYS, -1.0), upper: fibonacci(SKY_RAYS, 0.0), disc: spiral(RAYS) }
+    pub fn new(light: &LightSpec, location: Geo) -> Self {
+        Self {
+            light: light.clone(),
+            location,
+            sphere: sphere_directions(RAY_COUNT, -1.0),
+            upper: sphere_directions(SKY_RAY_COUNT, 0.0),
+            disc: disc_points(RAY_COUNT),
+        }
     }
 
     /// Returns the illuminance from sun and sky at a time.
     #[must_use]
     pub fn daylight(&self, at: SimTime) -> Daylight {
-        Daylight::at(sun::direction(self.light.start_unix_s as f64 + at.s(), self.place), self.light.cloud_cover)
+        Daylight::at(sun::direction(self.light.start_unix_s as f64 + at.s(), self.location), self.light.cloud_cover)
     }
 
     /// Returns the fraction of the solid angle of the upper hemisphere that is open sky, 0 to 1.
@@ -132,12 +138,12 @@ impl LightModel {
     #[must_use]
     pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: SimTime, cast: RayCast) -> f64 {
         let day = self.daylight(at);
-        let origin = position_m + normal.unwrap_or_else(Vec3::zero) * LIFT_M;
+        let origin = position_m + normal.unwrap_or_else(Vec3::zero) * SURFACE_OFFSET_M;
         let facing = normal.map_or(0.25, |n| n.dot(day.sun).max(0.0));
         let lit = facing > 0.0 && day.direct_normal_lux > 0.0 && is_sunlit(origin, day.sun, cast);
         let direct = if lit { facing * day.direct_normal_lux } else { 0.0 };
         let gathered = match normal {
-            Some(n) => self.cast_bundle(origin, over(n, &self.disc), &day, cast),
+            Some(n) => self.cast_bundle(origin, cosine_bundle(n, &self.disc), &day, cast),
             None => self.cast_bundle(origin, self.sphere.iter().copied(), &day, cast),
         };
         direct + gathered.indirect_lux()
@@ -145,9 +151,9 @@ impl LightModel {
 
     /// Returns the indirect light on a surface by the model of [`Self::ambient_lux`], in two parts: as a fraction of the sky's
     /// horizontal illuminance, and as a fraction of the sun's illuminance on a surface that faces it. A renderer can scale both
-    /// to another daylight level without new rays. `rays` (see [`spread`]) may be fewer than for measurements.
+    /// to another daylight level without new rays. `rays` (see [`ray_bundle`]) may be fewer than for measurements.
     #[must_use]
-    pub fn indirect_shares(
+    pub fn indirect_fractions(
         &self,
         position_m: Vec3<Enu>,
         normal: Vec3<Enu>,
@@ -155,10 +161,10 @@ impl LightModel {
         rays: &[(f64, f64)],
         cast: RayCast,
     ) -> (f64, f64) {
-        let origin = position_m + normal * LIFT_M;
+        let origin = position_m + normal * SURFACE_OFFSET_M;
         let shines = sun.up() > 0.0;
-        let met: Vec<RayOutcome> =
-            over(normal, rays).map(|direction| self.trace_ray(origin, direction, (sun, shines), cast)).collect();
+        let met: Vec<RayTarget> =
+            cosine_bundle(normal, rays).map(|direction| self.trace_ray(origin, direction, (sun, shines), cast)).collect();
         let under = |direct_normal_lux: f64, sky_lux: f64| {
             let day = Daylight { sun, direct_normal_lux, sky_lux };
             self.sum(met.iter().copied(), &day).indirect_lux()
@@ -178,33 +184,33 @@ impl LightModel {
     }
 
     /// Returns the surface that a ray hits. Skips the shadow test if there is no direct sun.
-    fn trace_ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: RayCast) -> RayOutcome {
+    fn trace_ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: RayCast) -> RayTarget {
         let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
-            return if direction.up() > 0.0 { RayOutcome::Sky } else { RayOutcome::Far };
+            return if direction.up() > 0.0 { RayTarget::Sky } else { RayTarget::Far };
         };
-        let point = origin + direction * hit.distance_m + hit.normal * LIFT_M;
+        let point = origin + direction * hit.distance_m + hit.normal * SURFACE_OFFSET_M;
         let facing = hit.normal.dot(sun).max(0.0);
         let sun = if shines && facing > 0.0 && is_sunlit(point, sun, cast) { facing } else { 0.0 };
         match self.outdoor_albedo(hit.surface) {
-            Some(albedo) => RayOutcome::Outdoors { albedo, sun, up: hit.normal.up() },
-            None => RayOutcome::Structure { sun },
+            Some(albedo) => RayTarget::Outdoors { albedo, sun, up: hit.normal.up() },
+            None => RayTarget::Structure { sun },
         }
     }
 
-    fn sum(&self, met: impl ExactSizeIterator<Item = RayOutcome>, day: &Daylight) -> LightSums {
+    fn sum(&self, met: impl ExactSizeIterator<Item = RayTarget>, day: &Daylight) -> LightSums {
         let share = 1.0 / met.len() as f64;
         let mut sum = LightSums::default();
         for met in met {
             match met {
-                RayOutcome::Sky => sum.outside_lux += share * day.sky_lux,
-                RayOutcome::Far => sum.outside_lux += share * self.far_lux(day),
-                RayOutcome::Outdoors { albedo, sun, up } => {
+                RayTarget::Sky => sum.outside_lux += share * day.sky_lux,
+                RayTarget::Far => sum.outside_lux += share * self.far_lux(day),
+                RayTarget::Outdoors { albedo, sun, up } => {
                     // Assumes that visible ground and water receive light from the entire sky above their horizon (estimate).
                     sum.outside_lux += share * albedo * (sun * day.direct_normal_lux + day.sky_lux * 0.5 * (1.0 + up));
                 }
-                RayOutcome::Structure { sun } => {
+                RayTarget::Structure { sun } => {
                     sum.structure_lux += share * STRUCTURE_ALBEDO * (sun * day.direct_normal_lux);
-                    sum.structure_share += share;
+                    sum.structure_fraction += share;
                 }
             }
         }
@@ -230,7 +236,7 @@ impl LightSums {
     /// Returns the indirect illuminance by the enclosure model: visible members receive the same indirect light as this point, in
     /// addition to their direct sunlight.
     fn indirect_lux(&self) -> f64 {
-        (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_share)
+        (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_fraction)
     }
 }
 
@@ -240,26 +246,26 @@ fn is_sunlit(point: Vec3<Enu>, sun: Vec3<Enu>, cast: RayCast) -> bool {
 }
 
 /// Returns a bundle of cosine-weighted directions over the hemisphere about the normal `n`.
-fn over(n: Vec3<Enu>, disc: &[(f64, f64)]) -> impl ExactSizeIterator<Item = Vec3<Enu>> + '_ {
-    let (a, b) = tangents(n);
+fn cosine_bundle(n: Vec3<Enu>, disc: &[(f64, f64)]) -> impl ExactSizeIterator<Item = Vec3<Enu>> + '_ {
+    let (a, b) = tangent_vectors(n);
     disc.iter().map(move |(x, y)| a * *x + b * *y + n * (1.0 - x * x - y * y).max(0.0).sqrt())
 }
 
-/// Returns a bundle of `count` rays for [`LightModel::indirect_shares`].
+/// Returns a bundle of `count` rays for [`LightModel::indirect_fractions`].
 #[must_use]
-pub fn spread(count: usize) -> Vec<(f64, f64)> {
-    spiral(count.max(1))
+pub fn ray_bundle(count: usize) -> Vec<(f64, f64)> {
+    disc_points(count.max(1))
 }
 
 /// Returns two tangent unit vectors that form a right-handed frame with the normal `n`.
-pub(super) fn tangents(n: Vec3<Enu>) -> (Vec3<Enu>, Vec3<Enu>) {
+pub(super) fn tangent_vectors(n: Vec3<Enu>) -> (Vec3<Enu>, Vec3<Enu>) {
     let reference = if n.up().abs() < 0.9 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(1.0, 0.0, 0.0) };
     let a = reference.cross(n).unit();
     (a, n.cross(a))
 }
 
 /// Returns directions distributed evenly (golden-angle spiral) over the part of the unit sphere from height `lowest` to 1.
-fn fibonacci(count: usize, lowest: f64) -> Vec<Vec3<Enu>> {
+fn sphere_directions(count: usize, lowest: f64) -> Vec<Vec3<Enu>> {
     (0..count)
         .map(|k| {
             let z = 1.0 - (1.0 - lowest) * (k as f64 + 0.5) / count as f64;
@@ -272,7 +278,7 @@ fn fibonacci(count: usize, lowest: f64) -> Vec<Vec3<Enu>> {
 
 /// Returns points distributed evenly over the unit disc. Projected onto the hemisphere, they are cosine-weighted directions
 /// (Malley's method).
-fn spiral(count: usize) -> Vec<(f64, f64)> {
+fn disc_points(count: usize) -> Vec<(f64, f64)> {
     (0..count)
         .map(|k| {
             let r = ((k as f64 + 0.5) / count as f64).sqrt();
@@ -287,7 +293,7 @@ const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
 
 #[cfg(test)]
 mod tests {
-    use super::super::queries::ObjectId;
+    use super::super::query_types::ObjectId;
     use super::*;
 
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
@@ -334,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_open_sky_gives_the_horizontal_illuminance_of_the_model() {
+    fn exact_open_sky_yields_the_horizontal_illuminance() {
         let m = model(0.0);
         let day = m.daylight(SimTime::ZERO);
         let expected = day.sky_lux + day.direct_normal_lux * day.sun.up();
@@ -343,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn val_levels_lie_in_the_published_ranges() {
+    fn val_illuminances_are_in_the_published_ranges() {
         // docs/src/reference/domain.md, "Light levels": sun 50 to 100 klx, overcast 5 to 20 klx, under a 12 m deck with water
         // reflection 200 to 2000 lx.
         let at = SimTime::ZERO;
@@ -357,10 +363,10 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_sky_view_under_a_long_deck_is_the_analytic_solid_angle() {
+    fn exact_sky_view_under_a_long_deck_matches_the_analytic_value() {
         // At the center of an infinite strip of width w, at distance h below it, the open fraction of the hemisphere is 1 - 2/π
         // atan(w/2h). Tolerance: two rays.
-        let tolerance = 2.0 / SKY_RAYS as f64;
+        let tolerance = 2.0 / SKY_RAY_COUNT as f64;
         for (width, height) in [(10.0, 5.0), (20.0, 4.0), (4.0, 12.0)] {
             let below = Vec3::new(0.0, 0.0, 20.0 - height);
             let open = model(0.0).sky_view(below, &deck(width));
@@ -383,11 +389,11 @@ mod tests {
     }
 
     #[test]
-    fn exact_shares_of_the_day_are_the_ambient_light_without_the_sun_itself() {
+    fn exact_indirect_fractions_match_the_ambient_light() {
         for cloud in [0.0, 0.7] {
             let m = model(cloud);
             let (day, soffit) = (m.daylight(SimTime::ZERO), Vec3::new(0.0, 1.0, 20.0));
-            let (sky, sun) = m.indirect_shares(soffit, DOWN, day.sun, &spread(RAYS), &deck(12.0));
+            let (sky, sun) = m.indirect_fractions(soffit, DOWN, day.sun, &ray_bundle(RAY_COUNT), &deck(12.0));
             let got = sky * day.sky_lux + sun * day.direct_normal_lux;
             let ambient = m.ambient_lux(soffit, Some(DOWN), SimTime::ZERO, &deck(12.0));
             assert!((got / ambient - 1.0).abs() < 1e-9, "{got} against {ambient}");
@@ -395,7 +401,7 @@ mod tests {
     }
 
     #[test]
-    fn val_twilight_meets_the_published_illuminance() {
+    fn val_twilight_matches_the_published_illuminance() {
         // At the end of civil twilight (-6 deg) the published value is 3.4 lx. The exponential model is accurate to 10 % there.
         let (s, c) = math::sin_cos((-6.0_f64).to_radians());
         let dusk = Daylight::at(Vec3::new(c, 0.0, s), 0.0);
@@ -404,7 +410,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_mean_over_all_directions_is_a_quarter_of_the_sun_and_half_of_the_sky() {
+    fn exact_mean_over_orientations_matches_the_closed_form() {
         let mut m = model(0.0);
         m.light.water_albedo = 0.0;
         m.light.ground_albedo = 0.0;

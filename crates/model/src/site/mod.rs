@@ -12,20 +12,20 @@ mod faces;
 pub mod geometry;
 pub mod gltf;
 pub mod heights;
+mod lane_track;
 pub mod light;
 pub mod movers;
-mod nearest;
-mod queries;
+mod nearest_points;
+mod query_types;
 pub mod sun;
 pub mod terrain;
-mod tracks;
 pub mod traffic;
 pub mod turbulence;
 pub mod visibility;
 pub mod wind;
 
 pub use camera_pose::CameraPose;
-pub use queries::{Contact, HullProbe, NearestPoint, ObjectId, QueryTime, RayHit, Surface};
+pub use query_types::{Contact, HullProbe, NearestPoint, ObjectId, QueryTime, RayHit, Surface};
 pub use visibility::DefectView;
 
 use crate::frames::{Enu, Vec3};
@@ -160,7 +160,7 @@ impl Site {
     /// Returns the visibility of each defect in a photo from `pose`; only defects within 60 m in front of the camera are listed.
     #[must_use]
     pub fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime) -> Vec<DefectView> {
-        self.dynamics.look(pose, camera, lamp, at, &self.cast())
+        self.dynamics.view_defects(pose, camera, lamp, at, &self.cast())
     }
 
     /// Returns the name of an object for messages, such as `arch/rib-left/07 (144)`, `car 12` or `inspector`.

@@ -1,7 +1,7 @@
 //! Types of moving objects on the decks, with their sizes and the boxes that represent them.
 
 use super::boxes::OrientedBox;
-use super::queries::Surface;
+use super::query_types::Surface;
 use crate::frames::{Enu, Vec3};
 
 /// Type of a moving object.
@@ -23,27 +23,27 @@ struct MoverPart {
     half_m: [f64; 3],
 }
 
-const CAR: &[MoverPart] = &[
+const CAR_PARTS: &[MoverPart] = &[
     MoverPart { along_m: 0.0, up_m: 0.5, half_m: [2.25, 0.9, 0.5] },
     MoverPart { along_m: -0.3, up_m: 1.25, half_m: [1.2, 0.8, 0.25] },
 ];
-const TRUCK: &[MoverPart] = &[
+const TRUCK_PARTS: &[MoverPart] = &[
     MoverPart { along_m: 3.9, up_m: 1.4, half_m: [1.1, 1.2, 1.4] },
     MoverPart { along_m: -1.2, up_m: 1.75, half_m: [3.8, 1.25, 1.75] },
 ];
-const PERSON: &[MoverPart] = &[MoverPart { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
+const PEDESTRIAN_PARTS: &[MoverPart] = &[MoverPart { along_m: 0.0, up_m: 0.875, half_m: [0.15, 0.25, 0.875] }];
 
 impl MoverKind {
     /// All types of moving objects.
     pub(super) const ALL: [Self; 3] = [Self::Car, Self::Truck, Self::Pedestrian];
     /// Maximum over all types of the bounding radius plus half the length, m.
-    pub(super) const LARGEST_REACH_M: f64 = 6.3 + 5.0;
+    pub(super) const MAX_REACH_M: f64 = 6.3 + 5.0;
 
     fn parts(self) -> &'static [MoverPart] {
         match self {
-            Self::Car => CAR,
-            Self::Truck => TRUCK,
-            Self::Pedestrian => PERSON,
+            Self::Car => CAR_PARTS,
+            Self::Truck => TRUCK_PARTS,
+            Self::Pedestrian => PEDESTRIAN_PARTS,
         }
     }
 
@@ -87,14 +87,14 @@ pub struct MoverPlacement {
 
 /// Returns the boxes that represent an object at its placement.
 pub(super) fn boxes(kind: MoverKind, placed: MoverPlacement) -> impl Iterator<Item = OrientedBox> {
-    kind.parts().iter().map(move |part| upright(&placed, part))
+    kind.parts().iter().map(move |part| part_box(&placed, part))
 }
 
-fn upright(placed: &MoverPlacement, part: &MoverPart) -> OrientedBox {
+fn part_box(placed: &MoverPlacement, part: &MoverPart) -> OrientedBox {
     let left = Vec3::new(0.0, 0.0, 1.0).cross(placed.forward).unit();
     let up = placed.forward.cross(left);
     OrientedBox {
-        centre_m: placed.position_m + placed.forward * part.along_m + up * part.up_m,
+        center_m: placed.position_m + placed.forward * part.along_m + up * part.up_m,
         axes: [placed.forward, left, up],
         half_m: part.half_m,
     }

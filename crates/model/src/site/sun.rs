@@ -26,11 +26,11 @@ pub fn equatorial(unix_s: f64) -> SunCoordinates {
     let t = (unix_s - J2000_UNIX_S) / DAY_S / 36_525.0;
     let mean_longitude = 280.466_46 + t * (36_000.769_83 + t * 0.000_303_2);
     let anomaly = (357.529_11 + t * (35_999.050_29 - t * 0.000_153_7)).to_radians();
-    let centre = (1.914_602 - t * (0.004_817 + t * 0.000_014)) * math::sin(anomaly)
+    let center = (1.914_602 - t * (0.004_817 + t * 0.000_014)) * math::sin(anomaly)
         + (0.019_993 - t * 0.000_101) * math::sin(2.0 * anomaly)
         + 0.000_289 * math::sin(3.0 * anomaly);
     let node = (125.04 - 1_934.136 * t).to_radians();
-    let longitude = (mean_longitude + centre - 0.005_69 - 0.004_78 * math::sin(node)).to_radians();
+    let longitude = (mean_longitude + center - 0.005_69 - 0.004_78 * math::sin(node)).to_radians();
     let obliquity = (23.439_291 - t * 0.013_004_2 + 0.002_56 * math::cos(node)).to_radians();
     let (s, c) = math::sin_cos(longitude);
     SunCoordinates {
@@ -41,13 +41,13 @@ pub fn equatorial(unix_s: f64) -> SunCoordinates {
 
 /// Returns the unit vector from a position toward the center of the sun at a UTC time, given in seconds since the Unix epoch.
 #[must_use]
-pub fn direction(unix_s: f64, place: Geo) -> Vec3<Enu> {
+pub fn direction(unix_s: f64, location: Geo) -> Vec3<Enu> {
     let sun = equatorial(unix_s);
     let days = (unix_s - J2000_UNIX_S) / DAY_S;
     let t = days / 36_525.0;
     let sidereal_deg = 280.460_618_37 + 360.985_647_366_29 * days + 0.000_387_933 * t * t;
-    let hour_angle = math::wrap_pi((sidereal_deg + place.longitude_deg).to_radians() - sun.right_ascension_rad);
-    let (sl, cl) = math::sin_cos(place.latitude_deg.to_radians());
+    let hour_angle = math::wrap_pi((sidereal_deg + location.longitude_deg).to_radians() - sun.right_ascension_rad);
+    let (sl, cl) = math::sin_cos(location.latitude_deg.to_radians());
     let (sd, cd) = math::sin_cos(sun.declination_rad);
     let (sh, ch) = math::sin_cos(hour_angle);
     Vec3::new(-cd * sh, sd * cl - cd * ch * sl, sd * sl + cd * ch * cl).unit()
@@ -96,10 +96,10 @@ mod tests {
     }
 
     #[test]
-    fn prop_the_sun_rises_in_the_east_and_culminates_in_the_south() {
-        let place = Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 0.0 };
-        let morning = direction(1_718_863_200.0, place);
-        let noon = direction(1_718_884_800.0, place);
+    fn prop_sun_rises_in_the_east_and_culminates_in_the_south() {
+        let location = Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 0.0 };
+        let morning = direction(1_718_863_200.0, location);
+        let noon = direction(1_718_884_800.0, location);
         assert!(morning.east() > 0.7 && morning.up() > 0.0, "{morning:?}");
         assert!(noon.north() < -0.3 && noon.east().abs() < 0.05, "{noon:?}");
     }

@@ -8,15 +8,15 @@ use crate::random::RandomStream;
 use crate::scenario::{Bridge, GroundTeam, Scenario, TerrainSource, TerrainSpec as Settings};
 
 /// Radius of level ground around the landing pad, m.
-const LEVEL_M: f64 = 16.0;
+const LEVEL_RADIUS_M: f64 = 16.0;
 /// Slope of earthworks, as horizontal distance per unit of height.
-const SLOPE: f64 = 1.2;
+const EARTHWORK_SLOPE: f64 = 1.2;
 /// Downward grade of the roads that lead away from the bridges (estimate: maximum grade of mountain highways).
 const ROAD_GRADE: f64 = 0.07;
 /// Depth of the excavation below the springings of an arch, m.
-const DIG_M: f64 = 1.0;
+const EXCAVATION_M: f64 = 1.0;
 /// Minimum depth to which structures are embedded in the ground, m.
-const HOLD_M: f64 = 0.5;
+const EMBEDMENT_M: f64 = 0.5;
 
 /// Ground surface and water level.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,31 +105,31 @@ fn apply_earthworks(natural: f64, east: f64, north: f64, scenario: &Scenario) ->
 
 fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacing_m: f64) -> f64 {
     let [x, y, _] = bridge.placement().local(Vec3::new(east, north, 0.0));
-    let deck = bridge.centre_m.up();
+    let deck = bridge.center_m.up();
     let half_length = 0.5 * bridge.deck_length_m();
     let opening = bridge.opening_half_m();
     let off_side = (y.abs() - 0.5 * bridge.deck_width_m() - 2.0).max(0.0);
     let cut = if x.abs() < opening + 4.0 {
         // The ground under the span slopes down from the springings, so that it does not cover any part of the bridge.
         let inside = (opening + 4.0 - x.abs()).max(0.0);
-        height.min(deck - clear_depth_m(bridge) - DIG_M - 0.3 * inside + off_side / SLOPE)
+        height.min(deck - underside_depth_m(bridge) - EXCAVATION_M - 0.3 * inside + off_side / EARTHWORK_SLOPE)
     } else {
         // The approaches reach just below the road surface, continue level for a short distance, and then descend to the natural
         // ground.
         let beyond = (x.abs() - half_length - 12.0).max(0.0);
         let reach = if x.abs() > half_length { 0.0 } else { half_length - x.abs() };
-        height.max(deck - 0.15 - off_side / SLOPE - ROAD_GRADE * beyond - reach * 2.5)
+        height.max(deck - 0.15 - off_side / EARTHWORK_SLOPE - ROAD_GRADE * beyond - reach * 2.5)
     };
     // The ground rises to meet each footing, extending one grid cell beyond it.
     bridge.footings().iter().fold(cut, |height, foot| {
         let out = |at: f64, (low, high): (f64, f64)| (low - at).max(at - high).max(0.0);
         let away = (math::hypot(out(x, foot.x_m), out(y, foot.y_m)) - spacing_m).max(0.0);
-        height.max(deck + foot.up_m + HOLD_M - away / SLOPE)
+        height.max(deck + foot.up_m + EMBEDMENT_M - away / EARTHWORK_SLOPE)
     })
 }
 
 /// Returns the depth of the underside of a bridge below the deck at the ends of its opening, m.
-fn clear_depth_m(bridge: &Bridge) -> f64 {
+fn underside_depth_m(bridge: &Bridge) -> f64 {
     match &bridge.kind {
         crate::scenario::BridgeKind::Arch(arch) => -arch.intrados_z_m(0.5 * arch.span_m),
         crate::scenario::BridgeKind::Suspension(s) => s.slab_m + s.girder_depth_m,
@@ -138,7 +138,7 @@ fn clear_depth_m(bridge: &Bridge) -> f64 {
 
 fn level_pad(height: f64, east: f64, north: f64, team: &GroundTeam) -> f64 {
     let away = math::hypot(east - team.pad_m.east(), north - team.pad_m.north());
-    let blend = ((away - LEVEL_M) / 10.0).clamp(0.0, 1.0);
+    let blend = ((away - LEVEL_RADIUS_M) / 10.0).clamp(0.0, 1.0);
     // The surface of the pad is slightly above the leveled ground.
     math::lerp(team.pad_m.up() - 0.05, height, blend)
 }
@@ -148,12 +148,12 @@ struct ValueNoise {
     lattice: Vec<f64>,
 }
 
-const LATTICE: usize = 64;
+const LATTICE_SIZE: usize = 64;
 
 impl ValueNoise {
     fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "terrain");
-        Self { lattice: (0..LATTICE * LATTICE).map(|_| random.uniform()).collect() }
+        Self { lattice: (0..LATTICE_SIZE * LATTICE_SIZE).map(|_| random.uniform()).collect() }
     }
 
     fn at(&self, x: f64, y: f64) -> f64 {
@@ -161,13 +161,13 @@ impl ValueNoise {
     }
 
     fn octave(&self, x: f64, y: f64) -> f64 {
-        let cell = |v: f64| (v.floor() as i64).rem_euclid(LATTICE as i64) as usize;
+        let cell = |v: f64| (v.floor() as i64).rem_euclid(LATTICE_SIZE as i64) as usize;
         let fade = |v: f64| {
             let t = v - v.floor();
             t * t * (3.0 - 2.0 * t)
         };
         let (cx, cy) = (cell(x), cell(y));
-        let at = |i: usize, j: usize| self.lattice[(j % LATTICE) * LATTICE + i % LATTICE];
+        let at = |i: usize, j: usize| self.lattice[(j % LATTICE_SIZE) * LATTICE_SIZE + i % LATTICE_SIZE];
         let south = math::lerp(at(cx, cy), at(cx + 1, cy), fade(x));
         let north = math::lerp(at(cx, cy + 1), at(cx + 1, cy + 1), fade(x));
         math::lerp(south, north, fade(y))

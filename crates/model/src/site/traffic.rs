@@ -2,11 +2,11 @@
 //! of simulation time. All objects in a lane have the same speed, so that none overtakes another, and move on a loop longer than
 //! the lane, so that they appear and disappear beyond the ends of the bridge.
 
-use super::boxes::{OrientedBox, bounding_ball};
+use super::boxes::{OrientedBox, bounding_sphere};
 use super::bridge_closures::BridgeClosures;
+use super::lane_track::{LaneTrack, arc_lengths, without_collinear_points};
 use super::movers::{MoverKind, MoverPlacement, boxes};
-use super::queries::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
-use super::tracks::{LaneTrack, arc_lengths, simplified};
+use super::query_types::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::random::RandomStream;
@@ -15,22 +15,22 @@ use crate::scenario::{GroundTeam, TrafficSpec as TrafficSettings};
 use crate::time::SimTime;
 
 /// First object number of traffic and crew; lower numbers are bridge members and other static objects.
-pub const FIRST_OBJECT: u32 = 1_000_000;
+pub const FIRST_TRAFFIC_OBJECT: u32 = 1_000_000;
 /// Object ID of the inspector.
-pub const INSPECTOR: ObjectId = ObjectId(FIRST_OBJECT - 2);
+pub const INSPECTOR: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 2);
 /// Object ID of the crew's truck.
-pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_OBJECT - 1);
+pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 1);
 
 /// Minimum spacing of vehicles in a lane, center to center, m (estimate: a truck and a gap).
 const VEHICLE_SPACING_M: f64 = 24.0;
 /// Minimum spacing of pedestrians on a walkway, center to center, m (estimate).
 const PEDESTRIAN_SPACING_M: f64 = 4.0;
 /// Minimum length of the part of a loop beyond the ends of the lane, m (estimate).
-const GAP_M: f64 = 40.0;
+const LOOP_GAP_M: f64 = 40.0;
 /// Maximum offset of an object from even spacing, as a fraction of the spacing.
-const JITTER: f64 = 0.25;
+const SPACING_JITTER: f64 = 0.25;
 /// Mean and standard deviation of the walking speed, m/s (Fruin, Pedestrian Planning and Design).
-const WALKING_M_S: (f64, f64) = (1.34, 0.26);
+const WALKING_SPEED_M_S: (f64, f64) = (1.34, 0.26);
 /// Maximum deviation of a lane's speed from the mean car speed, as a fraction of it (estimate).
 const LANE_SPEED_SPREAD: f64 = 0.1;
 
@@ -73,16 +73,16 @@ impl TrafficPlan {
         let mut numbers = [0; 3];
         for (lane, kinds) in assign_lanes(&roads, &vehicles) {
             let speed = settings.car_speed_m_s * (1.0 + stream.range(-LANE_SPEED_SPREAD, LANE_SPEED_SPREAD));
-            plan.fill(lane, &kinds, (speed, VEHICLE_SPACING_M), &mut numbers, &mut stream);
+            plan.add_lane(lane, &kinds, (speed, VEHICLE_SPACING_M), &mut numbers, &mut stream);
         }
         for (lane, kinds) in assign_lanes(&walkways, &vec![MoverKind::Pedestrian; settings.pedestrians]) {
-            let speed = (WALKING_M_S.0 + WALKING_M_S.1 * stream.normal()).clamp(0.8, 1.9);
-            plan.fill(lane, &kinds, (speed, PEDESTRIAN_SPACING_M), &mut numbers, &mut stream);
+            let speed = (WALKING_SPEED_M_S.0 + WALKING_SPEED_M_S.1 * stream.normal()).clamp(0.8, 1.9);
+            plan.add_lane(lane, &kinds, (speed, PEDESTRIAN_SPACING_M), &mut numbers, &mut stream);
         }
         plan
     }
 
-    fn fill(
+    fn add_lane(
         &mut self,
         lane: &Lane,
         kinds: &[MoverKind],
@@ -90,26 +90,36 @@ impl TrafficPlan {
         numbers: &mut [u32; 3],
         stream: &mut RandomStream,
     ) {
-        let points_m = simplified(&lane.points_m);
+        let points_m = without_collinear_points(&lane.points_m);
         let arc_m = arc_lengths(&points_m);
         let length_m = arc_m.last().copied().unwrap_or(0.0);
         if kinds.is_empty() || length_m <= 0.0 {
             return;
         }
         // A crowded lane gets a longer loop, so that the objects keep their minimum spacing despite the random offsets.
-        let loop_m = (length_m + GAP_M).max(kinds.len() as f64 * spacing_m / (1.0 - 2.0 * JITTER));
+        let loop_m = (length_m + LOOP_GAP_M).max(kinds.len() as f64 * spacing_m / (1.0 - 2.0 * SPACING_JITTER));
         let slot_m = loop_m / kinds.len() as f64;
         let turn_m = stream.range(0.0, loop_m);
         let first = self.movers.len();
         for (k, kind) in kinds.iter().enumerate() {
             let number = &mut numbers[*kind as usize];
             *number += 1;
-            let phase_m = (turn_m + slot_m * (k as f64 + stream.range(-JITTER, JITTER))).rem_euclid(loop_m);
+            let phase_m = (turn_m + slot_m * (k as f64 + stream.range(-SPACING_JITTER, SPACING_JITTER))).rem_euclid(loop_m);
             self.movers.push(Mover { kind: *kind, number: *number, track: self.tracks.len(), phase_m });
         }
         let reach_m = kinds.iter().map(|k| k.reach_m() + k.half_length_m()).fold(0.0, f64::max);
-        let band_m = points_m.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.up()), b.1.max(p.up())));
-        self.tracks.push(LaneTrack { band_m, points_m, arc_m, length_m, loop_m, speed_m_s, first, count: kinds.len(), reach_m });
+        let height_range_m = points_m.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.up()), b.1.max(p.up())));
+        self.tracks.push(LaneTrack {
+            height_range_m,
+            points_m,
+            arc_m,
+            length_m,
+            loop_m,
+            speed_m_s,
+            first,
+            count: kinds.len(),
+            reach_m,
+        });
     }
 
     /// Sets the bridge closures.
@@ -119,7 +129,7 @@ impl TrafficPlan {
 
     /// Returns the bridge closures.
     #[must_use]
-    pub fn gates(&self) -> &BridgeClosures {
+    pub fn closures(&self) -> &BridgeClosures {
         &self.closures
     }
 
@@ -132,7 +142,7 @@ impl TrafficPlan {
     /// Returns the placement of an object at a time; `None` while it is beyond the ends of the bridge, and on a lap that it could
     /// not begin because the bridge was closed.
     #[must_use]
-    pub fn place(&self, mover: &Mover, at: SimTime) -> Option<MoverPlacement> {
+    pub fn placement(&self, mover: &Mover, at: SimTime) -> Option<MoverPlacement> {
         let track = &self.tracks[mover.track];
         let half = mover.kind.half_length_m();
         let driven_m = (mover.phase_m + track.speed_m_s * at.s()).rem_euclid(track.loop_m);
@@ -146,8 +156,8 @@ impl TrafficPlan {
     pub fn solids(&self, at: SimTime) -> Vec<(ObjectId, Surface, OrientedBox)> {
         let mut all = self.crew.clone();
         for (k, mover) in self.movers.iter().enumerate() {
-            let Some(placed) = self.place(mover, at) else { continue };
-            all.extend(boxes(mover.kind, placed).map(|b| (ObjectId(FIRST_OBJECT + k as u32), mover.kind.surface(), b)));
+            let Some(placed) = self.placement(mover, at) else { continue };
+            all.extend(boxes(mover.kind, placed).map(|b| (ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind.surface(), b)));
         }
         all
     }
@@ -156,7 +166,7 @@ impl TrafficPlan {
     #[must_use]
     pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<NearestPoint> {
         let mut best: Option<NearestPoint> = None;
-        self.near(position_m, max_m, at, |object, surface, solid, _| {
+        self.visit_near(position_m, max_m, at, |object, surface, solid, _| {
             let (distance_m, point_m, normal) = solid.nearest(position_m);
             if distance_m <= best.map_or(max_m, |b| b.distance_m) {
                 best = Some(NearestPoint { distance_m, point_m, normal, surface, object });
@@ -171,10 +181,10 @@ impl TrafficPlan {
     pub fn min_distance_ever_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let mut least: Option<f64> = None;
         let tracks = self.tracks.iter().filter(|track| track.count > 0);
-        for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + MoverKind::LARGEST_REACH_M) {
+        for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + MoverKind::MAX_REACH_M) {
             let surface = self.movers[track.first].kind.surface();
-            for kind in MoverKind::ALL.into_iter().filter(|kind| kind.surface() == surface && self.has(*kind)) {
-                let placed = track.at(track.lateral_distance_m(position_m, kind.half_length_m()));
+            for kind in MoverKind::ALL.into_iter().filter(|kind| kind.surface() == surface && self.has_kind(*kind)) {
+                let placed = track.at(track.nearest_arc_m(position_m, kind.half_length_m()));
                 let distance_m = boxes(kind, placed).map(|solid| solid.nearest(position_m).0).fold(max_m, f64::min);
                 least = Some(distance_m).filter(|d| *d < least.unwrap_or(max_m)).or(least);
             }
@@ -182,7 +192,7 @@ impl TrafficPlan {
         least
     }
 
-    fn has(&self, kind: MoverKind) -> bool {
+    fn has_kind(&self, kind: MoverKind) -> bool {
         self.movers.iter().any(|mover| mover.kind == kind)
     }
 
@@ -199,10 +209,10 @@ impl TrafficPlan {
         for (object, surface, solid) in &self.crew {
             test(*object, *surface, solid);
         }
-        for track in self.tracks.iter().filter(|t| t.ray_passes(origin_m, direction, max_m)) {
+        for track in self.tracks.iter().filter(|t| t.ray_may_hit(origin_m, direction, max_m)) {
             for k in track.first..track.first + track.count {
                 let mover = &self.movers[k];
-                let Some(placed) = self.place(mover, at) else { continue };
+                let Some(placed) = self.placement(mover, at) else { continue };
                 let to = placed.position_m - origin_m;
                 let along = to.dot(direction).clamp(0.0, max_m);
                 let reach = mover.kind.reach_m();
@@ -210,7 +220,7 @@ impl TrafficPlan {
                     continue;
                 }
                 for solid in boxes(mover.kind, placed) {
-                    test(ObjectId(FIRST_OBJECT + k as u32), mover.kind.surface(), &solid);
+                    test(ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind.surface(), &solid);
                 }
             }
         }
@@ -219,8 +229,8 @@ impl TrafficPlan {
 
     /// Appends the contacts of a probe with traffic and crew. The velocity of a contact is the velocity of the object.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
-        let (centre_m, radius_m) = bounding_ball(probe);
-        self.near(centre_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {
+        let (center_m, radius_m) = bounding_sphere(probe);
+        self.visit_near(center_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {
             solid.contacts(probe, margin_m, |gap_m, point_m, normal| {
                 out.push(Contact { point_m, normal, gap_m, velocity_m_s, surface, object });
             });
@@ -236,7 +246,7 @@ impl TrafficPlan {
         if object == CREW_TRUCK {
             return Some("crew truck".into());
         }
-        let mover = self.movers.get(object.0.checked_sub(FIRST_OBJECT)? as usize)?;
+        let mover = self.movers.get(object.0.checked_sub(FIRST_TRAFFIC_OBJECT)? as usize)?;
         let kind = match mover.kind {
             MoverKind::Car => "car",
             MoverKind::Truck => "truck",
@@ -247,7 +257,7 @@ impl TrafficPlan {
 
     /// Calls `visit` for each box that may be within `reach_m` of a point. Far from all lanes, this computes only one distance
     /// per lane segment.
-    fn near(
+    fn visit_near(
         &self,
         point_m: Vec3<Enu>,
         reach_m: f64,
@@ -255,7 +265,7 @@ impl TrafficPlan {
         mut visit: impl FnMut(ObjectId, Surface, &OrientedBox, Vec3<Enu>),
     ) {
         for (object, surface, solid) in &self.crew {
-            if (solid.centre_m - point_m).norm() <= reach_m + solid.radius_m() {
+            if (solid.center_m - point_m).norm() <= reach_m + solid.radius_m() {
                 visit(*object, *surface, solid, Vec3::zero());
             }
         }
@@ -265,12 +275,12 @@ impl TrafficPlan {
             }
             for k in track.first..track.first + track.count {
                 let mover = &self.movers[k];
-                let Some(placed) = self.place(mover, at) else { continue };
+                let Some(placed) = self.placement(mover, at) else { continue };
                 if (placed.position_m - point_m).norm() > reach_m + mover.kind.reach_m() {
                     continue;
                 }
                 for solid in boxes(mover.kind, placed) {
-                    visit(ObjectId(FIRST_OBJECT + k as u32), mover.kind.surface(), &solid, placed.velocity_m_s);
+                    visit(ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind.surface(), &solid, placed.velocity_m_s);
                 }
             }
         }
@@ -336,9 +346,9 @@ mod tests {
         assert_eq!(plan.movers().len(), 17);
         for mover in plan.movers() {
             let track = &plan.tracks[mover.track];
-            let mut last = plan.place(mover, SimTime::ZERO);
+            let mut last = plan.placement(mover, SimTime::ZERO);
             for ms in (10..60_000).step_by(10) {
-                let now = plan.place(mover, SimTime::from_ms(ms));
+                let now = plan.placement(mover, SimTime::from_ms(ms));
                 if let (Some(a), Some(b)) = (last, now) {
                     // The tolerance is one centimeter at bends of the lane.
                     assert!((b.position_m - a.position_m).norm() < track.speed_m_s * 0.01 + 0.01, "jump at {ms} ms");
@@ -346,7 +356,7 @@ mod tests {
                 last = now;
             }
             let later = SimTime::from_s(7.0 + track.loop_m / track.speed_m_s);
-            let (a, b) = (plan.place(mover, SimTime::from_s(7.0)), plan.place(mover, later));
+            let (a, b) = (plan.placement(mover, SimTime::from_s(7.0)), plan.placement(mover, later));
             assert_eq!(a.is_some(), b.is_some());
             if let (Some(a), Some(b)) = (a, b) {
                 assert!((a.position_m - b.position_m).norm() < 1e-6);
@@ -355,11 +365,11 @@ mod tests {
     }
 
     #[test]
-    fn prop_nothing_leaves_its_lane_sideways_and_appears_only_beyond_the_ends() {
+    fn prop_movers_stay_in_their_lane_and_between_its_ends() {
         let plan = plan(9);
         for ms in (0..120_000).step_by(250) {
             for mover in plan.movers() {
-                let Some(p) = plan.place(mover, SimTime::from_ms(ms)) else { continue };
+                let Some(p) = plan.placement(mover, SimTime::from_ms(ms)) else { continue };
                 let lane = match mover.kind {
                     MoverKind::Pedestrian => 4.5,
                     MoverKind::Car | MoverKind::Truck => 1.8,
@@ -372,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_vehicles_leave_and_none_enter_a_closed_bridge() {
+    fn prop_vehicles_leave_but_do_not_enter_a_closed_bridge() {
         let open = plan(3);
         let (closed_s, opened_s) = (40.0, 130.0);
         let mut gated = open.clone();
@@ -384,7 +394,7 @@ mod tests {
             let at = SimTime::from_s(t_s);
             let mut vehicles = 0;
             for (k, mover) in open.movers().iter().enumerate() {
-                let (free, held) = (open.place(mover, at), gated.place(mover, at));
+                let (free, held) = (open.placement(mover, at), gated.placement(mover, at));
                 // A closure does not change the position of any object on the bridge.
                 assert!(held.is_none() || held == free, "{mover:?} at {t_s} s");
                 if t_s < closed_s {
@@ -407,20 +417,20 @@ mod tests {
     }
 
     #[test]
-    fn prop_vehicles_of_one_lane_never_overlap() {
+    fn prop_movers_never_overlap() {
         let plan = plan(4);
         for s in 0..200 {
             let solids = plan.solids(SimTime::from_s(f64::from(s) * 1.7));
             for (a, _, x) in &solids {
                 for (b, _, y) in solids.iter().filter(|(b, _, _)| b.0 > a.0) {
-                    assert!(x.nearest(y.centre_m).0 > 0.0, "{a:?} in {b:?}");
+                    assert!(x.nearest(y.center_m).0 > 0.0, "{a:?} in {b:?}");
                 }
             }
         }
     }
 
     #[test]
-    fn prop_culled_queries_equal_the_search_through_all_solids() {
+    fn prop_culled_queries_match_brute_force() {
         let plan = plan(5);
         let mut stream = RandomStream::new(1, "test");
         for _ in 0..3000 {
@@ -437,18 +447,18 @@ mod tests {
     }
 
     #[test]
-    fn prop_a_contact_carries_the_velocity_of_the_car() {
+    fn prop_contacts_have_the_velocity_of_the_vehicle() {
         let plan = plan(6);
         let at = SimTime::from_s(12.0);
         let (k, placed) = plan
             .movers()
             .iter()
             .enumerate()
-            .find_map(|(k, m)| plan.place(m, at).filter(|_| m.kind == MoverKind::Truck).map(|p| (k, p)))
+            .find_map(|(k, m)| plan.placement(m, at).filter(|_| m.kind == MoverKind::Truck).map(|p| (k, p)))
             .expect("a truck is on the deck at 12 s");
         let over = placed.position_m - placed.forward * 1.2 + Vec3::new(0.0, 0.0, 3.7);
         let mut out = Vec::new();
-        plan.contacts(&HullProbe::Ball { centre_m: over, radius_m: 0.25 }, 0.01, at, &mut out);
+        plan.contacts(&HullProbe::Ball { center_m: over, radius_m: 0.25 }, 0.01, at, &mut out);
         assert_eq!(out.len(), 1, "{out:?}");
         assert_eq!(out[0].surface, Surface::Vehicle);
         assert_eq!(out[0].velocity_m_s, placed.velocity_m_s);
@@ -457,13 +467,13 @@ mod tests {
     }
 
     #[test]
-    fn prop_another_seed_is_another_plan_and_the_same_seed_the_same() {
+    fn prop_plan_depends_on_the_seed() {
         assert_eq!(plan(1), plan(1));
         assert_ne!(plan(1), plan(2));
     }
 
     #[test]
-    fn exact_the_crew_is_a_person_and_a_vehicle() {
+    fn exact_crew_consists_of_a_person_and_a_vehicle() {
         let plan = plan(1);
         let hit = plan.nearest(Vec3::new(-55.0, 1.0, 1.0), 3.0, SimTime::ZERO).expect("inspector");
         assert_eq!((hit.surface, hit.object), (Surface::Person, INSPECTOR));

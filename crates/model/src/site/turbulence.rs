@@ -4,7 +4,7 @@ use crate::math;
 use crate::random::RandomStream;
 
 /// Length of one foot, m.
-const FT_M: f64 = 0.3048;
+const M_PER_FT: f64 = 0.3048;
 /// Height range of the low-altitude model in MIL-F-8785C, section 3.7.3.4, ft.
 const DRYDEN_HEIGHT_FT: (f64, f64) = (10.0, 1000.0);
 
@@ -25,25 +25,25 @@ impl Dryden {
     /// Returns the low-altitude model of MIL-F-8785C at a height above the surface, for a mean wind speed at 20 ft.
     #[must_use]
     pub fn at(height_m: f64, wind_20ft_m_s: f64) -> Self {
-        let h_ft = (height_m / FT_M).clamp(DRYDEN_HEIGHT_FT.0, DRYDEN_HEIGHT_FT.1);
+        let h_ft = (height_m / M_PER_FT).clamp(DRYDEN_HEIGHT_FT.0, DRYDEN_HEIGHT_FT.1);
         let shape = 0.177 + 0.000_823 * h_ft;
         let sigma_vertical_m_s = 0.1 * wind_20ft_m_s;
         Self {
             sigma_horizontal_m_s: sigma_vertical_m_s / math::pow(shape, 0.4),
             sigma_vertical_m_s,
-            length_horizontal_m: h_ft / math::pow(shape, 1.2) * FT_M,
-            length_vertical_m: h_ft * FT_M,
+            length_horizontal_m: h_ft / math::pow(shape, 1.2) * M_PER_FT,
+            length_vertical_m: h_ft * M_PER_FT,
         }
     }
 }
 
 /// First-order Dryden filter with unit variance (longitudinal spectrum), discretized exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct FirstOrder {
+pub(super) struct FirstOrderFilter {
     x: f64,
 }
 
-impl FirstOrder {
+impl FirstOrderFilter {
     pub(super) fn start(stream: &mut RandomStream) -> Self {
         Self { x: stream.normal() }
     }
@@ -59,18 +59,18 @@ impl FirstOrder {
 /// and x2' = (x1 - x2)/T the output is √3 x1 + (1 - √3) x2, and the stationary covariance of the states for unit output variance
 /// is [[1/2, 1/4], [1/4, 1/4]]; each step adds exactly the covariance lost to decay.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct SecondOrder {
+pub(super) struct SecondOrderFilter {
     x1: f64,
     x2: f64,
 }
 
-impl SecondOrder {
+impl SecondOrderFilter {
     const P11: f64 = 0.5;
     const P12: f64 = 0.25;
     const P22: f64 = 0.25;
 
     pub(super) fn start(stream: &mut RandomStream) -> Self {
-        let (l11, l21, l22) = lower(Self::P11, Self::P12, Self::P22);
+        let (l11, l21, l22) = cholesky_2x2(Self::P11, Self::P12, Self::P22);
         let (n1, n2) = (stream.normal(), stream.normal());
         Self { x1: l11 * n1, x2: l21 * n1 + l22 * n2 }
     }
@@ -81,7 +81,7 @@ impl SecondOrder {
         let q11 = Self::P11 - a * a * Self::P11;
         let q12 = Self::P12 - a * (b * Self::P11 + a * Self::P12);
         let q22 = Self::P22 - (b * b * Self::P11 + 2.0 * a * b * Self::P12 + a * a * Self::P22);
-        let (l11, l21, l22) = lower(q11, q12, q22);
+        let (l11, l21, l22) = cholesky_2x2(q11, q12, q22);
         let (n1, n2) = (stream.normal(), stream.normal());
         let x1 = a * self.x1 + l11 * n1;
         self.x2 = b * self.x1 + a * self.x2 + l21 * n1 + l22 * n2;
@@ -93,7 +93,7 @@ impl SecondOrder {
 
 /// Returns the lower Cholesky factor of a 2x2 covariance matrix. A last pivot that is slightly negative from rounding is set to
 /// zero.
-fn lower(q11: f64, q12: f64, q22: f64) -> (f64, f64, f64) {
+fn cholesky_2x2(q11: f64, q12: f64, q22: f64) -> (f64, f64, f64) {
     let l11 = q11.max(0.0).sqrt();
     let l21 = if l11 > 0.0 { q12 / l11 } else { 0.0 };
     (l11, l21, (q22 - l21 * l21).max(0.0).sqrt())
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn val_sigma_and_length_match_the_tabulated_values_at_ten_metres() {
+    fn val_sigma_and_length_match_the_table_at_10_m() {
         // MIL-F-8785C low-altitude Dryden model (docs/src/reference/domain.md, "Wind and turbulence"): W20 11 mph, 10 m: L_u 67
         // m, sigma_u 0.93, sigma_w 0.49 m/s; tolerance half a unit of the last printed digit.
         let d = Dryden::at(10.0, 11.0 * math::M_S_PER_MPH);

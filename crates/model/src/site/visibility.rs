@@ -7,28 +7,28 @@ use super::camera_pose::CameraPose;
 use super::light::RayCast;
 use crate::frames::{Enu, Vec3};
 use crate::math;
-use crate::numbers::{format_beside_limit, limit};
+use crate::numbers::{format_limit, format_with_limit};
 use crate::scenario::PlacedDefect;
 use crate::vehicle::{Camera, Lamp};
 
 /// Maximum distance from the lens at which defects are evaluated, m.
-pub const REACH_M: f64 = 60.0;
+pub const MAX_RANGE_M: f64 = 60.0;
 /// Fraction of image width and height, about the center, in which defects count as captured.
-pub const CENTRAL_SHARE: f64 = 0.8;
+pub const CENTRAL_FRACTION: f64 = 0.8;
 /// Maximum angle between the line of sight and the normal of the defect, rad.
-pub const INCIDENCE_MAX_RAD: f64 = math::PI / 3.0;
+pub const MAX_INCIDENCE_RAD: f64 = math::PI / 3.0;
 /// Minimum length of the longest visible dimension, px.
-pub const EXTENT_MIN_PX: f64 = 10.0;
+pub const MIN_EXTENT_PX: f64 = 10.0;
 /// Minimum width of a line defect, px.
-pub const LINE_WIDTH_MIN_PX: f64 = 0.5;
+pub const MIN_LINE_WIDTH_PX: f64 = 0.5;
 /// Calibration constant of an incident-light meter, lx s ISO (ISO 2720 specifies 240 to 400).
-const CALIBRATION: f64 = 250.0;
+const METER_CALIBRATION: f64 = 250.0;
 /// Offsets of the sample points for the occlusion test from the center of a defect, as fractions of its length.
-const SAMPLES: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
+const SAMPLE_OFFSETS: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
 /// Height above the surface at which lines of sight end, m.
-const LIFT_M: f64 = 0.005;
+const SURFACE_OFFSET_M: f64 = 0.005;
 /// Length of the last part of a line of sight, which is excluded from the occlusion test, m.
-const CLEAR_M: f64 = 0.01;
+const OCCLUSION_MARGIN_M: f64 = 0.01;
 
 /// Visibility of one defect in a photo, with the measurements behind each condition.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +65,7 @@ pub type AmbientLight<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> f64;
 /// Returns the illuminance needed for an exposure within the camera's limits, lx: C N²/(t S).
 #[must_use]
 pub fn needed_lux(camera: &Camera) -> f64 {
-    CALIBRATION * camera.f_number * camera.f_number / (camera.exposure_max_s * camera.iso_max)
+    METER_CALIBRATION * camera.f_number * camera.f_number / (camera.exposure_max_s * camera.iso_max)
 }
 
 /// Returns the illuminance of a surface by a lamp at the lens, lx: flux over the solid angle of the beam, with the inverse square
@@ -89,7 +89,7 @@ pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3
 /// Evaluates the visibility of one defect; `None` if it is too far away or behind the camera. Calls `cast` for the lines of sight
 /// and `ambient` once, and only if it returns a result.
 #[must_use]
-pub fn judge(
+pub fn evaluate_defect(
     defect: &PlacedDefect,
     pose: &CameraPose,
     (camera, lamp): (&Camera, &Lamp),
@@ -98,17 +98,17 @@ pub fn judge(
 ) -> Option<DefectView> {
     let to = defect.position_m - pose.position_m;
     let distance_m = to.norm();
-    if distance_m > REACH_M || to.dot(pose.forward) <= 0.0 {
+    if distance_m > MAX_RANGE_M || to.dot(pose.forward) <= 0.0 {
         return None;
     }
     let incidence_rad = math::acos(-to.dot(defect.normal) / distance_m.max(1e-9));
-    let samples = SAMPLES.map(|s| defect.position_m + defect.along * (s * defect.length_m));
-    let seen = samples.map(|p| has_line_of_sight(pose.position_m, p + defect.normal * LIFT_M, cast));
+    let samples = SAMPLE_OFFSETS.map(|s| defect.position_m + defect.along * (s * defect.length_m));
+    let seen = samples.map(|p| has_line_of_sight(pose.position_m, p + defect.normal * SURFACE_OFFSET_M, cast));
     // A majority must be visible: three of five sample points.
-    let unoccluded = 2 * seen.iter().filter(|s| **s).count() > SAMPLES.len();
+    let unoccluded = 2 * seen.iter().filter(|s| **s).count() > SAMPLE_OFFSETS.len();
     // A hidden defect fails only the occlusion condition, not the size condition as well.
-    let counted = if unoccluded { seen } else { [true; SAMPLES.len()] };
-    let in_frame = project(pose, camera, defect.position_m).is_some_and(|px| is_in_frame(px, camera, CENTRAL_SHARE));
+    let counted = if unoccluded { seen } else { [true; SAMPLE_OFFSETS.len()] };
+    let in_frame = project(pose, camera, defect.position_m).is_some_and(|px| is_in_frame(px, camera, CENTRAL_FRACTION));
     let width_px = length_px(pose, camera, defect, defect.normal.cross(defect.along), defect.width_m);
     let along_px = visible_px(pose, camera, defect, samples.iter().zip(counted));
     let mut view = DefectView {
@@ -137,9 +137,9 @@ impl DefectView {
         [
             self.in_frame,
             self.unoccluded,
-            self.incidence_rad <= INCIDENCE_MAX_RAD,
-            self.extent_px >= EXTENT_MIN_PX,
-            !self.line || self.width_px >= LINE_WIDTH_MIN_PX,
+            self.incidence_rad <= MAX_INCIDENCE_RAD,
+            self.extent_px >= MIN_EXTENT_PX,
+            !self.line || self.width_px >= MIN_LINE_WIDTH_PX,
             self.illuminance_lux >= self.needed_lux,
         ]
     }
@@ -148,7 +148,7 @@ impl DefectView {
     #[must_use]
     pub fn reasons(&self) -> Vec<String> {
         let lamp = if self.lamp_on { "lamp on" } else { "lamp off" };
-        let (incidence_deg, incidence_max_deg) = (self.incidence_rad.to_degrees(), INCIDENCE_MAX_RAD.to_degrees());
+        let (incidence_deg, incidence_max_deg) = (self.incidence_rad.to_degrees(), MAX_INCIDENCE_RAD.to_degrees());
         // The required illuminance is displayed as an integer unless the measured value is between the rounded and the exact
         // limit.
         let whole = self.needed_lux.round();
@@ -158,18 +158,18 @@ impl DefectView {
             "hidden behind something".to_owned(),
             format!(
                 "too oblique: {} deg, limit {} deg",
-                format_beside_limit(incidence_deg, incidence_max_deg, 0),
-                limit(incidence_max_deg)
+                format_with_limit(incidence_deg, incidence_max_deg, 0),
+                format_limit(incidence_max_deg)
             ),
-            format!("too small: {} px, at least {EXTENT_MIN_PX} px", format_beside_limit(self.extent_px, EXTENT_MIN_PX, 1)),
+            format!("too small: {} px, at least {MIN_EXTENT_PX} px", format_with_limit(self.extent_px, MIN_EXTENT_PX, 1)),
             format!(
-                "line too thin: {} px, at least {LINE_WIDTH_MIN_PX} px",
-                format_beside_limit(self.width_px, LINE_WIDTH_MIN_PX, 2)
+                "line too thin: {} px, at least {MIN_LINE_WIDTH_PX} px",
+                format_with_limit(self.width_px, MIN_LINE_WIDTH_PX, 2)
             ),
             format!(
                 "too dark: {lamp}, {} lx of {} lx needed",
-                format_beside_limit(self.illuminance_lux, needed_lux, 0),
-                limit(needed_lux)
+                format_with_limit(self.illuminance_lux, needed_lux, 0),
+                format_limit(needed_lux)
             ),
         ];
         words.into_iter().zip(self.conditions()).filter_map(|(word, holds)| (!holds).then_some(word)).collect()
@@ -178,7 +178,7 @@ impl DefectView {
 
 fn has_line_of_sight(from: Vec3<Enu>, to: Vec3<Enu>, cast: RayCast) -> bool {
     let line = to - from;
-    let reach = line.norm() - CLEAR_M;
+    let reach = line.norm() - OCCLUSION_MARGIN_M;
     reach <= 0.0 || cast(from, line.unit(), reach).is_none()
 }
 
@@ -204,7 +204,7 @@ fn visible_px<'a>(
 ) -> f64 {
     let framed = |p: &Vec3<Enu>| project(pose, camera, *p).is_some_and(|px| is_in_frame(px, camera, 1.0));
     let shown = samples.filter(|(p, counts)| *counts && framed(p)).count();
-    length_px(pose, camera, defect, defect.along, defect.length_m) * shown as f64 / SAMPLES.len() as f64
+    length_px(pose, camera, defect, defect.along, defect.length_m) * shown as f64 / SAMPLE_OFFSETS.len() as f64
 }
 
 /// Returns the length in pixels of a segment of `length_m` along a unit direction through the center of the defect. Uses the
@@ -220,7 +220,7 @@ fn length_px(pose: &CameraPose, camera: &Camera, defect: &PlacedDefect, directio
 
 #[cfg(test)]
 mod tests {
-    use super::super::queries::{ObjectId, RayHit, Surface};
+    use super::super::query_types::{ObjectId, RayHit, Surface};
     use super::*;
 
     const CAMERA: Camera = Camera {
@@ -264,19 +264,19 @@ mod tests {
         }
     }
 
-    fn open(_: Vec3<Enu>, _: Vec3<Enu>, _: f64) -> Option<RayHit> {
+    fn unobstructed(_: Vec3<Enu>, _: Vec3<Enu>, _: f64) -> Option<RayHit> {
         None
     }
 
-    fn wall(_: Vec3<Enu>, d: Vec3<Enu>, _: f64) -> Option<RayHit> {
+    fn obstructed(_: Vec3<Enu>, d: Vec3<Enu>, _: f64) -> Option<RayHit> {
         Some(RayHit { distance_m: 1.0, normal: -d, surface: Surface::Bridge, object: ObjectId(0) })
     }
 
-    fn view_defects(defect: &PlacedDefect, pose: &CameraPose, cast: RayCast, lux: f64) -> DefectView {
-        judge(defect, pose, (&CAMERA, &LAMP), cast, &|_, _| lux).expect("in front of the camera and within reach")
+    fn evaluate(defect: &PlacedDefect, pose: &CameraPose, cast: RayCast, lux: f64) -> DefectView {
+        evaluate_defect(defect, pose, (&CAMERA, &LAMP), cast, &|_, _| lux).expect("in front of the camera and within reach")
     }
 
-    fn only_failing(view: &DefectView, index: usize, word: &str) {
+    fn assert_only_failing(view: &DefectView, index: usize, word: &str) {
         let expected: Vec<bool> = (0..6).map(|k| k != index).collect();
         assert_eq!(view.conditions().to_vec(), expected, "{view:?}");
         assert!(!view.hit);
@@ -285,8 +285,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_plain_view_is_a_hit_with_the_pinholes_pixels() {
-        let view = view_defects(&crack(), &pose(), &open, 1000.0);
+    fn exact_frontal_view_is_a_hit_with_pinhole_dimensions() {
+        let view = evaluate(&crack(), &pose(), &unobstructed, 1000.0);
         // Focal length 2000 px at 90 deg and 4000 px.
         assert!(view.hit && view.reasons().is_empty(), "{view:?}");
         assert!((view.extent_px - 2000.0 * 0.5 / 3.0).abs() < 1e-9);
@@ -296,31 +296,31 @@ mod tests {
     }
 
     #[test]
-    fn exact_each_condition_fails_alone() {
+    fn exact_framing_and_occlusion_fail_independently() {
         let mut aside = pose();
         // 40 deg off axis: tan 40 deg = 0.839, just outside 0.8 of the half image, but still in front of the camera.
         let (s, c) = math::sin_cos(40.0_f64.to_radians());
         (aside.forward, aside.right) = (Vec3::new(s, c, 0.0), Vec3::new(c, -s, 0.0));
-        only_failing(&view_defects(&crack(), &aside, &open, 1000.0), 0, "central");
-        only_failing(&view_defects(&crack(), &pose(), &wall, 1000.0), 1, "hidden");
+        assert_only_failing(&evaluate(&crack(), &aside, &unobstructed, 1000.0), 0, "central");
+        assert_only_failing(&evaluate(&crack(), &pose(), &obstructed, 1000.0), 1, "hidden");
     }
 
     #[test]
-    fn exact_oblique_small_thin_and_dark_fail_alone() {
+    fn exact_incidence_size_width_and_light_fail_independently() {
         let mut oblique = crack();
         let (s, c) = math::sin_cos(61.0_f64.to_radians());
         (oblique.normal, oblique.along) = (Vec3::new(s, -c, 0.0), Vec3::new(0.0, 0.0, 1.0));
         oblique.width_m = 0.01;
-        only_failing(&view_defects(&oblique, &pose(), &open, 1000.0), 2, "61 deg");
+        assert_only_failing(&evaluate(&oblique, &pose(), &unobstructed, 1000.0), 2, "61 deg");
         let small = PlacedDefect { length_m: 0.014, line: false, width_m: 0.01, ..crack() };
-        only_failing(&view_defects(&small, &pose(), &open, 1000.0), 3, "9.3 px");
+        assert_only_failing(&evaluate(&small, &pose(), &unobstructed, 1000.0), 3, "9.3 px");
         let thin = PlacedDefect { width_m: 0.0007, ..crack() };
-        only_failing(&view_defects(&thin, &pose(), &open, 1000.0), 4, "0.47 px");
-        only_failing(&view_defects(&crack(), &pose(), &open, 122.0), 5, "lamp off");
+        assert_only_failing(&evaluate(&thin, &pose(), &unobstructed, 1000.0), 4, "0.47 px");
+        assert_only_failing(&evaluate(&crack(), &pose(), &unobstructed, 122.0), 5, "lamp off");
     }
 
     #[test]
-    fn val_the_lamp_gives_the_tabulated_illuminance() {
+    fn val_lamp_illuminance_matches_the_table() {
         // docs/src/reference/domain.md, "Light levels": a 2200 lm, 60 deg light: 2600, 650, 290, 105 lx at 1, 2, 3, 5 m;
         // tolerance is the table's rounding.
         let lit = CameraPose { lamp_on: true, ..pose() };
@@ -330,25 +330,25 @@ mod tests {
         }
         let outside = lamp_lux(&LAMP, &lit, Vec3::new(2.0, 3.0, 0.0), Vec3::new(0.0, -1.0, 0.0));
         assert_eq!(outside, 0.0, "33.7 deg is outside a 60 deg beam");
-        let dark = view_defects(&crack(), &lit, &open, 0.0);
+        let dark = evaluate(&crack(), &lit, &unobstructed, 0.0);
         assert!(dark.hit, "the lamp alone lights 3 m: {dark:?}");
     }
 
     #[test]
-    fn exact_nothing_behind_or_beyond_reach_is_listed() {
+    fn exact_defects_behind_or_out_of_range_are_ignored() {
         let behind = CameraPose { forward: Vec3::new(0.0, -1.0, 0.0), ..pose() };
-        assert!(judge(&crack(), &behind, (&CAMERA, &LAMP), &open, &|_, _| 1e3).is_none());
+        assert!(evaluate_defect(&crack(), &behind, (&CAMERA, &LAMP), &unobstructed, &|_, _| 1e3).is_none());
         let far = PlacedDefect { position_m: Vec3::new(0.0, 60.1, 0.0), ..crack() };
-        assert!(judge(&far, &pose(), (&CAMERA, &LAMP), &open, &|_, _| 1e3).is_none());
+        assert!(evaluate_defect(&far, &pose(), (&CAMERA, &LAMP), &unobstructed, &|_, _| 1e3).is_none());
     }
 
     #[test]
-    fn exact_a_half_hidden_crack_shows_the_visible_part() {
+    fn exact_extent_of_a_partly_hidden_crack_is_its_visible_part() {
         // Lines of sight to the right half are blocked: three of five samples remain.
         let right_blocked = |_: Vec3<Enu>, d: Vec3<Enu>, _: f64| {
             (d.east() > 0.01).then_some(RayHit { distance_m: 1.0, normal: -d, surface: Surface::Other, object: ObjectId(0) })
         };
-        let view = view_defects(&crack(), &pose(), &right_blocked, 1000.0);
+        let view = evaluate(&crack(), &pose(), &right_blocked, 1000.0);
         assert!(view.unoccluded);
         assert!((view.extent_px - 0.6 * 2000.0 * 0.5 / 3.0).abs() < 1e-9);
     }

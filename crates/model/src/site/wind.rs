@@ -5,7 +5,7 @@
 //! wakes and acceleration near structures are not modeled: the mean profile is that of open water, or, over land below 20 ft,
 //! that of grass.
 
-use super::turbulence::{Dryden, FirstOrder, SecondOrder};
+use super::turbulence::{Dryden, FirstOrderFilter, SecondOrderFilter};
 use crate::frames::{Ned, Vec3};
 use crate::math;
 use crate::random::RandomStream;
@@ -24,11 +24,11 @@ const GROUND_ROUGHNESS_M: f64 = 0.03;
 const REFERENCE_HEIGHT_M: f64 = 6.096;
 /// Height below which turbulence is proportional to the mean wind, m: 10 ft, the lower limit of MIL-F-8785C (estimate: constant
 /// relative intensity).
-const LOWEST_TURBULENCE_M: f64 = 3.048;
+const MIN_TURBULENCE_HEIGHT_M: f64 = 3.048;
 /// Height below which the profile is constant, m (estimate: wave height).
-const LOWEST_HEIGHT_M: f64 = 0.5;
+const MIN_PROFILE_HEIGHT_M: f64 = 0.5;
 /// Minimum drift speed of the turbulence past the vehicle, m/s (estimate; keeps the time scale finite in still air).
-const LOWEST_DRIFT_M_S: f64 = 0.1;
+const MIN_DRIFT_M_S: f64 = 0.1;
 
 /// Mean wind at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,11 +45,11 @@ pub struct MeanWind {
 pub struct WindField {
     wind: WindSpec,
     stream: RandomStream,
-    along: FirstOrder,
-    across: SecondOrder,
-    vertical: SecondOrder,
+    along: FirstOrderFilter,
+    across: SecondOrderFilter,
+    vertical: SecondOrderFilter,
     over_ground: bool,
-    next: SimTime,
+    next_sample: SimTime,
     previous_m_s: Vec3<Ned>,
     current_m_s: Vec3<Ned>,
 }
@@ -59,9 +59,9 @@ impl WindField {
     #[must_use]
     pub fn new(wind: &WindSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "wind.turbulence");
-        let along = FirstOrder::start(&mut stream);
-        let across = SecondOrder::start(&mut stream);
-        let vertical = SecondOrder::start(&mut stream);
+        let along = FirstOrderFilter::start(&mut stream);
+        let across = SecondOrderFilter::start(&mut stream);
+        let vertical = SecondOrderFilter::start(&mut stream);
         let mut field = Self {
             wind: wind.clone(),
             stream,
@@ -69,7 +69,7 @@ impl WindField {
             across,
             vertical,
             over_ground: false,
-            next: SimTime::ZERO,
+            next_sample: SimTime::ZERO,
             previous_m_s: Vec3::zero(),
             current_m_s: Vec3::zero(),
         };
@@ -84,11 +84,11 @@ impl WindField {
         if self.wind.model == WindModel::Paper {
             return;
         }
-        while self.next <= now {
-            let sample = self.sample(self.next, height_m, velocity_m_s);
-            self.previous_m_s = if self.next == SimTime::ZERO { sample } else { self.current_m_s };
+        while self.next_sample <= now {
+            let sample = self.sample(self.next_sample, height_m, velocity_m_s);
+            self.previous_m_s = if self.next_sample == SimTime::ZERO { sample } else { self.current_m_s };
             self.current_m_s = sample;
-            self.next += SAMPLE_PERIOD;
+            self.next_sample += SAMPLE_PERIOD;
         }
     }
 
@@ -99,7 +99,7 @@ impl WindField {
 
     /// Changes the mean wind linearly, starting at `at` and over the duration `over`, to a speed at 20 ft, m/s, and a direction
     /// from which it blows, degrees clockwise from north. Affects only the `physical` model.
-    pub fn change(&mut self, at: SimTime, over: SimTime, speed_m_s: f64, from_deg: f64) {
+    pub fn add_change(&mut self, at: SimTime, over: SimTime, speed_m_s: f64, from_deg: f64) {
         self.wind.events.push(WindEvent::Change { at, over, speed_m_s, from_deg });
     }
 
@@ -109,7 +109,7 @@ impl WindField {
         if self.wind.model == WindModel::Paper {
             return Vec3::zero();
         }
-        let since = (at - (self.next - SAMPLE_PERIOD)).s();
+        let since = (at - (self.next_sample - SAMPLE_PERIOD)).s();
         self.previous_m_s.lerp(self.current_m_s, (since / SAMPLE_PERIOD.s()).clamp(0.0, 1.0))
     }
 
@@ -149,14 +149,14 @@ impl WindField {
         }
         let dryden = Dryden::at(height_m, mean.speed_m_s);
         // Turbulence drifts with the mean wind (Taylor's hypothesis), so that a hovering drone also moves through it.
-        let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(LOWEST_DRIFT_M_S);
+        let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(MIN_DRIFT_M_S);
         let travelled_m = drift * SAMPLE_PERIOD.s();
         let u = self.along.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
         let v = self.across.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
         let w = self.vertical.step(travelled_m / dryden.length_vertical_m, &mut self.stream);
         let along = direction_towards(mean.from_rad);
         let across = Vec3::new(-along.east(), along.north(), 0.0);
-        let near_surface = (self.profile(height_m) / self.profile(LOWEST_TURBULENCE_M)).min(1.0);
+        let near_surface = (self.profile(height_m) / self.profile(MIN_TURBULENCE_HEIGHT_M)).min(1.0);
         let horizontal = dryden.sigma_horizontal_m_s * self.wind.turbulence * near_surface;
         let vertical = dryden.sigma_vertical_m_s * self.wind.turbulence * near_surface;
         mean_velocity + along * (u * horizontal) + across * (v * horizontal) + Vec3::new(0.0, 0.0, w * vertical)
@@ -176,7 +176,7 @@ pub fn profile(height_m: f64) -> f64 {
 }
 
 fn log_profile(height_m: f64, roughness_m: f64) -> f64 {
-    math::ln(height_m.max(LOWEST_HEIGHT_M) / roughness_m) / math::ln(REFERENCE_HEIGHT_M / roughness_m)
+    math::ln(height_m.max(MIN_PROFILE_HEIGHT_M) / roughness_m) / math::ln(REFERENCE_HEIGHT_M / roughness_m)
 }
 
 /// Returns the mean wind at a time. Each change is linear in speed and in direction, which turns the shorter way.
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_turbulence_has_the_standards_variance_and_length_scales() {
+    fn exact_turbulence_has_the_specified_variance_and_length_scales() {
         const HEIGHT_M: f64 = 10.0;
         const AIRSPEED_M_S: f64 = 25.0;
         // Relative tolerance. 30 000 s contain 11 000 time scales of the slowest component, so one standard error is 1.4 %.
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_ground_slows_the_air_below_the_reference_height_alone() {
+    fn exact_ground_slows_the_wind_only_below_the_reference_height() {
         let mut w = wind();
         w.turbulence = 0.0;
         let speed = |over_ground: bool, height_m: f64| {
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_gust_moves_air_by_half_its_peak_times_its_length() {
+    fn exact_gust_displaces_air_by_half_its_peak_times_its_duration() {
         let mut w = wind();
         w.speed_m_s = 0.0;
         w.events =
@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_change_ramps_speed_and_turns_the_shorter_way() {
+    fn exact_change_is_linear_and_turns_the_shorter_way() {
         let mut w = wind();
         w.from_deg = 350.0;
         w.events =
@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_the_same_seed_gives_the_same_bits_and_a_clone_goes_on_alike() {
+    fn prop_wind_and_its_clones_are_bit_identical_for_a_seed() {
         let run = |seed: u64| {
             let mut field = WindField::new(&wind(), seed);
             let mut copy = None;
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_paper_model_is_a_force_in_still_air() {
+    fn exact_paper_model_is_a_force_in_still_air() {
         let mut w = wind();
         w.model = WindModel::Paper;
         let mut field = WindField::new(&w, 1);

@@ -1,10 +1,10 @@
 //! Aircraft parameters: one TOML file per aircraft in `vehicle-params/`, parsed into validated types. Each key includes its unit;
 //! each number has a source or is marked as an estimate (vehicle-params/README.md, which a test compares with this code).
 
-mod authority;
+mod control_authority;
 mod read;
 
-pub use read::{FORMAT, read, read_asked};
+pub use read::{FORMAT, read, read_with_keys};
 
 use crate::frames::{Frd, Vec3};
 use crate::math;
@@ -213,13 +213,13 @@ pub struct Camera {
 }
 
 /// Sensor width, mm (1/2.3 inch; estimate), used to derive focal lengths in mm from the field of view.
-pub const SENSOR_MM: f64 = 6.17;
+pub const SENSOR_WIDTH_MM: f64 = 6.17;
 
 impl Camera {
-    /// Returns the focal length for a sensor of width [`SENSOR_MM`], mm.
+    /// Returns the focal length for a sensor of width [`SENSOR_WIDTH_MM`], mm.
     #[must_use]
     pub fn focal_mm(&self) -> f64 {
-        0.5 * SENSOR_MM / math::tan(0.5 * self.hfov_rad)
+        0.5 * SENSOR_WIDTH_MM / math::tan(0.5 * self.hfov_rad)
     }
 
     /// Returns the aspect ratio, width over height.

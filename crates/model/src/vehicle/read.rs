@@ -8,24 +8,24 @@ use std::collections::BTreeMap;
 
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
-const MOST_ROTORS: usize = 8;
+const MAX_ROTORS: usize = 8;
 /// Minimum ratio of maximum thrust to weight for a controllable aircraft (estimate; typical multicopters have 1.8 or more).
-const LEAST_LIFT: f64 = 1.2;
+const MIN_THRUST_TO_WEIGHT: f64 = 1.2;
 
 /// Parses a vehicle file. `file` is the file name used in messages; its stem becomes [`Vehicle::id`].
 ///
 /// # Errors
 /// Returns all problems in the file, each with line, key, value and allowed range.
 pub fn read(file: &str, text: &str) -> Result<Vehicle, Problems> {
-    read_asked(file, text).0
+    read_with_keys(file, text).0
 }
 
 /// Parses a vehicle file. Also returns the keys that were read, for the test of the documentation.
-pub fn read_asked(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMap<String, DocumentedKey>) {
+pub fn read_with_keys(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMap<String, DocumentedKey>) {
     let mut reader = Reader::new(file, text);
     let vehicle = reader.parse().map(|document| {
         let mut root = reader.root(&document);
-        let vehicle = whole(&mut reader, &mut root, file);
+        let vehicle = read_vehicle(&mut reader, &mut root, file);
         reader.finish(&root);
         vehicle
     });
@@ -36,12 +36,12 @@ pub fn read_asked(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMa
     (result, reader.documented_keys)
 }
 
-fn stem(file: &str) -> String {
+fn file_stem(file: &str) -> String {
     let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
     name.strip_suffix(".toml").unwrap_or(name).to_string()
 }
 
-fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
+fn read_vehicle(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
     r.integer(root, "format", (1, FORMAT), None);
     let name = r.text(root, "name", None);
     let mass_kg = r.number(root, "mass_kg", (0.05, 50.0), None);
@@ -49,18 +49,18 @@ fn whole(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
     let (rotors, rotor) = rotors(r, root);
     let lift_kg =
         rotors.len() as f64 * rotor.thrust_coefficient_n_s2 * rotor.max_speed_rad_s * rotor.max_speed_rad_s / GRAVITY_M_S2;
-    if lift_kg < LEAST_LIFT * mass_kg && r.problems.is_empty() {
-        let most = format!("at most {:.3}, as the rotors can lift {lift_kg:.3} kg", lift_kg / LEAST_LIFT);
+    if lift_kg < MIN_THRUST_TO_WEIGHT * mass_kg && r.problems.is_empty() {
+        let most = format!("at most {:.3}, as the rotors can lift {lift_kg:.3} kg", lift_kg / MIN_THRUST_TO_WEIGHT);
         r.add_problem(root, "mass_kg", &mass_kg.to_string(), &most, "too heavy to fly");
     }
     if r.problems.is_empty()
-        && let Some(allowed) = super::authority::missing_axes(&rotors, &rotor, mass_kg)
+        && let Some(allowed) = super::control_authority::unmet_requirement(&rotors, &rotor, mass_kg)
     {
         let places = rotors.iter().map(|rotor| format!("{:?}", rotor.position_m.array())).collect::<Vec<_>>().join(", ");
         r.add_problem(root, "rotors.position_m", &places, allowed, "no control authority about all axes");
     }
     Vehicle {
-        id: stem(file),
+        id: file_stem(file),
         name,
         mass_kg,
         inertia_kg_m2,
@@ -80,7 +80,7 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
     let mut s = r.section(root, "rotors");
     let places = r.points(&mut s, "position_m", (-5.0, 5.0));
     let spins = r.integers(&mut s, "spin", (-1, 1));
-    if places.len() < 4 || places.len() > MOST_ROTORS || places.len() != spins.len() || spins.contains(&0) {
+    if places.len() < 4 || places.len() > MAX_ROTORS || places.len() != spins.len() || spins.contains(&0) {
         r.add_problem(&s, "spin", "", "4 to 8 rotors, each with a spin of -1 or 1", "wrong number of rotors or spins");
     }
     let model = RotorModel {
@@ -113,13 +113,13 @@ fn drag(r: &mut Reader, root: &mut Section) -> Drag {
 }
 
 /// Minimum number of feet for a stable stance on the ground.
-const LEAST_FEET: usize = 3;
+const MIN_FEET: usize = 3;
 
 fn hull(r: &mut Reader, root: &mut Section) -> Hull {
     let mut s = r.section(root, "hull");
     let hull = Hull {
         tip_to_tip_m: r.number(&mut s, "tip_to_tip_m", (0.05, 5.0), None),
-        caged: r.flag(&mut s, "caged", false),
+        caged: r.boolean(&mut s, "caged", false),
         body_half_extent_m: r.numbers(&mut s, "body_half_extent_m", (0.005, 2.0), None),
         feet_m: r.points(&mut s, "feet_m", (-2.0, 2.0)).iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect(),
         restitution: r.number(&mut s, "restitution", (0.0, 0.95), None),
@@ -128,8 +128,8 @@ fn hull(r: &mut Reader, root: &mut Section) -> Hull {
     // A spherical cage without feet would roll in the wind.
     let cage_m = 0.5 * hull.tip_to_tip_m;
     let carrying = hull.feet_m.iter().filter(|foot| foot.down() >= cage_m).count();
-    if hull.caged && carrying < LEAST_FEET {
-        let allowed = format!("at least {LEAST_FEET} feet {cage_m} m or more below the center");
+    if hull.caged && carrying < MIN_FEET {
+        let allowed = format!("at least {MIN_FEET} feet {cage_m} m or more below the center");
         r.add_problem(&s, "feet_m", "", &allowed, "the aircraft would rest on its spherical cage and roll");
     }
     r.finish(&s);

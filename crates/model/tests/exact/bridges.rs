@@ -12,10 +12,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Tolerance for rounding errors of positions a few hundred meters from the origin, m.
 const ROUNDING_M: f64 = 1e-9;
 /// Relative tolerance for rounding errors of volumes, which are sums of many products.
-const SHARE: f64 = 1e-9;
+const VOLUME_TOLERANCE: f64 = 1e-9;
 
 fn bridge(kind: BridgeKind) -> Bridge {
-    Bridge { name: "b".into(), centre_m: Vec3::new(12.0, -30.0, 40.0), heading_deg: 37.0, kind }
+    Bridge { name: "b".into(), center_m: Vec3::new(12.0, -30.0, 40.0), heading_deg: 37.0, kind }
 }
 
 fn arch() -> Bridge {
@@ -38,14 +38,14 @@ fn random_values(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> 
 }
 
 /// Returns bridges of both types, with default and with random dimensions. Inconsistent ones are omitted.
-fn many() -> Vec<Bridge> {
+fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
     let mut out = vec![arch(), suspension()];
     for _ in 0..60 {
         out.push(bridge(BridgeKind::Arch(Arch::from_values(&random_values(Arch::FIELDS, &mut random)))));
         out.push(bridge(BridgeKind::Suspension(Suspension::from_values(&random_values(Suspension::FIELDS, &mut random)))));
     }
-    out.retain(|b| b.kind.misfits().is_empty());
+    out.retain(|b| b.kind.inconsistencies().is_empty());
     let arches = out.iter().filter(|b| matches!(b.kind, BridgeKind::Arch(_))).count();
     assert!(arches >= 10 && out.len() - arches >= 10, "{arches} of {}", out.len());
     out
@@ -56,21 +56,21 @@ fn volume(solid: &Solid) -> f64 {
     solid.triangles().iter().map(|t| at(t[0]).dot(at(t[1]).cross(at(t[2]))) / 6.0).sum()
 }
 
-fn counts(members: &[Member]) -> BTreeMap<u32, usize> {
+fn element_counts(members: &[Member]) -> BTreeMap<u32, usize> {
     members.iter().fold(BTreeMap::new(), |mut counts, m| {
         *counts.entry(u32::from(m.element.number())).or_default() += 1;
         counts
     })
 }
 
-fn named<'a>(members: &'a [Member], part: &str) -> impl Iterator<Item = &'a Member> {
+fn members_named<'a>(members: &'a [Member], part: &str) -> impl Iterator<Item = &'a Member> {
     let start = format!("b/{part}");
     members.iter().filter(move |m| m.name.starts_with(&start))
 }
 
 #[test]
-fn prop_every_solid_is_closed_convex_and_faces_outwards() {
-    for bridge in many() {
+fn prop_all_solids_are_closed_and_convex_with_outward_faces() {
+    for bridge in random_bridges() {
         let members = bridge.members();
         let names: BTreeSet<&str> = members.iter().map(|m| m.name.as_str()).collect();
         assert_eq!(names.len(), members.len(), "duplicate member names");
@@ -96,7 +96,7 @@ fn prop_every_solid_is_closed_convex_and_faces_outwards() {
 }
 
 /// Returns sample points on the faces and edges of a solid, for contact tests.
-fn points_of(solid: &Solid) -> Vec<Vec3<Enu>> {
+fn sample_points(solid: &Solid) -> Vec<Vec3<Enu>> {
     let corner = |k: u32| solid.vertices_m[k as usize];
     let middle = |ks: &[u32]| ks.iter().fold(Vec3::zero(), |sum, k| sum + corner(*k)) / ks.len() as f64;
     let mut out: Vec<Vec3<Enu>> = solid.faces.iter().map(|f| middle(f)).collect();
@@ -110,8 +110,8 @@ fn points_of(solid: &Solid) -> Vec<Vec3<Enu>> {
 }
 
 #[test]
-fn exact_every_member_is_held_by_another_and_none_floats() {
-    for bridge in many() {
+fn exact_all_members_are_connected() {
+    for bridge in random_bridges() {
         let members = bridge.members();
         let shapes: Vec<Convex> = members.iter().map(|m| Convex::new(&m.solid)).collect();
         let near_boxes = |i: usize, j: usize| {
@@ -122,8 +122,8 @@ fn exact_every_member_is_held_by_another_and_none_floats() {
         };
         let touches = |i: usize, j: usize| {
             near_boxes(i, j)
-                && (points_of(&members[i].solid).iter().any(|p| shapes[j].nearest(*p).distance_m < ROUNDING_M)
-                    || points_of(&members[j].solid).iter().any(|p| shapes[i].nearest(*p).distance_m < ROUNDING_M))
+                && (sample_points(&members[i].solid).iter().any(|p| shapes[j].nearest(*p).distance_m < ROUNDING_M)
+                    || sample_points(&members[j].solid).iter().any(|p| shapes[i].nearest(*p).distance_m < ROUNDING_M))
         };
         let mut joined = vec![false; members.len()];
         let mut open = vec![0];
@@ -139,8 +139,8 @@ fn exact_every_member_is_held_by_another_and_none_floats() {
 }
 
 #[test]
-fn exact_an_arch_has_as_many_members_as_its_formulas_say() {
-    for bridge in many() {
+fn exact_arch_member_counts_match_the_formulas() {
+    for bridge in random_bridges() {
         let BridgeKind::Arch(a) = &bridge.kind else { continue };
         let n = a.panels.round() as usize;
         let lines = a.stringers.round() as usize;
@@ -153,30 +153,33 @@ fn exact_an_arch_has_as_many_members_as_its_formulas_say() {
         let (most, least) =
             (points.iter().filter(|x| clear(**x) > 0.25 - 0.6).count(), points.iter().filter(|x| clear(**x) > 0.25).count());
         let members = bridge.members();
-        let count = counts(&members);
+        let count = element_counts(&members);
         assert_eq!(count[&12], n + 2);
         assert_eq!(count[&155], n + 1);
         assert_eq!(count[&116], lines * (n + 2));
-        assert_eq!(named(&members, "rib-").count(), 2 * 2 * n);
+        assert_eq!(members_named(&members, "rib-").count(), 2 * 2 * n);
         assert_eq!(count[&144], 4 * n + (n - 1) / 2);
-        assert!((2 * least..=2 * most).contains(&named(&members, "column-left").chain(named(&members, "column-right")).count()));
+        assert!(
+            (2 * least..=2 * most)
+                .contains(&members_named(&members, "column-left").chain(members_named(&members, "column-right")).count())
+        );
         assert_eq!(count[&331], 2 * ((a.deck_length_m() / 2.0).floor() as usize + 1) + 6);
         assert_eq!(count[&215], 4);
     }
-    let count = counts(&arch().members());
-    let columns = named(&arch().members(), "column-left").count();
+    let count = element_counts(&arch().members());
+    let columns = members_named(&arch().members(), "column-left").count();
     assert_eq!((columns, count[&144], count[&331]), (13, 62, 130));
 }
 
 #[test]
-fn exact_a_suspension_bridge_has_as_many_members_as_its_formulas_say() {
-    for bridge in many() {
+fn exact_suspension_bridge_member_counts_match_the_formulas() {
+    for bridge in random_bridges() {
         let BridgeKind::Suspension(s) = &bridge.kind else { continue };
         let main = (s.main_span_m / s.hanger_spacing_m).round() as usize;
         let side = ((s.side_span_m / s.hanger_spacing_m).round() as usize).max(1);
         let beams = main - 1 + 2 * (side - 1);
         let panels = main + 2 * side + 2;
-        let count = counts(&bridge.members());
+        let count = element_counts(&bridge.members());
         assert_eq!(count[&148], 2 * (main - 1));
         assert_eq!(count[&147], 2 * (main + 2));
         // A steel beam consists of two flanges and a web.
@@ -185,15 +188,15 @@ fn exact_a_suspension_bridge_has_as_many_members_as_its_formulas_say() {
         assert_eq!((count[&207], count[&210], count[&220], count[&311], count[&313]), (12, 2, 6, 10, 2));
         assert_eq!(count[&330], 2 * ((s.deck_length_m() / 2.0).floor() as usize + 1) + 6);
     }
-    let count = counts(&suspension().members());
+    let count = element_counts(&suspension().members());
     assert_eq!((count[&148], count[&147], count[&152], count[&12], count[&330]), (38, 44, 3 * 29, 34, 254));
 }
 
 #[test]
 fn exact_volumes_of_slab_ribs_cables_and_hangers() {
-    let sum = |members: &[Member], part: &str| named(members, part).map(|m| volume(&m.solid)).sum::<f64>();
-    let close = |got: f64, want: f64| assert!((got - want).abs() < SHARE * want, "{got} m3, expected {want} m3");
-    for bridge in many() {
+    let sum = |members: &[Member], part: &str| members_named(members, part).map(|m| volume(&m.solid)).sum::<f64>();
+    let close = |got: f64, want: f64| assert!((got - want).abs() < VOLUME_TOLERANCE * want, "{got} m3, expected {want} m3");
+    for bridge in random_bridges() {
         let members = bridge.members();
         match &bridge.kind {
             BridgeKind::Arch(a) => {
@@ -231,15 +234,15 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers() {
 }
 
 #[test]
-fn exact_the_rib_follows_its_parabola() {
+fn exact_ribs_follow_their_parabola() {
     let bridge = arch();
     let a = Arch::default();
     let crown = a.slab_m + a.crown_gap_m;
     assert!((a.extrados_z_m(0.0) + crown).abs() < ROUNDING_M);
     assert!((a.axis_z_m(0.0) - a.axis_z_m(0.5 * a.span_m) - a.rise_m).abs() < ROUNDING_M);
     // Calculated by hand for span 98, rise 26, depths 1.6 and 2.7, slab 0.23, gap 3.4: axis -4.43 - 6.5 at a quarter of the span.
-    assert!((a.axis_z_m(24.5) + 10.93).abs() < ROUNDING_M && (a.depth_m(24.5) - 1.875).abs() < ROUNDING_M);
-    for member in named(&bridge.members(), "rib-") {
+    assert!((a.axis_z_m(24.5) + 10.93).abs() < ROUNDING_M && (a.rib_depth_m(24.5) - 1.875).abs() < ROUNDING_M);
+    for member in members_named(&bridge.members(), "rib-") {
         for vertex in &member.solid.vertices_m {
             let [x, y, z] = bridge.placement().local(*vertex);
             let off = (z - a.intrados_z_m(x)).abs().min((z - a.extrados_z_m(x)).abs());
@@ -249,7 +252,7 @@ fn exact_the_rib_follows_its_parabola() {
 }
 
 #[test]
-fn exact_the_cable_sags_and_the_hangers_reach_it() {
+fn exact_hangers_end_at_the_parabolic_cable() {
     let bridge = suspension();
     let s = Suspension::default();
     let members = bridge.members();
@@ -262,16 +265,16 @@ fn exact_the_cable_sags_and_the_hangers_reach_it() {
     for (x, z) in [(0.0, 2.0), (35.0, 5.5), (-70.0, 16.0), (115.0, 0.0)] {
         assert!((s.cable_z_m(x) - z).abs() < ROUNDING_M);
     }
-    for hanger in named(&members, "hanger-left") {
+    for hanger in members_named(&members, "hanger-left") {
         let (top, foot) = (middle(&hanger.solid.vertices_m[..6]), middle(&hanger.solid.vertices_m[6..]));
         let u = top[0] / 70.0;
         assert!((top[2] - (2.0 + 14.0 * u * u)).abs() < ROUNDING_M && (foot[2] + s.slab_m).abs() < ROUNDING_M);
         assert!((top[0] - foot[0]).abs() < ROUNDING_M && (top[0] / 7.0 - (top[0] / 7.0).round()).abs() < ROUNDING_M);
     }
-    let ends: Vec<_> = named(&members, "cable-left").map(|m| middle(&m.solid.vertices_m[..8])).collect();
+    let ends: Vec<_> = members_named(&members, "cable-left").map(|m| middle(&m.solid.vertices_m[..8])).collect();
     assert!(ends.iter().all(|e| (e[2] - s.cable_z_m(e[0])).abs() < ROUNDING_M));
     // Consecutive cable segments share their corners, so the cable has no gaps at its bends.
-    let pieces: Vec<_> = named(&members, "cable-left").map(|m| &m.solid.vertices_m).collect();
+    let pieces: Vec<_> = members_named(&members, "cable-left").map(|m| &m.solid.vertices_m).collect();
     for pair in pieces.windows(2) {
         assert!(pair[0][..8].iter().zip(&pair[1][8..]).all(|(end, start)| (*end - *start).norm() < ROUNDING_M));
     }
@@ -281,7 +284,7 @@ fn solids(members: &[Member]) -> Vec<Convex> {
     members.iter().map(|m| Convex::new(&m.solid)).collect()
 }
 
-fn least_gap(shapes: &[Convex], path: &TaskPath) -> f64 {
+fn min_clearance_m(shapes: &[Convex], path: &TaskPath) -> f64 {
     let gap = |p: &Vec3<Enu>| shapes.iter().map(|s| s.nearest(*p).distance_m).fold(f64::INFINITY, f64::min);
     path.path_m.iter().map(gap).fold(f64::INFINITY, f64::min)
 }
@@ -289,7 +292,7 @@ fn least_gap(shapes: &[Convex], path: &TaskPath) -> f64 {
 /// Checks that a path has steps of at most 1 m, turns that a slow aircraft can follow, and unit viewing directions.
 fn assert_smooth(path: &TaskPath) {
     // Sine of the angle for 0.8 m of an arc with a radius of 4 m, with a margin.
-    const SHARPEST: f64 = 0.25;
+    const MAX_TURN_SINE: f64 = 0.25;
     let n = path.path_m.len();
     assert_eq!(path.look.len(), n);
     assert!(path.look.iter().all(|l| (l.norm() - 1.0).abs() < 1e-12));
@@ -298,20 +301,20 @@ fn assert_smooth(path: &TaskPath) {
     for k in 0..last {
         assert!(step(k).norm() <= 1.0 && step(k).norm() > 0.1, "step {k}: {}", step(k).norm());
         if path.closed || k + 1 < last {
-            assert!(step(k).unit().cross(step(k + 1).unit()).norm() < SHARPEST, "turn at {k}");
+            assert!(step(k).unit().cross(step(k + 1).unit()).norm() < MAX_TURN_SINE, "turn at {k}");
         }
     }
 }
 
 #[test]
-fn prop_paths_keep_their_stand_off() {
-    for bridge in many() {
+fn prop_paths_keep_the_stand_off_distance() {
+    for bridge in random_bridges() {
         let shapes = solids(&bridge.members());
         for stand_off_m in [4.0, 6.5] {
             for kind in [TaskKind::SlabSide, TaskKind::ArchBottom, TaskKind::PierCircle] {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
                 assert_smooth(&path);
-                let gap = least_gap(&shapes, &path);
+                let gap = min_clearance_m(&shapes, &path);
                 assert!(gap > stand_off_m - ROUNDING_M, "{kind:?}: {gap} m, expected {stand_off_m} m, {:?}", bridge.kind);
                 assert!(kind == TaskKind::ArchBottom || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
             }
@@ -320,10 +323,10 @@ fn prop_paths_keep_their_stand_off() {
 }
 
 #[test]
-fn exact_the_pier_is_circled_at_one_distance_and_closed() {
+fn exact_pier_path_is_closed_at_a_constant_distance() {
     let bridge = suspension();
     let members = bridge.members();
-    let pier = Convex::new(&named(&members, "pier-start").next().unwrap().solid);
+    let pier = Convex::new(&members_named(&members, "pier-start").next().unwrap().solid);
     let path = bridge.task_path(TaskKind::PierCircle, 4.5).unwrap();
     assert!(path.closed);
     assert_smooth(&path);
@@ -339,14 +342,14 @@ fn exact_the_pier_is_circled_at_one_distance_and_closed() {
 }
 
 #[test]
-fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
+fn exact_interlayer_path_clears_the_largest_shipped_aircraft() {
     // Half of 1.07 m tip to tip (M30 class) plus a margin of 0.5 m.
-    const NEEDED_M: f64 = 0.5 * 1.07 + 0.5;
+    const REQUIRED_CLEARANCE_M: f64 = 0.5 * 1.07 + 0.5;
     let bridge = arch();
     let path = bridge.task_path(TaskKind::Interlayer, 4.0).unwrap();
     assert_smooth(&path);
-    let gap = least_gap(&solids(&bridge.members()), &path);
-    assert!(gap >= NEEDED_M, "{gap} m");
+    let gap = min_clearance_m(&solids(&bridge.members()), &path);
+    assert!(gap >= REQUIRED_CLEARANCE_M, "{gap} m");
     // The path is between deck and arch: below the floorbeams, between the ribs and above the crown.
     for p in &path.path_m {
         let [x, y, z] = bridge.placement().local(*p);
@@ -356,7 +359,7 @@ fn exact_the_interlayer_lets_the_largest_shipped_aircraft_through() {
 }
 
 #[test]
-fn prop_the_paths_look_at_the_bridge() {
+fn prop_viewing_directions_point_at_the_bridge() {
     // Minimum fraction of viewing directions that hit the bridge. Under the arch some pass between the beams into the sky, and at
     // the corners of the pier they point at an edge, which rounding can miss.
     for (bridge, kind, share) in [
@@ -385,7 +388,7 @@ fn exact_inconsistent_dimensions_are_refused_with_their_line() {
 }
 
 /// Element numbers of the AASHTO MBEI (2015 interims), with the member names that may have them.
-const MBEI: [(u16, &[&str]); 18] = [
+const MEMBER_NAMES: [(u16, &[&str]); 18] = [
     (12, &["slab"]),
     (107, &["girder"]),
     (113, &["stringer"]),
@@ -409,10 +412,10 @@ const MBEI: [(u16, &[&str]); 18] = [
 #[test]
 fn exact_every_member_has_the_element_of_its_part() {
     let steel = [107, 113, 147, 148, 152, 207, 311, 313, 330];
-    for bridge in many() {
+    for bridge in random_bridges() {
         for member in bridge.members() {
             let part = member.name.split('/').nth(1).unwrap();
-            let names = MBEI.iter().find(|(number, _)| *number == member.element.number()).map(|(_, names)| *names);
+            let names = MEMBER_NAMES.iter().find(|(number, _)| *number == member.element.number()).map(|(_, names)| *names);
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
             // The arch bridge is concrete; of the suspension bridge, deck, piers and anchorages are concrete.

@@ -7,14 +7,14 @@ use spandrel_model::shipped;
 use spandrel_model::site::Site;
 
 /// Element numbers by material (docs/src/reference/domain.md, "Elements"). Bearings and cables have the defects of steel.
-const RC: [u16; 16] = [12, 16, 38, 105, 110, 116, 144, 155, 205, 210, 215, 220, 227, 234, 321, 331];
-const PSC: [u16; 12] = [13, 15, 39, 104, 109, 115, 143, 154, 204, 226, 233, 320];
+const REINFORCED_CONCRETE: [u16; 16] = [12, 16, 38, 105, 110, 116, 144, 155, 205, 210, 215, 220, 227, 234, 321, 331];
+const PRESTRESSED_CONCRETE: [u16; 12] = [13, 15, 39, 104, 109, 115, 143, 154, 204, 226, 233, 320];
 const STEEL: [u16; 26] = [
     28, 29, 30, 102, 107, 113, 120, 141, 147, 148, 149, 152, 161, 162, 202, 207, 225, 231, 310, 311, 312, 313, 314, 315, 316, 330,
 ];
 
 #[test]
-fn exact_every_number_stands_for_one_element_of_its_material() {
+fn exact_numbers_map_to_elements_with_the_documented_material() {
     assert!(Element::ALL.is_sorted_by(|a, b| a.number() < b.number()));
     for number in 1..=999 {
         let element = Element::from_number(number);
@@ -22,14 +22,14 @@ fn exact_every_number_stands_for_one_element_of_its_material() {
         assert_eq!(Element::ALL.contains(&element), element != Element::Unlisted(number));
         assert_eq!(element.unit().is_some(), element != Element::Unlisted(number));
         let material = element.material();
-        assert_eq!(material == ElementMaterial::ReinforcedConcrete, RC.contains(&number), "{number}");
-        assert_eq!(material == ElementMaterial::PrestressedConcrete, PSC.contains(&number), "{number}");
+        assert_eq!(material == ElementMaterial::ReinforcedConcrete, REINFORCED_CONCRETE.contains(&number), "{number}");
+        assert_eq!(material == ElementMaterial::PrestressedConcrete, PRESTRESSED_CONCRETE.contains(&number), "{number}");
         assert_eq!(material == ElementMaterial::Steel, STEEL.contains(&number), "{number}");
     }
 }
 
 #[test]
-fn exact_every_element_is_serialized_as_its_number() {
+fn exact_elements_are_serialized_as_numbers() {
     for element in Element::ALL.iter().copied().chain([Element::Unlisted(850)]) {
         let text = serde_json::to_string(&element).unwrap();
         assert_eq!(text, element.number().to_string());
@@ -40,12 +40,12 @@ fn exact_every_element_is_serialized_as_its_number() {
 }
 
 #[test]
-fn exact_every_elements_defects_are_legal() {
+fn exact_permitted_defects_match_the_material() {
     for element in Element::ALL {
         let permitted = element.permitted_defects();
         assert!(permitted.is_sorted(), "{element:?}");
         for code in permitted {
-            assert!(defect_codes::KINDS.contains(code), "{element:?} has the unknown code {code}");
+            assert!(defect_codes::ALL.contains(code), "{element:?} has the unknown code {code}");
             // In the MBEI, codes 1000 to 1020 are for metal and 1080 to 1190 for concrete; 1110 and 1130 are each for one type of
             // concrete.
             let legal = match code {
@@ -69,7 +69,7 @@ fn jobs() -> Vec<Scenario> {
 }
 
 #[test]
-fn exact_shipped_jobs_have_only_defects_that_are_legal_for_their_elements() {
+fn exact_shipped_jobs_have_only_permitted_defects() {
     let mut placed = 0;
     for job in jobs() {
         for element in &job.defects.elements {

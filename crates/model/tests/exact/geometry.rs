@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 
 /// Resolution of 32-bit floats for positions within 1 km, m.
 const ROUNDING_M: f64 = 6e-5;
-/// Maximum displacement of a ray hit by rounding, m, for rays with a cosine of incidence of at least [`LEAST_COS`].
-const ALONG_M: f64 = 2e-3;
+/// Maximum displacement of a ray hit by rounding, m, for rays with a cosine of incidence of at least [`MIN_COSINE`].
+const HIT_TOLERANCE_M: f64 = 2e-3;
 /// Minimum cosine of incidence of the rays that are compared.
-const LEAST_COS: f64 = 0.1;
+const MIN_COSINE: f64 = 0.1;
 
 type Triangle = [Vec3<Enu>; 3];
 
@@ -29,7 +29,7 @@ fn site() -> Site {
 }
 
 /// Parses the exported file with the gltf crate and converts it back to east, north, up.
-fn nodes(site: &Site) -> BTreeMap<String, Node> {
+fn exported_nodes(site: &Site) -> BTreeMap<String, Node> {
     let (document, buffers, _) = ::gltf::import_slice(gltf::glb(site)).unwrap();
     let back = |p: [f32; 3]| Vec3::new(f64::from(p[0]), -f64::from(p[2]), f64::from(p[1]));
     let node = |node: ::gltf::Node| {
@@ -51,24 +51,24 @@ fn normal(t: &Triangle) -> Vec3<Enu> {
 }
 
 /// Returns the distance along a ray to a triangle, enlarged by a rounding tolerance, and the cosine of incidence.
-fn hit(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Option<(f64, f64)> {
+fn ray_to_triangle(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Option<(f64, f64)> {
     let normal = normal(t);
     let cos = normal.dot(direction);
     let distance = normal.dot(t[0] - origin) / cos;
     let p = origin + direction * distance;
-    let inside = |a: Vec3<Enu>, b: Vec3<Enu>| normal.cross((b - a).unit()).dot(p - a) >= -ALONG_M;
+    let inside = |a: Vec3<Enu>, b: Vec3<Enu>| normal.cross((b - a).unit()).dot(p - a) >= -HIT_TOLERANCE_M;
     let within = inside(t[0], t[1]) && inside(t[1], t[2]) && inside(t[2], t[0]);
     (distance >= 0.0 && within).then_some((distance, -cos))
 }
 
-fn direction(random: &mut RandomStream) -> Vec3<Enu> {
+fn random_direction(random: &mut RandomStream) -> Vec3<Enu> {
     Vec3::new(random.normal(), random.normal(), random.normal()).unit()
 }
 
 #[test]
-fn val_every_member_of_the_file_is_the_solid_that_collides() {
+fn val_exported_members_match_the_collision_solids() {
     let site = site();
-    let nodes = nodes(&site);
+    let nodes = exported_nodes(&site);
     assert_eq!(nodes.len(), site.members().len() + 3, "nodes for members, ground, water and pad");
     let mut random = RandomStream::new(1, "export");
     for (k, member) in site.members().iter().enumerate() {
@@ -96,13 +96,13 @@ fn assert_on_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut Rand
     // Stay away from the edges, where rounding decides the result.
     let p = middle.lerp(t[0] + (t[1] - t[0]) * a + (t[2] - t[0]) * b, 0.9);
     assert!(shape.nearest(p).distance_m.abs() < ROUNDING_M, "{name}");
-    let mut from = direction(random);
+    let mut from = random_direction(random);
     if from.dot(normal(t)) < 0.0 {
         from = -from;
     }
-    if from.dot(normal(t)) > LEAST_COS {
+    if from.dot(normal(t)) > MIN_COSINE {
         let (distance, _) = shape.ray(p + from * 3.0, -from, 10.0).unwrap_or_else(|| panic!("{name}: ray misses its face"));
-        assert!((distance - 3.0).abs() < ALONG_M, "{name}: hit at {distance} m instead of 3 m");
+        assert!((distance - 3.0).abs() < HIT_TOLERANCE_M, "{name}: hit at {distance} m instead of 3 m");
     }
 }
 
@@ -115,21 +115,21 @@ fn assert_rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut Rando
             random.range(low.north(), high.north()),
             random.range(low.up(), high.up()),
         );
-        let towards = direction(random);
+        let towards = random_direction(random);
         let origin = aim - towards * (high - low).norm();
         let Some((distance, normal)) = shape.ray(origin, towards, f64::INFINITY) else { continue };
-        if -normal.dot(towards) > LEAST_COS {
-            let first = node.triangles.iter().filter_map(|t| hit(origin, towards, t)).filter(|h| h.1 > 0.0);
+        if -normal.dot(towards) > MIN_COSINE {
+            let first = node.triangles.iter().filter_map(|t| ray_to_triangle(origin, towards, t)).filter(|h| h.1 > 0.0);
             let first = first.map(|h| h.0).fold(f64::INFINITY, f64::min);
-            assert!((first - distance).abs() < ALONG_M / LEAST_COS, "{name}: {distance} m, but {first} m in the file");
+            assert!((first - distance).abs() < HIT_TOLERANCE_M / MIN_COSINE, "{name}: {distance} m, but {first} m in the file");
         }
     }
 }
 
 #[test]
-fn val_a_ray_through_the_site_ends_where_it_ends_in_the_file() {
+fn val_rays_hit_the_site_and_the_exported_file_alike() {
     let site = site();
-    let nodes = nodes(&site);
+    let nodes = exported_nodes(&site);
     let faces: Vec<&Triangle> = nodes.values().flat_map(|n| &n.triangles).collect();
     let mut random = RandomStream::new(2, "export");
     let (mut compared, mut ground, mut bridge) = (0, 0, 0);
@@ -139,24 +139,29 @@ fn val_a_ray_through_the_site_ends_where_it_ends_in_the_file() {
         if site.geometry().nearest(origin, 0.01).is_some() {
             continue;
         }
-        let towards = direction(&mut random);
+        let towards = random_direction(&mut random);
         let found = site.geometry().ray(origin, towards, 190.0);
-        let first =
-            faces.iter().filter_map(|t| hit(origin, towards, t)).fold((f64::INFINITY, 1.0), |a, b| if b.0 < a.0 { b } else { a });
-        if first.1.abs() < LEAST_COS || found.is_some_and(|f| -f.normal.dot(towards) < LEAST_COS) {
+        let first = faces
+            .iter()
+            .filter_map(|t| ray_to_triangle(origin, towards, t))
+            .fold((f64::INFINITY, 1.0), |a, b| if b.0 < a.0 { b } else { a });
+        if first.1.abs() < MIN_COSINE || found.is_some_and(|f| -f.normal.dot(towards) < MIN_COSINE) {
             continue;
         }
         compared += 1;
         match found {
             Some(f) => {
                 assert!(
-                    (f.distance_m - first.0).abs() < ALONG_M / LEAST_COS,
+                    (f.distance_m - first.0).abs() < HIT_TOLERANCE_M / MIN_COSINE,
                     "{origin:?} {towards:?}: {f:?}, but {first:?} in the file"
                 );
                 ground += usize::from(f.surface == spandrel_model::site::Surface::Terrain);
                 bridge += usize::from(f.surface == spandrel_model::site::Surface::Bridge);
             }
-            None => assert!(first.0 > 190.0 - ALONG_M / LEAST_COS, "{origin:?} {towards:?}: no hit, but {first:?} in the file"),
+            None => assert!(
+                first.0 > 190.0 - HIT_TOLERANCE_M / MIN_COSINE,
+                "{origin:?} {towards:?}: no hit, but {first:?} in the file"
+            ),
         }
     }
     assert!(compared > 400 && ground > 40 && bridge > 20, "{compared}, {ground} on the ground, {bridge} on bridges");

@@ -1,6 +1,6 @@
 //! Tests of the ground's queries (nearest points, rays, contacts) against brute-force searches over all triangles.
 
-use super::site::to_triangle;
+use super::site::distance_to_triangle;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
 use spandrel_model::site::heights::HeightGrid;
@@ -9,19 +9,20 @@ use spandrel_model::site::heights::HeightGrid;
 const ROUNDING_M: f64 = 1e-9;
 
 /// Returns a rough height grid of 20 x 20 cells of 5 m.
-fn rough() -> HeightGrid {
+fn rough_grid() -> HeightGrid {
     let mut random = RandomStream::new(9, "rough");
     HeightGrid::new((0..21 * 21).map(|_| random.range(-6.0, 6.0)).collect(), 5.0)
 }
 
 #[test]
-fn prop_the_nearest_point_is_the_nearest_of_all_triangles() {
-    let grid = rough();
+fn prop_nearest_ground_point_matches_brute_force() {
+    let grid = rough_grid();
     let (corners, triangles) = grid.triangles();
     let mut random = RandomStream::new(3, "points");
     for _ in 0..1500 {
         let p = Vec3::new(random.range(-40.0, 40.0), random.range(-40.0, 40.0), random.range(-12.0, 12.0));
-        let brute = triangles.iter().map(|t| to_triangle(p, &t.map(|k| corners[k as usize]))).fold(f64::INFINITY, f64::min);
+        let brute =
+            triangles.iter().map(|t| distance_to_triangle(p, &t.map(|k| corners[k as usize]))).fold(f64::INFINITY, f64::min);
         let near = grid.nearest(p, f64::INFINITY).unwrap();
         assert!((near.distance_m.abs() - brute).abs() < ROUNDING_M, "{p:?}: {} against {brute}", near.distance_m);
         assert_eq!(near.distance_m < 0.0, p.up() < grid.ground(p.east(), p.north()).0);
@@ -33,10 +34,10 @@ fn prop_the_nearest_point_is_the_nearest_of_all_triangles() {
 }
 
 #[test]
-fn prop_no_part_of_a_segment_comes_nearer_to_the_ground_than_its_ends_and_the_creases_it_crosses() {
+fn prop_segments_are_nearest_to_the_ground_at_ends_or_creases() {
     // Half the spacing of the sample points, m.
-    const COARSE_M: f64 = 0.5 * 4.0 / 400.0;
-    let grid = rough();
+    const SAMPLING_TOLERANCE_M: f64 = 0.5 * 4.0 / 400.0;
+    let grid = rough_grid();
     let mut random = RandomStream::new(6, "segments");
     let mut across = 0;
     for _ in 0..2000 {
@@ -49,10 +50,13 @@ fn prop_no_part_of_a_segment_comes_nearer_to_the_ground_than_its_ends_and_the_cr
         if ends < 0.0 || tried < 0.0 {
             continue;
         }
-        let between = grid.between(a, b, ends, 2.0);
+        let between = grid.interior_minimum(a, b, ends, 2.0);
         across += usize::from(between.is_some());
         let least = between.map_or(ends, |n| n.distance_m);
-        assert!(least > tried - COARSE_M && (least < tried + 1e-6 || tried > 2.0), "{least} m, but {tried} m by sampling");
+        assert!(
+            least > tried - SAMPLING_TOLERANCE_M && (least < tried + 1e-6 || tried > 2.0),
+            "{least} m, but {tried} m by sampling"
+        );
         if let Some(near) = between {
             assert!((near.point_m.up() - grid.ground(near.point_m.east(), near.point_m.north()).0).abs() < ROUNDING_M);
             assert!((near.normal.norm() - 1.0).abs() < ROUNDING_M && near.normal.up() > 0.0);
@@ -62,29 +66,29 @@ fn prop_no_part_of_a_segment_comes_nearer_to_the_ground_than_its_ends_and_the_cr
 }
 
 #[test]
-fn exact_a_rod_across_a_ridge_rests_on_the_ridge() {
+fn exact_rod_across_a_ridge_touches_the_ridge() {
     // A ridge 1 m high along the middle column of the grid, with slopes of 1 in 4.
     let heights = (0..9).map(|k| if k % 3 == 1 { 1.0 } else { 0.0 }).collect();
     let grid = HeightGrid::new(heights, 4.0);
     let rod = |up: f64| (Vec3::new(-1.0, 0.3, up), Vec3::new(1.0, 0.3, up));
     for (up, gap) in [(1.2, 0.2), (0.9, -0.1)] {
         let (a, b) = rod(up);
-        let near = grid.between(a, b, f64::INFINITY, 0.5).unwrap();
+        let near = grid.interior_minimum(a, b, f64::INFINITY, 0.5).unwrap();
         assert!((near.distance_m - gap).abs() < ROUNDING_M && (near.normal.up() - 1.0).abs() < ROUNDING_M, "{near:?}");
         assert!((near.point_m - Vec3::new(0.0, 0.3, 1.0)).norm() < ROUNDING_M);
     }
 }
 
 #[test]
-fn prop_what_lies_under_is_lower() {
-    let grid = rough();
+fn prop_ground_is_lower_where_reported_below() {
+    let grid = rough_grid();
     let mut random = RandomStream::new(7, "under");
     let mut certain = 0;
     for _ in 0..500 {
         let low = Vec3::new(random.range(-60.0, 60.0), random.range(-60.0, 60.0), 0.0);
         let high = low + Vec3::new(random.range(0.0, 3.0), random.range(0.0, 3.0), 0.0);
         let up = random.range(-4.0, 8.0);
-        if grid.lies_under(low, high, up) {
+        if grid.is_below(low, high, up) {
             certain += 1;
             let at = |k: u32, l: u32| {
                 let share = |n: u32, a: f64, b: f64| a + (b - a) * f64::from(n) / 20.0;
@@ -97,7 +101,7 @@ fn prop_what_lies_under_is_lower() {
 }
 
 #[test]
-fn prop_a_ray_never_passes_a_thin_ridge() {
+fn prop_rays_never_pass_through_a_thin_ridge() {
     // One row of corners is raised to form a ridge that is one cell wide on each side. Some of the rays pass through its corners.
     let heights = (0..81 * 81).map(|k| if k / 81 == 40 { 3.0 } else { 0.0 }).collect();
     let grid = HeightGrid::new(heights, 1.0);
@@ -114,8 +118,8 @@ fn prop_a_ray_never_passes_a_thin_ridge() {
 }
 
 #[test]
-fn prop_a_ray_ends_where_it_first_meets_the_ground() {
-    let grid = rough();
+fn prop_rays_end_at_the_first_ground_hit() {
+    let grid = rough_grid();
     let mut random = RandomStream::new(5, "rays");
     let over = |p: Vec3<Enu>| p.up() - grid.ground(p.east(), p.north()).0;
     let mut hits = 0;
@@ -137,7 +141,7 @@ fn prop_a_ray_ends_where_it_first_meets_the_ground() {
 }
 
 #[test]
-fn exact_plumb_and_level_rays() {
+fn exact_vertical_and_horizontal_rays() {
     let grid = HeightGrid::new(vec![2.0; 9], 10.0);
     let down = grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(0.0, 0.0, -1.0), 50.0).unwrap();
     assert!((down.0 - 5.0).abs() < ROUNDING_M && down.1 == Vec3::new(0.0, 0.0, 1.0));
@@ -149,8 +153,8 @@ fn exact_plumb_and_level_rays() {
 }
 
 #[test]
-fn exact_a_ray_that_all_but_runs_level_far_over_the_ground_meets_nothing() {
-    let grid = rough();
+fn exact_nearly_horizontal_rays_high_above_the_ground_miss() {
+    let grid = rough_grid();
     // The rays reach the maximum ground height so far away that cell indices would overflow.
     for fall in [1e-12, 1e-19, 1e-300] {
         let sideways = Vec3::new(1.0, 1e-3, -fall);

@@ -27,7 +27,7 @@ fn triangles(geometry: &Geometry) -> Vec<Triangle> {
 }
 
 /// Returns the distance from a point to a triangle: to its plane if the projection is inside, otherwise to the nearest side.
-pub fn to_triangle(p: Vec3<Enu>, t: &Triangle) -> f64 {
+pub fn distance_to_triangle(p: Vec3<Enu>, t: &Triangle) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).unit();
     let sides = [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
     if sides.iter().all(|(a, b)| normal.cross(*b - *a).dot(p - *a) >= 0.0) {
@@ -51,7 +51,7 @@ fn ray_to_triangle(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Opt
 }
 
 /// Returns random points near the members.
-fn points(geometry: &Geometry, count: usize) -> Vec<Vec3<Enu>> {
+fn random_points(geometry: &Geometry, count: usize) -> Vec<Vec3<Enu>> {
     let mut random = RandomStream::new(6, "points");
     let members = geometry.members();
     let one = |_| {
@@ -63,11 +63,11 @@ fn points(geometry: &Geometry, count: usize) -> Vec<Vec3<Enu>> {
 }
 
 #[test]
-fn prop_the_nearest_member_is_the_nearest_of_all_faces() {
+fn prop_nearest_member_matches_brute_force() {
     let geometry = Geometry::new(&two_bridges());
     let faces = triangles(&geometry);
     let mut outside = 0;
-    for p in points(&geometry, 250) {
+    for p in random_points(&geometry, 250) {
         let near = geometry.nearest_member(p, f64::INFINITY).unwrap();
         assert!((near.point_m + near.normal * near.distance_m - p).norm() < ROUNDING_M);
         assert!((near.normal.norm() - 1.0).abs() < ROUNDING_M);
@@ -75,7 +75,7 @@ fn prop_the_nearest_member_is_the_nearest_of_all_faces() {
         assert_eq!(near.distance_m < 0.0, within);
         if !within {
             outside += 1;
-            let brute = faces.iter().map(|t| to_triangle(p, t)).fold(f64::INFINITY, f64::min);
+            let brute = faces.iter().map(|t| distance_to_triangle(p, t)).fold(f64::INFINITY, f64::min);
             assert!((near.distance_m - brute).abs() < ROUNDING_M, "{p:?}: {} m, but {brute} m by brute force", near.distance_m);
             let capped = geometry.nearest_member(p, 1.5).map(|n| n.distance_m);
             assert_eq!(capped, (brute <= 1.5).then_some(near.distance_m));
@@ -85,12 +85,12 @@ fn prop_the_nearest_member_is_the_nearest_of_all_faces() {
 }
 
 #[test]
-fn prop_a_ray_hits_the_first_of_all_faces() {
+fn prop_first_ray_hit_matches_brute_force() {
     let geometry = Geometry::new(&two_bridges());
     let faces = triangles(&geometry);
     let mut random = RandomStream::new(7, "directions");
     let mut hits = 0;
-    for p in points(&geometry, 400) {
+    for p in random_points(&geometry, 400) {
         if geometry.nearest(p, 0.0).is_some() {
             continue;
         }
@@ -112,23 +112,23 @@ fn prop_a_ray_hits_the_first_of_all_faces() {
     assert!(hits > 80, "{hits}");
 }
 
-fn capsule(p: Vec3<Enu>, random: &mut RandomStream) -> (Vec3<Enu>, Vec3<Enu>, f64) {
+fn random_capsule(p: Vec3<Enu>, random: &mut RandomStream) -> (Vec3<Enu>, Vec3<Enu>, f64) {
     let half = Vec3::new(random.normal(), random.normal(), random.normal()).unit() * random.range(0.02, 0.4);
     (p - half, p + half, random.range(0.005, 0.1))
 }
 
 #[test]
-fn prop_no_part_of_a_capsule_lies_deeper_than_its_deepest_contact() {
+fn prop_capsule_contacts_include_the_deepest_point() {
     // Half the spacing of the sample points along the longest capsule, m. The distance changes by at most one meter per meter.
-    const COARSE_M: f64 = 0.5 * 0.8 / 400.0;
+    const SAMPLING_TOLERANCE_M: f64 = 0.5 * 0.8 / 400.0;
     // Tolerance within which distances count as equal, m.
-    const LEVEL_M: f64 = 2e-7;
+    const DISTANCE_TOLERANCE_M: f64 = 2e-7;
     const MARGIN_M: f64 = 0.3;
     let geometry = Geometry::new(&two_bridges());
     let mut random = RandomStream::new(8, "capsules");
     let mut found = 0;
-    for p in points(&geometry, 1500) {
-        let (a_m, b_m, radius_m) = capsule(p, &mut random);
+    for p in random_points(&geometry, 1500) {
+        let (a_m, b_m, radius_m) = random_capsule(p, &mut random);
         let mut contacts: Vec<Contact> = Vec::new();
         geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m }, MARGIN_M, &mut contacts);
         contacts.retain(|c| c.surface == Surface::Bridge);
@@ -143,7 +143,10 @@ fn prop_no_part_of_a_capsule_lies_deeper_than_its_deepest_contact() {
         for k in objects {
             let deepest = contacts.iter().filter(|c| c.object.0 == k).map(|c| c.gap_m).fold(f64::INFINITY, f64::min);
             let tried = member(k as usize);
-            assert!(deepest < tried + LEVEL_M && deepest > tried - COARSE_M, "{deepest} m, but {tried} m by sampling");
+            assert!(
+                deepest < tried + DISTANCE_TOLERANCE_M && deepest > tried - SAMPLING_TOLERANCE_M,
+                "{deepest} m, but {tried} m by sampling"
+            );
             found += 1;
         }
         // Members without a contact must be out of reach.
@@ -154,7 +157,7 @@ fn prop_no_part_of_a_capsule_lies_deeper_than_its_deepest_contact() {
 }
 
 #[test]
-fn exact_a_capsule_on_the_deck_rests_on_both_ends() {
+fn exact_capsule_on_the_deck_has_contacts_at_both_ends() {
     let scenario = two_bridges();
     let geometry = Geometry::new(&scenario);
     // The center of a deck panel of the arch bridge, at a height of 34 m.
@@ -169,12 +172,12 @@ fn exact_a_capsule_on_the_deck_rests_on_both_ends() {
 }
 
 #[test]
-fn prop_nothing_stands_within_the_free_radius() {
+fn prop_no_contacts_within_the_free_radius() {
     let scenario = two_bridges();
     let geometry = Geometry::new(&scenario);
     let mut random = RandomStream::new(9, "balls");
     let pad = scenario.ground_team.pad_m;
-    let mut places = points(&geometry, 150);
+    let mut places = random_points(&geometry, 150);
     places
         .extend((0..150).map(|_| pad + Vec3::new(random.range(-60.0, 60.0), random.range(-60.0, 60.0), random.range(0.0, 8.0))));
     for p in places {
@@ -183,7 +186,7 @@ fn prop_nothing_stands_within_the_free_radius() {
             let q = p + Vec3::new(random.normal(), random.normal(), random.normal()).unit() * free * random.range(0.0, 0.999);
             let mut contacts = Vec::new();
             if free > 0.0 {
-                geometry.contacts(&HullProbe::Ball { centre_m: q, radius_m: 0.0 }, 0.0, &mut contacts);
+                geometry.contacts(&HullProbe::Ball { center_m: q, radius_m: 0.0 }, 0.0, &mut contacts);
             }
             assert_eq!(contacts, [], "{p:?} has a free radius of {free} m, but there is contact at {q:?}");
         }
@@ -191,39 +194,39 @@ fn prop_nothing_stands_within_the_free_radius() {
 }
 
 #[test]
-fn exact_crew_truck_and_pad_stand_on_the_ground() {
+fn exact_crew_truck_and_pad_are_on_the_ground() {
     // Maximum height above the ground, m. The pad is 0.05 m above it; feet and wheels are on it.
-    const HANDS_BREADTH_M: f64 = 0.06;
+    const MAX_HEIGHT_M: f64 = 0.06;
     for text in [spandrel_model::shipped::TWO_BRIDGES, spandrel_model::shipped::PRACTICE] {
         let scenario = scenario(text);
         let geometry = Geometry::new(&scenario);
         let team = &scenario.ground_team;
         for p in [team.inspector_m, team.truck_m] {
             let over = p.up() - geometry.ground_up_m(p.east(), p.north());
-            assert!(over.abs() < HANDS_BREADTH_M, "{over} m over the ground");
+            assert!(over.abs() < MAX_HEIGHT_M, "{over} m over the ground");
         }
         for (e, n) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0), (0.0, 0.0)] {
             let p = team.pad_m + Vec3::new(e, n, 0.0) * team.pad_half_m;
             let over = p.up() - geometry.terrain.ground.ground(p.east(), p.north()).0;
-            assert!(over > 0.0 && over < HANDS_BREADTH_M, "{over} m over the ground");
+            assert!(over > 0.0 && over < MAX_HEIGHT_M, "{over} m over the ground");
             assert_eq!(geometry.ground_up_m(p.east(), p.north()), p.up());
         }
     }
 }
 
 #[test]
-fn exact_the_ground_meets_the_decks_and_leaves_the_spans_free() {
+fn exact_ground_meets_the_decks_and_clears_the_spans() {
     // Maximum step from the deck to the road, m. The road is 0.15 m below the deck, and the 4 m grid rounds its edge.
-    const STEP_M: f64 = 0.5;
+    const MAX_STEP_M: f64 = 0.5;
     let scenario = two_bridges();
     let geometry = Geometry::new(&scenario);
     for bridge in &scenario.bridges {
-        let deck = bridge.centre_m.up();
+        let deck = bridge.center_m.up();
         let at = |x: f64| bridge.placement().point([x, 0.0, 0.0]);
         for side in [-1.0, 1.0] {
             let p = at(side * (0.5 * bridge.deck_length_m() + 5.0));
             let step = deck - geometry.ground_up_m(p.east(), p.north());
-            assert!(step.abs() < STEP_M, "{}: the road is {step} m below the deck", bridge.name);
+            assert!(step.abs() < MAX_STEP_M, "{}: the road is {step} m below the deck", bridge.name);
         }
         for k in -8..=8 {
             let p = at(f64::from(k) / 8.0 * bridge.opening_half_m());
@@ -251,7 +254,7 @@ fn exact_the_ground_meets_the_decks_and_leaves_the_spans_free() {
 }
 
 #[test]
-fn exact_the_orbit_is_flown_two_to_four_metres_over_the_water() {
+fn exact_pier_path_is_two_to_four_meters_above_the_water() {
     let scenario = two_bridges();
     let task = scenario.tasks.iter().find(|t| t.kind == TaskKind::PierCircle).unwrap();
     for p in &task.path_m {
@@ -261,42 +264,47 @@ fn exact_the_orbit_is_flown_two_to_four_metres_over_the_water() {
 }
 
 #[test]
-fn regress_two_builds_answer_with_the_same_bits() {
+fn regress_two_builds_give_bit_identical_results() {
     let (one, other) = (Geometry::new(&two_bridges()), Geometry::new(&two_bridges()));
-    for p in points(&one, 300) {
+    for p in random_points(&one, 300) {
         assert_eq!(one.nearest(p, 50.0), other.nearest(p, 50.0));
         assert_eq!(one.ray(p, Vec3::new(0.6, 0.0, 0.8), 50.0), other.ray(p, Vec3::new(0.6, 0.0, 0.8), 50.0));
     }
 }
 
 #[test]
-fn prop_the_tightest_place_of_a_piece_of_path_is_the_least_of_many() {
+fn prop_min_clearance_of_a_segment_matches_sampling() {
     // Half the spacing of the sample points plus the accuracy of the search, 1 mm.
-    const COARSE_M: f64 = 0.5 * 6.0 / 600.0 + 1e-3;
+    const SAMPLING_TOLERANCE_M: f64 = 0.5 * 6.0 / 600.0 + 1e-3;
     let geometry = Geometry::new(&two_bridges());
     let mut random = RandomStream::new(11, "pieces");
     let mut tight = 0;
-    for from in points(&geometry, 150) {
+    for from in random_points(&geometry, 150) {
         let to = from + Vec3::new(random.normal(), random.normal(), random.normal()).unit() * random.range(0.0, 6.0);
         let tried = (0..=600)
             .filter_map(|k| geometry.nearest(from.lerp(to, f64::from(k) / 600.0), 5.0))
             .map(|n| n.distance_m)
             .fold(f64::INFINITY, f64::min);
         let needed_m = random.range(0.2, 2.0);
-        match geometry.tightest(from, to, needed_m) {
+        match geometry.min_clearance(from, to, needed_m) {
             Some((at, near)) => {
                 tight += 1;
-                assert!((near.distance_m - tried).abs() < COARSE_M && near.distance_m < needed_m, "{near:?}, expected {tried} m");
+                assert!(
+                    (near.distance_m - tried).abs() < SAMPLING_TOLERANCE_M && near.distance_m < needed_m,
+                    "{near:?}, expected {tried} m"
+                );
                 assert_eq!(geometry.nearest(at, 5.0).map(|n| n.distance_m), Some(near.distance_m));
             }
-            None => assert!(tried > needed_m - COARSE_M, "{tried} m by sampling, but no point below {needed_m} m found"),
+            None => {
+                assert!(tried > needed_m - SAMPLING_TOLERANCE_M, "{tried} m by sampling, but no point below {needed_m} m found")
+            }
         }
     }
     assert!(tight > 50, "{tight}");
 }
 
 #[test]
-fn prop_beside_steep_ground_the_free_radius_ends_at_the_nearest_triangle() {
+fn prop_free_radius_near_steep_ground_matches_brute_force() {
     let scenario = two_bridges();
     let geometry = Geometry::new(&scenario);
     let (corners, triangles) = geometry.terrain.ground.triangles();
@@ -312,7 +320,7 @@ fn prop_beside_steep_ground_the_free_radius_ends_at_the_nearest_triangle() {
         let (height, normal) = geometry.terrain.ground.ground(e, n);
         let p = Vec3::new(e, n, height.max(scenario.terrain.water_level_m) + random.range(0.05, 4.0));
         let near = triangles_near(&faces, p, 5.0);
-        let brute = near.iter().map(|t| to_triangle(p, t)).fold(p.up() - scenario.terrain.water_level_m, f64::min);
+        let brute = near.iter().map(|t| distance_to_triangle(p, t)).fold(p.up() - scenario.terrain.water_level_m, f64::min);
         if geometry.nearest_member(p, 0.0).is_some() {
             continue;
         }
@@ -336,7 +344,7 @@ fn triangles_near(all: &[Triangle], p: Vec3<Enu>, reach_m: f64) -> Vec<Triangle>
 }
 
 #[test]
-fn exact_shipped_tasks_one_two_and_four_keep_four_metres_from_every_member() {
+fn exact_shipped_tasks_1_2_and_4_keep_4_m_from_all_members() {
     // Stand-off distance of tasks 1, 2 and 4 by design, m.
     const STAND_OFF_M: f64 = 4.0;
     let mut seen = 0;
@@ -367,10 +375,10 @@ fn exact_shipped_tasks_one_two_and_four_keep_four_metres_from_every_member() {
 }
 
 #[test]
-fn prop_a_capsule_over_the_ground_touches_it_where_it_is_nearest() {
+fn prop_capsule_contacts_with_the_ground_match_sampling() {
     // Half the spacing of the sample points, and the tolerance within which distances count as equal, m.
-    const COARSE_M: f64 = 0.5 * 6.0 / 400.0;
-    const LEVEL_M: f64 = 2e-7;
+    const SAMPLING_TOLERANCE_M: f64 = 0.5 * 6.0 / 400.0;
+    const DISTANCE_TOLERANCE_M: f64 = 2e-7;
     let geometry = Geometry::new(&two_bridges());
     let ground = &geometry.terrain.ground;
     let mut random = RandomStream::new(13, "ridges");
@@ -390,9 +398,12 @@ fn prop_a_capsule_over_the_ground_touches_it_where_it_is_nearest() {
         geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m }, 0.2, &mut contacts);
         let gaps = contacts.iter().filter(|c| c.surface == Surface::Terrain).map(|c| c.gap_m);
         let deepest = gaps.fold(f64::INFINITY, f64::min);
-        if tried < 0.2 - COARSE_M {
+        if tried < 0.2 - SAMPLING_TOLERANCE_M {
             touching += 1;
-            assert!(deepest > tried - COARSE_M && deepest < tried + LEVEL_M, "{deepest} m, but {tried} m by sampling");
+            assert!(
+                deepest > tried - SAMPLING_TOLERANCE_M && deepest < tried + DISTANCE_TOLERANCE_M,
+                "{deepest} m, but {tried} m by sampling"
+            );
             across += usize::from(tried < signed(0.0).min(signed(1.0)) - radius_m - 0.01);
         }
     }

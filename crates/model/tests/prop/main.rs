@@ -1,5 +1,5 @@
 //! Property tests of scenario and vehicle files: all problems are reported.
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
-mod files;
-mod mistakes;
+mod error_messages;
+mod mutated_files;

@@ -1,5 +1,5 @@
 //! Tests of the shipped scenario and vehicle files and of their documentation.
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
-mod documented;
-mod shipped;
+mod documentation;
+mod shipped_files;

@@ -8,13 +8,13 @@ use std::fmt::Write;
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
     /// Column of integers.
-    Whole(fn(&FrameRow) -> Option<i64>),
+    Integer(fn(&FrameRow) -> Option<i64>),
     /// Column of floating-point numbers.
-    Real(fn(&FrameRow) -> Option<f64>),
+    Float(fn(&FrameRow) -> Option<f64>),
     /// Column of Booleans; 1 or 0 in CSV.
-    Flag(fn(&FrameRow) -> bool),
+    Boolean(fn(&FrameRow) -> bool),
     /// Column of words from a fixed set.
-    Word(fn(&FrameRow) -> &'static str),
+    Text(fn(&FrameRow) -> &'static str),
 }
 
 /// A column of the frames export.
@@ -65,99 +65,99 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
 
 /// All columns in order. Names and order of released columns never change; new columns are appended.
 pub const COLUMNS: &[Column] = &[
-    column("frame", "", "", "Frame number; 1 is lift-off.", Read::Whole(|r| Some(i64::from(r.frame.index)))),
-    column("t_s", "s", "", "Simulation time since lift-off.", Read::Real(|r| Some(r.since_lift_off_s))),
-    column("fb", "", STICK, "Stick, forward positive.", Read::Real(|r| Some(r.frame.sticks[0]))),
-    column("rl", "", STICK, "Stick, right positive.", Read::Real(|r| Some(r.frame.sticks[1]))),
-    column("ud", "", STICK, "Stick, up positive.", Read::Real(|r| Some(r.frame.sticks[2]))),
-    column("rt", "", STICK, "Stick, clockwise positive.", Read::Real(|r| Some(r.frame.sticks[3]))),
-    column("light", "", "", "Whether the lamp is on.", Read::Flag(|r| r.frame.light)),
-    column("snapshot", "", "", "Whether a picture was taken since the previous frame.", Read::Flag(|r| r.frame.snapshot)),
-    column("east_m", "m", ENU, "True position, east.", Read::Real(|r| Some(r.frame.position_m.east()))),
-    column("north_m", "m", ENU, "True position, north.", Read::Real(|r| Some(r.frame.position_m.north()))),
-    column("up_m", "m", ENU, "True position, up.", Read::Real(|r| Some(r.frame.position_m.up()))),
+    column("frame", "", "", "Frame number; 1 is lift-off.", Read::Integer(|r| Some(i64::from(r.frame.index)))),
+    column("t_s", "s", "", "Simulation time since lift-off.", Read::Float(|r| Some(r.since_lift_off_s))),
+    column("fb", "", STICK, "Stick, forward positive.", Read::Float(|r| Some(r.frame.sticks[0]))),
+    column("rl", "", STICK, "Stick, right positive.", Read::Float(|r| Some(r.frame.sticks[1]))),
+    column("ud", "", STICK, "Stick, up positive.", Read::Float(|r| Some(r.frame.sticks[2]))),
+    column("rt", "", STICK, "Stick, clockwise positive.", Read::Float(|r| Some(r.frame.sticks[3]))),
+    column("light", "", "", "Whether the lamp is on.", Read::Boolean(|r| r.frame.light)),
+    column("snapshot", "", "", "Whether a picture was taken since the previous frame.", Read::Boolean(|r| r.frame.snapshot)),
+    column("east_m", "m", ENU, "True position, east.", Read::Float(|r| Some(r.frame.position_m.east()))),
+    column("north_m", "m", ENU, "True position, north.", Read::Float(|r| Some(r.frame.position_m.north()))),
+    column("up_m", "m", ENU, "True position, up.", Read::Float(|r| Some(r.frame.position_m.up()))),
     column(
         "speed_m_s",
         "m/s",
         "",
         "Magnitude of the true velocity over ground, in three dimensions.",
-        Read::Real(|r| Some(r.frame.speed_m_s())),
+        Read::Float(|r| Some(r.frame.speed_m_s())),
     ),
-    column("battery_pct", "%", "", "Remaining battery; 100 before the first report.", Read::Real(|r| Some(r.frame.battery_pct))),
+    column("battery_pct", "%", "", "Remaining battery; 100 before the first report.", Read::Float(|r| Some(r.frame.battery_pct))),
     column(
         "contact",
         "",
         "",
         "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Landing and \
          takeoff at home count as none.",
-        Read::Word(|r| r.frame.contact.label()),
+        Read::Text(|r| r.frame.contact.label()),
     ),
     column(
         "missing",
         "",
         "",
         "Whether the frame is in a telemetry gap of more than 1 s; position and velocity then repeat the last values.",
-        Read::Flag(|r| r.frame.missing),
+        Read::Boolean(|r| r.frame.missing),
     ),
-    column("velocity_east_m_s", "m/s", ENU_VELOCITY, "True velocity, east.", Read::Real(|r| Some(r.frame.velocity_m_s.east()))),
+    column("velocity_east_m_s", "m/s", ENU_VELOCITY, "True velocity, east.", Read::Float(|r| Some(r.frame.velocity_m_s.east()))),
     column(
         "velocity_north_m_s",
         "m/s",
         ENU_VELOCITY,
         "True velocity, north.",
-        Read::Real(|r| Some(r.frame.velocity_m_s.north())),
+        Read::Float(|r| Some(r.frame.velocity_m_s.north())),
     ),
-    column("velocity_up_m_s", "m/s", ENU_VELOCITY, "True velocity, up.", Read::Real(|r| Some(r.frame.velocity_m_s.up()))),
-    optional("roll_deg", "deg", BODY_FROM_NED, "True roll, right side down positive.", Read::Real(|r| attitude_deg(r, 0))),
-    optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch, nose up positive.", Read::Real(|r| attitude_deg(r, 1))),
+    column("velocity_up_m_s", "m/s", ENU_VELOCITY, "True velocity, up.", Read::Float(|r| Some(r.frame.velocity_m_s.up()))),
+    optional("roll_deg", "deg", BODY_FROM_NED, "True roll, right side down positive.", Read::Float(|r| attitude_deg(r, 0))),
+    optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch, nose up positive.", Read::Float(|r| attitude_deg(r, 1))),
     optional(
         "yaw_deg",
         "deg",
         BODY_FROM_NED,
         "True heading, clockwise from north, -180 to 180.",
-        Read::Real(|r| attitude_deg(r, 2)),
+        Read::Float(|r| attitude_deg(r, 2)),
     ),
     optional(
         "gimbal_pitch_deg",
         "deg",
         "horizon",
         "Pitch of the camera relative to the horizon, up positive.",
-        Read::Real(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
+        Read::Float(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
     ),
     optional(
         "task",
         "",
         "",
         "Task whose path the drone is on, otherwise the last task entered; empty before the first.",
-        Read::Whole(|r| r.task.map(|task| i64::from(task.id))),
+        Read::Integer(|r| r.task.map(|task| i64::from(task.id))),
     ),
-    column("on_path", "", "", "Whether the drone is on the path of a task.", Read::Flag(|r| r.on_path)),
+    column("on_path", "", "", "Whether the drone is on the path of a task.", Read::Boolean(|r| r.on_path)),
     optional(
         "path_distance_m",
         "m",
         "",
         "Distance to the path of `task`, measured by the scenario's path rule.",
-        Read::Real(|r| r.task.and_then(|task| task.distance_m)),
+        Read::Float(|r| r.task.and_then(|task| task.distance_m)),
     ),
     optional(
         "clearance_m",
         "m",
         "",
         "Distance from the drone's center to the nearest surface, except the pad.",
-        Read::Real(|r| r.clearance_m),
+        Read::Float(|r| r.clearance_m),
     ),
-    optional("wind_east_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, east.", Read::Real(|r| east(r.wind_m_s))),
-    optional("wind_north_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, north.", Read::Real(|r| north(r.wind_m_s))),
-    optional("wind_up_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, up.", Read::Real(|r| up(r.wind_m_s))),
-    optional("estimated_east_m", "m", ENU, "Position estimated by the autopilot, east.", Read::Real(|r| east(r.estimate_m))),
-    optional("estimated_north_m", "m", ENU, "Position estimated by the autopilot, north.", Read::Real(|r| north(r.estimate_m))),
-    optional("estimated_up_m", "m", ENU, "Position estimated by the autopilot, up.", Read::Real(|r| up(r.estimate_m))),
+    optional("wind_east_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, east.", Read::Float(|r| east(r.wind_m_s))),
+    optional("wind_north_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, north.", Read::Float(|r| north(r.wind_m_s))),
+    optional("wind_up_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, up.", Read::Float(|r| up(r.wind_m_s))),
+    optional("estimated_east_m", "m", ENU, "Position estimated by the autopilot, east.", Read::Float(|r| east(r.estimate_m))),
+    optional("estimated_north_m", "m", ENU, "Position estimated by the autopilot, north.", Read::Float(|r| north(r.estimate_m))),
+    optional("estimated_up_m", "m", ENU, "Position estimated by the autopilot, up.", Read::Float(|r| up(r.estimate_m))),
     column(
         "interpolated",
         "",
         "",
         "Whether the frame is in a telemetry gap of 0.2 to 1 s; position and velocity are then interpolated.",
-        Read::Flag(|r| r.frame.interpolated),
+        Read::Boolean(|r| r.frame.interpolated),
     ),
 ];
 
@@ -186,9 +186,9 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
 /// Appends a cell. Writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
     let _ = match read {
-        Read::Whole(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
-        Read::Real(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
-        Read::Flag(value) => write!(csv, "{}", u8::from(value(row))),
-        Read::Word(value) => write!(csv, "{}", value(row)),
+        Read::Integer(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
+        Read::Float(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
+        Read::Boolean(value) => write!(csv, "{}", u8::from(value(row))),
+        Read::Text(value) => write!(csv, "{}", value(row)),
     };
 }

@@ -32,16 +32,16 @@ pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
 /// The battery rule. The color never improves during a session, because the battery cannot charge in flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BatteryCue {
-    worst: BatteryColor,
+    worst_color: BatteryColor,
 }
 
 impl BatteryCue {
     /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.battery_pct.map_or(BatteryColor::Green, |pct| color(pct, limits));
-        let worse = now > self.worst;
-        self.worst = self.worst.max(now);
-        let bit = match self.worst {
+        let worse = now > self.worst_color;
+        self.worst_color = self.worst_color.max(now);
+        let bit = match self.worst_color {
             BatteryColor::Green => 0,
             BatteryColor::Yellow => cue::BATTERY_YELLOW,
             BatteryColor::Red => cue::BATTERY_RED,

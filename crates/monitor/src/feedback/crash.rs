@@ -9,10 +9,10 @@ use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
 /// Time for which the cue stays on after the last contact (estimate: time to read it).
-const SHOWN_FOR: SimTime = SimTime::from_ms(2_000);
+const CUE_HOLD: SimTime = SimTime::from_ms(2_000);
 /// Contacts within this interval count as one crash (docs/src/reference/assessment.md, "Certification": contacts less than a
 /// second apart).
-const SAME_BUMP: SimTime = SimTime::from_ms(1_000);
+const SAME_CRASH_INTERVAL: SimTime = SimTime::from_ms(1_000);
 
 /// The crash rule.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -39,8 +39,8 @@ impl CrashCue {
             let what = moment.touched.as_deref().unwrap_or(contact.label());
             format!("Crash: {what}").chars().take(50).collect()
         };
-        let text = worse.then(|| self.cool_down.cue_text(moment.time, SAME_BUMP, cue::CRASH, words)).flatten();
-        let shown = self.last.is_some_and(|last| moment.time - last < SHOWN_FOR);
+        let text = worse.then(|| self.cool_down.limited_text(moment.time, SAME_CRASH_INTERVAL, cue::CRASH, words)).flatten();
+        let shown = self.last.is_some_and(|last| moment.time - last < CUE_HOLD);
         (if shown { cue::CRASH } else { 0 }, text)
     }
 }

@@ -15,7 +15,7 @@ pub struct TaskProximity {
     /// Number of the task in the scenario.
     pub id: u32,
     /// Whether the trainee may leave the task: its path was flown, or the nearest point is an end of the path.
-    pub may_leave: bool,
+    pub may_leave_task: bool,
 }
 
 /// Input of the feedback rules at one instant.

@@ -10,11 +10,11 @@ use spandrel_model::time::SimTime;
 
 /// A task counts as left if the drone has moved away from it for this long (docs/src/reference/assessment.md, "Feedback during
 /// the flight").
-const LEFT_AFTER: SimTime = SimTime::from_ms(2_000);
+const LEAVE_CONFIRM_TIME: SimTime = SimTime::from_ms(2_000);
 /// Minimum change of distance that counts as movement, m (estimate: half the slowest inspection speed; MAVLink rounds to 1 cm).
 /// The constant below is the time for which it is valid.
-const CHANGE_M: f64 = 0.15;
-const CHANGE_WITHIN: SimTime = SimTime::from_ms(600);
+const MIN_MOVEMENT_M: f64 = 0.15;
+const MAX_MOVEMENT_AGE: SimTime = SimTime::from_ms(600);
 
 /// The off-path rule. The cue turns on after a delay and then stays on for a minimum time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -45,16 +45,16 @@ impl Transit {
         }
         let (_, before_m, since, grows) = kept.unwrap_or((task.id, task.distance_m, now, false));
         let by_m = task.distance_m - before_m;
-        let moved = by_m.abs() >= CHANGE_M;
+        let moved = by_m.abs() >= MIN_MOVEMENT_M;
         self.change = Some(if moved || kept.is_none() {
             (task.id, task.distance_m, now, by_m > 0.0)
         } else {
             (task.id, before_m, since, grows)
         });
-        let (grows, fresh) = if moved { (by_m > 0.0, true) } else { (grows, now - since < CHANGE_WITHIN) };
+        let (grows, fresh) = if moved { (by_m > 0.0, true) } else { (grows, now - since < MAX_MOVEMENT_AGE) };
         let away = fresh && grows;
-        self.leaving = (away && (task.may_leave || self.leaving.is_some())).then(|| self.leaving.unwrap_or(now));
-        self.left |= self.leaving.is_some_and(|since| now - since >= LEFT_AFTER);
+        self.leaving = (away && (task.may_leave_task || self.leaving.is_some())).then(|| self.leaving.unwrap_or(now));
+        self.left |= self.leaving.is_some_and(|since| now - since >= LEAVE_CONFIRM_TIME);
         self.left || self.leaving.is_some()
     }
 }
@@ -76,7 +76,7 @@ impl OffPathCue {
                 self.shown_since = Some(now);
             }
             let words = || format!("Off path of task {id}: {distance_m:.1} m away");
-            text = self.cool_down.cue_text(now, limits.text_interval, cue::OFF_PATH, words);
+            text = self.cool_down.limited_text(now, limits.text_interval, cue::OFF_PATH, words);
         }
         let held = self.shown_since.is_some_and(|shown| now - shown < limits.off_path_hold);
         if !due && !held {

@@ -18,7 +18,7 @@ pub(super) struct CoolDown {
 }
 
 impl CoolDown {
-    pub(super) fn cue_text(
+    pub(super) fn limited_text(
         &mut self,
         now: SimTime,
         interval: SimTime,

@@ -5,10 +5,10 @@ use super::input::FeedbackInput;
 use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math::M_S_PER_MPH;
-use spandrel_model::numbers::{format_beside_limit, limit};
+use spandrel_model::numbers::{format_limit, format_with_limit};
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// The speeding rule. To avoid flicker, the cue turns off only after the speed has stayed at or below the limit for `CLEAR_MS`.
+/// The speeding rule. To avoid flicker, the cue turns off only after the speed has stayed at or below the limit for `CUE_OFF_DELAY_MS`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpeedingCue {
     over_limit_since: Option<spandrel_model::time::SimTime>,
@@ -16,7 +16,7 @@ pub struct SpeedingCue {
 }
 
 /// Delay before the cue turns off, ms (estimate: after half a second, the cue still seems current).
-const CLEAR_MS: i64 = 500;
+const CUE_OFF_DELAY_MS: i64 = 500;
 
 impl SpeedingCue {
     /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
@@ -27,11 +27,11 @@ impl SpeedingCue {
             self.over_limit_since = Some(moment.time);
             let words = || {
                 let (speed_mph, limit_mph) = (moment.speed_m_s / M_S_PER_MPH, limit_m_s / M_S_PER_MPH);
-                format!("Too fast: {} mph, limit {} mph", format_beside_limit(speed_mph, limit_mph, 0), limit(limit_mph))
+                format!("Too fast: {} mph, limit {} mph", format_with_limit(speed_mph, limit_mph, 0), format_limit(limit_mph))
             };
-            return (cue::SPEEDING, self.cool_down.cue_text(moment.time, limits.text_interval, cue::SPEEDING, words));
+            return (cue::SPEEDING, self.cool_down.limited_text(moment.time, limits.text_interval, cue::SPEEDING, words));
         }
-        let fresh = self.over_limit_since.is_some_and(|over| (moment.time - over).ms() < CLEAR_MS);
+        let fresh = self.over_limit_since.is_some_and(|over| (moment.time - over).ms() < CUE_OFF_DELAY_MS);
         (if fresh && moment.in_session { cue::SPEEDING } else { 0 }, None)
     }
 }

@@ -7,11 +7,11 @@ use std::collections::VecDeque;
 
 /// Minimum interval between two texts, except for crashes (estimate: time to read one; docs/src/reference/wire.md, "The
 /// monitor").
-const APART: SimTime = SimTime::from_ms(1_000);
+const MIN_TEXT_INTERVAL: SimTime = SimTime::from_ms(1_000);
 /// Maximum time that a text waits in the queue; afterward, it is dropped.
-const STALE: SimTime = SimTime::from_ms(2_000);
+const MAX_TEXT_AGE: SimTime = SimTime::from_ms(2_000);
 /// Maximum length of the queue. A crash text displaces others.
-const WAITING: usize = 4;
+const MAX_QUEUE_LEN: usize = 4;
 
 /// Queue of texts to send.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,7 +22,7 @@ pub struct TextQueue {
 
 impl TextQueue {
     /// Adds texts, most urgent first. A new text replaces a queued text of the same rule.
-    pub fn put(&mut self, now: SimTime, texts: Vec<PilotText>) {
+    pub fn enqueue(&mut self, now: SimTime, texts: Vec<PilotText>) {
         for text in texts {
             self.waiting.retain(|(_, waiting)| waiting.cue != text.cue);
             if text.cue == cue::CRASH {
@@ -31,14 +31,14 @@ impl TextQueue {
                 self.waiting.push_back((now, text));
             }
         }
-        self.waiting.truncate(WAITING);
+        self.waiting.truncate(MAX_QUEUE_LEN);
     }
 
     /// Returns the next text if one may be sent now.
     pub fn next(&mut self, now: SimTime) -> Option<PilotText> {
-        self.waiting.retain(|(put, _)| now - *put < STALE);
+        self.waiting.retain(|(put, _)| now - *put < MAX_TEXT_AGE);
         let crash = self.waiting.front()?.1.cue == cue::CRASH;
-        if !crash && self.last.is_some_and(|last| now - last < APART) {
+        if !crash && self.last.is_some_and(|last| now - last < MIN_TEXT_INTERVAL) {
             return None;
         }
         self.last = Some(now);

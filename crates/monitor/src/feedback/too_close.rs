@@ -3,7 +3,7 @@
 use super::input::FeedbackInput;
 use super::pilot_text::{CoolDown, PilotText};
 use spandrel_mavlink::contract::cue;
-use spandrel_model::numbers::format_beside_limit;
+use spandrel_model::numbers::format_with_limit;
 use spandrel_model::scenario::FeedbackThresholds;
 
 /// The too-close rule.
@@ -31,8 +31,8 @@ impl TooCloseCue {
         let clear = limit + (limits.too_close_clear_m - limits.too_close_m);
         let began = !self.on && clearance < limit;
         self.on = if self.on { clearance < clear } else { began };
-        let words = || format!("Too close: {} m", format_beside_limit(clearance, limit, 1));
-        let text = began.then(|| self.cool_down.cue_text(moment.time, limits.text_interval, cue::TOO_CLOSE, words)).flatten();
+        let words = || format!("Too close: {} m", format_with_limit(clearance, limit, 1));
+        let text = began.then(|| self.cool_down.limited_text(moment.time, limits.text_interval, cue::TOO_CLOSE, words)).flatten();
         (if self.on { cue::TOO_CLOSE } else { 0 }, text)
     }
 }

@@ -27,14 +27,14 @@ pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
 
 /// Applies the bridge closures that were active during a flight.
 #[must_use]
-pub fn with_traffic_at(survey: Arc<dyn SiteSurvey>, flight: &Flight) -> Arc<dyn SiteSurvey> {
-    let gates = gates(flight);
+pub fn with_flight_closures(survey: Arc<dyn SiteSurvey>, flight: &Flight) -> Arc<dyn SiteSurvey> {
+    let gates = bridge_closures(flight);
     if gates.is_empty() { survey } else { survey.with_closures(gates).unwrap_or(survey) }
 }
 
 /// Returns the bridge closures that were active during a flight.
 #[must_use]
-pub fn gates(flight: &Flight) -> BridgeClosures {
+pub fn bridge_closures(flight: &Flight) -> BridgeClosures {
     BridgeClosures::from_codes(flight.traffic.all().iter().map(|said| said.2))
 }
 
@@ -54,7 +54,7 @@ impl SiteSurvey for Site {
 }
 
 /// Difference below which two fields of view count as equal, rad. Telemetry transmits degrees with 24-bit precision.
-const SAME_RAD: f64 = 1e-6;
+const FOV_TOLERANCE_RAD: f64 = 1e-6;
 
 /// Evaluation of one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -94,7 +94,7 @@ pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &
             .snapshots
             .between(since, frame.time)
             .iter()
-            .flat_map(|(time, _, _)| views(flight, *time, vehicle, survey))
+            .flat_map(|(time, _, _)| sightings_at(flight, *time, vehicle, survey))
             .collect();
         let shown = views.iter().filter(|view| view.shown).map(|view| view.defect);
         let found: Vec<u32> = shown.filter(|defect| hit_before.insert(*defect)).collect();
@@ -104,7 +104,7 @@ pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &
     judged
 }
 
-fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn SiteSurvey) -> Vec<DefectSighting> {
+fn sightings_at(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn SiteSurvey) -> Vec<DefectSighting> {
     let Some(pose) = pose(flight, time, vehicle) else { return Vec::new() };
     let looks = survey.view_defects(&pose, &camera(flight, time, &vehicle.camera), &vehicle.lamp, time);
     looks.iter().filter(|look| look.in_frame || look.hit).map(view).collect()
@@ -114,7 +114,7 @@ fn views(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn SiteSur
 #[must_use]
 pub fn camera(flight: &Flight, time: SimTime, camera: &Camera) -> Camera {
     match flight.field_of_view.at(time) {
-        Some(hfov_rad) if (hfov_rad - camera.hfov_rad).abs() > SAME_RAD => Camera { hfov_rad, ..*camera },
+        Some(hfov_rad) if (hfov_rad - camera.hfov_rad).abs() > FOV_TOLERANCE_RAD => Camera { hfov_rad, ..*camera },
         _ => *camera,
     }
 }
@@ -125,7 +125,7 @@ pub fn pose(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> Option<CameraP
     let state = flight.between(time)?;
     let gimbal_rad = flight.gimbal.at(time).unwrap_or(0.0);
     let lamp_on = flight.light.at(time).unwrap_or(false);
-    Some(CameraPose::on(&vehicle.camera, state.motion.pose(), gimbal_rad, lamp_on))
+    Some(CameraPose::on_aircraft(&vehicle.camera, state.motion.pose(), gimbal_rad, lamp_on))
 }
 
 fn view(look: &DefectView) -> DefectSighting {

@@ -4,7 +4,7 @@ use super::on_path::{OnPath, ReferencePath, ReferencePaths};
 
 /// Maximum path length between the nearest points of two consecutive frames that counts as flown, m (estimate: frames are at most
 /// 1.4 m apart at 13.4 m/s and 10 Hz, but the nearest point moves farther if the drone cuts a corner within the threshold).
-const JOINED_M: f64 = 5.0;
+const MAX_JOIN_M: f64 = 5.0;
 
 /// Coverage of one path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,10 +19,10 @@ pub struct PathCoverage {
 /// Computes the coverage of all paths, in task order.
 #[must_use]
 pub fn coverage(paths: &ReferencePaths, on_path: &OnPath) -> Vec<PathCoverage> {
-    (0..paths.len()).map(|task| of_task(paths.path(task), paths.threshold_m(task), task, on_path)).collect()
+    (0..paths.len()).map(|task| task_coverage(paths.path(task), paths.threshold_m(task), task, on_path)).collect()
 }
 
-fn of_task(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &OnPath) -> PathCoverage {
+fn task_coverage(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &OnPath) -> PathCoverage {
     let mut flown = FlownPath::new(path, threshold_m);
     for on in &on_path.task {
         flown.note(on.and_then(|(t, point)| (t == task).then_some(point)));
@@ -56,7 +56,7 @@ impl FlownPath {
     pub fn note(&mut self, point: Option<usize>) {
         let point = point.filter(|point| *point < self.covered.len());
         if let Some(point) = point {
-            let near = |b: &usize| (self.along_m[*b] - self.along_m[point]).abs() <= JOINED_M;
+            let near = |b: &usize| (self.along_m[*b] - self.along_m[point]).abs() <= MAX_JOIN_M;
             let from = self.before.filter(near).unwrap_or(point);
             self.covered[from.min(point)..=from.max(point)].fill(true);
         }
@@ -90,7 +90,7 @@ mod tests {
     use spandrel_model::frames::Vec3;
 
     #[test]
-    fn exact_a_path_is_flown_point_by_point_and_between_near_frames() {
+    fn exact_coverage_joins_near_frames() {
         let points: Vec<_> = (0..11).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
         let mut flown = FlownPath::new(&ReferencePath::new(&points, false), 1.0);
         assert_eq!(flown.coverage(), PathCoverage { length_m: 10.0, share: 0.0 });

@@ -7,10 +7,10 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::GroundTeam;
 
 /// Maximum vertical speed at which contact with the pad is not a crash, m/s (docs/src/reference/assessment.md, "Crashes").
-const SOFT_TOUCH_M_S: f64 = 1.0;
+const MAX_SOFT_TOUCH_M_S: f64 = 1.0;
 /// Maximum height above the pad at which a contact can be with the surrounding ground, m (estimate: center of any tilted
 /// aircraft).
-const PAD_REACH_M: f64 = 1.0;
+const MAX_PAD_CONTACT_HEIGHT_M: f64 = 1.0;
 /// Number of preceding frames that are searched for the impact speed, because the drone may already have stopped when the contact
 /// is reported.
 const LOOK_BACK_FRAMES: usize = 2;
@@ -32,7 +32,7 @@ pub struct Crash {
 
 /// Restores contacts whose messages were lost, then removes touchdowns and lift-offs on the pad. Changes only `contact` of the
 /// frames.
-pub fn settle_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam) {
+pub fn clean_up_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam) {
     for time in flight.missed_contacts() {
         let i = frames.partition_point(|frame| frame.time < time);
         let free = |k: usize| frames.get(k).is_none_or(|frame| frame.contact == ContactKind::None);
@@ -62,7 +62,9 @@ fn is_soft_touch(frames: &[Frame], onset: usize, team: &GroundTeam) -> bool {
 #[must_use]
 pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam) -> bool {
     let from_pad = position_m - team.pad_m;
-    from_pad.horizontal_norm() <= team.home_radius_m && from_pad.up() < PAD_REACH_M && vertical_m_s.abs() < SOFT_TOUCH_M_S
+    from_pad.horizontal_norm() <= team.home_radius_m
+        && from_pad.up() < MAX_PAD_CONTACT_HEIGHT_M
+        && vertical_m_s.abs() < MAX_SOFT_TOUCH_M_S
 }
 
 /// Returns all crashes: frames in which a contact starts, or escalates to a vehicle or person.
@@ -75,7 +77,7 @@ pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
         if frame.contact != ContactKind::None && (before == ContactKind::None || worse) {
             let around = &frames[i.saturating_sub(LOOK_BACK_FRAMES)..=i];
             let speed_m_s = around.iter().map(Frame::speed_m_s).fold(0.0, f64::max);
-            found.push(Crash { frame: i, last: i, with: frame.contact, speed_m_s, task: task_of(i, on_path) });
+            found.push(Crash { frame: i, last: i, with: frame.contact, speed_m_s, task: task_at_frame(i, on_path) });
         } else if frame.contact != ContactKind::None
             && let Some(crash) = found.last_mut()
         {
@@ -88,7 +90,7 @@ pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
 
 /// Returns the task whose window contains frame `i`. If several do, returns the task being flown, otherwise the last one flown,
 /// otherwise the one with the lowest index.
-fn task_of(i: usize, on_path: &OnPath) -> Option<usize> {
+fn task_at_frame(i: usize, on_path: &OnPath) -> Option<usize> {
     let holds = |task: usize| on_path.windows[task].is_some_and(|window| window.contains(i));
     let open: Vec<usize> = (0..on_path.windows.len()).filter(|task| holds(*task)).collect();
     if open.len() < 2 {
@@ -100,7 +102,7 @@ fn task_of(i: usize, on_path: &OnPath) -> Option<usize> {
 
 /// Merges crashes that are less than `apart_frames` frames apart, as the certification profile requires.
 #[must_use]
-pub fn merged(crashes: &[Crash], apart_frames: f64) -> Vec<Crash> {
+pub fn merge_crashes(crashes: &[Crash], apart_frames: f64) -> Vec<Crash> {
     let mut merged: Vec<Crash> = Vec::new();
     for crash in crashes {
         match merged.last_mut() {

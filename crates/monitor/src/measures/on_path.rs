@@ -5,25 +5,25 @@ use spandrel_model::scenario::Scenario;
 
 /// Number of points per search block. Blocks whose bounding box is farther away than the best point so far are skipped; the
 /// result is still exact.
-const BLOCK: usize = 16;
+const BLOCK_POINTS: usize = 16;
 /// Factor that allows for rounding errors when a box is skipped.
-const BOX_SLACK: f64 = 1.0 + 1e-9;
+const BOX_TOLERANCE: f64 = 1.0 + 1e-9;
 
 /// A reference path indexed for nearest-point queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferencePath {
     points_m: Vec<Vec3<Enu>>,
     closed: bool,
-    blocks: Vec<Aabb>,
+    blocks: Vec<BoundingBox>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Aabb {
+struct BoundingBox {
     low: [f64; 3],
     high: [f64; 3],
 }
 
-impl Aabb {
+impl BoundingBox {
     fn around<'a>(points: impl Iterator<Item = &'a Vec3<Enu>>) -> Self {
         let empty = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
         points.map(|point| point.array()).fold(empty, |mut sum, point| {
@@ -55,8 +55,8 @@ impl ReferencePath {
     pub fn new(points_m: &[Vec3<Enu>], closed: bool) -> Self {
         let count = points_m.len();
         // Each block includes the end of its last segment, so that the same boxes can be used for points and segments.
-        let block = |start: usize| Aabb::around((start..=(start + BLOCK).min(count)).map(|k| &points_m[k % count]));
-        Self { points_m: points_m.to_vec(), closed, blocks: (0..count).step_by(BLOCK).map(block).collect() }
+        let block = |start: usize| BoundingBox::around((start..=(start + BLOCK_POINTS).min(count)).map(|k| &points_m[k % count]));
+        Self { points_m: points_m.to_vec(), closed, blocks: (0..count).step_by(BLOCK_POINTS).map(block).collect() }
     }
 
     /// Returns the reference points, m.
@@ -74,7 +74,7 @@ impl ReferencePath {
         let before = if point > 0 { Some(point - 1) } else { self.closed.then_some(count - 1) };
         let segments = [before, Some(point)].into_iter().flatten().filter_map(|k| self.segment(k));
         let own = (position_m - self.points_m[point]).norm_squared();
-        let squared = segments.map(|(a, b)| to_segment_squared(position_m, a, b)).fold(own, f64::min);
+        let squared = segments.map(|(a, b)| distance_to_segment_squared(position_m, a, b)).fold(own, f64::min);
         Some(NearestOnPath { point, distance_m: squared.sqrt() })
     }
 
@@ -83,7 +83,7 @@ impl ReferencePath {
     pub fn exact(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let to_segment = |k: usize| {
             let (a, b) = self.segment(k).unwrap_or((self.points_m[k], self.points_m[k]));
-            to_segment_squared(position_m, a, b)
+            distance_to_segment_squared(position_m, a, b)
         };
         let point = self.search(position_m, to_segment)?;
         Some(NearestOnPath { point, distance_m: to_segment(point).sqrt() })
@@ -91,7 +91,7 @@ impl ReferencePath {
 
     /// Returns the position on the whole polyline that is nearest, m.
     #[must_use]
-    pub fn closest_on_segment(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
+    pub fn closest_position(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
         let point = self.exact(position_m)?.point;
         let (a, b) = self.segment(point).unwrap_or((self.points_m[point], self.points_m[point]));
         Some(a.lerp(b, along(position_m, a, b)))
@@ -100,7 +100,7 @@ impl ReferencePath {
     /// Returns whether the whole path is farther away than `distance_m`.
     #[must_use]
     pub fn is_beyond(&self, position_m: Vec3<Enu>, distance_m: f64) -> bool {
-        let limit = distance_m * distance_m * BOX_SLACK;
+        let limit = distance_m * distance_m * BOX_TOLERANCE;
         self.blocks.iter().all(|block| block.distance_squared(position_m.array()) > limit)
     }
 
@@ -141,10 +141,10 @@ impl ReferencePath {
         let point = position_m.array();
         let mut best: Option<(f64, usize)> = None;
         for (b, block) in self.blocks.iter().enumerate() {
-            if best.is_some_and(|(least, _)| block.distance_squared(point) > least * BOX_SLACK) {
+            if best.is_some_and(|(least, _)| block.distance_squared(point) > least * BOX_TOLERANCE) {
                 continue;
             }
-            for k in b * BLOCK..((b + 1) * BLOCK).min(self.points_m.len()) {
+            for k in b * BLOCK_POINTS..((b + 1) * BLOCK_POINTS).min(self.points_m.len()) {
                 let cost = cost(k);
                 if best.is_none_or(|(least, _)| cost < least) {
                     best = Some((cost, k));
@@ -155,7 +155,7 @@ impl ReferencePath {
     }
 }
 
-fn to_segment_squared(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
+fn distance_to_segment_squared(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
     (p - (a + (b - a) * along(p, a, b))).norm_squared()
 }
 
@@ -243,14 +243,14 @@ impl ReferencePaths {
 
 /// First and last on-path frame of a task, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct OnPathWindow {
+pub struct TaskWindow {
     /// Index of the first frame.
     pub first: usize,
     /// Index of the last frame, inclusive.
     pub last: usize,
 }
 
-impl OnPathWindow {
+impl TaskWindow {
     /// Returns the number of frames in the window.
     #[must_use]
     pub fn frames(&self) -> usize {
@@ -270,13 +270,13 @@ pub struct OnPath {
     /// For each frame, the task whose path the drone is on and the index of the nearest path point.
     pub task: Vec<Option<(usize, usize)>>,
     /// Window of each task; `None` if its path was never entered.
-    pub windows: Vec<Option<OnPathWindow>>,
+    pub windows: Vec<Option<TaskWindow>>,
 }
 
 impl OnPath {
     /// Determines the on-path state from positions in frame order.
     pub fn measure(paths: &ReferencePaths, positions_m: impl Iterator<Item = Vec3<Enu>>) -> Self {
-        let mut windows: Vec<Option<OnPathWindow>> = vec![None; paths.len()];
+        let mut windows: Vec<Option<TaskWindow>> = vec![None; paths.len()];
         let mut current = None;
         let mut task = Vec::new();
         for (i, position_m) in positions_m.enumerate() {
@@ -284,7 +284,7 @@ impl OnPath {
             if let Some((t, _)) = on {
                 current = Some(t);
                 let first = windows[t].map_or(i, |window| window.first);
-                windows[t] = Some(OnPathWindow { first, last: i });
+                windows[t] = Some(TaskWindow { first, last: i });
             }
             task.push(on.map(|(t, nearest)| (t, nearest.point)));
         }
@@ -306,7 +306,7 @@ mod tests {
     use spandrel_model::random::RandomStream;
 
     #[test]
-    fn exact_the_papers_rule_and_the_true_distance_differ_on_a_folded_path() {
+    fn exact_tasbid_rule_and_exact_distance_differ_on_folded_path() {
         let points = [(0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.0)].map(|(e, n)| Vec3::new(e, n, 0.0));
         let path = ReferencePath::new(&points, false);
         let drone = Vec3::new(20.0, 3.0, 0.0);
@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_closed_path_wraps_and_an_open_one_does_not() {
+    fn exact_only_closed_paths_wrap() {
         let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(e, n)| Vec3::new(e, n, 0.0));
         let drone = Vec3::new(0.0, 4.0, 0.0);
         assert_eq!(ReferencePath::new(&square, true).paper(drone).unwrap().distance_m, 0.0);
@@ -325,13 +325,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_ties_take_the_lowest_point() {
+    fn exact_nearest_point_ties_go_to_lowest_index() {
         let line: Vec<Vec3<Enu>> = (0..40).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
         assert_eq!(ReferencePath::new(&line, false).paper(Vec3::new(20.5, 1.0, 0.0)).unwrap().point, 20);
     }
 
     #[test]
-    fn prop_the_block_search_agrees_with_trying_every_point() {
+    fn prop_block_search_matches_brute_force() {
         let mut stream = RandomStream::new(5, "paths");
         for _ in 0..200 {
             let count = 1 + stream.below(70);
@@ -346,10 +346,10 @@ mod tests {
                 let least = points.iter().map(|q| (p - *q).norm_squared()).fold(f64::INFINITY, f64::min);
                 let first = points.iter().position(|q| (p - *q).norm_squared() == least).unwrap();
                 assert_eq!(path.paper(p).unwrap().point, first);
-                let exact = (0..count).filter_map(|k| path.segment(k)).map(|(a, b)| to_segment_squared(p, a, b));
+                let exact = (0..count).filter_map(|k| path.segment(k)).map(|(a, b)| distance_to_segment_squared(p, a, b));
                 let exact = exact.fold(least, f64::min).sqrt();
                 assert_eq!(path.exact(p).unwrap().distance_m, exact);
-                assert!(((p - path.closest_on_segment(p).unwrap()).norm() - exact).abs() < 1e-12);
+                assert!(((p - path.closest_position(p).unwrap()).norm() - exact).abs() < 1e-12);
             }
         }
     }

@@ -1,10 +1,10 @@
 //! On-speed analysis (equation 5 and P_s of the TASBID paper).
 
-use super::on_path::OnPathWindow;
+use super::on_path::TaskWindow;
 
 /// Returns for each frame whether it is inside any task window and the speed exceeds the limit (X_s,i).
 #[must_use]
-pub fn speeding(speeds_m_s: &[f64], windows: &[Option<OnPathWindow>], limit_m_s: f64) -> Vec<bool> {
+pub fn speeding(speeds_m_s: &[f64], windows: &[Option<TaskWindow>], limit_m_s: f64) -> Vec<bool> {
     let mut inside = vec![false; speeds_m_s.len()];
     for window in windows.iter().flatten() {
         inside[window.first..=window.last].fill(true);
@@ -15,7 +15,7 @@ pub fn speeding(speeds_m_s: &[f64], windows: &[Option<OnPathWindow>], limit_m_s:
 /// Returns the speeding loss (P_s,t): the sum of speed / limit over the speeding frames, divided by the number of all frames in
 /// the window; 0 without a window.
 #[must_use]
-pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<OnPathWindow>, limit_m_s: f64) -> f64 {
+pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<TaskWindow>, limit_m_s: f64) -> f64 {
     let Some(window) = window else { return 0.0 };
     let range = window.first..=window.last;
     let weights = speeds_m_s[range.clone()].iter().zip(&speeding[range]).filter(|(_, on)| **on).map(|(v, _)| v / limit_m_s);
@@ -28,9 +28,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_limit_itself_is_no_speeding_and_all_frames_divide() {
+    fn exact_speed_at_limit_is_not_speeding() {
         let speeds = [5.0, 4.0, 8.0, 4.0, 8.0];
-        let windows = [Some(OnPathWindow { first: 1, last: 4 }), None];
+        let windows = [Some(TaskWindow { first: 1, last: 4 }), None];
         let speeding = speeding(&speeds, &windows, 4.0);
         assert_eq!(speeding, [false, false, true, false, true]);
         assert_eq!(loss(&speeds, &speeding, windows[0], 4.0), 1.0);
@@ -38,8 +38,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_speeding_between_tasks_does_not_count_but_in_any_tasks_window_does() {
-        let windows = [Some(OnPathWindow { first: 0, last: 0 }), Some(OnPathWindow { first: 2, last: 2 })];
+    fn exact_speeding_counts_only_in_task_windows() {
+        let windows = [Some(TaskWindow { first: 0, last: 0 }), Some(TaskWindow { first: 2, last: 2 })];
         assert_eq!(speeding(&[9.0, 9.0, 9.0], &windows, 4.0), [true, false, true]);
     }
 }

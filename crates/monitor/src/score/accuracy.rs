@@ -4,7 +4,7 @@ use super::Score;
 
 /// Counts from which the F-measure is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MatchCounts {
+pub struct DetectionTally {
     /// Number of pictures taken.
     pub taken: usize,
     /// Number of pictures that were the first to show at least one defect.
@@ -15,7 +15,7 @@ pub struct MatchCounts {
     pub placed: usize,
 }
 
-impl MatchCounts {
+impl DetectionTally {
     /// Returns hits / pictures; 0 if no picture was taken.
     #[must_use]
     pub fn precision(&self) -> f64 {

@@ -11,27 +11,27 @@ use serde::Serialize;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::elements::Element;
-use spandrel_model::numbers::{format_beside_limit, limit};
+use spandrel_model::numbers::{format_limit, format_with_limit};
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// On-path intervals closer together than this count as one visit, s (docs/src/reference/assessment.md, "Certification").
-const VISIT_APART_S: f64 = 10.0;
+const VISIT_MERGE_GAP_S: f64 = 10.0;
 /// Contacts closer together than this count as one crash, s (docs/src/reference/assessment.md, "Certification").
-const CRASH_APART_S: f64 = 1.0;
+const CRASH_MERGE_GAP_S: f64 = 1.0;
 /// Minimum battery at landing, % (docs/src/reference/assessment.md, "Certification").
-const BATTERY_AT_HOME_PCT: f64 = 20.0;
+const MIN_LANDING_BATTERY_PCT: f64 = 20.0;
 /// Minimum loss per crash, points; the loss of any crash in TASBID.
-const CRASH_LOSS: f64 = 3.0;
+const MIN_CRASH_LOSS: f64 = 3.0;
 /// Speed at which a crash costs twice the minimum loss, m/s (estimate). The energy increases with the square of the speed, so
 /// that at twice this speed the loss is five times the minimum.
-const CRASH_SPEED_M_S: f64 = 2.0;
+const CRASH_REFERENCE_SPEED_M_S: f64 = 2.0;
 /// Maximum loss per crash, points (estimate).
-const CRASH_LOSS_MAX: f64 = 30.0;
+const MAX_CRASH_LOSS: f64 = 30.0;
 /// Points lost per second below the minimum clearance (estimate: a minute costs as much as two crashes with the minimum loss).
 const EXPOSURE_LOSS_PER_S: f64 = 0.1;
 /// Maximum loss for low clearance, points (estimate).
-const EXPOSURE_LOSS_MAX: f64 = 50.0;
+const MAX_EXPOSURE_LOSS: f64 = 50.0;
 
 /// Results of the certification profile.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -163,7 +163,7 @@ pub struct CertificationInputs<'a> {
     /// Crashes before merging.
     pub crashes: &'a [Crash],
     /// Counts for the accuracy score.
-    pub counts: accuracy::MatchCounts,
+    pub counts: accuracy::DetectionTally,
     /// Defects placed in the session.
     pub defects: &'a [PlacedDefect],
     /// Ids of the defects found.
@@ -177,10 +177,10 @@ pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
     let frames = &evidence.session.frames;
     let tasks = visits(evidence);
     let attempted: Vec<bool> = evidence.on_path.windows.iter().map(Option::is_some).collect();
-    let crashes = merged(evidence);
+    let crashes = merge_crashes(evidence);
     let exposure_s = exposure_s(evidence);
     let battery_at_end_pct = frames.last().map_or(0.0, |frame| frame.battery_pct);
-    let gates = gates(evidence, attempted.iter().all(|a| *a), battery_at_end_pct);
+    let gates = check_requirements(evidence, attempted.iter().all(|a| *a), battery_at_end_pct);
     let unmet = unmet(evidence, &gates, battery_at_end_pct);
     let none_entered = !attempted.is_empty() && attempted.iter().all(|a| !a);
     let whole = gates.landed_at_home && gates.all_tasks_attempted;
@@ -205,7 +205,7 @@ pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
     }
 }
 
-fn gates(evidence: &CertificationInputs<'_>, all_tasks_attempted: bool, battery_pct: f64) -> Requirements {
+fn check_requirements(evidence: &CertificationInputs<'_>, all_tasks_attempted: bool, battery_pct: f64) -> Requirements {
     let landed = evidence.session.reason == EndReason::Landed;
     let traffic = |crash: &Crash| matches!(crash.with, ContactKind::Person | ContactKind::Vehicle);
     Requirements {
@@ -213,7 +213,7 @@ fn gates(evidence: &CertificationInputs<'_>, all_tasks_attempted: bool, battery_
         all_tasks_attempted,
         no_person_or_vehicle_hit: !evidence.crashes.iter().any(traffic),
         landed_at_home: landed,
-        battery_reserve: landed && battery_pct >= BATTERY_AT_HOME_PCT,
+        battery_reserve: landed && battery_pct >= MIN_LANDING_BATTERY_PCT,
     }
 }
 
@@ -229,8 +229,8 @@ fn unmet(evidence: &CertificationInputs<'_>, gates: &Requirements, battery_pct: 
     if !gates.landed_at_home {
         unmet.push("not landed at home".to_owned());
     } else if !gates.battery_reserve {
-        let reached = format_beside_limit(battery_pct, BATTERY_AT_HOME_PCT, 0);
-        unmet.push(format!("{reached} % battery at landing, {} % needed", limit(BATTERY_AT_HOME_PCT)));
+        let reached = format_with_limit(battery_pct, MIN_LANDING_BATTERY_PCT, 0);
+        unmet.push(format!("{reached} % battery at landing, {} % needed", format_limit(MIN_LANDING_BATTERY_PCT)));
     }
     unmet
 }
@@ -263,7 +263,7 @@ fn visit_ranges(on_path: &OnPath, task: usize, apart_frames: f64) -> Vec<(usize,
 
 fn visits(evidence: &CertificationInputs<'_>) -> Vec<TaskVisits> {
     let scenario = evidence.scenario;
-    let apart = VISIT_APART_S * scenario.scoring.frame_rate_hz;
+    let apart = VISIT_MERGE_GAP_S * scenario.scoring.frame_rate_hz;
     let limit = scenario.scoring.speed_limit_m_s;
     let frames = &evidence.session.frames;
     let ranges: Vec<Vec<(usize, usize)>> =
@@ -294,13 +294,13 @@ fn covered_conformity(tasks: &[TaskVisits], scenario: &Scenario) -> Option<f64> 
 }
 
 fn crash_loss(speed_m_s: f64) -> f64 {
-    let ratio = speed_m_s / CRASH_SPEED_M_S;
-    (CRASH_LOSS * (1.0 + ratio * ratio)).min(CRASH_LOSS_MAX)
+    let ratio = speed_m_s / CRASH_REFERENCE_SPEED_M_S;
+    (MIN_CRASH_LOSS * (1.0 + ratio * ratio)).min(MAX_CRASH_LOSS)
 }
 
-fn merged(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
+fn merge_crashes(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
     let rate = evidence.scenario.scoring.frame_rate_hz;
-    crash::merged(evidence.crashes, CRASH_APART_S * rate)
+    crash::merge_crashes(evidence.crashes, CRASH_MERGE_GAP_S * rate)
         .iter()
         .map(|crash| MergedCrash {
             frame: evidence.session.frames[crash.frame].index,
@@ -335,7 +335,7 @@ fn safety(gates: &Requirements, crashes: &[MergedCrash], exposure_s: f64) -> f64
         return 0.0;
     }
     let crashes: f64 = crashes.iter().map(|crash| crash.loss).sum();
-    let closeness = (EXPOSURE_LOSS_PER_S * exposure_s).min(EXPOSURE_LOSS_MAX);
+    let closeness = (EXPOSURE_LOSS_PER_S * exposure_s).min(MAX_EXPOSURE_LOSS);
     Score::on_scale(-crashes - closeness, -100.0, 0.0).pct
 }
 

@@ -3,7 +3,7 @@
 
 use crate::measures::coverage::PathCoverage;
 use serde::{Deserialize, Serialize};
-use spandrel_model::numbers::{format_beside_limit, limit};
+use spandrel_model::numbers::{format_limit, format_with_limit};
 
 /// How much of a task was flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -98,7 +98,7 @@ impl Completion {
 /// Formats a fraction as a percentage with enough digits to tell it from the limit.
 #[must_use]
 pub fn percent(share: f64, done_share: f64) -> String {
-    format_beside_limit(100.0 * share, 100.0 * done_share, 0)
+    format_with_limit(100.0 * share, 100.0 * done_share, 0)
 }
 
 /// Describes why a task is incomplete; `None` if it is done.
@@ -109,7 +109,7 @@ pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Opti
         TaskState::Part => Some(format!(
             "task {id} not done: {} % of its path, {} % needed",
             percent(covered, done_share),
-            limit(100.0 * done_share)
+            format_limit(100.0 * done_share)
         )),
         TaskState::NotAttempted => Some(format!("task {id} not attempted")),
     }

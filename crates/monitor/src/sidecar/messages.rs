@@ -1,23 +1,23 @@
 //! Outgoing messages: cues, texts, replies, and events for the log.
 
-use super::{AUTOPILOT, COMPONENT, CUES_EVERY, Monitor, SessionOutput};
+use super::{AUTOPILOT_COMPONENT, COMPONENT, CUES_INTERVAL, Monitor, SessionOutput};
 use crate::feedback::{FeedbackInput, TaskProximity};
 use crate::session::lift_off_height_m;
 use serde_json::json;
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
-use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::named_values::Named;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use spandrel_mavlink::station;
 
 /// Fraction of a path's points that must be passed before the path counts as flown (estimate: cutting a corner skips some
 /// points).
-const FLOWN_SHARE: f64 = 0.9;
+const MIN_FLOWN_SHARE: f64 = 0.9;
 
 impl Monitor {
-    pub(super) fn send_due(&mut self) {
+    pub(super) fn send_feedback(&mut self) {
         let Some(truth) = self.live.truth else { return };
         let moment = self.moment(&truth);
         let (cues, texts) = self.feedback.update(&moment);
@@ -26,11 +26,11 @@ impl Monitor {
             self.event("cues", json!({ "cues": cues }));
         }
         self.live.cues = cues;
-        if changed || self.live.cues_sent.is_none_or(|sent| truth.time - sent >= CUES_EVERY) {
+        if changed || self.live.cues_sent.is_none_or(|sent| truth.time - sent >= CUES_INTERVAL) {
             self.live.cues_sent = Some(truth.time);
             self.send(&Named::Cues(cues).message(truth.time.ms() as u32));
         }
-        self.texts.put(truth.time, texts);
+        self.texts.enqueue(truth.time, texts);
         while let Some(text) = self.texts.next(truth.time) {
             let quiet = text.cue == cue::BATTERY_YELLOW;
             let severity = if quiet { MavSeverity::MAV_SEVERITY_INFO } else { MavSeverity::MAV_SEVERITY_WARNING };
@@ -48,7 +48,7 @@ impl Monitor {
                 threshold_m: task.threshold_m,
                 too_close_m: task.too_close_m,
                 id: task.id,
-                may_leave: nearest.is_some_and(|nearest| self.may_leave_task(t, nearest.point)),
+                may_leave_task: nearest.is_some_and(|nearest| self.may_leave_task(t, nearest.point)),
             }
         };
         let contact = self.counted_contact();
@@ -74,7 +74,7 @@ impl Monitor {
         let count = self.paths.path(task).points_m().len();
         let passed = self.live.visited_points[task].iter().filter(|passed| **passed).count();
         let at_end = !self.config.scenario.tasks[task].closed && (point == 0 || point + 1 >= count);
-        at_end || passed as f64 >= FLOWN_SHARE * count as f64
+        at_end || passed as f64 >= MIN_FLOWN_SHARE * count as f64
     }
 
     /// Returns whether the drone is low over the pad. Away from the pad, heights are not checked, because a job can be flown
@@ -101,15 +101,17 @@ impl Monitor {
             }
             Some(MavMessage::COMMAND_LONG(command)) if command.target_component == COMPONENT => {
                 if ours(command.target_system, COMPONENT) {
-                    self.unsupported(command.command, received);
+                    self.reject_command(command.command, received);
                 }
             }
             Some(MavMessage::COMMAND_INT(command)) if command.target_component == COMPONENT => {
                 if ours(command.target_system, COMPONENT) {
-                    self.unsupported(command.command, received);
+                    self.reject_command(command.command, received);
                 }
             }
-            Some(MavMessage::HEARTBEAT(_)) if received.component_id == AUTOPILOT => self.adopt_system(received.system_id),
+            Some(MavMessage::HEARTBEAT(_)) if received.component_id == AUTOPILOT_COMPONENT => {
+                self.adopt_system(received.system_id)
+            }
             Some(_) | None => {}
         }
     }
@@ -122,7 +124,7 @@ impl Monitor {
         }
     }
 
-    fn unsupported(&mut self, command: MavCmd, asker: &ReceivedFrame) {
+    fn reject_command(&mut self, command: MavCmd, asker: &ReceivedFrame) {
         self.send(&MavMessage::COMMAND_ACK(COMMAND_ACK_DATA {
             command,
             result: MavResult::MAV_RESULT_UNSUPPORTED,

@@ -37,21 +37,21 @@ mod telemetry_intake;
 /// Component id of the monitor (MAV_COMP_ID_ONBOARD_COMPUTER).
 pub const COMPONENT: u8 = 191;
 /// Component id of the autopilot (MAV_COMP_ID_AUTOPILOT1).
-const AUTOPILOT: u8 = 1;
+const AUTOPILOT_COMPONENT: u8 = 1;
 /// Interval at which `cues` is repeated, 5 Hz (docs/src/reference/wire.md, "Scoring data").
-const CUES_EVERY: SimTime = SimTime::from_ms(200);
+const CUES_INTERVAL: SimTime = SimTime::from_ms(200);
 /// Heartbeat interval in simulation time, so that runs at any simulation speed are reproducible.
-const HEARTBEAT_EVERY: SimTime = SimTime::from_ms(1_000);
+const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
 /// Heartbeat interval in wall-clock time while no simulation time is received.
-const HEARTBEAT_SILENT: SimTime = SimTime::from_ms(2_000);
+const HEARTBEAT_WALL_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// Time to wait for late datagrams before scoring.
-const SETTLE: SimTime = SimTime::from_ms(500);
+const SCORING_DELAY: SimTime = SimTime::from_ms(500);
 /// Delay before the next attempt if the live rule detected an end that the scorer did not.
-const RETRY: SimTime = SimTime::from_ms(5_000);
+const END_RETRY_DELAY: SimTime = SimTime::from_ms(5_000);
 /// Wall-clock time without telemetry after which the session is closed, once an end was detected.
-const SILENCE_CLOSES: SimTime = SimTime::from_ms(3_000);
+const SILENCE_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 /// Search radius around the drone's center for the object in contact, m (estimate: half the size of the largest aircraft).
-const TOUCH_REACH_M: f64 = 1.5;
+const CONTACT_SEARCH_RADIUS_M: f64 = 1.5;
 
 /// Function that builds the site for a seed.
 pub type SurveyBuilder = fn(&Scenario, u64) -> Arc<dyn SiteSurvey>;
@@ -112,7 +112,7 @@ struct LiveState {
     visited_points: Vec<Vec<bool>>,
     rule: EndRule,
     end: Option<(SimTime, EndReason)>,
-    no_end_before: SimTime,
+    end_check_after: SimTime,
     cues: i32,
     cues_sent: Option<SimTime>,
     respawns: Option<i32>,
@@ -139,8 +139,8 @@ pub struct Monitor {
     replaying: bool,
     heartbeat_sim: Option<SimTime>,
     heartbeat_wall: Option<SimTime>,
-    last_heard_wall: Option<SimTime>,
-    vehicle_heard: bool,
+    last_received_wall: Option<SimTime>,
+    vehicle_received: bool,
     refusal: Option<AssessError>,
     outcome: Option<Result<AssessedSession, AssessError>>,
 }
@@ -166,8 +166,8 @@ impl Monitor {
             replaying: false,
             heartbeat_sim: None,
             heartbeat_wall: None,
-            last_heard_wall: None,
-            vehicle_heard: false,
+            last_received_wall: None,
+            vehicle_received: false,
             refusal: None,
             outcome: None,
             config,
@@ -183,7 +183,7 @@ impl Monitor {
         let mut monitor = Self::new(config);
         monitor.replaying = true;
         log.for_each_record(&mut |record| {
-            monitor.zero_unix_us = monitor.zero_unix_us.or_else(|| tlog::zero_us(&record));
+            monitor.zero_unix_us = monitor.zero_unix_us.or_else(|| tlog::zero_of_record_us(&record));
             for received in monitor.decoder.datagram(record.frame) {
                 monitor.take_frame(&received);
             }
@@ -204,14 +204,15 @@ impl Monitor {
             Some(MavMessage::HEARTBEAT(beat)) => beat.autopilot != MavAutopilot::MAV_AUTOPILOT_INVALID,
             message => message.is_some() && system.is_some(),
         };
-        let fits =
-            |frame: &ReceivedFrame| frame.component_id == AUTOPILOT && system.is_none_or(|system| system == frame.system_id);
+        let fits = |frame: &ReceivedFrame| {
+            frame.component_id == AUTOPILOT_COMPONENT && system.is_none_or(|system| system == frame.system_id)
+        };
         Decoder::new().datagram(bytes).iter().any(|frame| fits(frame) && beats(frame))
     }
 
     /// Processes a datagram from the vehicle. The first `seed` message builds the site, which can take a while.
     pub fn handle_datagram(&mut self, bytes: &[u8]) {
-        self.vehicle_heard = true;
+        self.vehicle_received = true;
         for received in self.decoder.datagram(bytes) {
             if self.outcome.is_none() {
                 let stamp = self.stamp_us(&received);
@@ -225,14 +226,14 @@ impl Monitor {
 
     /// Updates the wall-clock time, measured from any fixed instant. Needed only while simulation time does not advance.
     pub fn handle_timeout(&mut self, wall: SimTime) {
-        if std::mem::take(&mut self.vehicle_heard) || self.last_heard_wall.is_none() {
-            self.last_heard_wall = Some(wall);
+        if std::mem::take(&mut self.vehicle_received) || self.last_received_wall.is_none() {
+            self.last_received_wall = Some(wall);
         }
-        if self.heartbeat_wall.is_none_or(|last| wall - last >= HEARTBEAT_SILENT) {
+        if self.heartbeat_wall.is_none_or(|last| wall - last >= HEARTBEAT_WALL_INTERVAL) {
             self.heartbeat();
             self.heartbeat_wall = Some(wall);
         }
-        let silent = self.last_heard_wall.is_some_and(|heard| wall - heard >= SILENCE_CLOSES);
+        let silent = self.last_received_wall.is_some_and(|heard| wall - heard >= SILENCE_TIMEOUT);
         if silent && self.live.end.is_some() {
             self.close();
         }
@@ -376,7 +377,7 @@ impl LiveState {
             visited_points: config.scenario.tasks.iter().map(|task| vec![false; task.path_m.len()]).collect(),
             rule: EndRule::new(&config.scenario, &config.vehicle),
             end: None,
-            no_end_before: SimTime::ZERO,
+            end_check_after: SimTime::ZERO,
             cues: 0,
             cues_sent: None,
             respawns: None,

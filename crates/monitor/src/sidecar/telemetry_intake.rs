@@ -1,6 +1,6 @@
 //! Processing of received telemetry frames: log timestamps, live state, events, and the end of the session.
 
-use super::{COMPONENT, HEARTBEAT_EVERY, LiveState, Monitor, RETRY, SETTLE, TOUCH_REACH_M};
+use super::{COMPONENT, CONTACT_SEARCH_RADIUS_M, END_RETRY_DELAY, HEARTBEAT_INTERVAL, LiveState, Monitor, SCORING_DELAY};
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
@@ -12,8 +12,8 @@ use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::MavSeverity;
-use spandrel_mavlink::note;
-use spandrel_mavlink::telemetry::frame::GAP_AFTER;
+use spandrel_mavlink::instructor_note;
+use spandrel_mavlink::telemetry::frame::MIN_GAP;
 use spandrel_mavlink::telemetry::sample::{Sample, SampleContent, SampleValue};
 use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_model::frames::{Enu, Vec3};
@@ -28,7 +28,7 @@ impl Monitor {
         self.zero_unix_us = self.zero_unix_us.or(own.map(|own| started.saturating_sub(since_zero(own))));
         let Some(zero) = self.zero_unix_us else { return started };
         let now = own.map_or(self.now(), |own| own.max(self.now()));
-        let passed = self.timeline.apply_pushed(self.timeline.simulator_runs() - 1);
+        let passed = self.timeline.elapsed_before_epoch(self.timeline.epoch_count() - 1);
         let since = u64::try_from((passed + now).us()).unwrap_or(0);
         zero.saturating_add(since)
     }
@@ -36,15 +36,15 @@ impl Monitor {
     pub(super) fn take_frame(&mut self, received: &ReceivedFrame) {
         let before = self.timeline.newest();
         match self.timeline.push(&received.bytes) {
-            FrameDisposition::Nothing => {}
+            FrameDisposition::Ignored => {}
             FrameDisposition::Restarted(sample) => self.handle_restart(sample),
-            FrameDisposition::Kept(sample) => self.handle_sample(sample, before),
+            FrameDisposition::Stored(sample) => self.handle_sample(sample, before),
         }
     }
 
     /// Logs an instructor's note with the current time.
     pub(super) fn take_note(&mut self, received: &ReceivedFrame) {
-        if let Some(((system, COMPONENT), text)) = note::decode(received)
+        if let Some(((system, COMPONENT), text)) = instructor_note::decode(received)
             && system == self.encoder.system_id()
         {
             self.event("note", json!({ "text": text }));
@@ -90,7 +90,7 @@ impl Monitor {
                 }
             }
             SampleValue::Clearance(metres) => self.live.clearance_m = Some(metres),
-            SampleValue::Beat { armed, by } => {
+            SampleValue::Heartbeat { armed, by } => {
                 self.live.armed = Some(armed);
                 if self.live.flown_by.replace(by) != Some(by) {
                     self.event("flown_by", json!({ "by": by }));
@@ -126,7 +126,7 @@ impl Monitor {
     /// Applies the closing or opening of bridges, so that the names of nearby objects match the simulator's traffic.
     fn handle_traffic(&mut self, code: i32) {
         let before = self.live.closures.clone();
-        self.live.closures.apply_codes(code);
+        self.live.closures.apply_code(code);
         if self.live.closures == before {
             return;
         }
@@ -142,7 +142,7 @@ impl Monitor {
     }
 
     fn handle_truth(&mut self, truth: Truth, before: Option<SimTime>) {
-        if let Some(before) = before.filter(|before| truth.time - *before > GAP_AFTER) {
+        if let Some(before) = before.filter(|before| truth.time - *before > MIN_GAP) {
             self.event("telemetry_gap", json!({ "from_s": before.s(), "to_s": truth.time.s() }));
         }
         self.live.truth = Some(truth);
@@ -151,9 +151,9 @@ impl Monitor {
             self.event("lift_off", json!({}));
         }
         self.update_task(truth.motion.position_m);
-        self.send_due();
+        self.send_feedback();
         self.check_end(&truth);
-        let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_EVERY);
+        let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_INTERVAL);
         if due(self.heartbeat_sim) {
             self.heartbeat_sim = Some(truth.time);
             self.heartbeat();
@@ -185,7 +185,7 @@ impl Monitor {
     fn handle_contact(&mut self, contact: ContactKind) {
         let onset = self.live.contact == ContactKind::None && contact != ContactKind::None;
         if onset {
-            self.live.on_pad = self.is_soft_pad_touch(contact);
+            self.live.on_pad = self.is_soft_touchdown(contact);
         }
         let changed = self.live.contact != contact;
         self.live.contact = contact;
@@ -194,11 +194,11 @@ impl Monitor {
             self.event("crash", json!({ "with": contact.label(), "what": what }));
         }
         if changed {
-            self.send_due();
+            self.send_feedback();
         }
     }
 
-    fn is_soft_pad_touch(&self, contact: ContactKind) -> bool {
+    fn is_soft_touchdown(&self, contact: ContactKind) -> bool {
         let team = &self.config.scenario.ground_team;
         matches!(contact, ContactKind::Terrain | ContactKind::Other)
             && self.live.truth.is_some_and(|truth| may_touch_pad(truth.motion.position_m, truth.motion.velocity_m_s.up(), team))
@@ -214,12 +214,12 @@ impl Monitor {
 
     pub(super) fn contact_name(&self) -> Option<String> {
         let truth = self.live.truth?;
-        self.survey.as_ref()?.name_near(truth.motion.position_m, TOUCH_REACH_M, truth.time)
+        self.survey.as_ref()?.name_near(truth.motion.position_m, CONTACT_SEARCH_RADIUS_M, truth.time)
     }
 
     fn check_end(&mut self, truth: &Truth) {
         let Some(start) = self.live.lift_off else { return };
-        if self.live.end.is_none() && truth.time >= self.live.no_end_before {
+        if self.live.end.is_none() && truth.time >= self.live.end_check_after {
             let rate = self.config.scenario.scoring.frame_rate_hz;
             let moment = EndMoment {
                 time: truth.time,
@@ -234,7 +234,7 @@ impl Monitor {
             self.live.end = self.live.rule.update(&moment).map(|(_, reason)| (truth.time, reason));
         }
         if let Some((time, _)) = self.live.end
-            && truth.time - time >= SETTLE
+            && truth.time - time >= SCORING_DELAY
             && !self.replaying
         {
             self.try_to_finish(truth.time);
@@ -248,7 +248,7 @@ impl Monitor {
         match &outcome {
             Ok(graded) if graded.assessment.end.reason == EndReason::Abort => {
                 self.live.end = None;
-                self.live.no_end_before = now + RETRY;
+                self.live.end_check_after = now + END_RETRY_DELAY;
             }
             Ok(_) | Err(_) => self.finish(outcome),
         }
@@ -262,7 +262,7 @@ impl Monitor {
         let flight = assessment::scored_flight(timeline, &config.scenario, &config.vehicle);
         let seed = assessment::check_identity(&flight, &config.scenario, self.seed)?;
         let survey = survey.get_or_insert_with(|| (config.survey_builder)(&config.scenario, seed)).clone();
-        let survey = attention::with_traffic_at(survey, &flight);
+        let survey = attention::with_flight_closures(survey, &flight);
         let job = ScoringJob { scenario: &config.scenario, vehicle: &config.vehicle, survey: survey.as_ref() };
         let (assessment, frames) = assessment::assess(&flight, &job)?;
         Ok(AssessedSession { assessment, frames, seed })

@@ -7,7 +7,7 @@ use spandrel_mavlink::telemetry::tlog::{TlogReader, TlogRecord, record};
 use std::ops::ControlFlow;
 
 /// Returns a log with damaged records that ends in the middle of a record.
-fn damaged() -> Vec<u8> {
+fn damaged_log() -> Vec<u8> {
     let mut encoder = Encoder::new(1, 1);
     let mut bytes = Vec::new();
     for k in 0..40u32 {
@@ -26,8 +26,8 @@ fn damaged() -> Vec<u8> {
 }
 
 #[test]
-fn exact_pieces_of_any_size_give_the_same_records_as_the_whole() {
-    let log = damaged();
+fn exact_chunked_reading_matches_whole_log() {
+    let log = damaged_log();
     let whole: Vec<(u64, Vec<u8>)> = TlogReader::new(&log).map(|r| (r.stamp_us, r.frame.to_vec())).collect();
     assert!((20..40).contains(&whole.len()), "{} records are readable", whole.len());
     let mut reader = TlogReader::new(&log);
@@ -43,6 +43,6 @@ fn exact_pieces_of_any_size_give_the_same_records_as_the_whole() {
         }
         assert!(splitter.end(&mut take).is_continue());
         assert_eq!(found, whole, "pieces of {size} bytes");
-        assert_eq!(splitter.end_of_whole(), reader.end_of_whole() as u64, "pieces of {size} bytes");
+        assert_eq!(splitter.complete_bytes(), reader.complete_bytes() as u64, "pieces of {size} bytes");
     }
 }

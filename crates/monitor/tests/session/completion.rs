@@ -10,10 +10,10 @@ use spandrel_testkit::job::*;
 
 /// Tolerance for the end of a flown stretch, as a fraction of a 100 m path: the nearest point changes half a point spacing (1 m)
 /// before or after it.
-const HALF_A_POINT: f64 = 0.01;
+const HALF_POINT_SPACING: f64 = 0.01;
 
 /// Creates a job with one path of 100 m at a height of 10 m, from 10 to 110 m east.
-fn long_task() -> Scenario {
+fn scenario_with_long_task() -> Scenario {
     scenario(vec![task(1, line((10.0, 0.0, 10.0), (110.0, 0.0, 10.0)), 3.0)])
 }
 
@@ -34,24 +34,24 @@ fn flown(to_m: f64, home: bool) -> Tape {
 }
 
 #[test]
-fn regress_a_task_is_done_from_80_percent_of_its_paths_length() {
+fn regress_task_is_done_at_80_percent_coverage() {
     for (to_m, state) in [(78.0, TaskState::Part), (82.0, TaskState::Done)] {
-        let assessment = grade(&flown(to_m, true), &long_task()).assessment;
+        let assessment = grade(&flown(to_m, true), &scenario_with_long_task()).assessment;
         let task = &assessment.tasks[0];
-        assert!((task.covered - to_m / 100.0).abs() <= HALF_A_POINT, "{} of {to_m} m", task.covered);
+        assert!((task.covered - to_m / 100.0).abs() <= HALF_POINT_SPACING, "{} of {to_m} m", task.covered);
         assert_eq!((task.state, assessment.completion.complete), (state, state == TaskState::Done));
         assert_eq!(task.covered, assessment.certification.tasks[0].coverage, "both profiles report the same coverage");
         assert_eq!(assessment.completion.path_share, task.covered);
         // The TASBID score does not depend on coverage.
         assert!(assessment.scores.conformity.is_some_and(|score| score.pct > 95.0), "{:?}", assessment.scores);
     }
-    let mut easier = long_task();
-    easier.scoring.task_done_share = 0.5;
+    let mut easier = scenario_with_long_task();
+    easier.scoring.task_completion_fraction = 0.5;
     assert!(grade(&flown(60.0, true), &easier).assessment.completion.complete, "the required share is set in the scenario");
 }
 
 #[test]
-fn regress_an_attempt_that_flew_nothing_is_incomplete_whatever_its_scores_are() {
+fn regress_session_without_tasks_flown_is_incomplete() {
     let job = scenario(vec![
         task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 3.0),
         task(2, line((70.0, 0.0, 10.0), (100.0, 0.0, 10.0)), 3.0),
@@ -73,8 +73,8 @@ fn regress_an_attempt_that_flew_nothing_is_incomplete_whatever_its_scores_are() 
 }
 
 #[test]
-fn regress_a_session_without_a_landing_at_home_is_incomplete() {
-    let graded = grade(&flown(100.0, false), &long_task());
+fn regress_session_without_landing_at_home_is_incomplete() {
+    let graded = grade(&flown(100.0, false), &scenario_with_long_task());
     let assessment = &graded.assessment;
     assert_eq!((assessment.end.reason, assessment.tasks[0].state), (EndReason::Abort, TaskState::Done));
     assert!(!assessment.completion.complete);
@@ -83,20 +83,20 @@ fn regress_a_session_without_a_landing_at_home_is_incomplete() {
 }
 
 #[test]
-fn regress_half_a_path_is_not_certified_and_names_the_share() {
-    let mut job = long_task();
-    job.scoring.task_done_share = 0.8;
+fn regress_half_a_path_is_not_certified() {
+    let mut job = scenario_with_long_task();
+    job.scoring.task_completion_fraction = 0.8;
     let assessment = grade(&flown(49.0, true), &job).assessment;
     assert!(assessment.certification.gates.all_tasks_attempted, "the task counts as attempted");
     let [only] = assessment.certification.unmet.as_slice() else { panic!("{:?}", assessment.certification.unmet) };
     assert!(only.starts_with("task 1 not done: ") && only.ends_with(" % of its path, 80 % needed"), "{only}");
     let share = assessment.completion.path_share;
-    assert!((share - 0.49).abs() <= HALF_A_POINT, "{share}");
+    assert!((share - 0.49).abs() <= HALF_POINT_SPACING, "{share}");
     assert_eq!(assessment.completion.headline(), format!("Incomplete: 0 of 1 task, {:.0} % of the path", 100.0 * share));
 }
 
 #[test]
-fn regress_a_place_to_hold_is_done_by_holding_it() {
+fn regress_hold_position_task_is_done_by_reaching_it() {
     let job = scenario(vec![task(1, line((0.0, 15.0, 10.0), (0.0, 15.4, 10.0)), 2.0)]);
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -109,7 +109,7 @@ fn regress_a_place_to_hold_is_done_by_holding_it() {
 
 /// Flies along every path of all shipped jobs from end to end.
 #[test]
-fn prop_whoever_flies_every_shipped_path_has_done_every_task() {
+fn prop_flying_all_shipped_paths_completes_all_tasks() {
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios");
     let beside = |name: &str| std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string());
     let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
@@ -126,7 +126,7 @@ fn prop_whoever_flies_every_shipped_path_has_done_every_task() {
         };
         let on_path = OnPath::measure(&paths, scenario.tasks.iter().flat_map(along));
         for (task, covered) in scenario.tasks.iter().zip(coverage(&paths, &on_path)) {
-            assert!(covered.share > 1.0 - HALF_A_POINT, "{name}, task {}: {covered:?}", task.id);
+            assert!(covered.share > 1.0 - HALF_POINT_SPACING, "{name}, task {}: {covered:?}", task.id);
         }
         jobs += 1;
     }

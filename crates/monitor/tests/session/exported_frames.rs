@@ -7,15 +7,16 @@ use spandrel_monitor::export::{COLUMNS, FrameRow, frame_rows, frames_csv};
 use spandrel_testkit::job::*;
 
 /// Tolerance for positions, m: truth and estimate have steps of 1e-7 deg (1.1 cm) in latitude and longitude.
-const STEPS_M: f64 = 0.025;
+const POSITION_TOLERANCE_M: f64 = 0.025;
 /// Tolerance for angles, rad; attitudes are sent as 32-bit floats.
-const FLOAT_RAD: f64 = 1e-6;
+const ANGLE_TOLERANCE_RAD: f64 = 1e-6;
 /// Error of the autopilot's position estimate in the flight below; east, north, up, m.
-const ERROR_M: [f64; 3] = [0.5, -0.25, 0.125];
+const ESTIMATE_ERROR_M: [f64; 3] = [0.5, -0.25, 0.125];
 
 /// Sends the position that the autopilot estimates.
-fn estimate(tape: &mut Tape) {
-    let geo = LocalPlane::new(one_task().origin).geo_from_enu(tape.at_m + Vec3::<Enu>::new(ERROR_M[0], ERROR_M[1], ERROR_M[2]));
+fn send_estimate(tape: &mut Tape) {
+    let geo = LocalPlane::new(one_task().origin)
+        .geo_from_enu(tape.at_m + Vec3::<Enu>::new(ESTIMATE_ERROR_M[0], ESTIMATE_ERROR_M[1], ESTIMATE_ERROR_M[2]));
     tape.send(&MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
         time_boot_ms: tape.now_ms,
         lat: (geo.latitude_deg * 1e7).round() as i32,
@@ -44,7 +45,7 @@ fn flight() -> Tape {
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.gimbal(-0.25);
     for east in 1..=30 {
-        estimate(&mut tape);
+        send_estimate(&mut tape);
         if east == 15 {
             wind(&mut tape, [1.0, 2.0, -0.5]);
         }
@@ -68,13 +69,16 @@ fn cells<'a>(csv: &'a str, name: &str) -> Vec<&'a str> {
 }
 
 #[test]
-fn exact_velocity_attitude_and_gimbal_are_those_of_the_telemetry() {
+fn exact_velocity_attitude_and_gimbal_match_telemetry() {
     let rows = rows(&flight());
     let cruise = rows.iter().find(|row| row.frame.position_m.east() > 14.0).unwrap();
     assert_eq!(cruise.frame.velocity_m_s.array(), [4.0, 0.0, 0.0]);
     let [roll, pitch, yaw] = cruise.roll_pitch_yaw_rad.unwrap();
-    assert!(roll.abs() < FLOAT_RAD && pitch.abs() < FLOAT_RAD && (yaw - 0.5).abs() < FLOAT_RAD, "{roll} {pitch} {yaw}");
-    assert!((cruise.gimbal_pitch_rad.unwrap() + 0.25).abs() < FLOAT_RAD);
+    assert!(
+        roll.abs() < ANGLE_TOLERANCE_RAD && pitch.abs() < ANGLE_TOLERANCE_RAD && (yaw - 0.5).abs() < ANGLE_TOLERANCE_RAD,
+        "{roll} {pitch} {yaw}"
+    );
+    assert!((cruise.gimbal_pitch_rad.unwrap() + 0.25).abs() < ANGLE_TOLERANCE_RAD);
     assert_eq!(rows[0].gimbal_pitch_rad, None, "no report was received yet");
     let csv = frames_csv(&rows);
     assert_eq!(cells(&csv, "gimbal_pitch_deg")[0], "");
@@ -88,17 +92,17 @@ fn exact_task_and_distance_follow_the_path() {
     let rows = rows(&flight());
     assert_eq!((rows[0].task, rows[0].on_path), (None, false), "no task was entered yet");
     let on = rows.iter().find(|row| row.frame.position_m.east() > 20.0).unwrap();
-    assert!(on.on_path && on.task.unwrap().id == 1 && on.task.unwrap().distance_m.unwrap() < STEPS_M);
+    assert!(on.on_path && on.task.unwrap().id == 1 && on.task.unwrap().distance_m.unwrap() < POSITION_TOLERANCE_M);
     // Beyond the threshold of 3 m, the drone is off the path.
     let off = rows.iter().find(|row| row.frame.position_m.north() > 4.0).unwrap();
     let task = off.task.unwrap();
     assert_eq!((task.id, off.on_path), (1, false));
-    assert!((task.distance_m.unwrap() - off.frame.position_m.north()).abs() < STEPS_M);
+    assert!((task.distance_m.unwrap() - off.frame.position_m.north()).abs() < POSITION_TOLERANCE_M);
     assert_eq!(off.clearance_m, Some(2.5));
 }
 
 #[test]
-fn exact_wind_lasts_and_the_estimate_is_interpolated() {
+fn exact_wind_persists_and_estimate_is_interpolated() {
     let rows = rows(&flight());
     let reported = rows.iter().position(|row| row.wind_m_s.is_some()).unwrap();
     let windy: Vec<&FrameRow> = rows.iter().filter(|row| row.wind_m_s.is_some()).collect();
@@ -112,14 +116,14 @@ fn exact_wind_lasts_and_the_estimate_is_interpolated() {
     assert!(cruise.len() > 100);
     for row in cruise {
         let error = row.estimate_m.unwrap() - row.frame.position_m;
-        let wrong = error.array().iter().zip(ERROR_M).map(|(is, was)| (is - was).abs()).fold(0.0, f64::max);
-        assert!(wrong < STEPS_M, "frame {}: {error:?}", row.frame.index);
+        let wrong = error.array().iter().zip(ESTIMATE_ERROR_M).map(|(is, was)| (is - was).abs()).fold(0.0, f64::max);
+        assert!(wrong < POSITION_TOLERANCE_M, "frame {}: {error:?}", row.frame.index);
     }
     assert_eq!(rows.last().unwrap().estimate_m, None, "no estimate was reported after the path");
 }
 
 #[test]
-fn exact_values_of_a_gap_are_empty() {
+fn exact_values_in_gaps_are_empty() {
     let rows = rows(&flight());
     let csv = frames_csv(&rows);
     let missing: Vec<usize> = rows.iter().filter(|row| row.frame.missing).map(|row| row.frame.index as usize - 1).collect();
@@ -134,28 +138,28 @@ fn exact_values_of_a_gap_are_empty() {
 }
 
 #[test]
-fn exact_no_estimate_is_interpolated_across_a_respawn() {
+fn exact_estimate_is_not_interpolated_across_respawn() {
     let mut tape = Tape::new();
     tape.hold(1.0);
     tape.fly((0.0, 0.0, 10.0), 2.0);
-    estimate(&mut tape);
+    send_estimate(&mut tape);
     tape.hold(0.1);
     tape.int("respawns", 1);
     tape.at_m = Vec3::new(20.0, 0.0, 10.0);
     tape.hold(0.1);
-    estimate(&mut tape);
+    send_estimate(&mut tape);
     tape.hold(0.2);
-    estimate(&mut tape);
+    send_estimate(&mut tape);
     tape.land();
     let rows = rows(&tape);
     let known: Vec<f64> = rows.iter().filter_map(|row| row.estimate_m).map(|estimate_m| estimate_m.east()).collect();
     assert!(!known.is_empty());
     // Estimates exist only between the two reports after the respawn.
-    assert!(known.iter().all(|east| (east - 20.0 - ERROR_M[0]).abs() < STEPS_M), "{known:?}");
+    assert!(known.iter().all(|east| (east - 20.0 - ESTIMATE_ERROR_M[0]).abs() < POSITION_TOLERANCE_M), "{known:?}");
 }
 
 #[test]
-fn exact_every_column_is_named_once_and_carries_its_unit() {
+fn exact_column_names_are_unique_and_end_with_unit() {
     for (k, column) in COLUMNS.iter().enumerate() {
         assert!(COLUMNS[..k].iter().all(|other| other.name != column.name), "duplicate column {}", column.name);
         assert!(column.description.ends_with('.'), "{}", column.name);

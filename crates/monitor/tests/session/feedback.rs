@@ -6,13 +6,13 @@ use spandrel_mavlink::dialect::MavMessage;
 use spandrel_monitor::Monitor;
 use spandrel_testkit::job::*;
 
-struct Watch {
+struct MonitoredFlight {
     monitor: Monitor,
     tape: Tape,
     texts: Vec<String>,
 }
 
-impl Watch {
+impl MonitoredFlight {
     fn airborne() -> Self {
         Self::of(one_task())
     }
@@ -45,8 +45,8 @@ impl Watch {
 }
 
 #[test]
-fn exact_off_path_shows_after_a_second_and_is_held_for_two() {
-    let mut watch = Watch::airborne();
+fn exact_off_path_cue_has_delay_and_hold_time() {
+    let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
     watch.run();
     // Moves to the side at 10 m/s. A distance of 5 m is beyond the threshold of 3 m, but within 8 m.
@@ -58,7 +58,7 @@ fn exact_off_path_shows_after_a_second_and_is_held_for_two() {
     // The drone crossed 3 m about 0.2 s before it reached 5 m. Messages are 20 ms apart.
     assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left {left}, on {on}");
     // The drone is back on the path within half a second, but the cue stays on for two seconds.
-    let mut watch = Watch::airborne();
+    let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
     watch.tape.fly((30.0, 5.0, 10.0), 10.0);
     watch.tape.hold(0.9);
@@ -71,8 +71,8 @@ fn exact_off_path_shows_after_a_second_and_is_held_for_two() {
 }
 
 #[test]
-fn exact_a_short_swerve_and_a_far_away_drone_are_not_off_path() {
-    let mut watch = Watch::airborne();
+fn exact_short_swerve_and_distant_drone_are_not_off_path() {
+    let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
     watch.tape.fly((30.0, 5.0, 10.0), 10.0);
     watch.tape.hold(0.5);
@@ -84,9 +84,9 @@ fn exact_a_short_swerve_and_a_far_away_drone_are_not_off_path() {
 }
 
 #[test]
-fn regress_entering_or_leaving_a_task_by_its_end_is_not_off_path() {
+fn regress_entering_or_leaving_at_path_end_is_not_off_path() {
     // The path runs from 10 to 60 m east; its threshold is 3 m.
-    let mut watch = Watch::airborne();
+    let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((-20.0, 20.0, 10.0), 4.0);
     watch.tape.fly((30.0, 20.0, 10.0), 8.0);
     watch.tape.fly((30.0, 0.0, 10.0), 1.0);
@@ -100,9 +100,9 @@ fn regress_entering_or_leaving_a_task_by_its_end_is_not_off_path() {
 }
 
 #[test]
-fn regress_staying_beside_the_end_or_leaving_the_middle_is_off_path() {
+fn regress_hovering_beside_end_or_leaving_mid_path_is_off_path() {
     for (from_m, to_m) in [((60.0, 0.0), (64.0, 0.0)), ((40.0, 0.0), (40.0, 4.0))] {
-        let mut watch = Watch::airborne();
+        let mut watch = MonitoredFlight::airborne();
         watch.tape.fly((30.0, 0.0, 10.0), 4.0);
         watch.tape.fly((from_m.0, from_m.1, 10.0), 4.0);
         watch.tape.fly((to_m.0, to_m.1, 10.0), 4.0);
@@ -113,8 +113,8 @@ fn regress_staying_beside_the_end_or_leaving_the_middle_is_off_path() {
 }
 
 #[test]
-fn exact_too_close_comes_at_2_5_and_clears_at_2_8() {
-    let mut watch = Watch::airborne();
+fn exact_too_close_cue_has_hysteresis() {
+    let mut watch = MonitoredFlight::airborne();
     for (metres, on) in [(3.0, false), (2.6, false), (2.4, true), (2.6, true), (2.79, true), (2.81, false), (2.6, false)] {
         watch.tape.clearance(metres);
         watch.tape.hold(0.1);
@@ -125,10 +125,10 @@ fn exact_too_close_comes_at_2_5_and_clears_at_2_8() {
 }
 
 #[test]
-fn exact_a_tasks_own_distance_holds_on_its_path() {
+fn exact_task_clearance_limit_applies_on_its_path() {
     let mut scenario = one_task();
     scenario.tasks[0].too_close_m = Some(1.0);
-    let mut watch = Watch::of(scenario);
+    let mut watch = MonitoredFlight::of(scenario);
     watch.tape.fly((30.0, 0.0, 10.0), 4.0);
     for (metres, on) in [(1.5, false), (0.9, true), (1.2, true), (1.31, false)] {
         watch.tape.clearance(metres);
@@ -139,10 +139,10 @@ fn exact_a_tasks_own_distance_holds_on_its_path() {
 }
 
 #[test]
-fn regress_a_tasks_own_distance_holds_on_the_way_into_it() {
+fn regress_task_clearance_limit_applies_near_its_path() {
     let mut scenario = one_task();
     scenario.tasks[0].too_close_m = Some(1.0);
-    let mut watch = Watch::of(scenario);
+    let mut watch = MonitoredFlight::of(scenario);
     watch.tape.fly((30.0, 20.0, 10.0), 8.0);
     watch.tape.fly((30.0, 6.0, 10.0), 4.0);
     watch.tape.clearance(1.5);
@@ -155,8 +155,8 @@ fn regress_a_tasks_own_distance_holds_on_the_way_into_it() {
 }
 
 #[test]
-fn exact_the_ground_is_not_too_close_before_lift_off() {
-    let mut watch = Watch { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
+fn exact_no_too_close_cue_before_lift_off() {
+    let mut watch = MonitoredFlight { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
     watch.tape.clearance(0.5);
     watch.tape.hold(1.0);
     watch.run();
@@ -164,8 +164,8 @@ fn exact_the_ground_is_not_too_close_before_lift_off() {
 }
 
 #[test]
-fn exact_speeding_is_reported_on_the_path_and_not_far_from_it() {
-    let mut watch = Watch::airborne();
+fn exact_speeding_cue_only_on_or_near_path() {
+    let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 4.4);
     watch.run();
     assert!(!watch.has(cue::SPEEDING));
@@ -183,8 +183,8 @@ fn exact_speeding_is_reported_on_the_path_and_not_far_from_it() {
 }
 
 #[test]
-fn exact_one_rule_speaks_once_per_interval_however_it_chatters() {
-    let mut watch = Watch::airborne();
+fn exact_texts_of_one_rule_are_rate_limited() {
+    let mut watch = MonitoredFlight::airborne();
     for _ in 0..20 {
         watch.tape.clearance(2.4);
         watch.tape.hold(0.1);
@@ -197,8 +197,8 @@ fn exact_one_rule_speaks_once_per_interval_however_it_chatters() {
 }
 
 #[test]
-fn exact_a_crash_is_reported_at_once_and_before_all_else() {
-    let mut watch = Watch::airborne();
+fn exact_crash_is_reported_immediately_and_first() {
+    let mut watch = MonitoredFlight::airborne();
     watch.tape.clearance(2.0);
     watch.tape.hold(0.02);
     watch.tape.contact(1);
@@ -215,8 +215,8 @@ fn exact_a_crash_is_reported_at_once_and_before_all_else() {
 }
 
 #[test]
-fn exact_the_battery_turns_yellow_below_70_and_red_below_30() {
-    let mut watch = Watch::airborne();
+fn exact_battery_cue_turns_yellow_then_red() {
+    let mut watch = MonitoredFlight::airborne();
     for (pct, bits) in [(70, 0), (69, cue::BATTERY_YELLOW), (30, cue::BATTERY_YELLOW), (29, cue::BATTERY_RED)] {
         watch.tape.battery(pct);
         watch.tape.hold(2.0);
@@ -228,7 +228,7 @@ fn exact_the_battery_turns_yellow_below_70_and_red_below_30() {
 
 #[test]
 fn exact_cues_are_repeated_at_five_hertz() {
-    let mut watch = Watch::airborne();
+    let mut watch = MonitoredFlight::airborne();
     watch.tape.hold(10.0);
     let mut count = 0;
     for datagram in std::mem::take(&mut watch.tape.datagrams) {
@@ -239,9 +239,9 @@ fn exact_cues_are_repeated_at_five_hertz() {
 }
 
 #[test]
-fn exact_too_close_is_reported_below_the_pads_height_too() {
+fn exact_too_close_cue_works_below_pad_height() {
     // In the TASBID job, the circle around the pier is 2 m lower than the pad.
-    let mut watch = Watch::of(one_task());
+    let mut watch = MonitoredFlight::of(one_task());
     watch.tape.fly((30.0, 0.0, 10.0), 10.0);
     watch.tape.fly((30.0, 0.0, -2.0), 4.0);
     watch.tape.clearance(2.0);
@@ -252,8 +252,8 @@ fn exact_too_close_is_reported_below_the_pads_height_too() {
 }
 
 #[test]
-fn exact_a_drone_that_comes_down_on_its_pad_is_not_too_close() {
-    let mut watch = Watch::airborne();
+fn exact_landing_on_pad_raises_no_too_close_cue() {
+    let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((0.0, 0.0, 0.2), 4.0);
     watch.tape.clearance(0.2);
     watch.tape.hold(0.1);
@@ -262,8 +262,8 @@ fn exact_a_drone_that_comes_down_on_its_pad_is_not_too_close() {
 }
 
 #[test]
-fn exact_hitting_a_person_is_reported_right_after_another_contact() {
-    let mut watch = Watch::airborne();
+fn exact_hitting_a_person_is_not_rate_limited() {
+    let mut watch = MonitoredFlight::airborne();
     for code in [1, 5] {
         watch.tape.contact(code);
         watch.tape.hold(0.1);
@@ -273,8 +273,8 @@ fn exact_hitting_a_person_is_reported_right_after_another_contact() {
 }
 
 #[test]
-fn exact_texts_go_on_after_the_simulator_restarts_on_the_ground() {
-    let mut watch = Watch { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
+fn exact_texts_continue_after_simulator_restart_on_ground() {
+    let mut watch = MonitoredFlight { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
     for seconds in [20.0, 0.2] {
         watch.tape.hold(seconds);
         watch.tape.battery(60);

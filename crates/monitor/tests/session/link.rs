@@ -44,7 +44,7 @@ fn counts(datagrams: &[Vec<u8>]) -> spandrel_mavlink::telemetry::timeline::LinkC
 const WRAP_MS: u64 = 1 << 32;
 
 #[test]
-fn regress_a_flight_across_the_end_of_32_bit_milliseconds_is_the_same_flight() {
+fn regress_flight_continues_across_32_bit_millisecond_wrap() {
     let epoch_ms = WRAP_MS - 10_000;
     let flights = [0, epoch_ms].map(|epoch_ms| {
         let tape = busy_flight_at(epoch_ms);
@@ -58,14 +58,14 @@ fn regress_a_flight_across_the_end_of_32_bit_milliseconds_is_the_same_flight() {
         let pictures = ms(flight.snapshots.all().iter().map(|picture| picture.0.ms()).collect());
         let lamp = ms(flight.light.all().iter().map(|lamp| lamp.0.ms()).collect());
         let sticks = ms(flight.sticks.all().iter().map(|sticks| sticks.0.ms()).collect());
-        (pictures, lamp, sticks, timeline.simulator_runs())
+        (pictures, lamp, sticks, timeline.epoch_count())
     });
     assert_eq!(flights[0].0.len(), 10, "every picture counts once");
     assert_eq!(flights[1], flights[0]);
 }
 
 #[test]
-fn prop_shuffled_and_doubled_datagrams_change_no_frame() {
+fn prop_reordered_and_duplicate_datagrams_change_no_frame() {
     let tape = busy_flight();
     let clean = grade(&tape.datagrams);
     for seed in 0..20 {
@@ -90,7 +90,7 @@ fn prop_shuffled_and_doubled_datagrams_change_no_frame() {
 }
 
 #[test]
-fn exact_the_link_is_counted() {
+fn exact_link_statistics_are_counted() {
     let tape = busy_flight();
     let all = tape.datagrams.len() as u64;
     assert_eq!(counts(&tape.datagrams).frames, all);
@@ -111,7 +111,7 @@ fn exact_the_link_is_counted() {
 }
 
 #[test]
-fn exact_a_long_silence_is_no_reordering() {
+fn exact_long_loss_is_not_counted_as_reordering() {
     // Sequence numbers wrap at 256. Regardless of how many datagrams are lost, none of the following ones counts as old.
     let tape = busy_flight();
     let whole = grade(&tape.datagrams).frames;
@@ -125,7 +125,7 @@ fn exact_a_long_silence_is_no_reordering() {
 }
 
 #[test]
-fn exact_a_log_cut_anywhere_near_its_end_still_scores_its_whole_records() {
+fn exact_truncated_log_scores_its_complete_records() {
     let log = busy_flight().log(5_000_000);
     for cut in log.len() - 120..log.len() {
         let whole = tlog::complete_len(&log[..cut]);
@@ -136,7 +136,7 @@ fn exact_a_log_cut_anywhere_near_its_end_still_scores_its_whole_records() {
 }
 
 #[test]
-fn exact_another_scenario_or_seed_is_refused_by_name() {
+fn exact_wrong_scenario_or_seed_is_rejected() {
     let tape = clean_flight();
     let mut other = one_task();
     other.crc = 1;
@@ -150,7 +150,7 @@ fn exact_another_scenario_or_seed_is_refused_by_name() {
 }
 
 #[test]
-fn exact_an_empty_log_and_one_without_a_flight_are_named() {
+fn exact_empty_log_and_log_without_flight_have_distinct_errors() {
     let refused = |log: &[u8]| assess_log(log, &one_task(), &vehicle(), fence_of_ten).unwrap_err();
     assert_eq!(refused(&[]), AssessError::NoTruth);
     let mut parked = Tape::new();
@@ -159,7 +159,7 @@ fn exact_an_empty_log_and_one_without_a_flight_are_named() {
 }
 
 #[test]
-fn exact_messages_of_other_systems_does_not_touch_the_session() {
+fn exact_messages_of_other_systems_are_ignored() {
     use spandrel_mavlink::codec::Encoder;
     use spandrel_mavlink::dialect::*;
     let mut monitor = crate::live::monitor_of(one_task());

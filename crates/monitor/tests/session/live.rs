@@ -51,7 +51,7 @@ fn written(monitor: &mut Monitor) -> (Vec<u8>, Vec<String>) {
 }
 
 #[test]
-fn exact_a_live_session_and_the_replay_of_its_log_give_the_same_bytes() {
+fn exact_live_session_and_replay_are_identical() {
     let mut monitor = monitor_of(one_task());
     for datagram in &clean_flight().datagrams {
         monitor.handle_datagram(datagram);
@@ -71,7 +71,7 @@ fn exact_a_live_session_and_the_replay_of_its_log_give_the_same_bytes() {
 }
 
 #[test]
-fn exact_stamps_are_session_start_plus_simulation_time() {
+fn exact_timestamps_are_session_start_plus_simulation_time() {
     let mut monitor = monitor_of(one_task());
     let mut tape = Tape::new();
     tape.hold(2.0);
@@ -86,7 +86,7 @@ fn exact_stamps_are_session_start_plus_simulation_time() {
 
 /// A monitor that joins an hour after the vehicle started stamps messages with the current time.
 #[test]
-fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
+fn regress_timestamps_of_late_monitor_start_at_session_start() {
     let mut tape = Tape::new();
     tape.hold(62.0);
     let late = tape.datagrams.len() * 30 / 31;
@@ -115,7 +115,7 @@ fn regress_stamps_of_a_monitor_that_joins_late_begin_at_the_sessions_start() {
 
 /// The monitor accepts only datagrams from an autopilot, and after a scored flight exists only those of its system.
 #[test]
-fn regress_the_monitor_belongs_to_one_vehicle() {
+fn regress_monitor_accepts_only_its_vehicle() {
     let beat = |system: u8, component: u8, autopilot| {
         let body = HEARTBEAT_DATA { autopilot, ..HEARTBEAT_DATA::default() };
         Encoder::new(system, component).encode(&MavMessage::HEARTBEAT(body))
@@ -140,7 +140,7 @@ fn regress_the_monitor_belongs_to_one_vehicle() {
 }
 
 #[test]
-fn exact_stamps_go_on_rising_after_the_simulator_restarts() {
+fn exact_timestamps_increase_after_simulator_restart() {
     let mut monitor = monitor_of(one_task());
     for seconds in [20.0, 2.0] {
         let mut tape = Tape::new();
@@ -154,7 +154,7 @@ fn exact_stamps_go_on_rising_after_the_simulator_restarts() {
 }
 
 #[test]
-fn exact_a_killed_monitor_goes_on_where_its_log_stops() {
+fn exact_killed_monitor_resumes_at_end_of_log() {
     let tape = clean_flight();
     let half = tape.datagrams.len() / 2;
     let mut first = monitor_of(one_task());
@@ -175,7 +175,7 @@ fn exact_a_killed_monitor_goes_on_where_its_log_stops() {
 }
 
 #[test]
-fn exact_timesync_is_answered_last_and_with_the_asker_addressed() {
+fn exact_timesync_reply_is_last_and_addressed_to_sender() {
     let mut monitor = monitor_of(one_task());
     let mut tape = Tape::new();
     tape.hold(1.5);
@@ -194,7 +194,7 @@ fn exact_timesync_is_answered_last_and_with_the_asker_addressed() {
 }
 
 #[test]
-fn exact_answers_and_other_peoples_timesync_stay_unanswered() {
+fn exact_timesync_replies_and_foreign_requests_are_ignored() {
     let mut monitor = monitor_of(one_task());
     let mut encoder = Encoder::new(1, 1);
     for sync in [
@@ -207,7 +207,7 @@ fn exact_answers_and_other_peoples_timesync_stay_unanswered() {
 }
 
 #[test]
-fn exact_commands_to_191_are_unsupported_and_parameter_lists_are_met_with_silence() {
+fn exact_commands_are_unsupported_and_parameter_requests_ignored() {
     let mut monitor = monitor_of(one_task());
     let mut encoder = Encoder::new(255, 190);
     let command = |target_component| {
@@ -230,7 +230,7 @@ fn exact_commands_to_191_are_unsupported_and_parameter_lists_are_met_with_silenc
 }
 
 #[test]
-fn exact_it_introduces_itself_as_an_onboard_controller_once_a_second() {
+fn exact_heartbeat_identifies_onboard_controller_at_1_hz() {
     let mut monitor = monitor_of(one_task());
     monitor.handle_timeout(SimTime::ZERO);
     let messages = sent(&mut monitor);
@@ -246,7 +246,7 @@ fn exact_it_introduces_itself_as_an_onboard_controller_once_a_second() {
 }
 
 #[test]
-fn exact_another_scenario_is_refused_aloud() {
+fn exact_wrong_scenario_is_rejected_with_status_text() {
     let mut scenario = one_task();
     scenario.crc = 5;
     let mut monitor = monitor_of(scenario);
@@ -257,7 +257,7 @@ fn exact_another_scenario_is_refused_aloud() {
 }
 
 #[test]
-fn exact_closing_in_mid_flight_scores_an_abort() {
+fn exact_closing_in_flight_is_scored_as_abort() {
     let mut monitor = monitor_of(one_task());
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);

@@ -3,9 +3,9 @@
 
 mod chunked_reading;
 mod completion;
+mod corrupt_input;
 mod exported_frames;
 mod feedback;
-mod hostile;
 mod link;
 mod live;
 mod output;

@@ -15,7 +15,7 @@ fn check_keys(value: &Value, wanted: &[&str]) {
 }
 
 #[test]
-fn exact_the_assessment_has_the_names_of_the_design() {
+fn exact_assessment_json_keys_are_stable() {
     let mut tape = clean_flight();
     tape.contact(0);
     let value = serde_json::to_value(&grade(&tape, &one_task()).assessment).unwrap();
@@ -44,7 +44,7 @@ fn exact_the_assessment_has_the_names_of_the_design() {
 
 /// Each frame belongs to exactly one interval, in order, and its control source is that of the preceding heartbeat.
 #[test]
-fn exact_the_assessment_reports_who_flew_when() {
+fn exact_assessment_lists_control_source_intervals() {
     let mut tape = Tape::new();
     tape.beat(true, 3 << 16);
     tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -67,7 +67,7 @@ fn exact_the_assessment_reports_who_flew_when() {
 }
 
 #[test]
-fn exact_without_defects_accuracy_does_not_apply_and_the_sum_is_out_of_300() {
+fn exact_job_without_defects_is_scored_out_of_300() {
     let empty =
         |_: &spandrel_model::scenario::Scenario,
          _: u64|
@@ -80,7 +80,7 @@ fn exact_without_defects_accuracy_does_not_apply_and_the_sum_is_out_of_300() {
 }
 
 #[test]
-fn exact_frames_have_the_columns_of_the_design_and_numbers_that_read_back() {
+fn exact_frames_csv_columns_are_stable_and_numbers_round_trip() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.snapshot(0);
@@ -112,7 +112,7 @@ fn exact_frames_have_the_columns_of_the_design_and_numbers_that_read_back() {
 }
 
 #[test]
-fn exact_the_scenario_export_has_the_names_of_the_design() {
+fn exact_scenario_export_json_keys_are_stable() {
     let mut scenario = one_task();
     scenario.scoring.beta = f64::INFINITY;
     let value = serde_json::to_value(ScenarioExport::new(&scenario, &Fence::of(2).defects)).unwrap();

@@ -20,7 +20,12 @@ fn shipped() -> (Scenario, Vehicle) {
 
 /// Returns a position (m), heading and gimbal pitch (rad) from which a defect can be photographed within the threshold of a
 /// task's path.
-fn stand(defect: &PlacedDefect, scenario: &Scenario, vehicle: &Vehicle, site: &dyn SiteSurvey) -> Option<(Vec3<Enu>, f64, f64)> {
+fn viewpoint(
+    defect: &PlacedDefect,
+    scenario: &Scenario,
+    vehicle: &Vehicle,
+    site: &dyn SiteSurvey,
+) -> Option<(Vec3<Enu>, f64, f64)> {
     let mut points: Vec<(Vec3<Enu>, f64)> =
         scenario.tasks.iter().flat_map(|task| task.path_m.iter().map(|point| (*point, task.threshold_m))).collect();
     points.sort_by(|a, b| (a.0 - defect.position_m).norm().total_cmp(&(b.0 - defect.position_m).norm()));
@@ -39,12 +44,12 @@ fn stand(defect: &PlacedDefect, scenario: &Scenario, vehicle: &Vehicle, site: &d
 }
 
 #[test]
-fn flight_photographs_of_the_shipped_jobs_defects_hit_and_score() {
+fn flight_pictures_of_shipped_defects_are_hits() {
     let (scenario, vehicle) = shipped();
     let site = build_site(&scenario, spandrel_testkit::job::SEED);
     let defects = site.defects().to_vec();
     assert_eq!(defects.len(), scenario.defects.count);
-    let stands: Vec<_> = defects.iter().filter_map(|defect| stand(defect, &scenario, &vehicle, site.as_ref())).collect();
+    let stands: Vec<_> = defects.iter().filter_map(|defect| viewpoint(defect, &scenario, &vehicle, site.as_ref())).collect();
     assert!(stands.len() >= 8, "positions were found for only {} of {} defects", stands.len(), defects.len());
     let mut tape = Tape::of(&scenario);
     let pad = tape.at_m;
@@ -69,7 +74,7 @@ fn flight_photographs_of_the_shipped_jobs_defects_hit_and_score() {
 }
 
 #[test]
-fn flight_the_shipped_jobs_paths_flown_to_the_letter_are_worth_full_conformity() {
+fn flight_exact_flight_of_shipped_paths_has_full_conformity() {
     let (scenario, vehicle) = shipped();
     let site = build_site(&scenario, spandrel_testkit::job::SEED);
     let mut tape = Tape::of(&scenario);
@@ -122,7 +127,7 @@ fn regress_defects_are_placed_on_free_tasks_at_a_bridge() {
 }
 
 #[test]
-fn regress_numbers_that_decide_are_shown_with_the_digits_that_decide() {
+fn regress_values_near_limits_are_shown_with_enough_digits() {
     let view = spandrel_model::site::DefectView {
         defect_id: 1,
         in_frame: true,

@@ -14,7 +14,7 @@ use spandrel_monitor::session::EndReason;
 use spandrel_testkit::job::*;
 
 #[test]
-fn exact_a_clean_flight_scores_full_marks_and_ends_where_it_touches_down() {
+fn exact_clean_flight_has_full_score_and_ends_at_touchdown() {
     let graded = grade(&clean_flight(), &one_task());
     let assessment = &graded.assessment;
     assert_eq!(assessment.end.reason, EndReason::Landed);
@@ -34,7 +34,7 @@ fn exact_a_clean_flight_scores_full_marks_and_ends_where_it_touches_down() {
 }
 
 #[test]
-fn exact_silence_up_to_a_second_is_interpolated_and_longer_silence_is_missing() {
+fn exact_short_gaps_are_interpolated_and_long_gaps_missing() {
     // Each case: length of the gap in ms, interpolated frames, missing frames. Frames are 40 ms apart, truth messages 20 ms.
     for (ms, interpolated, missing) in [(200, 0, 0), (240, 5, 0), (1_000, 24, 0), (1_040, 0, 25)] {
         let mut tape = Tape::new();
@@ -57,7 +57,7 @@ fn exact_silence_up_to_a_second_is_interpolated_and_longer_silence_is_missing() 
 }
 
 #[test]
-fn exact_missing_frames_hold_the_last_position_and_touch_nothing() {
+fn exact_missing_frames_repeat_position_without_contact() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.contact(1);
@@ -77,7 +77,7 @@ fn exact_missing_frames_hold_the_last_position_and_touch_nothing() {
 }
 
 #[test]
-fn exact_nothing_is_interpolated_across_a_respawn() {
+fn exact_frames_are_not_interpolated_across_respawn() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((30.0, 0.0, 10.0), 4.0);
@@ -96,7 +96,7 @@ fn exact_nothing_is_interpolated_across_a_respawn() {
 }
 
 #[test]
-fn exact_an_empty_battery_outranks_a_respawn() {
+fn exact_empty_battery_ends_session_before_respawn() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((30.0, 0.0, 10.0), 4.0);
@@ -116,7 +116,7 @@ fn exact_an_empty_battery_outranks_a_respawn() {
 }
 
 #[test]
-fn exact_the_battery_may_run_out_while_the_drone_already_stands_at_home() {
+fn exact_empty_battery_after_landing_does_not_count() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((0.0, 0.0, 0.15), 0.8);
@@ -127,7 +127,7 @@ fn exact_the_battery_may_run_out_while_the_drone_already_stands_at_home() {
 }
 
 #[test]
-fn exact_twenty_five_minutes_are_the_limit_and_no_frame_more() {
+fn exact_session_ends_at_time_limit() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.hold(1_510.0);
@@ -138,7 +138,7 @@ fn exact_twenty_five_minutes_are_the_limit_and_no_frame_more() {
 }
 
 #[test]
-fn exact_a_person_or_a_vehicle_ends_the_session_at_once() {
+fn exact_hitting_a_person_or_vehicle_ends_the_session() {
     for (code, reason, person, car) in [(5, EndReason::Person, 1, 0), (4, EndReason::Vehicle, 0, 1)] {
         let mut tape = Tape::new();
         tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -155,7 +155,7 @@ fn exact_a_person_or_a_vehicle_ends_the_session_at_once() {
 }
 
 #[test]
-fn exact_a_contact_of_many_frames_is_one_crash_and_a_short_one_is_not_lost() {
+fn exact_long_contact_is_one_crash_and_short_contact_counts() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.contact(1);
@@ -179,7 +179,7 @@ fn exact_a_contact_of_many_frames_is_one_crash_and_a_short_one_is_not_lost() {
 }
 
 #[test]
-fn exact_a_soft_touch_of_the_pad_is_no_crash_and_a_hard_one_is() {
+fn exact_only_hard_pad_contact_is_a_crash() {
     for (speed, crashes) in [(0.8, 0), (1.4, 1)] {
         let mut tape = Tape::new();
         tape.fly((0.0, 0.0, 3.0), 2.0);
@@ -196,7 +196,7 @@ fn exact_a_soft_touch_of_the_pad_is_no_crash_and_a_hard_one_is() {
 }
 
 #[test]
-fn exact_a_soft_touch_of_the_ground_away_from_home_is_a_crash() {
+fn exact_soft_ground_contact_away_from_home_is_a_crash() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 3.0), 2.0);
     tape.fly((20.0, 0.0, 3.0), 2.0);
@@ -209,7 +209,7 @@ fn exact_a_soft_touch_of_the_ground_away_from_home_is_a_crash() {
 }
 
 #[test]
-fn exact_overlapping_corridors_never_count_twice_and_the_nearer_share_wins() {
+fn exact_overlapping_paths_count_once_for_the_relatively_nearer_task() {
     let wide = task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 6.0);
     let narrow = task(2, line((10.0, 2.0, 10.0), (60.0, 2.0, 10.0)), 2.0);
     let scenario = scenario(vec![wide, narrow]);
@@ -227,7 +227,7 @@ fn exact_overlapping_corridors_never_count_twice_and_the_nearer_share_wins() {
 }
 
 #[test]
-fn exact_a_task_never_entered_has_no_window_and_no_shares() {
+fn exact_task_never_entered_has_no_window() {
     let mut scenario = one_task();
     scenario.tasks.push(task(2, line((10.0, 90.0, 10.0), (60.0, 90.0, 10.0)), 3.0));
     let assessment = grade(&clean_flight(), &scenario).assessment;
@@ -240,7 +240,7 @@ fn exact_a_task_never_entered_has_no_window_and_no_shares() {
 }
 
 #[test]
-fn exact_nothing_entered_is_half_marks_in_paper_and_no_evidence_in_certification() {
+fn exact_no_task_entered_is_no_evidence_in_certification() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 3.0), 2.0);
     tape.land();
@@ -252,7 +252,7 @@ fn exact_nothing_entered_is_half_marks_in_paper_and_no_evidence_in_certification
 }
 
 #[test]
-fn exact_hopping_to_a_path_and_off_again_pays_in_paper_but_not_in_certification() {
+fn exact_short_path_visit_is_not_rewarded_in_certification() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((9.0, 0.0, 10.0), 4.0);
@@ -265,7 +265,7 @@ fn exact_hopping_to_a_path_and_off_again_pays_in_paper_but_not_in_certification(
 }
 
 #[test]
-fn exact_pictures_count_once_and_a_dark_one_gives_the_reason() {
+fn exact_pictures_count_once_and_dark_picture_has_reason() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((20.0, 0.0, 10.0), 4.0);
@@ -292,7 +292,7 @@ fn exact_pictures_count_once_and_a_dark_one_gives_the_reason() {
 }
 
 #[test]
-fn exact_a_simulator_restarted_in_flight_ends_the_session_and_keeps_what_was_flown() {
+fn exact_simulator_restart_in_flight_ends_session_and_keeps_frames() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((60.0, 0.0, 10.0), 4.0);
@@ -301,8 +301,8 @@ fn exact_a_simulator_restarted_in_flight_ends_the_session_and_keeps_what_was_flo
     tape.datagrams.extend(again.datagrams);
     let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
     timeline.push_log(&tape.log(0)).unwrap();
-    assert_eq!((timeline.simulator_runs(), timeline.counts().restarts), (2, 1));
-    let flown_before = [0, 1].map(|epoch| timeline.apply_pushed(epoch).ms());
+    assert_eq!((timeline.epoch_count(), timeline.counts().restarts), (2, 1));
+    let flown_before = [0, 1].map(|epoch| timeline.elapsed_before_epoch(epoch).ms());
     assert_eq!(flown_before, [0, i64::from(flown)]);
     let graded = grade(&tape, &one_task());
     assert_eq!(graded.assessment.end.reason, EndReason::Restart);
@@ -312,9 +312,9 @@ fn exact_a_simulator_restarted_in_flight_ends_the_session_and_keeps_what_was_flo
 
 /// A site whose defects count only in pictures with a narrow field of view.
 #[derive(Debug)]
-struct Small(Fence);
+struct NarrowViewSite(Fence);
 
-impl SiteSurvey for Small {
+impl SiteSurvey for NarrowViewSite {
     fn defects(&self) -> &[PlacedDefect] {
         &self.0.defects
     }
@@ -332,7 +332,7 @@ impl SiteSurvey for Small {
 }
 
 #[test]
-fn exact_a_picture_is_judged_by_the_field_of_view_that_the_camera_reports() {
+fn exact_pictures_use_reported_field_of_view() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.lamp(true);
@@ -352,14 +352,14 @@ fn exact_a_picture_is_judged_by_the_field_of_view_that_the_camera_reports() {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.snapshot(3);
     tape.land();
-    let build = |_: &Scenario, _: u64| -> std::sync::Arc<dyn SiteSurvey> { std::sync::Arc::new(Small(Fence::of(10))) };
+    let build = |_: &Scenario, _: u64| -> std::sync::Arc<dyn SiteSurvey> { std::sync::Arc::new(NarrowViewSite(Fence::of(10))) };
     let graded = assess_log(&tape.log(1_000_000), &one_task(), &vehicle(), build).unwrap();
     let hits: Vec<bool> = graded.assessment.snapshots.each.iter().map(|snapshot| snapshot.hit).collect();
     assert_eq!(hits, [false, true, true, false]);
 }
 
 #[test]
-fn exact_a_field_of_view_that_is_the_aircrafts_own_changes_no_bit_of_its_camera() {
+fn exact_nominal_field_of_view_leaves_camera_unchanged() {
     use spandrel_monitor::measures::attention::camera;
     let own = vehicle().camera;
     let mut timeline = Timeline::new(LocalPlane::new(one_task().origin));
@@ -378,7 +378,7 @@ fn exact_a_field_of_view_that_is_the_aircrafts_own_changes_no_bit_of_its_camera(
 }
 
 #[test]
-fn exact_pictures_on_a_formatted_card_have_old_numbers_and_are_new() {
+fn exact_pictures_with_reused_numbers_after_formatting_are_new() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.lamp(true);

@@ -66,8 +66,8 @@ impl FlightLogEncoder {
 
     /// Returns the number of buffered bytes.
     #[must_use]
-    pub fn take_bytes(&self) -> usize {
-        self.writer.gathered()
+    pub fn buffered_bytes(&self) -> usize {
+        self.writer.buffered_bytes()
     }
 
     /// Returns the bytes since the last call; the caller appends them to the file.
@@ -107,7 +107,7 @@ pub struct FlightRecorder {
 }
 
 /// Buffered bytes that trigger an output chunk.
-const PIECE: usize = 16_384;
+const CHUNK_BYTES: usize = 16_384;
 
 impl FlightRecorder {
     /// Enables logging.
@@ -141,7 +141,7 @@ impl FlightRecorder {
         }
         log.observe(view, !view.status.armed);
         self.out.extend(scene.observe(view).into_iter().map(LogOutput::Message));
-        if log.take_bytes() >= PIECE || !view.status.armed {
+        if log.buffered_bytes() >= CHUNK_BYTES || !view.status.armed {
             self.out.push_back(LogOutput::Bytes(log.take()));
         }
         if !view.status.armed {

@@ -70,7 +70,7 @@ fn transforms(view: &VehicleSnapshot, at: u64) -> ChannelMessage {
     let camera = FramePose::camera(truth.position_m, truth.attitude, view.vehicle.camera.position_m, view.gimbal.pitch_rad);
     let frames = [
         (foxglove::DRONE, FramePose::drone(truth.position_m, truth.attitude)),
-        (foxglove::BELIEVED, FramePose::drone(believed.position_m, believed.attitude)),
+        (foxglove::DRONE_ESTIMATE, FramePose::drone(believed.position_m, believed.attitude)),
         (foxglove::CAMERA, camera),
     ];
     foxglove::transforms(at, &frames)

@@ -1,7 +1,7 @@
 use super::*;
 
 #[test]
-fn exact_topics_are_unlike_and_their_fields_have_names_of_their_own() {
+fn exact_topics_and_field_names_are_unique() {
     for (k, topic) in TOPICS.iter().enumerate() {
         assert!(TOPICS[..k].iter().all(|other| other.name != topic.name), "{} twice", topic.name);
         assert!(topic.fields.ends_with(';') && topic.rate_hz > 0.0);

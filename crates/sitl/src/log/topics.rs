@@ -156,18 +156,18 @@ fn sticks(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
 }
 
 fn motors(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
-    row.floats(&padded::<12>(v.actuators.motors.iter().map(|motor| if v.actuators.armed { *motor } else { 0.0 })));
+    row.floats(&zero_padded::<12>(v.actuators.motors.iter().map(|motor| if v.actuators.armed { *motor } else { 0.0 })));
     Some(())
 }
 
 /// Appends the motor outputs as pulse widths, us: 1000 at idle, 2000 at full speed, 900 while disarmed.
 fn outputs(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     let pulses = v.actuators.motors.iter().map(|motor| if v.actuators.armed { 1000.0 + 1000.0 * motor } else { 900.0 });
-    row.i32(v.vehicle.rotors.len() as i32).floats(&padded::<16>(pulses.take(v.vehicle.rotors.len())));
+    row.i32(v.vehicle.rotors.len() as i32).floats(&zero_padded::<16>(pulses.take(v.vehicle.rotors.len())));
     Some(())
 }
 
-fn padded<const N: usize>(values: impl Iterator<Item = f64>) -> [f64; N] {
+fn zero_padded<const N: usize>(values: impl Iterator<Item = f64>) -> [f64; N] {
     let mut out = [0.0; N];
     for (slot, value) in out.iter_mut().zip(values) {
         *slot = value;

@@ -78,7 +78,7 @@ impl UlogWriter {
 
     /// Returns the number of buffered bytes.
     #[must_use]
-    pub fn gathered(&self) -> usize {
+    pub fn buffered_bytes(&self) -> usize {
         self.out.len()
     }
 
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_messages_are_laid_out_as_the_format_says() {
+    fn exact_message_layout_follows_the_ulog_format() {
         let mut log = UlogWriter::default();
         log.begin(5);
         assert_eq!(log.take(), [&MAGIC[..], &[5, 0, 0, 0, 0, 0, 0, 0, 40, 0, b'B'], &[0; 40]].concat());

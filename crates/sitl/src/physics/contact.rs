@@ -9,20 +9,20 @@ use spandrel_model::time::SimTime;
 /// Search margin for near-contacts beyond the travel of one step, m.
 pub const MARGIN_M: f64 = 0.01;
 /// Approach speed below which contacts do not bounce, m/s (keeps a resting body at rest).
-const BOUNCE_M_S: f64 = 0.3;
+const MIN_BOUNCE_SPEED_M_S: f64 = 0.3;
 /// Gap below which bodies count as touching, m.
-const TOUCH_M: f64 = 1e-3;
+const TOUCH_DISTANCE_M: f64 = 1e-3;
 /// Penetration depth that is not corrected, m.
-const SLOP_M: f64 = 1e-5;
+const PENETRATION_SLOP_M: f64 = 1e-5;
 /// Fraction of the penetration that is corrected per step.
-const MEND: f64 = 0.2;
+const CORRECTION_FRACTION: f64 = 0.2;
 /// Maximum iterations of the impulse solver. A resting body starts from the impulses of the last step and needs only a
 /// few.
-const ROUNDS: usize = 16;
+const MAX_ITERATIONS: usize = 16;
 /// Convergence threshold: the largest impulse change relative to the weight's impulse.
-const SETTLED: f64 = 1e-9;
+const CONVERGENCE_THRESHOLD: f64 = 1e-9;
 /// Time constant at which a rotor in contact loses speed, s (estimate).
-const ROTOR_STRIKE_S: f64 = 0.08;
+const ROTOR_STRIKE_TIME_CONSTANT_S: f64 = 0.08;
 
 /// Contacts of one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -64,7 +64,7 @@ struct ContactConstraint {
     target: f64,
     approach: f64,
     /// Response of the body and of this contact point to an impulse at this point.
-    gives: ImpulseResponse,
+    response: ImpulseResponse,
     inverse_effective: f64,
     impulse: Vector3<f64>,
     active: bool,
@@ -96,8 +96,8 @@ pub fn resolve(
         state.rigid.velocity_m_s = Vec3::assume(velocity);
         state.rigid.rates_rad_s = state.rigid.attitude.inverse() * Vec3::<Ned>::assume(spin);
         // Repeats the step from its start with the velocities that the contacts allow.
-        state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + repair_quaternion(&constraints);
-        state.rigid.attitude = start.attitude.turned_by(state.rigid.rates_rad_s * dt_s);
+        state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + penetration_correction(&constraints);
+        state.rigid.attitude = start.attitude.rotated_by(state.rigid.rates_rad_s * dt_s);
         strike_rotors(&constraints, &mut state.rigid, dt_s);
     }
     state.contact = report(&constraints, dt_s);
@@ -159,7 +159,7 @@ fn gather(
                 gap: contact.gap_m,
                 target: 0.0,
                 approach: 0.0,
-                gives: ImpulseResponse::default(),
+                response: ImpulseResponse::default(),
                 inverse_effective: 0.0,
                 impulse: Vector3::zeros(),
                 active: false,
@@ -176,16 +176,16 @@ fn prepare(constraints: &mut [ContactConstraint], body: &ContactBody, rigid: &Ri
         let relative = v + w.cross(&c.arm) - c.object_velocity;
         c.approach = -relative.dot(&c.normal);
         let allowed = c.gap.max(0.0) / dt_s;
-        c.target = if c.approach > allowed && c.approach > BOUNCE_M_S { restitution * c.approach } else { -allowed };
-        c.gives = body.impulse_response(&c.arm);
-        c.inverse_effective = 1.0 / c.normal.dot(&(c.gives.place * c.normal));
+        c.target = if c.approach > allowed && c.approach > MIN_BOUNCE_SPEED_M_S { restitution * c.approach } else { -allowed };
+        c.response = body.impulse_response(&c.arm);
+        c.inverse_effective = 1.0 / c.normal.dot(&(c.response.place * c.normal));
     }
 }
 
 fn warm_start(constraints: &mut [ContactConstraint], warm: &WarmStart) {
     for c in constraints {
         if let Some((_, impulse)) = warm.impulses.iter().find(|(key, _)| *key == c.key)
-            && c.approach <= BOUNCE_M_S
+            && c.approach <= MIN_BOUNCE_SPEED_M_S
         {
             c.impulse = *impulse;
         }
@@ -204,13 +204,13 @@ fn solve(
     let mut w = (rigid.attitude * rigid.rates_rad_s).raw();
     for c in constraints.iter() {
         v += c.impulse * body.inverse_mass;
-        w += c.gives.spin * c.impulse;
+        w += c.response.spin * c.impulse;
     }
-    let settled = SETTLED * model.mass_kg * spandrel_model::math::GRAVITY_M_S2 * dt_s;
-    for _ in 0..ROUNDS {
+    let settled = CONVERGENCE_THRESHOLD * model.mass_kg * spandrel_model::math::GRAVITY_M_S2 * dt_s;
+    for _ in 0..MAX_ITERATIONS {
         let mut largest: f64 = 0.0;
         for c in constraints.iter_mut() {
-            largest = largest.max(one_contact(c, body, &mut v, &mut w, model.friction));
+            largest = largest.max(solve_contact(c, body, &mut v, &mut w, model.friction));
         }
         if largest < settled {
             break;
@@ -223,19 +223,25 @@ fn solve(
 }
 
 /// Updates one contact and returns the magnitude of its impulse change.
-fn one_contact(c: &mut ContactConstraint, body: &ContactBody, v: &mut Vector3<f64>, w: &mut Vector3<f64>, friction: f64) -> f64 {
+fn solve_contact(
+    c: &mut ContactConstraint,
+    body: &ContactBody,
+    v: &mut Vector3<f64>,
+    w: &mut Vector3<f64>,
+    friction: f64,
+) -> f64 {
     let old = c.impulse;
     let relative = *v + w.cross(&c.arm) - c.object_velocity;
     let normal_old = old.dot(&c.normal);
     let normal_new = (normal_old + (c.target - relative.dot(&c.normal)) * c.inverse_effective).max(0.0);
-    let relative = relative + c.gives.place * (c.normal * (normal_new - normal_old));
+    let relative = relative + c.response.place * (c.normal * (normal_new - normal_old));
     let slide = relative - c.normal * relative.dot(&c.normal);
     let tangent_old = old - c.normal * normal_old;
     let speed = slide.norm();
     let mut tangent_new = tangent_old;
     if speed > 0.0 {
         let direction = slide / speed;
-        tangent_new -= direction * (speed / direction.dot(&(c.gives.place * direction)));
+        tangent_new -= direction * (speed / direction.dot(&(c.response.place * direction)));
     }
     let limit = friction * normal_new;
     let size = tangent_new.norm();
@@ -245,21 +251,21 @@ fn one_contact(c: &mut ContactConstraint, body: &ContactBody, v: &mut Vector3<f6
     c.impulse = c.normal * normal_new + tangent_new;
     let change = c.impulse - old;
     *v += change * body.inverse_mass;
-    *w += c.gives.spin * change;
+    *w += c.response.spin * change;
     change.norm()
 }
 
 /// Returns the position shift that corrects the deepest penetration without adding velocity.
-fn repair_quaternion(constraints: &[ContactConstraint]) -> Vec3<Ned> {
+fn penetration_correction(constraints: &[ContactConstraint]) -> Vec3<Ned> {
     let deepest = constraints.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-    deepest.filter(|c| c.gap < -SLOP_M).map_or(Vec3::zero(), |c| {
+    deepest.filter(|c| c.gap < -PENETRATION_SLOP_M).map_or(Vec3::zero(), |c| {
         // FRAME: `gather` converted the normals to NED.
-        Vec3::assume(c.normal * (MEND * (-c.gap - SLOP_M)))
+        Vec3::assume(c.normal * (CORRECTION_FRACTION * (-c.gap - PENETRATION_SLOP_M)))
     })
 }
 
 fn strike_rotors(constraints: &[ContactConstraint], rigid: &mut RigidState, dt_s: f64) {
-    let keep = spandrel_model::math::exp(-dt_s / ROTOR_STRIKE_S);
+    let keep = spandrel_model::math::exp(-dt_s / ROTOR_STRIKE_TIME_CONSTANT_S);
     for rotor in constraints.iter().filter(|c| c.active).filter_map(|c| c.rotor) {
         rigid.rotor_rad_s[rotor] *= keep;
     }
@@ -267,9 +273,9 @@ fn strike_rotors(constraints: &[ContactConstraint], rigid: &mut RigidState, dt_s
 
 fn report(constraints: &[ContactConstraint], dt_s: f64) -> ContactReport {
     let mut out = ContactReport::default();
-    for c in constraints.iter().filter(|c| c.active && c.gap < TOUCH_M.max(c.approach * dt_s)) {
+    for c in constraints.iter().filter(|c| c.active && c.gap < TOUCH_DISTANCE_M.max(c.approach * dt_s)) {
         out.surface = Some(match out.surface {
-            Some((known, _)) if super::more_severe(known, c.surface) == known => out.surface.unwrap_or((known, c.object)),
+            Some((known, _)) if super::more_severe_surface(known, c.surface) == known => out.surface.unwrap_or((known, c.object)),
             _ => (c.surface, c.object),
         });
         out.impact_m_s = out.impact_m_s.max(c.approach);

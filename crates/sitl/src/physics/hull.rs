@@ -6,7 +6,7 @@ use spandrel_model::site::HullProbe;
 use spandrel_model::vehicle::Vehicle;
 
 /// Half thickness of arms and rotor discs, m (estimate).
-const THIN_M: f64 = 0.015;
+const HALF_THICKNESS_M: f64 = 0.015;
 
 /// One convex part of the hull in body axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,8 +19,8 @@ pub struct BodyProbe {
 }
 
 impl BodyProbe {
-    fn ball(centre_m: Vec3<Frd>, radius_m: f64) -> Self {
-        Self { a_m: centre_m, b_m: centre_m, radius_m, rotor: None }
+    fn ball(center_m: Vec3<Frd>, radius_m: f64) -> Self {
+        Self { a_m: center_m, b_m: center_m, radius_m, rotor: None }
     }
 
     fn capsule(a_m: Vec3<Frd>, b_m: Vec3<Frd>, radius_m: f64) -> Self {
@@ -38,7 +38,7 @@ impl BodyProbe {
     pub fn placed(&self, rigid: &RigidState) -> HullProbe {
         let place = |p: Vec3<Frd>| -> Vec3<Enu> { (rigid.position_m + rigid.attitude * p).enu() };
         if self.a_m == self.b_m {
-            HullProbe::Ball { centre_m: place(self.a_m), radius_m: self.radius_m }
+            HullProbe::Ball { center_m: place(self.a_m), radius_m: self.radius_m }
         } else {
             HullProbe::Capsule { a_m: place(self.a_m), b_m: place(self.b_m), radius_m: self.radius_m }
         }
@@ -50,7 +50,7 @@ impl BodyProbe {
 #[must_use]
 pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
     let hull = &vehicle.hull;
-    let mut out: Vec<BodyProbe> = hull.feet_m.iter().map(|foot| BodyProbe::ball(*foot, THIN_M)).collect();
+    let mut out: Vec<BodyProbe> = hull.feet_m.iter().map(|foot| BodyProbe::ball(*foot, HALF_THICKNESS_M)).collect();
     if hull.caged {
         out.push(BodyProbe::ball(Vec3::zero(), 0.5 * hull.tip_to_tip_m));
         return out;
@@ -60,7 +60,7 @@ pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
     let along = (forward - radius).max(0.0);
     out.push(BodyProbe::capsule(Vec3::new(along, 0.0, 0.0), Vec3::new(-along, 0.0, 0.0), radius));
     for (index, rotor) in vehicle.rotors.iter().enumerate() {
-        out.push(BodyProbe::capsule(Vec3::zero(), rotor.position_m, THIN_M));
+        out.push(BodyProbe::capsule(Vec3::zero(), rotor.position_m, HALF_THICKNESS_M));
         out.extend(disc(rotor.position_m, vehicle.rotor.radius_m).map(|p| BodyProbe { rotor: Some(index), ..p }));
     }
     out
@@ -70,6 +70,6 @@ pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
 fn disc(hub_m: Vec3<Frd>, radius_m: f64) -> [BodyProbe; 2] {
     let radial = Vec3::new(hub_m.forward(), hub_m.right(), 0.0).unit();
     let tangential = Vec3::new(-radial.right(), radial.forward(), 0.0);
-    let reach = radius_m - THIN_M;
-    [radial, tangential].map(|d| BodyProbe::capsule(hub_m - d * reach, hub_m + d * reach, THIN_M))
+    let reach = radius_m - HALF_THICKNESS_M;
+    [radial, tangential].map(|d| BodyProbe::capsule(hub_m - d * reach, hub_m + d * reach, HALF_THICKNESS_M))
 }

@@ -45,11 +45,11 @@ pub struct Actuators {
 pub const AIR_DENSITY_KG_M3: f64 = 1.225;
 /// Upper bound for the speed of objects at the site, m/s: cars drive at most 35 m/s, and lane speeds vary by a tenth.
 /// It limits how long a measured clearance stays valid.
-pub const FASTEST_OBJECT_M_S: f64 = 38.5;
+pub const MAX_OBJECT_SPEED_M_S: f64 = 38.5;
 /// Search radius for clearance, m.
 const CLEARANCE_REACH_M: f64 = 4.0;
 /// Update interval of surface effects, s.
-const EFFECT_PERIOD_S: f64 = 0.02;
+const SURFACE_EFFECT_INTERVAL_S: f64 = 0.02;
 
 /// The air around the aircraft, constant over one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -147,15 +147,15 @@ pub struct PhysicsState {
 /// sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ClearSphere {
-    centre_m: Vec3<Enu>,
+    center_m: Vec3<Enu>,
     radius_m: f64,
     since: SimTime,
 }
 
 impl ClearSphere {
     /// Returns the radius around `position_m` that is guaranteed to be free now, m.
-    fn left_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
-        self.radius_m - (position_m - self.centre_m).norm() - FASTEST_OBJECT_M_S * (now - self.since).s()
+    fn remaining_radius_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
+        self.radius_m - (position_m - self.center_m).norm() - MAX_OBJECT_SPEED_M_S * (now - self.since).s()
     }
 }
 
@@ -177,7 +177,7 @@ impl PhysicsState {
             warm: contact::WarmStart::default(),
             effect: [1.0; MAX_ROTORS],
             effect_due: SimTime::ZERO,
-            clear_sphere: ClearSphere { centre_m: Vec3::zero(), radius_m: -1.0, since: SimTime::ZERO },
+            clear_sphere: ClearSphere { center_m: Vec3::zero(), radius_m: -1.0, since: SimTime::ZERO },
         }
     }
 
@@ -242,7 +242,7 @@ impl AirframeModel {
     }
 
     /// Returns the target rotor speeds, rad/s.
-    fn targets(&self, actuators: &Actuators, battery: &battery::BatteryState) -> [f64; MAX_ROTORS] {
+    fn target_rotor_speeds(&self, actuators: &Actuators, battery: &battery::BatteryState) -> [f64; MAX_ROTORS] {
         let mut out = [0.0; MAX_ROTORS];
         if !actuators.armed || battery.empty() {
             return out;
@@ -267,15 +267,15 @@ impl AirframeModel {
         dt: SimTime,
     ) {
         let dt_s = dt.s();
-        let targets = self.targets(actuators, &state.battery);
+        let target_rotor_speeds = self.target_rotor_speeds(actuators, &state.battery);
         let position = state.rigid.position_m.enu();
         self.refresh_clearance(state, obstacles, position, now);
         self.refresh_effects(state, obstacles, now);
         let start = state.rigid;
         let before = start.velocity_m_s;
-        rigid::advance(self, &mut state.rigid, &targets, air, &state.effect, dt_s);
+        rigid::advance(self, &mut state.rigid, &target_rotor_speeds, air, &state.effect, dt_s);
         let reach = self.hull_radius_m + state.rigid.velocity_m_s.norm().max(before.norm()) * dt_s + contact::MARGIN_M;
-        if state.clear_sphere.left_m(state.rigid.position_m.enu(), now + dt) <= reach {
+        if state.clear_sphere.remaining_radius_m(state.rigid.position_m.enu(), now + dt) <= reach {
             contact::resolve(self, state, &start, obstacles, now + dt, dt_s);
         } else if state.contact.touching() {
             state.contact = contact::ContactReport::default();
@@ -290,21 +290,21 @@ impl AirframeModel {
     fn refresh_clearance(&self, state: &mut PhysicsState, obstacles: &impl Obstacles, position_m: Vec3<Enu>, now: SimTime) {
         let speed = state.rigid.velocity_m_s.norm();
         let need = self.hull_radius_m.max(surface_effects::reach_m(self)) + 0.05 + 0.002 * speed;
-        if state.clear_sphere.left_m(position_m, now) > need {
+        if state.clear_sphere.remaining_radius_m(position_m, now) > need {
             return;
         }
         let radius_m = obstacles.clearance(position_m, CLEARANCE_REACH_M, now).unwrap_or(CLEARANCE_REACH_M);
-        state.clear_sphere = ClearSphere { centre_m: position_m, radius_m, since: now };
+        state.clear_sphere = ClearSphere { center_m: position_m, radius_m, since: now };
     }
 
     fn refresh_effects(&self, state: &mut PhysicsState, obstacles: &impl Obstacles, now: SimTime) {
         if now < state.effect_due {
             return;
         }
-        state.effect_due = now + SimTime::from_s(EFFECT_PERIOD_S);
+        state.effect_due = now + SimTime::from_s(SURFACE_EFFECT_INTERVAL_S);
         let reach = surface_effects::reach_m(self);
         let spinning = state.rigid.rotor_rad_s[0] > 0.0;
-        if !spinning || state.clear_sphere.left_m(state.rigid.position_m.enu(), now) > reach + self.hull_radius_m {
+        if !spinning || state.clear_sphere.remaining_radius_m(state.rigid.position_m.enu(), now) > reach + self.hull_radius_m {
             state.effect = [1.0; MAX_ROTORS];
             return;
         }
@@ -324,7 +324,7 @@ pub struct PowerLoad {
 /// Returns the more severe of two surfaces for reports. The order is person, vehicle, bridge, terrain, water, other
 /// (docs/src/reference/wire.md, "Scoring data").
 #[must_use]
-pub fn more_severe(a: Surface, b: Surface) -> Surface {
+pub fn more_severe_surface(a: Surface, b: Surface) -> Surface {
     const ORDER: [Surface; 7] =
         [Surface::Person, Surface::Vehicle, Surface::Bridge, Surface::Terrain, Surface::Water, Surface::Other, Surface::Pad];
     let rank = |s: Surface| ORDER.iter().position(|o| *o == s).unwrap_or(ORDER.len());

@@ -62,20 +62,20 @@ mod tests {
     use spandrel_model::site::{ObjectId, RayHit, Surface};
 
     /// Tolerance for published values with three decimals.
-    const PRINTED: f64 = 6e-4;
+    const PUBLISHED_TOLERANCE: f64 = 6e-4;
 
     #[test]
-    fn val_ground_effect_passes_through_the_published_values() {
+    fn val_ground_effect_matches_published_values() {
         for (z, expected) in [(0.5, 1.333), (1.0, 1.067), (2.0, 1.016)] {
-            assert!((ground_factor(z) - expected).abs() < PRINTED, "{z}");
+            assert!((ground_factor(z) - expected).abs() < PUBLISHED_TOLERANCE, "{z}");
         }
         assert_eq!(ground_factor(0.1), ground_factor(0.5));
     }
 
     #[test]
-    fn val_ceiling_gamma_passes_through_the_published_values() {
+    fn val_ceiling_gamma_matches_published_values() {
         for (d, expected) in [(0.25, 1.366), (0.5, 1.112)] {
-            assert!((ceiling_gamma(d) - expected).abs() < PRINTED, "{d}");
+            assert!((ceiling_gamma(d) - expected).abs() < PUBLISHED_TOLERANCE, "{d}");
         }
         assert_eq!(ceiling_gamma(0.1), ceiling_gamma(0.25));
         // docs/src/reference/domain.md, "Surface effects": thrust at constant power, two decimals.
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_each_rotor_feels_what_stands_over_and_under_it() {
+    fn exact_each_rotor_uses_surfaces_above_and_below_it() {
         let text = include_str!("../../../../vehicle-params/phantom2.toml");
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
         let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_thrust_and_only_thrust_grows_by_the_factor() {
+    fn exact_factor_scales_only_thrust() {
         let text = include_str!("../../../../vehicle-params/phantom2.toml");
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
         let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);

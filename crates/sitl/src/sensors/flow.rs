@@ -10,7 +10,7 @@ use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
 /// Minimum light for feature tracking, lx (manufacturers of vision positioning systems specify more than 15 lx).
-pub const LEAST_LUX: f64 = 15.0;
+pub const MIN_LUX: f64 = 15.0;
 /// Scale error, constant over a session, as a fraction of velocity (estimate).
 pub const SCALE_ERROR: f64 = 0.01;
 /// Sample rate, Hz (estimate: typical for on-board flow sensors).
@@ -49,7 +49,7 @@ impl OpticalFlow {
     /// Returns the reading for a surface at `nearest_m` under `lux`, or `None` if tracking is impossible.
     pub fn read(&mut self, rigid: &RigidState, nearest_m: f64, lux: f64) -> Option<FlowReading> {
         let (a, b) = (self.stream.normal(), self.stream.normal());
-        if lux < LEAST_LUX || nearest_m >= self.reach_m {
+        if lux < MIN_LUX || nearest_m >= self.reach_m {
             return None;
         }
         let (s, c) = math::sin_cos(rigid.attitude.yaw_rad());
@@ -57,7 +57,7 @@ impl OpticalFlow {
         Some(FlowReading {
             forward_m_s: (c * v.north() + s * v.east()) * self.scale + a * self.noise_m_s,
             right_m_s: (c * v.east() - s * v.north()) * self.scale + b * self.noise_m_s,
-            quality: (lux / (4.0 * LEAST_LUX)).min(1.0) * (1.0 - 0.5 * nearest_m / self.reach_m),
+            quality: (lux / (4.0 * MIN_LUX)).min(1.0) * (1.0 - 0.5 * nearest_m / self.reach_m),
         })
     }
 }

@@ -16,9 +16,9 @@ pub const SATELLITES: usize = 22;
 /// Elevation mask, rad (10 degrees, common in receivers).
 const MASK_RAD: f64 = 0.174_533;
 /// Minimum number of satellites for a fix (four unknowns plus one for consistency).
-const LEAST_SATELLITES: usize = 5;
+const MIN_SATELLITES: usize = 5;
 /// Maximum horizontal dilution for a fix (estimate: receivers flag larger values as unusable).
-const LARGEST_HDOP: f64 = 8.0;
+const MAX_HDOP: f64 = 8.0;
 /// Range within which structures hide satellites, m (the sites are smaller than that).
 const REACH_M: f64 = 400.0;
 /// Slowly drifting fraction of the position noise; the white fraction supplies the remaining variance.
@@ -80,13 +80,13 @@ impl GnssReceiver {
             return None;
         }
         let position_m = rigid.position_m.enu();
-        let visible: Vec<Vec3<Enu>> = self.sky.iter().copied().filter(|d| self.sees(position_m, *d, site, now)).collect();
+        let visible: Vec<Vec3<Enu>> = self.sky.iter().copied().filter(|d| self.is_visible(position_m, *d, site, now)).collect();
         let hidden = 1.0 - visible.len() as f64 / self.sky.len() as f64;
         self.step_errors(hidden);
         Some(self.fix(rigid, &visible))
     }
 
-    fn sees<S: Surroundings>(&self, position_m: Vec3<Enu>, direction: Vec3<Enu>, site: &S, now: SimTime) -> bool {
+    fn is_visible<S: Surroundings>(&self, position_m: Vec3<Enu>, direction: Vec3<Enu>, site: &S, now: SimTime) -> bool {
         !self.shadow || site.ray_m(position_m, direction, REACH_M, now).is_none()
     }
 
@@ -113,7 +113,7 @@ impl GnssReceiver {
         let speed = normal3(&mut stream) * self.velocity_m_s;
         self.stream = stream;
         let satellites = u8::try_from(visible.len()).unwrap_or(u8::MAX);
-        let dop = dilution(visible.iter().copied()).filter(|(h, _)| *h < LARGEST_HDOP && visible.len() >= LEAST_SATELLITES);
+        let dop = dilution(visible.iter().copied()).filter(|(h, _)| *h < MAX_HDOP && visible.len() >= MIN_SATELLITES);
         let Some((hdop, vdop)) = dop else {
             return GnssReading { fix: 0, satellites, ..no_fix() };
         };
@@ -209,8 +209,8 @@ mod tests {
     }
 
     #[test]
-    fn prop_a_lid_over_the_sky_takes_the_fix_only_when_shadows_count() {
-        let sensors = crate::sensors::tests::perfect();
+    fn prop_covered_sky_prevents_a_fix_only_with_shadowing() {
+        let sensors = crate::sensors::tests::error_free_sensors();
         let rigid = crate::sensors::tests::still();
         let fix = |shadow| GnssReceiver::new(&sensors, shadow, 1).read(&rigid, &CoveredSky, SimTime::ZERO).map(|r| r.fix);
         assert_eq!(fix(false), Some(3));

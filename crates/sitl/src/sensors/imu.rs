@@ -11,7 +11,7 @@ use spandrel_model::vehicle;
 pub const BIAS_WALK_SHARE: f64 = 0.005;
 
 /// Samples between updates of the bias walk.
-const WALK_EVERY: u32 = 40;
+const BIAS_WALK_SAMPLES: u32 = 40;
 
 /// State of the inertial sensors.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +35,7 @@ impl Imu {
     pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "imu");
         let period_s = 1.0 / sensors.imu_rate_hz;
-        let walk = BIAS_WALK_SHARE * (period_s * f64::from(WALK_EVERY)).sqrt();
+        let walk = BIAS_WALK_SHARE * (period_s * f64::from(BIAS_WALK_SAMPLES)).sqrt();
         let (accel, gyro) = normal_pair_3d(&mut stream);
         Self {
             accel_sigma: sensors.accel_noise_density / period_s.sqrt(),
@@ -44,7 +44,7 @@ impl Imu {
             gyro_walk: sensors.gyro_bias_rad_s * walk,
             accel_bias: accel * sensors.accel_bias_m_s2,
             gyro_bias: gyro * sensors.gyro_bias_rad_s,
-            until_walk: WALK_EVERY,
+            until_walk: BIAS_WALK_SAMPLES,
             stream,
             force_sum: Vec3::zero(),
             rate_sum: Vec3::zero(),
@@ -67,7 +67,7 @@ impl Imu {
             return None;
         }
         if self.until_walk == 0 {
-            self.until_walk = WALK_EVERY;
+            self.until_walk = BIAS_WALK_SAMPLES;
             let (accel, gyro) = normal_pair_3d(&mut self.stream);
             self.accel_bias += accel * self.accel_walk;
             self.gyro_bias += gyro * self.gyro_walk;
@@ -100,8 +100,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_an_impact_between_two_samples_is_felt_in_full() {
-        let sensors = vehicle::SensorSpec { imu_rate_hz: 400.0, ..crate::sensors::tests::perfect() };
+    fn exact_impact_between_samples_is_measured_completely() {
+        let sensors = vehicle::SensorSpec { imu_rate_hz: 400.0, ..crate::sensors::tests::error_free_sensors() };
         let mut imu = Imu::new(&sensors, 1);
         let step = SimTime::from_us(500);
         for i in 0..5 {

@@ -63,11 +63,11 @@ impl Magnetometer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sensors::tests::{perfect, still};
+    use crate::sensors::tests::{error_free_sensors, still};
 
     #[test]
-    fn exact_the_bias_turns_with_the_body_and_spreads_as_the_file_says() {
-        let spec = vehicle::SensorSpec { mag_bias_gauss: 0.01, ..perfect() };
+    fn exact_bias_rotates_with_the_body_and_has_the_specified_spread() {
+        let spec = vehicle::SensorSpec { mag_bias_gauss: 0.01, ..error_free_sensors() };
         let place = Geo { latitude_deg: 46.5, longitude_deg: 8.0, altitude_m: 0.0 };
         let mut squares = 0.0;
         for seed in 0..400 {
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn val_the_field_dips_downward_in_the_north_and_is_horizontal_near_the_magnetic_equator() {
+    fn val_field_inclination_matches_the_magnetic_model() {
         let alps = earth_field_gauss(Geo { latitude_deg: 46.5, longitude_deg: 8.0, altitude_m: 0.0 });
         // World Magnetic Model 2020 at this location: 0.47 G total, dip 62 degrees. The dipole is within 0.06 G and 6
         // degrees of that.

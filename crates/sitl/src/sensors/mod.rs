@@ -283,7 +283,7 @@ pub(crate) mod tests {
     use spandrel_model::vehicle;
 
     /// Returns sensors without errors, for tests of single mechanisms.
-    pub(crate) fn perfect() -> vehicle::SensorSpec {
+    pub(crate) fn error_free_sensors() -> vehicle::SensorSpec {
         vehicle::SensorSpec {
             imu_rate_hz: 400.0,
             accel_noise_density: 0.0,
@@ -320,15 +320,15 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn exact_range_finders_measure_the_plain_below() {
-        let mut finders = rangefinder::RangeFinders::new(&perfect(), 1);
+    fn exact_range_finders_measure_the_ground_distance() {
+        let mut finders = rangefinder::RangeFinders::new(&error_free_sensors(), 1);
         let ranges = finders.read(&still(), &FlatGround { up_m: 2.0 }, SimTime::ZERO);
         assert!(ranges.is_some_and(|r| (r.down_m - 8.0).abs() < 1e-12 && r.up_m.is_infinite()), "{ranges:?}");
     }
 
     #[test]
-    fn exact_each_range_finder_has_a_bias_of_its_own_that_stays() {
-        let biased = vehicle::SensorSpec { range_bias_m: 0.05, ..perfect() };
+    fn exact_range_finder_biases_are_constant_and_differ_between_sessions() {
+        let biased = vehicle::SensorSpec { range_bias_m: 0.05, ..error_free_sensors() };
         let mut finders = rangefinder::RangeFinders::new(&biased, 1);
         let mut off = |ms| finders.read(&still(), &FlatGround { up_m: 2.0 }, SimTime::from_ms(ms)).expect("due").down_m - 8.0;
         let (first, later) = (off(0), off(100));
@@ -347,8 +347,8 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn exact_flow_needs_light_and_a_surface_within_reach() {
-        let mut flow = flow::OpticalFlow::new(&perfect(), 1);
+    fn exact_flow_requires_light_and_a_surface_in_range() {
+        let mut flow = flow::OpticalFlow::new(&error_free_sensors(), 1);
         assert!(flow.read(&still(), 5.0, 100.0).is_some());
         assert!(flow.read(&still(), 5.0, 14.0).is_none());
         assert!(flow.read(&still(), 41.0, 100.0).is_none());

@@ -69,17 +69,23 @@ impl RangeFinders {
             return Some(RangeReadings { down_m: far, up_m: far, around_m: [far; 8] });
         }
         let [down, up, beside @ ..] = self.bias_m;
-        let down_m = self.one(rigid, (Vec3::new(0.0, 0.0, 1.0), down), site, now);
-        let up_m = self.one(rigid, (Vec3::new(0.0, 0.0, -1.0), up), site, now);
+        let down_m = self.measure(rigid, (Vec3::new(0.0, 0.0, 1.0), down), site, now);
+        let up_m = self.measure(rigid, (Vec3::new(0.0, 0.0, -1.0), up), site, now);
         let mut around_m = [0.0; 8];
         for (range, looks) in around_m.iter_mut().zip(self.around.into_iter().zip(beside)) {
-            *range = self.one(rigid, looks, site, now);
+            *range = self.measure(rigid, looks, site, now);
         }
         Some(RangeReadings { down_m, up_m, around_m })
     }
 
     /// Measures one range along a direction, with the bias of its sensor.
-    fn one<S: Surroundings>(&mut self, rigid: &RigidState, (direction, bias_m): (Vec3<Frd>, f64), site: &S, now: SimTime) -> f64 {
+    fn measure<S: Surroundings>(
+        &mut self,
+        rigid: &RigidState,
+        (direction, bias_m): (Vec3<Frd>, f64),
+        site: &S,
+        now: SimTime,
+    ) -> f64 {
         let hit = site.ray_m(rigid.position_m.enu(), (rigid.attitude * direction).enu(), self.max_m, now);
         hit.map_or(f64::INFINITY, |d| (d + bias_m + self.noise_m * self.stream.normal()).max(0.0))
     }

@@ -38,10 +38,10 @@ impl Sim {
         if world.wind != self.instructor_settings.wind {
             let own = &self.config.scenario.wind;
             let (speed_m_s, from_deg) = world.wind.unwrap_or((own.speed_m_s, own.from_deg));
-            self.wind.change(self.now, WIND_CHANGES_IN, speed_m_s, from_deg);
+            self.wind.add_change(self.now, WIND_CHANGES_IN, speed_m_s, from_deg);
         }
         if world.open != self.instructor_settings.open {
-            self.closures.apply_codes(BridgeClosures::code(self.now, world.open));
+            self.closures.apply_code(BridgeClosures::code(self.now, world.open));
             self.site = Arc::new(self.site.with_closures(self.closures.clone()));
             self.scoring.traffic = self.closures.last_codes();
         }

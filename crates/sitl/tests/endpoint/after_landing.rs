@@ -18,12 +18,12 @@ fn fly_away(station: &mut Station) {
 
 /// After a soft landing 12 m from the pad, the vehicle must stay there for ten seconds and then take off again.
 #[test]
-fn regress_a_soft_landing_away_from_home_stays_and_takes_off_again() {
+fn regress_vehicle_takes_off_again_after_a_soft_landing_away_from_home() {
     let mut station = Station::airborne("drill-hover", 7);
     fly_away(&mut station);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_LAND, p(&[])), MavResult::MAV_RESULT_ACCEPTED);
     station.received.clear();
-    assert!(station.run_until(60.0, |s| s.said("Disarmed by landing")), "{:?}", station.texts());
+    assert!(station.run_until(60.0, |s| s.has_text("Disarmed by landing")), "{:?}", station.texts());
     station.received.clear();
     station.run_ms(10_000);
     let armed = station.last_message(|m| match m {
@@ -33,7 +33,7 @@ fn regress_a_soft_landing_away_from_home_stays_and_takes_off_again() {
         _ => None,
     });
     assert_eq!(armed, Some(false), "{:?}", station.texts());
-    assert!(!station.said("Respawned at"), "{:?}", station.texts());
+    assert!(!station.has_text("Respawned at"), "{:?}", station.texts());
     let stands_m = station.sim.truth().rigid.position_m;
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)), MavResult::MAV_RESULT_ACCEPTED);
     let takeoff = MavCmd::MAV_CMD_NAV_TAKEOFF;
@@ -42,12 +42,12 @@ fn regress_a_soft_landing_away_from_home_stays_and_takes_off_again() {
     station.run_ms(8_000);
     let risen_m = (station.sim.truth().rigid.position_m - stands_m).down();
     // The takeoff height is 2.5 m above home.
-    assert!(risen_m < -1.5 && !station.said("Respawned at"), "{risen_m} {:?}", station.texts());
+    assert!(risen_m < -1.5 && !station.has_text("Respawned at"), "{risen_m} {:?}", station.texts());
 }
 
 /// Falls from 5 m with the motors stopped and returns the number of respawns within 15 s.
 fn respawns_after_a_fall(rule: Option<AfterCrash>) -> usize {
-    let mut station = Station::ruled("drill-hover", 7, rule);
+    let mut station = Station::with_crash_rule("drill-hover", 7, rule);
     station.climb_by_hand();
     fly_away(&mut station);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, p(&[0.0, 21196.0])), MavResult::MAV_RESULT_ACCEPTED);
@@ -57,7 +57,7 @@ fn respawns_after_a_fall(rule: Option<AfterCrash>) -> usize {
 }
 
 #[test]
-fn regress_what_a_crash_leads_to_is_the_scenarios_rule_or_the_operators() {
+fn regress_crash_action_follows_the_scenario_or_the_operator() {
     assert_eq!(scenario("drill-hover").rules.after_crash, AfterCrash::Respawn);
     assert_eq!(respawns_after_a_fall(None), 1);
     assert_eq!(respawns_after_a_fall(Some(AfterCrash::Continue)), 0);

@@ -30,7 +30,7 @@ fn acknowledgements(sim: &mut Sim, encoder: &mut Encoder, id: u32, number: u16, 
 }
 
 #[test]
-fn wire_every_command_number_gets_one_answer_and_strangers_get_none() {
+fn wire_every_command_gets_one_response_and_unaddressed_components_stay_silent() {
     let mut station = Station::airborne("drill-hover", 7);
     while station.sim.poll_transmit().is_some() {}
     let mut encoder = Encoder::new(255, 190);
@@ -52,7 +52,7 @@ fn wire_every_command_number_gets_one_answer_and_strangers_get_none() {
 }
 
 #[test]
-fn wire_the_cameras_component_does_not_fly() {
+fn wire_camera_component_rejects_flight_commands() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(2_500);
     let one = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -78,7 +78,7 @@ fn wire_the_cameras_component_does_not_fly() {
 }
 
 #[test]
-fn wire_every_stream_can_be_asked_for_once_and_at_a_rate() {
+fn wire_streams_can_be_requested_once_and_at_a_rate() {
     use spandrel_sitl::endpoint::streams::STREAMS;
     let mut station = Station::airborne("two-bridges", 7);
     // Starts an orbit, so that the orbit stream has data.
@@ -144,7 +144,7 @@ fn error_of(m: &MavMessage) -> Option<MavParamError> {
 }
 
 #[test]
-fn wire_parameters_are_read_by_name_and_place_and_bad_questions_are_named() {
+fn wire_parameters_are_read_by_name_and_index_with_errors_for_invalid_requests() {
     let mut station = Station::new("drill-hover", 7);
     let read = |name: &str, param_index| {
         MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA {
@@ -188,7 +188,7 @@ fn wire_parameters_are_read_by_name_and_place_and_bad_questions_are_named() {
 }
 
 #[test]
-fn wire_the_checksum_comes_before_the_list_and_setting_it_stops_the_list() {
+fn wire_parameter_hash_precedes_the_list_and_setting_it_stops_the_list() {
     let mut station = Station::new("drill-hover", 7);
     let list = MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 0 });
     let (name, hash, index) = station.ask(&list, value_of).unwrap();
@@ -207,7 +207,7 @@ fn wire_the_checksum_comes_before_the_list_and_setting_it_stops_the_list() {
 }
 
 #[test]
-fn wire_clocks_pings_files_and_logs_are_answered() {
+fn wire_timesync_ping_file_and_log_requests_are_answered() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
     let sync = MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: 123_456_789, ..Default::default() });
@@ -241,7 +241,7 @@ fn wire_clocks_pings_files_and_logs_are_answered() {
 }
 
 #[test]
-fn wire_frames_for_somebody_else_reach_him_alone() {
+fn wire_frames_are_forwarded_only_to_their_target() {
     let mut station = Station::new("drill-hover", 7);
     let (monitor, other) = (LinkId(2), LinkId(3));
     station.sim.open_link(monitor, LinkKind::Payload, false);
@@ -263,7 +263,7 @@ fn wire_frames_for_somebody_else_reach_him_alone() {
 }
 
 #[test]
-fn wire_speeds_and_terminations_that_change_nothing_are_granted() {
+fn wire_commands_without_effect_are_accepted() {
     let mut station = Station::airborne("drill-hover", 7);
     let change = |s: &mut Station, speed| s.command(1, MavCmd::MAV_CMD_DO_CHANGE_SPEED, [1.0, speed, -1.0, 0.0, 0.0, 0.0, 0.0]);
     for (speed, result) in [(3.0, true), (-1.0, true), (-2.0, true), (0.0, false), (f32::NAN, false)] {

@@ -58,7 +58,7 @@ fn take(station: &mut Station) -> MavResult {
 }
 
 #[test]
-fn wire_the_camera_records_in_video_mode_alone_takes_pictures_in_both_and_reports_how_long() {
+fn wire_camera_records_only_in_video_mode_and_reports_the_duration() {
     let mut station = on_the_pad("phantom2");
     let record = p(&[0.0, 2.0, 0.0]);
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_START_CAPTURE, record), FAILED);
@@ -88,7 +88,7 @@ fn wire_the_camera_records_in_video_mode_alone_takes_pictures_in_both_and_report
 }
 
 #[test]
-fn wire_a_formatted_card_is_empty_and_counts_from_nought_and_not_while_recording() {
+fn wire_formatting_empties_the_card_and_is_rejected_while_recording() {
     let mut station = on_the_pad("phantom2");
     assert_eq!([take(&mut station), take(&mut station)], [OK, OK]);
     assert_eq!(used_mib(&mut station), 2.0 * PICTURE_MIB);
@@ -114,7 +114,7 @@ fn field_deg(level: f64) -> f64 {
 }
 
 #[test]
-fn wire_every_kind_of_zoom_is_obeyed_shown_and_within_the_lens() {
+fn wire_every_zoom_type_works_within_the_zoom_range() {
     let mut station = on_the_pad(ZOOMS);
     let zoom = MavCmd::MAV_CMD_SET_CAMERA_ZOOM;
     let wide_mm = 0.5 * 6.17 / (0.5 * 84.0_f32.to_radians()).tan();
@@ -159,7 +159,7 @@ fn wire_every_kind_of_zoom_is_obeyed_shown_and_within_the_lens() {
 }
 
 #[test]
-fn wire_a_continuous_zoom_stops_on_command_and_a_reset_leads_back_to_the_wide_end() {
+fn wire_continuous_zoom_stops_on_command_and_reset_zooms_out() {
     let mut station = on_the_pad(ZOOMS);
     let zoom = MavCmd::MAV_CMD_SET_CAMERA_ZOOM;
     assert_eq!(station.command(CAMERA, zoom, p(&[1.0, 0.5])), OK);
@@ -179,7 +179,7 @@ fn wire_a_continuous_zoom_stops_on_command_and_a_reset_leads_back_to_the_wide_en
 }
 
 #[test]
-fn wire_before_every_picture_stands_the_field_of_view_that_it_has() {
+fn wire_field_of_view_precedes_every_picture() {
     let mut station = on_the_pad(ZOOMS);
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0]));
     for _ in 0..5 {
@@ -205,7 +205,7 @@ fn wire_before_every_picture_stands_the_field_of_view_that_it_has() {
 }
 
 #[test]
-fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
+fn wire_focus_is_unsupported_and_the_stream_status_follows_its_sender() {
     let mut station = on_the_pad("phantom2");
     for (kind, result) in [(0.0, UNSUPPORTED), (1.0, UNSUPPORTED), (2.0, UNSUPPORTED), (3.0, UNSUPPORTED), (4.0, OK), (6.0, OK)] {
         assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_FOCUS, p(&[kind, 1.0])), result, "{kind}");
@@ -268,7 +268,7 @@ fn wire_focus_is_answered_as_it_is_and_a_stream_runs_while_somebody_sends_it() {
 }
 
 #[test]
-fn wire_the_older_requests_and_the_one_of_today_bring_the_same_messages() {
+fn wire_superseded_and_current_requests_return_the_same_messages() {
     use MavCmd as M;
     let mut station = on_the_pad("phantom2");
     take(&mut station);
@@ -295,7 +295,7 @@ fn wire_the_older_requests_and_the_one_of_today_bring_the_same_messages() {
 }
 
 #[test]
-fn wire_a_command_for_a_picture_that_comes_twice_takes_one_and_other_cameras_are_none_of_ours() {
+fn wire_repeated_picture_command_takes_one_picture_and_other_cameras_are_ignored() {
     let mut station = on_the_pad("phantom2");
     let numbered = |number: f32| p(&[0.0, 0.0, 1.0, number]);
     let shoot = MavCmd::MAV_CMD_IMAGE_START_CAPTURE;
@@ -314,7 +314,7 @@ fn wire_a_command_for_a_picture_that_comes_twice_takes_one_and_other_cameras_are
 }
 
 #[test]
-fn wire_missed_pictures_are_reported_again_one_by_one_in_ranges_and_all() {
+fn wire_missed_pictures_can_be_requested_again() {
     let mut station = on_the_pad("phantom2");
     for _ in 0..8 {
         take(&mut station);
@@ -345,7 +345,7 @@ fn act(seq: u16, command: MavCmd, p: [f32; 4], x: i32, z: f32) -> MISSION_ITEM_I
 }
 
 #[test]
-fn wire_a_missions_items_do_what_the_same_commands_do() {
+fn wire_mission_items_have_the_same_effect_as_commands() {
     use MavCmd as M;
     let mut station = on_the_pad(ZOOMS);
     station.run_ms(2_500);

@@ -18,7 +18,7 @@ fn number(bytes: &[u8]) -> u32 {
 }
 
 /// Returns name, value, index and count of all reported settings.
-fn told(station: &Station) -> Vec<(String, u32, u16, u16)> {
+fn announced(station: &Station) -> Vec<(String, u32, u16, u16)> {
     station.all(|m| match m {
         MavMessage::PARAM_EXT_VALUE(v) => {
             Some((v.param_id.to_str().unwrap().to_owned(), number(&v.param_value[..]), v.param_index, v.param_count))
@@ -66,21 +66,21 @@ fn set(station: &mut Station, name: &str, value: u32, param_type: MavParamExtTyp
 }
 
 #[test]
-fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
+fn wire_only_the_camera_lists_and_changes_its_settings() {
     use ParamAck as A;
     let mut station = on_the_pad();
     ask(&mut station, &list(1));
-    assert!(told(&station).is_empty(), "the autopilot must not have camera settings");
+    assert!(announced(&station).is_empty(), "the autopilot must not have camera settings");
     let delivered = [("CAM_PHOTOQUAL", 1), ("CAM_VIDRATE", 60)];
     for component in [CAMERA, 0] {
         ask(&mut station, &list(component));
         let expected = delivered.iter().zip(0..).map(|((name, value), k)| ((*name).to_owned(), *value, k, 2));
-        assert_eq!(told(&station), expected.collect::<Vec<_>>());
+        assert_eq!(announced(&station), expected.collect::<Vec<_>>());
         assert!(station.received.iter().filter(|f| f.message_id == 322).all(|f| f.component_id == CAMERA));
     }
     for message in [read("CAM_VIDRATE", -1), read("", 1)] {
         ask(&mut station, &message);
-        assert_eq!(told(&station), [("CAM_VIDRATE".to_owned(), 60, 1, 2)]);
+        assert_eq!(announced(&station), [("CAM_VIDRATE".to_owned(), 60, 1, 2)]);
     }
     for message in [read("CAM_NONE", -1), read("", 2)] {
         ask(&mut station, &message);
@@ -88,7 +88,7 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
         assert_eq!(error, Some(MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST));
     }
     assert_eq!(set(&mut station, "CAM_VIDRATE", 80, UINT32), (A::PARAM_ACK_ACCEPTED, 80));
-    assert_eq!(told(&station), [("CAM_VIDRATE".to_owned(), 80, 1, 2)], "the change must be broadcast");
+    assert_eq!(announced(&station), [("CAM_VIDRATE".to_owned(), 80, 1, 2)], "the change must be broadcast");
     for (name, value, kind, result) in [
         ("CAM_VIDRATE", 85, UINT32, (A::PARAM_ACK_VALUE_UNSUPPORTED, 80)),
         ("CAM_VIDRATE", 110, UINT32, (A::PARAM_ACK_VALUE_UNSUPPORTED, 80)),
@@ -108,7 +108,11 @@ fn wire_the_cameras_settings_are_listed_read_and_changed_by_the_camera_alone() {
     station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_STOP_CAPTURE, [0.0; 7]);
     station.command(CAMERA, MavCmd::MAV_CMD_RESET_CAMERA_SETTINGS, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     ask(&mut station, &list(CAMERA));
-    assert_eq!(told(&station).iter().map(|setting| setting.1).collect::<Vec<_>>(), [1, 60], "a reset must restore the defaults");
+    assert_eq!(
+        announced(&station).iter().map(|setting| setting.1).collect::<Vec<_>>(),
+        [1, 60],
+        "a reset must restore the defaults"
+    );
 }
 
 fn transfer(
@@ -141,7 +145,7 @@ fn transfer(
 }
 
 #[test]
-fn wire_the_camera_serves_the_file_that_describes_its_settings_and_no_other() {
+fn wire_camera_serves_only_its_definition_file() {
     let mut station = on_the_pad();
     station.command(CAMERA, MavCmd::MAV_CMD_REQUEST_MESSAGE, [259.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     let uri = station.last_message(|m| match m {

@@ -14,13 +14,13 @@ fn yaw(station: &Station) -> f32 {
     station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap()
 }
 
-fn off(a: f32, b: f32) -> f32 {
+fn angle_between(a: f32, b: f32) -> f32 {
     let d = (a - b).rem_euclid(std::f32::consts::TAU);
     d.min(std::f32::consts::TAU - d)
 }
 
 #[test]
-fn flight_an_orbit_keeps_its_radius_and_speed_with_the_nose_to_the_middle() {
+fn flight_orbit_keeps_radius_and_speed_facing_the_center() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sticks(0, 0, 500, 0);
     let centre = station.place();
@@ -38,7 +38,7 @@ fn flight_an_orbit_keeps_its_radius_and_speed_with_the_nose_to_the_middle() {
         let (n, e) = (p[0] - centre[0], p[1] - centre[1]);
         let radius = f64::from(n.hypot(e));
         assert!((radius - 8.0).abs() < RADIUS_TOLERANCE_M, "{radius}");
-        assert!(off(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {p:?}", yaw(&station));
+        assert!(angle_between(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {p:?}", yaw(&station));
         let bearing = e.atan2(n);
         turned += before
             .map_or(0.0, |b| (bearing - b + 3.0 * std::f32::consts::PI).rem_euclid(std::f32::consts::TAU) - std::f32::consts::PI);
@@ -51,7 +51,7 @@ fn flight_an_orbit_keeps_its_radius_and_speed_with_the_nose_to_the_middle() {
 }
 
 #[test]
-fn flight_an_orbit_of_half_a_circle_ends_in_a_hold() {
+fn flight_half_orbit_ends_in_hold() {
     let mut station = Station::airborne("drill-hover", 7);
     let orbit = [5.0, 2.0, 0.0, std::f32::consts::PI, NAN, NAN, NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
@@ -59,7 +59,7 @@ fn flight_an_orbit_of_half_a_circle_ends_in_a_hold() {
 }
 
 #[test]
-fn flight_in_a_mission_the_nose_follows_the_region_of_interest_until_cleared() {
+fn flight_mission_heading_follows_the_region_of_interest_until_cleared() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     let mut aim = item(1, MavCmd::MAV_CMD_DO_SET_ROI_LOCATION, home + 20.0, 2.0);
@@ -78,17 +78,17 @@ fn flight_in_a_mission_the_nose_follows_the_region_of_interest_until_cleared() {
     let east = 3_000.0 * 1e-7 * 40_000_000.0 / 360.0 * 46.7f32.to_radians().cos();
     let p = station.place();
     let wanted = (east - p[1]).atan2(home as f32 + 20.0 - p[0]);
-    assert!(off(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} not {wanted} at {p:?}", yaw(&station));
+    assert!(angle_between(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} not {wanted} at {p:?}", yaw(&station));
     assert!(station.run_until(60.0, |s| s.mode() == Some(3 << 24 | 4 << 16)));
     assert!(
-        off(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE,
+        angle_between(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE,
         "the nose must point south along the path again: {}",
         yaw(&station)
     );
 }
 
 #[test]
-fn wire_a_reboot_on_the_ground_keeps_parameters_and_plans_and_is_refused_in_flight() {
+fn wire_reboot_keeps_parameters_and_plans_and_is_rejected_in_flight() {
     let mut station = ready(7);
     let home = home_north(&station);
     assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 5.0, 6.0)]), ACCEPTED);
@@ -132,7 +132,7 @@ fn wire_a_reboot_on_the_ground_keeps_parameters_and_plans_and_is_refused_in_flig
 }
 
 #[test]
-fn flight_a_turn_by_command_leaves_the_mission_flying() {
+fn flight_yaw_command_does_not_interrupt_the_mission() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 60.0, 8.0)];
@@ -149,12 +149,12 @@ fn flight_a_turn_by_command_leaves_the_mission_flying() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, turn), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(5_000);
     assert_eq!(station.mode(), Some(4 << 24 | 4 << 16));
-    assert!(off(yaw(&station), std::f32::consts::FRAC_PI_2) < YAW_TOLERANCE, "{}", yaw(&station));
+    assert!(angle_between(yaw(&station), std::f32::consts::FRAC_PI_2) < YAW_TOLERANCE, "{}", yaw(&station));
 }
 
 /// Sets a home position relative to home; the height counts from the current home.
 #[test]
-fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
+fn wire_home_accepts_relative_heights_and_rejects_other_frames() {
     let mut station = ready(7);
     let home_mm = |s: &mut Station| {
         s.run_ms(2_100);
@@ -183,14 +183,14 @@ fn wire_a_home_may_be_given_relative_to_home_and_in_no_strange_frame() {
 }
 
 /// Returns the center of the current orbit as COMMAND_INT encodes it.
-fn middle(station: &Station) -> (i32, i32, f32) {
+fn orbit_center(station: &Station) -> (i32, i32, f32) {
     station.last_message(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
 }
 
 /// QGroundControl's orbit does not set a yaw behavior (5, unchanged). A PX4 that is not in an orbit yet then turns its
 /// nose to the center.
 #[test]
-fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown() {
+fn regress_orbit_with_yaw_unchanged_keeps_the_current_yaw_behavior() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sticks(0, 0, 500, 0);
     let centre = station.place();
@@ -198,9 +198,9 @@ fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown(
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit(5.0)), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(15_000);
     let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
-    assert!(off(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
+    assert!(angle_between(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
     // An orbit around the same center with the nose along the circle (3), then unchanged.
-    let (x, y, z) = middle(&station);
+    let (x, y, z) = orbit_center(&station);
     for behavior in [3.0, 5.0] {
         let orbit = COMMAND_INT_DATA {
             command: MavCmd::MAV_CMD_DO_ORBIT,
@@ -226,5 +226,5 @@ fn regress_an_orbit_with_yaw_unchanged_faces_its_middle_and_keeps_what_is_flown(
     }
     station.run_ms(8_000);
     let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
-    assert!(off(yaw(&station), n.atan2(-e)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
+    assert!(angle_between(yaw(&station), n.atan2(-e)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
 }

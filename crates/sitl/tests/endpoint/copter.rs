@@ -46,7 +46,7 @@ pub(super) fn next_beat(station: &mut Station) -> HEARTBEAT_DATA {
 
 /// Returns a Copter on the ground, ready to arm, with the streams that these tests use.
 pub(super) fn copter() -> Station {
-    let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(2_500);
     for id in [32.0, 33.0, 245.0, 65.0] {
         let interval = [id, 50_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -62,14 +62,14 @@ pub(super) fn copter_at(height_m: f32) -> Station {
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     let take_off = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, take_off), ACCEPTED);
-    let ground = station.place_after(100)[2];
+    let ground = station.local_position_after(100)[2];
     assert!(station.run_until(30.0, |s| ground - s.place()[2] > height_m - HEIGHT_M), "no takeoff: {:?}", station.texts());
     station.run_ms(3_000);
     station
 }
 
 #[test]
-fn wire_copters_modes_are_refused_as_copter_refuses_them() {
+fn wire_mode_rejections_match_copter() {
     let mut station = copter();
     for (number, name) in [(77.0, "No such mode 77"), (AUTO, "Mode change to AUTO failed: No mission to fly")] {
         assert_eq!(station.command(1, SET_MODE, mode(number)), FAILED);
@@ -102,7 +102,7 @@ fn wire_copters_modes_are_refused_as_copter_refuses_them() {
 }
 
 #[test]
-fn wire_a_transmitters_throttle_that_is_down_does_not_keep_a_copter_from_arming() {
+fn wire_low_throttle_does_not_prevent_arming() {
     let low = |chan3_raw| {
         MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
             chan1_raw: 1500,
@@ -131,7 +131,7 @@ fn wire_a_transmitters_throttle_that_is_down_does_not_keep_a_copter_from_arming(
 }
 
 #[test]
-fn flight_guided_takes_off_over_home_and_keeps_its_number_in_the_air() {
+fn flight_guided_takeoff_is_relative_to_home_and_stays_in_guided() {
     let mut station = copter();
     let take_off = |height: f32| [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height];
     let command = MavCmd::MAV_CMD_NAV_TAKEOFF;
@@ -154,7 +154,7 @@ fn flight_guided_takes_off_over_home_and_keeps_its_number_in_the_air() {
     let ground = 0.0;
     assert!(station.run_until(30.0, |s| ground - s.place()[2] > 6.0 - HEIGHT_M));
     station.run_ms(2_000);
-    let height = -station.place_after(100)[2];
+    let height = -station.local_position_after(100)[2];
     assert!((height - 6.0).abs() < 2.0 * HEIGHT_M, "the height must count from home, not from sea level: {height}");
     assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32, "the mode must stay GUIDED after takeoff");
     assert_eq!(station.command(1, command, take_off(9.0)), FAILED, "a second takeoff in the air must be rejected");
@@ -162,7 +162,7 @@ fn flight_guided_takes_off_over_home_and_keeps_its_number_in_the_air() {
 }
 
 #[test]
-fn flight_guided_flies_set_points_as_they_come_and_a_place_sent_once_is_flown_to() {
+fn flight_guided_follows_setpoints_and_single_positions() {
     let mut station = copter_at(5.0);
     let target = |type_mask: u16, x, y, z, vx| {
         MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {
@@ -190,7 +190,7 @@ fn flight_guided_flies_set_points_as_they_come_and_a_place_sent_once_is_flown_to
     assert!(then < north + 9.0, "the vehicle must fly south: {then}");
     station.run_ms(9_000);
     let [first, ..] = station.place();
-    let [second, ..] = station.place_after(2_000);
+    let [second, ..] = station.local_position_after(2_000);
     assert!((first - second).abs() < 0.2, "the vehicle must stop when setpoints end: {first} {second}");
     let status = next_beat(&mut station);
     assert_eq!(
@@ -205,7 +205,7 @@ fn flight_guided_flies_set_points_as_they_come_and_a_place_sent_once_is_flown_to
 }
 
 #[test]
-fn flight_go_to_needs_guided_or_asks_for_it_and_brake_stops_it() {
+fn flight_goto_requires_or_enters_guided_and_brake_stops_it() {
     let mut station = copter_at(5.0);
     let place = |flags: f32| {
         MavMessage::COMMAND_INT(COMMAND_INT_DATA {
@@ -234,7 +234,7 @@ fn flight_go_to_needs_guided_or_asks_for_it_and_brake_stops_it() {
     assert_eq!(station.command(1, SET_MODE, mode(BRAKE)), ACCEPTED);
     station.run_ms(5_000);
     let [first, ..] = station.place();
-    let [second, ..] = station.place_after(2_000);
+    let [second, ..] = station.local_position_after(2_000);
     assert!((first - second).abs() < 0.3 && first < 39.0, "the vehicle must have stopped before the target: {first} {second}");
     assert_eq!(next_beat(&mut station).custom_mode, BRAKE as u32);
     // The single-item form that MAVProxy and older ground stations use.
@@ -249,7 +249,7 @@ fn flight_go_to_needs_guided_or_asks_for_it_and_brake_stops_it() {
 }
 
 #[test]
-fn flight_a_copters_mode_is_the_pilots_once_sticks_move_and_each_stick_mode_keeps_its_number() {
+fn flight_stick_input_takes_over_and_stick_modes_keep_their_number() {
     let mut station = copter_at(5.0);
     for _ in 0..20 {
         station.sticks(0, 0, 500, 0);

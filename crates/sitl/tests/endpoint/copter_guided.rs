@@ -45,7 +45,7 @@ fn hold_yaw(station: &mut Station, us: u16, ms: i64) {
 }
 
 #[test]
-fn regress_a_transmitter_arms_in_guided_only_where_guid_options_reports_so() {
+fn regress_rc_arming_in_guided_requires_guid_options() {
     let mut station = copter();
     assert_eq!(station.set("RC8_OPTION", 153.0, MavParamType::MAV_PARAM_TYPE_INT16), Some(153.0));
     assert_eq!(station.set("FLTMODE_CH", 0.0, MavParamType::MAV_PARAM_TYPE_INT8), Some(0.0));
@@ -57,7 +57,7 @@ fn regress_a_transmitter_arms_in_guided_only_where_guid_options_reports_so() {
         next_beat(station).base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
     };
     assert!(!armed_by_switch(&mut station));
-    assert!(station.said("Arm: GUIDED mode not armable"), "{:?}", station.texts());
+    assert!(station.has_text("Arm: GUIDED mode not armable"), "{:?}", station.texts());
     set_options(&mut station, 1.0);
     assert!(armed_by_switch(&mut station), "{:?}", station.texts());
     station.send(&transmitter(1500, 1000));
@@ -67,7 +67,7 @@ fn regress_a_transmitter_arms_in_guided_only_where_guid_options_reports_so() {
 }
 
 #[test]
-fn regress_the_yaw_stick_turns_the_nose_in_guided_unless_guid_options_ignores_it() {
+fn regress_yaw_stick_in_guided_follows_guid_options() {
     let mut station = copter_at(5.0);
     let before = heading_deg(&mut station);
     hold_yaw(&mut station, 1700, 2_000);
@@ -85,7 +85,7 @@ fn regress_the_yaw_stick_turns_the_nose_in_guided_unless_guid_options_ignores_it
 }
 
 #[test]
-fn regress_thrust_of_an_attitude_is_thrust_where_guid_options_reports_so() {
+fn regress_attitude_thrust_in_guided_follows_guid_options() {
     let mut station = copter_at(5.0);
     let thrust_after = |station: &mut Station, asked: f32| {
         for _ in 0..10 {
@@ -153,7 +153,7 @@ fn parts(t: &POSITION_TARGET_LOCAL_NED_DATA) -> [[f32; 3]; 3] {
 }
 
 #[test]
-fn regress_guided_reports_the_target_that_was_requested_with_arducopters_masks() {
+fn regress_guided_reports_targets_with_arducopters_masks() {
     let mut station = copter_at(5.0);
     let [north, east, down] = station.place();
     let place = [north + 30.0, east, down];
@@ -179,7 +179,7 @@ fn regress_guided_reports_the_target_that_was_requested_with_arducopters_masks()
 }
 
 #[test]
-fn regress_a_target_over_the_sea_is_reported_for_places_alone() {
+fn regress_global_target_is_reported_only_for_positions() {
     let mut station = copter_at(5.0);
     let [north, east, down] = station.place();
     let shown = |station: &mut Station| {
@@ -205,7 +205,7 @@ fn regress_a_target_over_the_sea_is_reported_for_places_alone() {
 
 /// ArduPilot's test case PAUSE_CONTINUE_GUIDED with a velocity.
 #[test]
-fn regress_a_velocity_in_guided_is_paused_and_flown_on() {
+fn regress_guided_velocity_can_be_paused_and_continued() {
     let mut station = copter_at(5.0);
     assert_eq!(station.set("GUID_TIMEOUT", 120.0, MavParamType::MAV_PARAM_TYPE_REAL32), Some(120.0));
     let velocity = [2.0, 1.0, 0.0];

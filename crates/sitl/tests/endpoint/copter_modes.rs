@@ -56,7 +56,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
 /// QGroundControl's altitude slider: mode GUIDED, then one offset in which only the position bits of the mask are
 /// clear.
 #[test]
-fn regress_qgroundcontrols_change_of_altitude_climbs_a_copter() {
+fn regress_qgroundcontrols_altitude_slider_climbs_a_copter() {
     for before in [GUIDED, BRAKE] {
         let mut station = copter_at(5.0);
         let start = station.place();
@@ -67,12 +67,12 @@ fn regress_qgroundcontrols_change_of_altitude_climbs_a_copter() {
         let end = station.place();
         assert!((start[2] - end[2] - 3.0).abs() < NEAR_M, "{start:?} to {end:?}: {:?}", station.texts());
         assert!((start[0] - end[0]).hypot(start[1] - end[1]) < NEAR_M);
-        assert!(!station.said("Setpoint"), "{:?}", station.texts());
+        assert!(!station.has_text("Setpoint"), "{:?}", station.texts());
     }
 }
 
 #[test]
-fn regress_offsets_in_the_bodys_frames_count_from_the_copter_and_its_heading() {
+fn regress_body_frame_offsets_are_relative_to_position_and_heading() {
     for frame in [MavFrame::MAV_FRAME_BODY_NED, MavFrame::MAV_FRAME_BODY_OFFSET_NED] {
         let mut station = copter_at(5.0);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[90.0, 0.0, 1.0, 0.0])), ACCEPTED);
@@ -88,7 +88,7 @@ fn regress_offsets_in_the_bodys_frames_count_from_the_copter_and_its_heading() {
 
 /// QGroundControl's Return button sends mode 21.
 #[test]
-fn regress_smart_rtl_flies_back_along_its_path_and_lands_where_it_took_off() {
+fn regress_smart_rtl_retraces_its_path_and_lands_at_the_start() {
     let mut station = copter_at(6.0);
     let pad = station.place();
     let corner = [pad[0] + 20.0, pad[1], pad[2] - 2.0];
@@ -124,7 +124,7 @@ fn regress_smart_rtl_flies_back_along_its_path_and_lands_where_it_took_off() {
 }
 
 #[test]
-fn regress_copters_modes_are_listed_with_its_names_numbers_and_order() {
+fn regress_available_modes_match_copters_names_numbers_and_order() {
     let mut station = copter();
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(435.0));
     let modes = station.all(|m| match m {
@@ -154,7 +154,7 @@ fn regress_copters_modes_are_listed_with_its_names_numbers_and_order() {
 }
 
 #[test]
-fn regress_circle_flies_around_a_point_ahead() {
+fn regress_circle_mode_orbits_a_point_ahead() {
     let mut station = copter_at(5.0);
     let (start, heading) = (station.place(), yaw(&mut station));
     set_param(&mut station, "CIRCLE_RADIUS", 600.0, MavParamType::MAV_PARAM_TYPE_REAL32);
@@ -175,30 +175,30 @@ fn regress_circle_flies_around_a_point_ahead() {
 }
 
 #[test]
-fn regress_loiter_without_sticks_stays_and_shows_loiter() {
+fn regress_loiter_without_sticks_holds_and_reports_loiter() {
     let mut station = copter_at(5.0);
     for (command, p) in [(MavCmd::MAV_CMD_NAV_LOITER_UNLIM, [0.0; 7]), (SET_MODE, mode(LOITER))] {
         // The previous stick input has expired (3 s).
         station.run_ms(4_000);
         assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);
-        let start = station.place_after(100);
+        let start = station.local_position_after(100);
         assert_eq!(station.command(1, command, p), ACCEPTED);
         station.run_ms(8_000);
         let beat = next_beat(&mut station);
         assert_eq!((beat.custom_mode, beat.system_status), (LOITER as u32, MavState::MAV_STATE_ACTIVE), "{:?}", station.texts());
-        assert!(distance(start, station.place_after(100)) < NEAR_M);
+        assert!(distance(start, station.local_position_after(100)) < NEAR_M);
         // Centered sticks must have no effect.
         for _ in 0..60 {
             station.sticks(0, 0, 500, 0);
             station.run_ms(50);
         }
         assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32);
-        assert!(distance(start, station.place_after(100)) < NEAR_M);
+        assert!(distance(start, station.local_position_after(100)) < NEAR_M);
     }
 }
 
 #[test]
-fn regress_thrust_of_an_attitude_is_a_copters_climb_rate() {
+fn regress_attitude_thrust_sets_the_climb_rate() {
     let mut station = copter_at(5.0);
     let level = |thrust: f32| {
         MavMessage::SET_ATTITUDE_TARGET(SET_ATTITUDE_TARGET_DATA {
@@ -223,7 +223,7 @@ fn regress_thrust_of_an_attitude_is_a_copters_climb_rate() {
 }
 
 #[test]
-fn regress_condition_yaw_turns_at_its_rate_and_in_its_direction() {
+fn regress_condition_yaw_respects_rate_and_direction() {
     let mut station = copter_at(5.0);
     let point = |s: &mut Station, angle: f32| {
         assert_eq!(s.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[angle, 0.0, 0.0, 0.0])), ACCEPTED);
@@ -246,7 +246,7 @@ fn regress_condition_yaw_turns_at_its_rate_and_in_its_direction() {
 }
 
 #[test]
-fn regress_pause_holds_a_guided_copter_and_continue_flies_on() {
+fn regress_pause_holds_and_continue_resumes_in_guided() {
     let mut station = copter_at(5.0);
     let start = station.place();
     let target = [start[0] + 30.0, start[1], start[2]];
@@ -256,7 +256,7 @@ fn regress_pause_holds_a_guided_copter_and_continue_flies_on() {
     let (from, speed) = (station.place(), station.speed());
     assert_eq!(station.command(1, pause, one(0.0)), ACCEPTED);
     station.run_ms(4_000);
-    let [first, second] = [station.place(), station.place_after(3_000)];
+    let [first, second] = [station.place(), station.local_position_after(3_000)];
     assert!(distance(first, second) < 0.4 && distance(second, target) > 2.0, "{first:?} {second:?}");
     let stopping_m = speed * speed / (2.0 * BRAKING_M_S2);
     assert!(first[0] - from[0] < stopping_m, "paused at {from:?}, {speed} m/s: {first:?}");
@@ -269,7 +269,7 @@ fn regress_pause_holds_a_guided_copter_and_continue_flies_on() {
 
 /// The mission takes off, waits until a time of day, and lands; the drill's day begins on a whole minute.
 #[test]
-fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_sequence() {
+fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
     let mut station = copter_at(5.0);
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(2.0));
     let unix_s = station
@@ -294,7 +294,7 @@ fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_seq
     assert_eq!(station.command(1, SET_MODE, mode(27.0)), FAILED, "the mission does not contain a landing sequence yet");
     assert_eq!(upload(&mut station, &plan), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
-    let home = station.place_after(100)[0];
+    let home = station.local_position_after(100)[0];
     station.run_ms(20_000);
     assert!((station.place()[0] - home - 4.0).abs() < 1.5, "the vehicle must wait: {:?}", station.place());
     assert!(
@@ -305,7 +305,7 @@ fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_seq
     let pause = MavCmd::MAV_CMD_DO_PAUSE_CONTINUE;
     assert_eq!(station.command(1, pause, one(0.0)), ACCEPTED);
     station.run_ms(4_000);
-    assert!(distance(station.place(), station.place_after(2_000)) < 0.4, "paused");
+    assert!(distance(station.place(), station.local_position_after(2_000)) < 0.4, "paused");
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
     let state = station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
@@ -314,12 +314,12 @@ fn regress_a_mission_waits_for_a_time_of_day_pauses_and_lands_by_its_landing_seq
     assert!(station.run_until(20.0, |s| s.place()[0] > home + 30.0), "resumed: {:?}", station.place());
     assert_eq!(station.command(1, SET_MODE, mode(27.0)), ACCEPTED);
     assert_eq!(next_beat(&mut station).custom_mode, 27);
-    assert!(station.run_until(60.0, |s| s.said("Landing detected")), "{:?} {:?}", station.place(), station.texts());
+    assert!(station.run_until(60.0, |s| s.has_text("Landing detected")), "{:?} {:?}", station.place(), station.texts());
     assert!((station.place()[0] - home - 10.0).abs() < 1.5, "{:?}", station.place());
 }
 
 #[test]
-fn regress_acro_turns_at_the_sticks_rate_and_levels_when_they_are_released() {
+fn regress_acro_follows_stick_rates_and_levels_on_release() {
     let mut station = copter_at(15.0);
     station.sticks(0, 0, 500, 0);
     station.run_ms(20);
@@ -344,15 +344,15 @@ fn regress_acro_turns_at_the_sticks_rate_and_levels_when_they_are_released() {
 }
 
 #[test]
-fn regress_follow_keeps_its_offset_from_another_vehicle() {
+fn regress_follow_mode_keeps_its_offset() {
     let mut station = copter_at(5.0);
     assert_eq!(station.command(1, SET_MODE, mode(23.0)), FAILED);
     station.run_ms(5);
-    assert!(station.said("FOLL_ENABLE"), "{:?}", station.texts());
+    assert!(station.has_text("FOLL_ENABLE"), "{:?}", station.texts());
     set_param(&mut station, "FOLL_ENABLE", 1.0, MavParamType::MAV_PARAM_TYPE_INT8);
     set_param(&mut station, "FOLL_OFS_X", -8.0, MavParamType::MAV_PARAM_TYPE_REAL32);
     set_param(&mut station, "FOLL_OFS_Z", -4.0, MavParamType::MAV_PARAM_TYPE_REAL32);
-    let home = station.place_after(100);
+    let home = station.local_position_after(100);
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     let alt = station
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt - g.relative_alt) } else { None })
@@ -364,7 +364,7 @@ fn regress_follow_keeps_its_offset_from_another_vehicle() {
     let mut east = 0.0;
     for k in 0..120 {
         east = 0.3 * f64::from(k);
-        station.speak_as(42, 1);
+        station.send_as(42, 1);
         station.send(&MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
             lat: PAD.0 + (10.0 / M_PER_E7) as i32,
             lon: PAD.1 + (east / east_m_per_e7) as i32,
@@ -375,7 +375,7 @@ fn regress_follow_keeps_its_offset_from_another_vehicle() {
         }));
         station.run_ms(200);
     }
-    station.speak_as(255, 190);
+    station.send_as(255, 190);
     let here = station.place();
     // The target is 8 m south of the person and 4 m above.
     let (n, e) = (here[0] - home[0] - 2.0, f64::from(here[1] - home[1]) - east);
@@ -384,7 +384,7 @@ fn regress_follow_keeps_its_offset_from_another_vehicle() {
 }
 
 #[test]
-fn regress_a_copter_shows_16_channels_without_sticks_and_its_mode_switch_acts() {
+fn regress_rc_channels_and_mode_switch_work_without_sticks() {
     let mut station = copter();
     let channels = |s: &mut Station| {
         s.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(65.0));
@@ -414,7 +414,7 @@ fn regress_a_copter_shows_16_channels_without_sticks_and_its_mode_switch_acts() 
 }
 
 #[test]
-fn regress_a_copter_streams_what_ardupilots_dialect_has_and_reports_that_it_is_a_multicopter() {
+fn regress_copter_streams_ardupilot_messages_as_a_multicopter() {
     let mut station = copter();
     use MavDataStream as D;
     let groups = [

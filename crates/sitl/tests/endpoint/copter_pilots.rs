@@ -65,7 +65,7 @@ fn unknown_command(station: &mut Station, number: u16, values: [f32; 2]) -> u8 {
 }
 
 #[test]
-fn wire_a_copters_switch_enters_its_mode_and_back_from_it_the_mode_switch_decides() {
+fn wire_mode_option_switch_overrides_the_mode_switch() {
     let mut station = copter();
     set(&mut station, "FLTMODE1", ALT_HOLD);
     set(&mut station, "RC9_OPTION", 18.0);
@@ -88,7 +88,7 @@ fn wire_a_copters_switch_enters_its_mode_and_back_from_it_the_mode_switch_decide
 }
 
 #[test]
-fn wire_a_copters_arming_switch_arms_when_it_is_moved_and_not_by_where_it_stands_after_a_restart() {
+fn wire_arming_switch_acts_only_when_moved() {
     let mut station = copter();
     station.command(1, SET_MODE, mode(ALT_HOLD));
     set(&mut station, "RC8_OPTION", 153.0);
@@ -109,7 +109,7 @@ fn wire_a_copters_arming_switch_arms_when_it_is_moved_and_not_by_where_it_stands
 }
 
 #[test]
-fn flight_a_copters_switch_saves_waypoints_and_another_clears_them() {
+fn flight_switches_save_and_clear_waypoints() {
     let mut station = copter_at(5.0);
     set(&mut station, "RC8_OPTION", 7.0);
     set(&mut station, "RC9_OPTION", 58.0);
@@ -130,7 +130,7 @@ fn flight_a_copters_switch_saves_waypoints_and_another_clears_them() {
 }
 
 #[test]
-fn wire_a_copter_looks_at_the_throttle_as_the_mode_uses_it() {
+fn wire_throttle_arming_check_depends_on_the_mode() {
     let mut station = copter();
     set(&mut station, "FLTMODE_CH", 0.0);
     let middle = switches(1500, 1500, 1500, 1500);
@@ -140,10 +140,10 @@ fn wire_a_copter_looks_at_the_throttle_as_the_mode_uses_it() {
     station.run_ms(100);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_RUN_PREARM_CHECKS, one(0.0)), ACCEPTED);
     station.run_ms(5);
-    assert!(!station.said("PreArm"), "sticks must be checked only when arming: {:?}", station.texts());
+    assert!(!station.has_text("PreArm"), "sticks must be checked only when arming: {:?}", station.texts());
     assert_eq!(station.command(1, ARM, one(1.0)), FAILED);
     station.run_ms(5);
-    assert!(station.said("Arm: Throttle too high"), "{:?}", station.texts());
+    assert!(station.has_text("Arm: Throttle too high"), "{:?}", station.texts());
     station.command(1, SET_MODE, mode(GUIDED));
     station.send(&high);
     station.run_ms(100);
@@ -156,14 +156,14 @@ fn wire_a_copter_looks_at_the_throttle_as_the_mode_uses_it() {
         "the mode change must be rejected because of the high throttle"
     );
     station.run_ms(5);
-    assert!(station.said("throttle too high"), "{:?}", station.texts());
+    assert!(station.has_text("throttle too high"), "{:?}", station.texts());
     station.send(&switches(1000, 1500, 1500, 1500));
     station.run_ms(100);
     assert_eq!(station.command(1, SET_MODE, mode(STABILIZE)), ACCEPTED);
 }
 
 #[test]
-fn flight_a_copters_mission_ends_in_auto_and_is_flown_again() {
+fn flight_mission_ends_in_auto_and_can_be_repeated() {
     let mut station = copter();
     let place = MavCmd::MAV_CMD_NAV_WAYPOINT;
     let items = [
@@ -180,13 +180,13 @@ fn flight_a_copters_mission_ends_in_auto_and_is_flown_again() {
     for flight in 1..=2 {
         assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED, "flight {flight}: {:?}", station.texts());
         assert!(station.run_until(20.0, |s| s.place()[2] < -2.0), "flight {flight} takes off: {:?}", station.texts());
-        assert!(station.run_until(90.0, |s| s.said("Disarmed by landing")), "flight {flight}: {:?}", station.texts());
+        assert!(station.run_until(90.0, |s| s.has_text("Disarmed by landing")), "flight {flight}: {:?}", station.texts());
         assert_eq!(next_beat(&mut station).custom_mode, AUTO as u32, "flight {flight}");
     }
 }
 
 #[test]
-fn flight_a_copter_takes_off_in_auto_once_the_throttle_is_off_its_lower_end() {
+fn flight_auto_takeoff_requires_raised_throttle() {
     let mut station = copter();
     set(&mut station, "FLTMODE_CH", 0.0);
     let items = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0), item(1, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 4.0)];
@@ -196,7 +196,7 @@ fn flight_a_copter_takes_off_in_auto_once_the_throttle_is_off_its_lower_end() {
     station.run_ms(100);
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
-    let ground = station.place_after(100)[2];
+    let ground = station.local_position_after(100)[2];
     for (throttle, rises) in [(1000, false), (1500, true)] {
         let flies = station.run_until(4.0, |s| {
             s.send(&switches(throttle, 1500, 1500, 1500));
@@ -207,7 +207,7 @@ fn flight_a_copter_takes_off_in_auto_once_the_throttle_is_off_its_lower_end() {
 }
 
 #[test]
-fn wire_a_copters_delay_without_seconds_waits_for_a_time_of_day() {
+fn wire_delay_without_seconds_waits_for_a_time_of_day() {
     let mut station = copter();
     let clock =
         station.last_message(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None });
@@ -217,8 +217,8 @@ fn wire_a_copters_delay_without_seconds_waits_for_a_time_of_day() {
             .last_message(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None })
             .unwrap()
     });
-    const LATER_S: u64 = 30;
-    let due = (clock + LATER_S) % 86_400;
+    const DELAY_S: u64 = 30;
+    let due = (clock + DELAY_S) % 86_400;
     let delay = MISSION_ITEM_INT_DATA {
         param1: 0.0,
         param2: (due / 3_600) as f32,
@@ -231,13 +231,13 @@ fn wire_a_copters_delay_without_seconds_waits_for_a_time_of_day() {
     set(&mut station, "AUTO_OPTIONS", 3.0);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
-    let up = |s: &mut Station| s.said("Takeoff detected");
-    assert!(!station.run_until(LATER_S as f64 - 5.0, up), "takeoff before the set time");
+    let up = |s: &mut Station| s.has_text("Takeoff detected");
+    assert!(!station.run_until(DELAY_S as f64 - 5.0, up), "takeoff before the set time");
     assert!(station.run_until(10.0, up), "no takeoff at the set time: {:?}", station.texts());
 }
 
 #[test]
-fn wire_a_copter_acknowledges_before_it_shows_what_was_requested() {
+fn wire_acknowledgment_precedes_the_requested_message() {
     let mut station = copter();
     for (command, values, shown) in [
         (MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[49.0]), 49),
@@ -252,7 +252,7 @@ fn wire_a_copter_acknowledges_before_it_shows_what_was_requested() {
 }
 
 #[test]
-fn wire_a_copter_refuses_what_copter_refuses() {
+fn wire_rejections_match_copter() {
     let mut station = copter();
     let items = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0), item(1, MavCmd::MAV_CMD_NAV_TAKEOFF, 0.0, 4.0)];
     assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);
@@ -268,7 +268,7 @@ fn wire_a_copter_refuses_what_copter_refuses() {
 }
 
 #[test]
-fn flight_a_copters_return_takes_a_rally_points_height_and_turns_back() {
+fn flight_return_uses_the_rally_points_height_and_restores_the_heading() {
     let mut station = copter();
     set(&mut station, "WP_YAW_BEHAVIOR", 1.0);
     set(&mut station, "RALLY_INCL_HOME", 0.0);
@@ -286,14 +286,14 @@ fn flight_a_copters_return_takes_a_rally_points_height_and_turns_back() {
     assert_eq!(upload(&mut station, &[rally]), MavMissionResult::MAV_MISSION_ACCEPTED);
     station.command(1, SET_MODE, mode(GUIDED));
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
-    let ground = station.place_after(100)[2];
+    let ground = station.local_position_after(100)[2];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 5.0]), ACCEPTED);
     assert!(station.run_until(30.0, |s| ground - s.place()[2] > 4.5));
     station.command(1, SET_MODE, mode(RTL));
     let mut highest = 0.0f32;
     let there = station.run_until(90.0, |s| {
         highest = highest.max(ground - s.place()[2]);
-        s.said("Rally point reached")
+        s.has_text("Rally point reached")
     });
     assert!(there, "{:?}", station.texts());
     assert!((highest - 12.0).abs() < HEIGHT_M, "{highest} m");
@@ -307,7 +307,7 @@ const HEIGHT_M: f32 = 1.0;
 const HEADING_DEG: f32 = 5.0;
 
 #[test]
-fn flight_a_copters_fence_switches_itself_on_and_off() {
+fn flight_fence_autoenable_follows_takeoff_and_landing() {
     let mut station = copter();
     set(&mut station, "FENCE_ENABLE", 0.0);
     set(&mut station, "FENCE_ALT_MAX", 50.0);
@@ -324,7 +324,7 @@ fn flight_a_copters_fence_switches_itself_on_and_off() {
 }
 
 #[test]
-fn flight_guided_turns_to_a_place_that_comes_without_a_heading() {
+fn flight_guided_faces_a_position_without_heading() {
     let mut station = copter_at(5.0);
     let [x, y, z] = station.place();
     let target = MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {

@@ -37,7 +37,7 @@ fn current(station: &mut Station) -> (u16, u16) {
 }
 
 #[test]
-fn flight_a_copters_fence_acts_if_enabled() {
+fn flight_fence_acts_only_if_enabled() {
     let mut station = copter_at(5.0);
     let circle = MISSION_ITEM_INT_DATA {
         param1: 30.0,
@@ -61,7 +61,7 @@ fn flight_a_copters_fence_acts_if_enabled() {
 
 /// After a fence has stopped the vehicle, setpoints that lead outside must be ignored, although they keep arriving.
 #[test]
-fn flight_a_copters_fence_ends_guided_flight() {
+fn flight_fence_breach_ends_guided_flight() {
     let mut station = copter_at(5.0);
     let circle = MISSION_ITEM_INT_DATA {
         param1: 15.0,
@@ -82,15 +82,15 @@ fn flight_a_copters_fence_ends_guided_flight() {
         station.send(&north);
         station.run_ms(100);
     }
-    assert!(station.said("Geofence breached: out of bounds, holding"), "{:?}", station.texts());
+    assert!(station.has_text("Geofence breached: out of bounds, holding"), "{:?}", station.texts());
     assert_eq!(next_beat(&mut station).custom_mode, BRAKE as u32);
-    let [away, ..] = station.place_after(100);
+    let [away, ..] = station.local_position_after(100);
     assert!((13.0..20.0).contains(&away), "{away} m north of the pad");
 }
 
 #[test]
 #[expect(clippy::too_many_lines, reason = "one flight from start to end")]
-fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
+fn wire_mission_item_0_is_home() {
     let mut station = copter();
     let accepted = MavMissionResult::MAV_MISSION_ACCEPTED;
     let place = MavCmd::MAV_CMD_NAV_WAYPOINT;
@@ -166,7 +166,7 @@ fn wire_item_0_of_a_copters_mission_is_home_and_all_numbers_count_from_it() {
 }
 
 #[test]
-fn flight_a_copter_flies_its_mission_by_its_own_numbers() {
+fn flight_mission_uses_copters_item_numbers() {
     let mut station = copter();
     let place = MavCmd::MAV_CMD_NAV_WAYPOINT;
     let jump = MISSION_ITEM_INT_DATA { param1: 2.0, param2: 1.0, ..item(4, MavCmd::MAV_CMD_DO_JUMP, 0.0, 0.0) };

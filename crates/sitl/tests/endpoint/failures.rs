@@ -41,7 +41,7 @@ fn inject(station: &mut Station, unit: f32, kind: f32, instance: f32) -> MavResu
     station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, [unit, kind, instance, 0.0, 0.0, 0.0, 0.0])
 }
 
-fn said(station: &Station, what: &str) -> bool {
+fn has_text(station: &Station, what: &str) -> bool {
     !station
         .all(
             |m| {
@@ -66,7 +66,7 @@ fn holding() -> Station {
 }
 
 #[test]
-fn wire_failures_are_injected_only_where_they_are_allowed_and_only_such_as_there_are() {
+fn wire_failure_injection_requires_permission_and_a_supported_failure() {
     let mut station = Station::airborne("drill-hover", 7);
     assert_eq!(inject(&mut station, GNSS, OFF, 0.0), MavResult::MAV_RESULT_DENIED);
     set_whole(&mut station, "SYS_FAILURE_EN", 1);
@@ -79,7 +79,7 @@ fn wire_failures_are_injected_only_where_they_are_allowed_and_only_such_as_there
 }
 
 #[test]
-fn flight_a_receiver_that_receives_nothing_is_reported_and_so_is_its_return() {
+fn flight_gnss_loss_and_recovery_are_reported() {
     let mut station = holding();
     let seen = |s: &Station| {
         let healthy = s.last_message(|m| match m {
@@ -101,7 +101,7 @@ fn flight_a_receiver_that_receives_nothing_is_reported_and_so_is_its_return() {
 /// The estimate may follow a jump of the fixes or reject it; either way, the vehicle must stay in the air without a
 /// collision.
 #[test]
-fn flight_a_jump_of_the_fixes_does_not_bring_it_down() {
+fn flight_gnss_jump_does_not_cause_a_crash() {
     const WRONG: f32 = 4.0;
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m;
@@ -119,10 +119,10 @@ fn health(station: &Station) -> Option<MavSysStatusSensor> {
 
 /// Time within which a missing sensor must be reported and prevent arming, s (half a second without data, and
 /// SYS_STATUS twice per second).
-const MISSED_WITHIN_S: f64 = 2.0;
+const DETECTION_LIMIT_S: f64 = 2.0;
 
 #[test]
-fn wire_a_compass_or_barometer_that_is_gone_shows_and_forbids_arming_until_it_is_back() {
+fn wire_missing_compass_or_barometer_prevents_arming() {
     use MavSysStatusSensor as S;
     const BAROMETER: f32 = 3.0;
     let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -137,25 +137,25 @@ fn wire_a_compass_or_barometer_that_is_gone_shows_and_forbids_arming_until_it_is
         assert!(health(&station).unwrap().contains(bit | S::MAV_SYS_STATUS_PREARM_CHECK), "{name}");
         assert_eq!(inject(&mut station, unit, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
         let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit | S::MAV_SYS_STATUS_PREARM_CHECK));
-        assert!(station.run_until(MISSED_WITHIN_S, gone), "{name}");
-        assert!(said(&station, &format!("{name} lost")));
+        assert!(station.run_until(DETECTION_LIMIT_S, gone), "{name}");
+        assert!(has_text(&station, &format!("{name} lost")));
         let refused = station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm);
         assert_eq!(refused, MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "{name}");
-        assert!(said(&station, &format!("{name} missing")));
+        assert!(has_text(&station, &format!("{name} missing")));
         assert_eq!(inject(&mut station, unit, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
         let back = |s: &mut Station| health(s).is_some_and(|now| now.contains(bit | S::MAV_SYS_STATUS_PREARM_CHECK));
-        assert!(station.run_until(MISSED_WITHIN_S, back), "{name}");
+        assert!(station.run_until(DETECTION_LIMIT_S, back), "{name}");
         assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
     }
 }
 
 /// Without a compass, the gyroscopes keep the heading well enough for holding and landing.
 #[test]
-fn flight_a_compass_lost_in_the_air_is_reported_and_the_hold_goes_on() {
+fn flight_compass_loss_is_reported_and_hold_continues() {
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m;
     assert_eq!(inject(&mut station, COMPASS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
-    assert!(station.run_until(MISSED_WITHIN_S, |s| said(s, "Compass lost")));
+    assert!(station.run_until(DETECTION_LIMIT_S, |s| has_text(s, "Compass lost")));
     station.run_ms(20_000);
     let now = station.sim.truth().rigid.position_m;
     assert!((now - before).norm() < 3.0, "{before:?} to {now:?}");
@@ -164,7 +164,7 @@ fn flight_a_compass_lost_in_the_air_is_reported_and_the_hold_goes_on() {
 /// A sensor that is stuck on the ground must be announced in the emulated autopilot's words, prevent arming, and
 /// recover.
 #[test]
-fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
+fn wire_stuck_sensor_is_announced_and_prevents_arming() {
     use MavSysStatusSensor as S;
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
@@ -180,7 +180,7 @@ fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
         (&ardupilot::FLAVOUR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS Glitch or Compass error"),
         (&generic::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Barometer stuck: not used"),
     ] {
-        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
         // ArduPilot's streams start when they are requested.
         station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, p(&[1.0, 500_000.0]));
         station.run_ms(4_000);
@@ -189,7 +189,7 @@ fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
         assert!(health(&station).unwrap().contains(bit), "{words}");
         assert_eq!(inject(&mut station, unit, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
         station.received.clear();
-        let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit)) && said(s, words);
+        let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit)) && has_text(s, words);
         assert!(station.run_until(WITHIN_S, gone), "{words}: {:?}", station.texts());
         assert_ne!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED, "{words}");
         assert_eq!(inject(&mut station, unit, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
@@ -199,7 +199,7 @@ fn wire_a_stuck_sensor_is_announced_in_the_flavours_words_and_forbids_arming() {
 
 /// Flow of issue 16: reposition to 12 m, with the barometer getting stuck during the climb.
 #[test]
-fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reached() {
+fn regress_stuck_barometer_is_announced_and_the_climb_succeeds() {
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
     // Only the receiver's height remains, m.
@@ -213,7 +213,7 @@ fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reache
     station.run_ms(1_500);
     assert_eq!(inject(&mut station, BAROMETER, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
     station.received.clear();
-    assert!(station.run_until(4.0, |s| said(s, "BARO #0 failed: STALE!")), "{:?}", station.texts());
+    assert!(station.run_until(4.0, |s| has_text(s, "BARO #0 failed: STALE!")), "{:?}", station.texts());
     for _ in 0..60 {
         station.run_ms(1_000);
         let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
@@ -225,17 +225,17 @@ fn regress_a_barometer_stuck_on_the_way_up_is_announced_and_the_height_is_reache
 
 /// With one motor stopped, the vehicle cannot stay level and turns; it must report that before it has fallen.
 #[test]
-fn flight_a_motor_that_stops_shows_in_attitude_and_heading_and_is_reported() {
+fn flight_motor_failure_changes_attitude_and_is_reported() {
     let mut station = holding();
     let level = |s: &Station| s.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap();
     let before = level(&station);
-    assert!(before.roll.hypot(before.pitch) < 0.2 && !said(&station, "Attitude lost"), "{before:?}");
+    assert!(before.roll.hypot(before.pitch) < 0.2 && !has_text(&station, "Attitude lost"), "{before:?}");
     assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
     let (mut tilt, mut turn) = (0.0f32, 0.0f32);
     let told = station.run_until(2.0, |s| {
         let now = level(s);
         (tilt, turn) = (tilt.max(now.roll.abs().max(now.pitch.abs())), turn.max(now.yawspeed.abs()));
-        said(s, "Attitude lost: motor or propeller failure?")
+        has_text(s, "Attitude lost: motor or propeller failure?")
     });
     assert!(told && tilt > 0.7 && turn > 0.5, "reported {told}, tilted {tilt} rad, turned at {turn} rad/s");
     let obeys = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION;
@@ -243,7 +243,7 @@ fn flight_a_motor_that_stops_shows_in_attitude_and_heading_and_is_reported() {
 }
 
 #[test]
-fn flight_with_a_motor_gone_it_falls() {
+fn flight_vehicle_falls_after_a_motor_failure() {
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m.down();
     assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
@@ -254,7 +254,7 @@ fn flight_with_a_motor_gone_it_falls() {
 }
 
 #[test]
-fn flight_without_manual_control_the_failsafe_holds_and_with_it_flies_on() {
+fn flight_manual_control_loss_holds_until_it_returns() {
     let mut station = Station::airborne("drill-hover", 7);
     set_whole(&mut station, "SYS_FAILURE_EN", 1);
     assert_eq!(inject(&mut station, STICKS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
@@ -272,10 +272,10 @@ fn flight_without_manual_control_the_failsafe_holds_and_with_it_flies_on() {
 }
 
 #[test]
-fn wire_a_failing_battery_is_reported() {
+fn wire_battery_failure_is_reported() {
     let mut station = holding();
     assert_eq!(inject(&mut station, BATTERY, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
-    assert!(station.run_until(5.0, |s| said(s, "Low battery")));
+    assert!(station.run_until(5.0, |s| has_text(s, "Low battery")));
     station.run_ms(600);
     let left = station.last_message(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.battery_remaining) } else { None });
     assert!(left.unwrap() <= 5, "{left:?}");
@@ -283,7 +283,7 @@ fn wire_a_failing_battery_is_reported() {
 
 /// A failed cell must be shown, reduce the pack's voltage, and recover.
 #[test]
-fn wire_a_failing_cell_is_shown_and_missed() {
+fn wire_failed_cell_is_reported_and_reduces_the_voltage() {
     let mut station = holding();
     let cells =
         |s: &Station| s.last_message(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.voltages) } else { None }).unwrap();
@@ -304,7 +304,7 @@ fn wire_a_failing_cell_is_shown_and_missed() {
 }
 
 #[test]
-fn flight_the_wind_that_an_instructor_sets_blows() {
+fn flight_instructor_wind_takes_effect() {
     let mut station = holding();
     set_real(&mut station, "SIM_WIND_DIR", 270.0);
     set_real(&mut station, "SIM_WIND_SPD", 8.0);
@@ -318,23 +318,24 @@ fn flight_the_wind_that_an_instructor_sets_blows() {
 }
 
 #[test]
-fn wire_closed_bridges_run_empty_as_seen_from_telemetry() {
+fn wire_telemetry_reproduces_traffic_on_closed_bridges() {
     let mut station = Station::new("two-bridges", 7);
     let codes = |s: &Station| -> Vec<i32> {
-        let said = s.received.iter().filter_map(|frame| frame.message.as_ref());
-        said.filter_map(|m| {
-            if let MavMessage::NAMED_VALUE_INT(v) = m { (v.name.to_str() == Ok("traffic")).then_some(v.value) } else { None }
-        })
-        .collect()
+        let has_text = s.received.iter().filter_map(|frame| frame.message.as_ref());
+        has_text
+            .filter_map(|m| {
+                if let MavMessage::NAMED_VALUE_INT(v) = m { (v.name.to_str() == Ok("traffic")).then_some(v.value) } else { None }
+            })
+            .collect()
     };
     station.run_ms(11_000);
     assert!(codes(&station).is_empty(), "unchanged bridges must not be reported");
-    assert!(station.sim.site().traffic().gates().is_empty());
+    assert!(station.sim.site().traffic().closures().is_empty());
     for (open, wait_ms) in [(0, 90_000), (1, 90_000)] {
         set_whole(&mut station, "SIM_TRAFFIC", open);
         station.run_ms(wait_ms);
         let heard = BridgeClosures::from_codes(codes(&station));
-        assert_eq!(station.sim.site().traffic().gates(), &heard);
+        assert_eq!(station.sim.site().traffic().closures(), &heard);
         // A program with scenario, seed and telemetry must see the same cars.
         let theirs = Site::build(&scenario("two-bridges"), 7).with_closures(heard);
         let now = station.sim.now();
@@ -346,19 +347,19 @@ fn wire_closed_bridges_run_empty_as_seen_from_telemetry() {
 }
 
 #[test]
-fn exact_closing_the_bridges_at_the_same_tick_gives_the_same_bits() {
+fn exact_bridge_closures_are_deterministic() {
     let flown = || {
         let mut station = Station::new("two-bridges", 7);
         station.run_ms(3_000);
         set_whole(&mut station, "SIM_TRAFFIC", 0);
         station.run_ms(5_000);
-        (station.sim.digest(), station.sim.site().traffic().gates().clone())
+        (station.sim.digest(), station.sim.site().traffic().closures().clone())
     };
     assert_eq!(flown(), flown());
 }
 
 #[test]
-fn wire_a_bad_radio_loses_its_share_and_is_late() {
+fn wire_link_impairment_loses_and_delays_datagrams() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(1_000);
     let frames = |s: &mut Station| {

@@ -34,17 +34,17 @@ fn fly(station: &mut Station, forward: i16, right: i16, z: i16, ms: i64) {
 }
 
 #[test]
-fn wire_at_the_fence_it_holds_once_and_the_pilot_flies_back_in() {
+fn wire_fence_breach_holds_once_and_the_pilot_can_return() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     assert_eq!(upload(&mut station, &circle(home, 15.0)), ACCEPTED);
     for _ in 0..100 {
         fly(&mut station, 1000, 0, 500, 120);
-        if station.said("Geofence breached") {
+        if station.has_text("Geofence breached") {
             break;
         }
     }
-    assert!(station.said("Geofence breached: out of bounds, holding"), "{:?}", station.texts());
+    assert!(station.has_text("Geofence breached: out of bounds, holding"), "{:?}", station.texts());
     station.run_ms(4_000);
     assert_eq!(station.mode(), Some(HOLD));
     let status = station.last_message(|m| match m {
@@ -55,23 +55,23 @@ fn wire_at_the_fence_it_holds_once_and_the_pilot_flies_back_in() {
     station.received.clear();
     for _ in 0..100 {
         fly(&mut station, -1000, 0, 500, 120);
-        if station.said("Back inside geofence") {
+        if station.has_text("Back inside geofence") {
             break;
         }
     }
-    assert!(station.said("Pilot took over") && station.said("Back inside geofence"), "{:?}", station.texts());
-    assert!(!station.said("breached"), "the same breach must be reported only once");
+    assert!(station.has_text("Pilot took over") && station.has_text("Back inside geofence"), "{:?}", station.texts());
+    assert!(!station.has_text("breached"), "the same breach must be reported only once");
 }
 
 #[test]
-fn wire_what_leads_out_of_the_fence_is_refused() {
+fn wire_targets_outside_the_fence_are_rejected() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     assert_eq!(upload(&mut station, &circle(home, 15.0)), ACCEPTED);
     let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 5.0, 6.0), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 40.0, 6.0)];
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
-    assert!(station.said("Mission item 1 outside geofence"));
+    assert!(station.has_text("Mission item 1 outside geofence"));
     let (lat, lon) = (f64::from(plan[1].x) * 1e-7, f64::from(plan[1].y) * 1e-7);
     let there = [-1.0, 1.0, 0.0, f32::NAN, lat as f32, lon as f32, f32::NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, there), MavResult::MAV_RESULT_DENIED);
@@ -81,7 +81,7 @@ fn wire_what_leads_out_of_the_fence_is_refused() {
 
 /// The path must be rejected although both of its ends are allowed.
 #[test]
-fn wire_a_way_through_a_forbidden_area_is_refused_and_so_is_one_that_is_too_high() {
+fn wire_paths_through_exclusion_areas_or_above_the_limit_are_rejected() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     assert_eq!(upload(&mut station, &[area(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION, home + 30.0, 5.0)]), ACCEPTED);
@@ -89,11 +89,11 @@ fn wire_a_way_through_a_forbidden_area_is_refused_and_so_is_one_that_is_too_high
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     let start = |s: &mut Station| s.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
-    assert!(station.said("Path to mission item 1 leaves geofence"), "{:?}", station.texts());
+    assert!(station.has_text("Path to mission item 1 leaves geofence"), "{:?}", station.texts());
     let round = MISSION_ITEM_INT_DATA { param1: 1.0, param3: 26.0, ..item(0, MavCmd::MAV_CMD_NAV_LOITER_TURNS, home, 6.0) };
     assert_eq!(upload(&mut station, &[round]), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
-    assert!(station.said("Mission item 0 outside geofence"), "{:?}", station.texts());
+    assert!(station.has_text("Mission item 0 outside geofence"), "{:?}", station.texts());
     station.set("GF_MAX_VER_DIST", 20.0, MavParamType::MAV_PARAM_TYPE_REAL32);
     assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, home, 30.0)]), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_DENIED);
@@ -103,18 +103,18 @@ fn wire_a_way_through_a_forbidden_area_is_refused_and_so_is_one_that_is_too_high
 }
 
 #[test]
-fn wire_outside_the_fence_it_does_not_arm() {
+fn wire_arming_outside_the_fence_is_rejected() {
     let mut station = ready(7);
     let home = home_north(&station);
     assert_eq!(upload(&mut station, &circle(home + 100.0, 20.0)), ACCEPTED);
     station.run_ms(100);
     let arm = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
-    assert!(station.said("geofence"), "{:?}", station.texts());
+    assert!(station.has_text("geofence"), "{:?}", station.texts());
 }
 
 #[test]
-fn wire_a_fence_that_does_not_hold_together_is_refused_by_its_parameter() {
+fn wire_inconsistent_fence_is_rejected_with_the_faulty_parameter() {
     use MavMissionResult as R;
     let mut station = ready(7);
     let corner = MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION;
@@ -134,7 +134,7 @@ fn wire_a_fence_that_does_not_hold_together_is_refused_by_its_parameter() {
 }
 
 #[test]
-fn wire_a_return_goes_to_the_nearest_rally_point() {
+fn wire_return_uses_the_nearest_rally_point() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     let rally =
@@ -144,20 +144,20 @@ fn wire_a_return_goes_to_the_nearest_rally_point() {
     assert_eq!(upload(&mut station, &circle(home, 20.0)), ACCEPTED);
     for _ in 0..100 {
         fly(&mut station, 1000, 0, 500, 120);
-        if station.said("Geofence breached: out of bounds, returning") {
+        if station.has_text("Geofence breached: out of bounds, returning") {
             break;
         }
     }
     station.run_ms(1_500);
     assert_eq!(station.mode(), Some(RETURN));
-    assert!(station.run_until(120.0, |s| s.said("Rally point reached")), "{:?} {:?}", station.place(), station.texts());
+    assert!(station.run_until(120.0, |s| s.has_text("Rally point reached")), "{:?} {:?}", station.place(), station.texts());
     assert!((home_north(&station) - home - 30.0).abs() < 1.5, "{:?}", station.place());
 }
 
 /// The mission must continue at the point where the pilot took over, not at the start of the item and not directly to
 /// its end.
 #[test]
-fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
+fn wire_interrupted_mission_resumes_at_the_interruption_point() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     let plan = [item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 5.0, 8.0), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 60.0, 8.0)];
@@ -170,7 +170,7 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     let left = station.place();
     fly(&mut station, 0, 1000, 500, 3_000);
     fly(&mut station, 0, 0, 500, 2_000);
-    assert!(station.said("Mission paused: pilot took over with sticks"), "{:?}", station.texts());
+    assert!(station.has_text("Mission paused: pilot took over with sticks"), "{:?}", station.texts());
     assert_eq!(station.mode(), Some(POSITION));
     let state = station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
@@ -182,14 +182,14 @@ fn wire_a_mission_that_the_pilot_interrupts_goes_on_where_it_was_left() {
     let ended = station.run_until(90.0, |s| {
         let p = s.place();
         let from_left = ((p[0] - left[0]).powi(2) + (p[1] - left[1]).powi(2)).sqrt();
-        if !s.said("Mission resumed from interruption point") {
+        if !s.has_text("Mission resumed from interruption point") {
             furthest_before = furthest_before.max(p[0]);
         }
         nearest = nearest.min(from_left);
-        s.said("Mission finished")
+        s.has_text("Mission finished")
     });
     assert!(ended);
-    assert!(station.said("Mission resumed from interruption point"));
+    assert!(station.has_text("Mission resumed from interruption point"));
     assert!(nearest < 1.5, "passed {nearest} m from the interruption point");
     assert!(
         furthest_before < away[0].max(left[0]) + 1.0,

@@ -13,14 +13,14 @@ const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 
 #[test]
-fn wire_each_flavour_beats_and_names_itself_as_its_autopilot() {
+fn wire_each_flavor_identifies_as_its_autopilot() {
     let c_cast = MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT;
     for (flavour, autopilot, number) in [
         (&px4::FLAVOUR, MavAutopilot::MAV_AUTOPILOT_PX4, 3 << 16),
         (&ardupilot::FLAVOUR, MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA, 5),
         (&generic::FLAVOUR, MavAutopilot::MAV_AUTOPILOT_GENERIC, 3 << 16),
     ] {
-        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
         station.run_ms(5);
         let first = if flavour.name == "ardupilot" { MavState::MAV_STATE_BOOT } else { MavState::MAV_STATE_STANDBY };
         assert_eq!(beat(&station).system_status, first, "{}: first heartbeat", flavour.name);
@@ -46,9 +46,9 @@ fn wire_each_flavour_beats_and_names_itself_as_its_autopilot() {
 }
 
 #[test]
-fn wire_every_mode_that_is_offered_is_entered_by_each_message_and_shown_under_its_number() {
+fn wire_every_available_mode_can_be_entered_by_each_message() {
     for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
-        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
         station.run_ms(2_500);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(435.0)), ACCEPTED);
         let modes = station.all(|m| if let MavMessage::AVAILABLE_MODES(mode) = m { Some(mode.clone()) } else { None });
@@ -83,7 +83,7 @@ fn wire_every_mode_that_is_offered_is_entered_by_each_message_and_shown_under_it
 }
 
 #[test]
-fn wire_copters_parameters_are_cast_and_act() {
+fn wire_copter_parameters_are_cast_to_float_and_take_effect() {
     let mut station = copter();
     station.send(&MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 }));
     station.run_ms(500);
@@ -139,7 +139,7 @@ fn wire_copters_parameters_are_cast_and_act() {
 }
 
 #[test]
-fn flight_a_copters_climb_is_as_fast_as_its_parameter_says() {
+fn flight_copter_climb_rate_follows_its_parameter() {
     let mut station = copter_at(5.0);
     let set = PARAM_SET_DATA {
         target_system: 1,
@@ -153,15 +153,15 @@ fn flight_a_copters_climb_is_as_fast_as_its_parameter_says() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPOSITION, up), ACCEPTED);
     station.run_ms(3_000);
     let low = station.place()[2];
-    let high = station.place_after(4_000)[2];
+    let high = station.local_position_after(4_000)[2];
     let speed = (low - high) / 4.0;
     assert!((speed - 0.8).abs() < 0.15, "{speed} m/s instead of 0.8 m/s");
 }
 
 #[test]
-fn wire_the_packed_parameters_come_whole_over_ftp_and_other_flavours_have_none() {
+fn wire_only_ardupilot_serves_packed_parameters_over_ftp() {
     for (flavour, there) in [(&ardupilot::FLAVOUR, true), (&px4::FLAVOUR, false), (&generic::FLAVOUR, false)] {
-        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
         station.run_ms(100);
         let open = file(&mut station, Opcode::OpenFileRo, 0, 0, b"@PARAM/param.pck?withdefaults=1", 1);
         assert_eq!(open.opcode == ACK, there, "{}", flavour.name);
@@ -198,8 +198,8 @@ fn file(station: &mut Station, opcode: Opcode, session: u8, offset: u32, data: &
 }
 
 #[test]
-fn wire_a_copter_reports_nothing_but_heartbeats_until_it_is_asked_and_the_sidecar_gets_its_data_anyway() {
-    let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
+fn wire_copter_sends_only_heartbeats_until_requested_except_to_the_sidecar() {
+    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(3_000);
     let unasked: std::collections::BTreeSet<u32> = station.received.iter().map(|f| f.message_id).collect();
     assert_eq!(unasked.into_iter().collect::<Vec<_>>(), [0], "only heartbeats must be sent");
@@ -250,11 +250,11 @@ fn wire_a_copter_reports_nothing_but_heartbeats_until_it_is_asked_and_the_sideca
 }
 
 #[test]
-fn wire_questions_about_what_is_not_spoken_are_answered_as_each_autopilot_does() {
+fn wire_requests_for_unsupported_messages_are_answered_like_each_autopilot() {
     for (flavour, message, interval) in
         [(&px4::FLAVOUR, DENIED, FAILED), (&ardupilot::FLAVOUR, FAILED, DENIED), (&generic::FLAVOUR, DENIED, FAILED)]
     {
-        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
         station.run_ms(100);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(9_999.0)), message, "{}", flavour.name);
         let often = [9_999.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];

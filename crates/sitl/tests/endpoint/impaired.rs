@@ -14,60 +14,60 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Values from the issue: lost fraction, range of the delay (which reorders datagrams), duplicated fraction.
 const LOSS: f64 = 0.3;
 const DELAY_MS: (f64, f64) = (100.0, 300.0);
-const DOUBLED: f64 = 0.1;
+const DUPLICATE_PROBABILITY: f64 = 0.1;
 /// Retry interval of the client, ms: one and a half round trips.
-pub(super) const PATIENCE_MS: i64 = 900;
+pub(super) const TIMEOUT_MS: i64 = 900;
 /// Limit for each exchange, s of simulation time; only a hang takes longer.
 pub(super) const LIMIT_S: f64 = 1_200.0;
 
 /// One direction of the link.
-struct Way {
+struct LossyPath {
     stream: RandomStream,
     loss: f64,
-    under_way: BTreeMap<(i64, u64), Vec<u8>>,
+    in_transit: BTreeMap<(i64, u64), Vec<u8>>,
     count: u64,
 }
 
-impl Way {
+impl LossyPath {
     fn new(seed: u64, name: &str, loss: f64) -> Self {
-        Self { stream: RandomStream::new(seed, name), loss, under_way: BTreeMap::new(), count: 0 }
+        Self { stream: RandomStream::new(seed, name), loss, in_transit: BTreeMap::new(), count: 0 }
     }
 
     fn send(&mut self, bytes: &[u8], now: SimTime) {
-        let copies = if self.stream.uniform() < DOUBLED { 2 } else { 1 };
+        let copies = if self.stream.uniform() < DUPLICATE_PROBABILITY { 2 } else { 1 };
         for _ in 0..copies {
             if self.stream.uniform() >= self.loss {
                 let at = now.ms() + self.stream.range(DELAY_MS.0, DELAY_MS.1) as i64;
                 self.count += 1;
-                self.under_way.insert((at, self.count), bytes.to_vec());
+                self.in_transit.insert((at, self.count), bytes.to_vec());
             }
         }
     }
 
     fn arrived(&mut self, now: SimTime) -> Vec<Vec<u8>> {
-        let later = self.under_way.split_off(&(now.ms() + 1, 0));
-        std::mem::replace(&mut self.under_way, later).into_values().collect()
+        let later = self.in_transit.split_off(&(now.ms() + 1, 0));
+        std::mem::replace(&mut self.in_transit, later).into_values().collect()
     }
 }
 
 /// A client at the remote end.
 pub(super) struct Client {
     pub(super) station: Station,
-    there: Way,
-    back: Way,
+    there: LossyPath,
+    back: LossyPath,
     encoder: Encoder,
     pub(super) disk: Disk,
 }
 
 impl Client {
     pub(super) fn new(seed: u64) -> Self {
-        Self::losing(seed, LOSS)
+        Self::with_loss(seed, LOSS)
     }
 
-    fn losing(seed: u64, loss: f64) -> Self {
+    fn with_loss(seed: u64, loss: f64) -> Self {
         let mut station = Station::new("drill-hover", 7);
         station.run_ms(2_500);
-        let (there, back) = (Way::new(seed, "there", loss), Way::new(seed, "back", loss));
+        let (there, back) = (LossyPath::new(seed, "there", loss), LossyPath::new(seed, "back", loss));
         Self { station, there, back, encoder: Encoder::new(255, 190), disk: Disk::default() }
     }
 
@@ -96,20 +96,20 @@ impl Client {
 
     /// Sends a request repeatedly until a response matches.
     pub(super) fn ask<T>(&mut self, message: &MavMessage, like: impl FnMut(&MavMessage) -> Option<T>) -> T {
-        self.ask_every(PATIENCE_MS, message, like)
+        self.ask_every(TIMEOUT_MS, message, like)
     }
 
     /// Same as `ask` with another retry interval, ms.
     pub(super) fn ask_every<T>(
         &mut self,
-        patience_ms: i64,
+        timeout_ms: i64,
         message: &MavMessage,
         mut like: impl FnMut(&MavMessage) -> Option<T>,
     ) -> T {
         let begin = self.station.sim.now();
         loop {
             self.send(message);
-            for _ in 0..patience_ms {
+            for _ in 0..timeout_ms {
                 if let Some(found) = self.tick().iter().find_map(&mut like) {
                     return found;
                 }
@@ -124,14 +124,14 @@ fn count(count: u16) -> MavMessage {
 }
 
 #[test]
-fn wire_a_mission_goes_up_and_comes_down_over_a_bad_link() {
+fn wire_mission_transfers_survive_a_bad_link() {
     up_and_down(&mut Client::new(1), 40);
 }
 
 /// The case of MAVLink's testing suite: 500 items with a quarter of all datagrams lost.
 #[test]
-fn wire_five_hundred_items_go_up_and_come_down_while_a_quarter_is_lost() {
-    up_and_down(&mut Client::losing(5, 0.25), 500);
+fn wire_500_items_are_transferred_despite_25_percent_loss() {
+    up_and_down(&mut Client::with_loss(5, 0.25), 500);
 }
 
 fn up_and_down(client: &mut Client, number: u16) {
@@ -166,7 +166,7 @@ fn up_and_down(client: &mut Client, number: u16) {
 }
 
 #[test]
-fn wire_parameters_are_read_whole_and_set_over_a_bad_link() {
+fn wire_parameters_are_read_and_set_over_a_bad_link() {
     let mut client = Client::new(2);
     let list = MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 });
     let (mut seen, mut total) = (BTreeSet::new(), None);
@@ -206,10 +206,10 @@ fn wire_parameters_are_read_whole_and_set_over_a_bad_link() {
 }
 
 /// PX4's retry interval, ms. MAVSDK gives up after five half-seconds without messages or five repetitions of an item.
-const ASKED_AGAIN_MS: i64 = 250;
+const RETRY_MS: i64 = 250;
 
 #[expect(deprecated, reason = "clients still support only superseded MAVLink messages")]
-fn asked_or_acknowledged(station: &mut Station) -> Vec<(i64, Option<u16>)> {
+fn requests_or_ack(station: &mut Station) -> Vec<(i64, Option<u16>)> {
     let mut heard = Vec::new();
     for _ in 0..1_500 {
         station.vehicle.sim.handle_timeout(station.vehicle.sim.poll_timeout());
@@ -230,7 +230,7 @@ fn asked_or_acknowledged(station: &mut Station) -> Vec<(i64, Option<u16>)> {
 /// A client whose items were lost is asked again four times per second, and one whose acknowledgment may have been lost
 /// receives it again. On a link without losses, there is only one acknowledgment, as from PX4.
 #[test]
-fn regress_an_uploader_is_asked_again_after_a_quarter_of_a_second() {
+fn regress_upload_requests_are_repeated_after_250_ms() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(2_500);
     let mut encoder = Encoder::new(255, 190);
@@ -239,13 +239,13 @@ fn regress_an_uploader_is_asked_again_after_a_quarter_of_a_second() {
     for loses in [true, false] {
         station.sim.handle_datagram(GCS, &encoder.encode(&count(1)));
         if loses {
-            let heard = asked_or_acknowledged(&mut station);
+            let heard = requests_or_ack(&mut station);
             let gaps: Vec<i64> = heard.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
             assert!(heard.iter().all(|(_, asked)| *asked == Some(0)) && gaps.len() == 5, "{heard:?}");
-            assert!(gaps.iter().all(|gap| (ASKED_AGAIN_MS..=ASKED_AGAIN_MS + 2).contains(gap)), "{gaps:?}");
+            assert!(gaps.iter().all(|gap| (RETRY_MS..=RETRY_MS + 2).contains(gap)), "{gaps:?}");
         }
         station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));
-        let heard = asked_or_acknowledged(&mut station);
+        let heard = requests_or_ack(&mut station);
         let acknowledged = heard.iter().filter(|(_, asked)| asked.is_none()).count();
         assert_eq!(acknowledged, if loses { 5 } else { 1 }, "{heard:?}");
     }
@@ -254,18 +254,18 @@ fn regress_an_uploader_is_asked_again_after_a_quarter_of_a_second() {
     station.sim.handle_datagram(GCS, &encoder.encode(&count(2)));
     station.run_ms(3);
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));
-    let heard = asked_or_acknowledged(&mut station);
+    let heard = requests_or_ack(&mut station);
     let gaps: Vec<i64> = heard.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
     assert!(heard.iter().all(|(_, asked)| *asked == Some(1)) && gaps.iter().all(|gap| (118..=122).contains(gap)), "{heard:?}");
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(1)));
-    asked_or_acknowledged(&mut station);
+    requests_or_ack(&mut station);
     // A client that starts a new transfer no longer waits for the old one.
     station.sim.handle_datagram(GCS, &encoder.encode(&count(1)));
-    asked_or_acknowledged(&mut station);
+    requests_or_ack(&mut station);
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));
     let list = MISSION_REQUEST_LIST_DATA { target_system: 1, target_component: 1, ..Default::default() };
     station.sim.handle_datagram(GCS, &encoder.encode(&MavMessage::MISSION_REQUEST_LIST(list)));
-    let heard = asked_or_acknowledged(&mut station);
+    let heard = requests_or_ack(&mut station);
     assert_eq!(heard.iter().filter(|(_, asked)| asked.is_none()).count(), 1, "{heard:?}");
 }
 
@@ -313,7 +313,7 @@ impl Uploader {
     /// Answers requests until this item is requested or the upload is acknowledged; returns the requests.
     fn answer_until(&mut self, stop: Option<u16>) -> Vec<u16> {
         let mut requests = Vec::new();
-        for _ in 0..PATIENCE_OF_MAVSDK_MS {
+        for _ in 0..MAVSDK_TIMEOUT_MS {
             for message in self.tick() {
                 match message {
                     MavMessage::MISSION_REQUEST_INT(request) if Some(request.seq) == stop => return requests,
@@ -334,11 +334,11 @@ impl Uploader {
 }
 
 /// Three half-seconds without messages, after which MAVSDK has given up.
-const PATIENCE_OF_MAVSDK_MS: i64 = 1_500;
+const MAVSDK_TIMEOUT_MS: i64 = 1_500;
 
 /// A delayed request sets MAVSDK back. The item that it repeats must show the vehicle where to continue.
 #[test]
-fn regress_an_upload_goes_on_when_a_delayed_request_has_set_the_client_back() {
+fn regress_upload_continues_after_a_delayed_request() {
     let mut client = Uploader::begin(30);
     client.answer_until(Some(20));
     client.answer(15);
@@ -349,7 +349,7 @@ fn regress_an_upload_goes_on_when_a_delayed_request_has_set_the_client_back() {
 
 /// Same as above, but the repeated item is lost, so that the vehicle must request earlier and earlier items.
 #[test]
-fn regress_an_upload_goes_on_when_the_item_of_a_set_back_client_was_lost() {
+fn regress_upload_continues_after_a_lost_repeated_item() {
     let mut client = Uploader::begin(30);
     client.answer_until(Some(20));
     // The link has reordered a datagram before.
@@ -362,7 +362,7 @@ fn regress_an_upload_goes_on_when_the_item_of_a_set_back_client_was_lost() {
 
 /// A duplicated datagram must not cause a second request.
 #[test]
-fn regress_a_duplicated_item_is_not_requested_for_again() {
+fn regress_duplicated_item_causes_no_further_request() {
     let mut client = Uploader::begin(10);
     client.answer_until(Some(5));
     client.send(3);

@@ -1,7 +1,7 @@
 //! Files over a link that loses 30 % of the datagrams, delays them by 200 ms, and reorders and duplicates them, in both
 //! directions: reading, reading in bursts, and writing.
 
-use super::impaired::{Client, LIMIT_S, PATIENCE_MS};
+use super::impaired::{Client, LIMIT_S, TIMEOUT_MS};
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
 use spandrel_mavlink::ftp::{ACK, DATA_MAX, FtpError, FtpPacket, NAK, Opcode, checksum};
@@ -13,10 +13,10 @@ use std::collections::BTreeMap;
 
 /// Retry interval of a client that repeats requests before a response can arrive, so that its repetitions arrive after
 /// its next requests, ms.
-const HASTE_MS: i64 = 350;
+const SHORT_TIMEOUT_MS: i64 = 350;
 /// Time without data after which a burst counts as complete, ms.
 const SILENCE_MS: i64 = 700;
-const SHIPPED: &str = "/etc/extras/parameter.json.xz";
+const PARAMETER_FILE: &str = "/etc/extras/parameter.json.xz";
 
 /// Files in memory, by path.
 #[derive(Default)]
@@ -59,7 +59,7 @@ impl Disk {
 struct Ftp {
     client: Client,
     sequence: u16,
-    patience_ms: i64,
+    timeout_ms: i64,
 }
 
 fn of(message: &MavMessage) -> Option<FtpPacket> {
@@ -67,10 +67,10 @@ fn of(message: &MavMessage) -> Option<FtpPacket> {
 }
 
 impl Ftp {
-    fn new(seed: u64, patience_ms: i64) -> Self {
+    fn new(seed: u64, timeout_ms: i64) -> Self {
         let mut client = Client::new(seed);
         client.station.sim.enable_file_jobs();
-        Self { client, sequence: 0, patience_ms }
+        Self { client, sequence: 0, timeout_ms }
     }
 
     fn request(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> (u16, MavMessage) {
@@ -89,7 +89,7 @@ impl Ftp {
 
     fn ask(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> FtpPacket {
         let (expected, message) = self.request(opcode, session, offset, data);
-        let answer = self.client.ask_every(self.patience_ms, &message, |m| of(m).filter(|p| p.sequence == expected));
+        let answer = self.client.ask_every(self.timeout_ms, &message, |m| of(m).filter(|p| p.sequence == expected));
         assert_eq!(answer.request, opcode as u8);
         answer
     }
@@ -156,9 +156,9 @@ fn content(length: usize) -> Vec<u8> {
 }
 
 #[test]
-fn wire_a_file_comes_whole_over_a_bad_link() {
-    let mut ftp = Ftp::new(3, PATIENCE_MS);
-    let (session, size) = ftp.open(SHIPPED);
+fn wire_file_download_survives_a_bad_link() {
+    let mut ftp = Ftp::new(3, TIMEOUT_MS);
+    let (session, size) = ftp.open(PARAMETER_FILE);
     let mut file: Vec<u8> = Vec::new();
     while file.len() < size {
         let part = ftp.ask(Opcode::ReadFile, session, file.len() as u32, &[]);
@@ -171,23 +171,23 @@ fn wire_a_file_comes_whole_over_a_bad_link() {
 }
 
 #[test]
-fn wire_a_file_comes_whole_in_bursts_over_a_bad_link() {
-    let mut ftp = Ftp::new(4, PATIENCE_MS);
+fn wire_burst_download_survives_a_bad_link() {
+    let mut ftp = Ftp::new(4, TIMEOUT_MS);
     let long = content(100_000);
     ftp.client.disk.0.insert("survey.bin".into(), long.clone());
     let (file, bursts) = ftp.read_in_bursts("/survey.bin");
     assert!(file == long, "{} of {} bytes", file.len(), long.len());
     // Without losses, 100 kB take four bursts.
     assert!(bursts > 4, "{bursts} bursts: the link must lose some parts");
-    let (shipped, _) = ftp.read_in_bursts(SHIPPED);
+    let (shipped, _) = ftp.read_in_bursts(PARAMETER_FILE);
     assert!(shipped == metadata::files(&param_view::PX4).parameter.bytes.to_vec());
 }
 
 /// Includes a client that repeats its requests before they can have been answered.
 #[test]
-fn wire_a_file_goes_up_whole_over_a_bad_link() {
-    for (seed, patience_ms) in [(6, PATIENCE_MS), (7, HASTE_MS), (8, HASTE_MS), (9, HASTE_MS)] {
-        let mut ftp = Ftp::new(seed, patience_ms);
+fn wire_file_upload_survives_a_bad_link() {
+    for (seed, timeout_ms) in [(6, TIMEOUT_MS), (7, SHORT_TIMEOUT_MS), (8, SHORT_TIMEOUT_MS), (9, SHORT_TIMEOUT_MS)] {
+        let mut ftp = Ftp::new(seed, timeout_ms);
         for (path, length) in [("/first.bin", 9_000), ("/second.bin", 1_000), ("/first.bin", 3_000)] {
             let content = content(length);
             ftp.write(path, &content);
@@ -203,7 +203,7 @@ fn long_file() -> Vec<u8> {
 
 /// Returns the FTP responses of one second if the host advances time in steps of this size, and the maximum number of
 /// jobs between two ticks.
-fn answers_of_a_second(at_once_ms: i64) -> (Vec<FtpPacket>, usize) {
+fn responses_in_one_second(at_once_ms: i64) -> (Vec<FtpPacket>, usize) {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
     let sim = &mut station.sim;
@@ -256,14 +256,14 @@ fn answers_of_a_second(at_once_ms: i64) -> (Vec<FtpPacket>, usize) {
 /// CreateFile, TruncateFile to 256 MiB and CalcFileCRC32 once blocked the vehicle for 28 s. A tick must wait only for a
 /// few small jobs, and the order of the responses must not depend on the host's time steps.
 #[test]
-fn regress_work_on_files_is_done_in_slices_between_the_ticks() {
-    let (one, most) = answers_of_a_second(1);
+fn regress_file_jobs_run_in_slices_between_ticks() {
+    let (one, most) = responses_in_one_second(1);
     assert!((1..=40).contains(&most), "{most} jobs between two ticks");
     let last = one.last().map(|packet| packet.request);
     assert_eq!(last, Some(Opcode::CalcFileCrc32 as u8), "the other client's request must be served between the slices");
     let sum = checksum(0, &long_file());
     assert_eq!(one.last().and_then(|packet| packet.sized().map(<[u8]>::to_vec)), Some(sum.to_le_bytes().to_vec()));
     for at_once_ms in [7, 50] {
-        assert!(answers_of_a_second(at_once_ms).0 == one, "time steps of {at_once_ms} ms");
+        assert!(responses_in_one_second(at_once_ms).0 == one, "time steps of {at_once_ms} ms");
     }
 }

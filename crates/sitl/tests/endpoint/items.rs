@@ -7,9 +7,9 @@ use spandrel_testkit::station::Station;
 
 const NAN: f32 = f32::NAN;
 /// Maximum radius error of a circle, m (same as in the orbit's test).
-const RING_M: f32 = 0.6;
+const RADIUS_TOLERANCE_M: f32 = 0.6;
 /// Maximum heading error at the end of a turn in a mission, degrees (3 in flight, plus the error of the estimate).
-const TURNED_DEG: f32 = 6.0;
+const HEADING_TOLERANCE_DEG: f32 = 6.0;
 
 fn order(seq: u16, command: MavCmd, p: [f32; 4]) -> MISSION_ITEM_INT_DATA {
     let [param1, param2, param3, param4] = p;
@@ -34,7 +34,7 @@ fn heading_deg(station: &Station) -> f32 {
 }
 
 #[test]
-fn flight_a_mission_waits_on_the_ground_first_and_is_not_disarmed_for_it() {
+fn flight_initial_delay_on_the_ground_does_not_disarm() {
     let mut station = ready(7);
     let north = home_north(&station);
     let items = [
@@ -56,7 +56,7 @@ fn flight_a_mission_waits_on_the_ground_first_and_is_not_disarmed_for_it() {
 }
 
 #[test]
-fn flight_a_mission_circles_a_place_as_often_and_in_the_direction_that_it_says() {
+fn flight_mission_circles_have_the_specified_turns_and_direction() {
     for (radius, clockwise) in [(8.0_f32, true), (-8.0, false)] {
         let mut station = Station::airborne("drill-hover", 7);
         let north = home_north(&station);
@@ -70,13 +70,13 @@ fn flight_a_mission_circles_a_place_as_often_and_in_the_direction_that_it_says()
         let done = station.run_until(120.0, |s| {
             let [n, e, _] = s.place();
             let (n, e) = (n - north as f32, e);
-            if !s.said("Mission finished") {
-                assert!((n.hypot(e) - 8.0).abs() < RING_M, "{n} {e}");
+            if !s.has_text("Mission finished") {
+                assert!((n.hypot(e) - 8.0).abs() < RADIUS_TOLERANCE_M, "{n} {e}");
                 let angle = e.atan2(n).to_degrees();
                 turned += before.map_or(0.0, |b| (angle - b + 540.0).rem_euclid(360.0) - 180.0);
                 before = Some(angle);
             }
-            s.said("Mission finished")
+            s.has_text("Mission finished")
         });
         assert!(done && reached(&station) == [0], "{:?}", reached(&station));
         assert!((turned > 180.0) == clockwise && turned.abs() < 540.0, "{turned} degrees at {radius} m");
@@ -84,7 +84,7 @@ fn flight_a_mission_circles_a_place_as_often_and_in_the_direction_that_it_says()
 }
 
 #[test]
-fn flight_conditions_turn_and_act_on_the_way_and_the_speed_goes_back() {
+fn flight_conditions_act_between_waypoints_and_the_speed_is_restored() {
     let mut station = Station::airborne("drill-hover", 7);
     let north = home_north(&station);
     let items = numbered(vec![
@@ -100,9 +100,9 @@ fn flight_conditions_turn_and_act_on_the_way_and_the_speed_goes_back() {
     assert_eq!(upload(&mut station, &items), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| reached(s).contains(&1)));
-    assert!((heading_deg(&station) - 90.0).abs() < TURNED_DEG, "{}", heading_deg(&station));
+    assert!((heading_deg(&station) - 90.0).abs() < HEADING_TOLERANCE_DEG, "{}", heading_deg(&station));
     assert!(station.run_until(60.0, |s| reached(s).contains(&2)));
-    assert!((heading_deg(&station) - 60.0).abs() < TURNED_DEG, "{}", heading_deg(&station));
+    assert!((heading_deg(&station) - 60.0).abs() < HEADING_TOLERANCE_DEG, "{}", heading_deg(&station));
     assert!(station.run_until(60.0, |s| home_north(s) > north + 20.0));
     assert!((station.speed() - 2.0).abs() < 0.3, "slowly: {}", station.speed());
     assert!(station.run_until(60.0, |s| reached(s).contains(&4)));
@@ -113,7 +113,7 @@ fn flight_conditions_turn_and_act_on_the_way_and_the_speed_goes_back() {
 }
 
 #[test]
-fn flight_a_mission_moves_home_and_switches_the_fence() {
+fn flight_mission_can_set_home_and_switch_the_fence() {
     let mut station = Station::airborne("drill-hover", 7);
     let north = home_north(&station);
     let items = numbered(vec![
@@ -125,7 +125,7 @@ fn flight_a_mission_moves_home_and_switches_the_fence() {
     assert_eq!(upload(&mut station, &items), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| reached(s).contains(&2)));
-    assert!(station.said("Geofence disabled"));
+    assert!(station.has_text("Geofence disabled"));
     let request = [242.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, request);
     let home = station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();
@@ -133,7 +133,7 @@ fn flight_a_mission_moves_home_and_switches_the_fence() {
 }
 
 #[test]
-fn wire_items_out_of_range_are_refused_by_their_parameter() {
+fn wire_items_out_of_range_are_rejected_with_the_faulty_parameter() {
     use MavMissionResult as R;
     let mut station = ready(7);
     let turns = |p1, p3| MISSION_ITEM_INT_DATA { param1: p1, param3: p3, ..item(0, MavCmd::MAV_CMD_NAV_LOITER_TURNS, 0.0, 5.0) };
@@ -200,7 +200,7 @@ fn heights(station: &mut Station) -> Vec<f32> {
 }
 
 #[test]
-fn wire_a_part_of_a_plan_is_replaced_and_the_rest_stays() {
+fn wire_partial_upload_replaces_only_its_items() {
     let mut station = ready(7);
     let plan: Vec<_> = (0..5).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0, 6.0)).collect();
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
@@ -224,7 +224,7 @@ fn wire_a_part_of_a_plan_is_replaced_and_the_rest_stays() {
 
 /// MAVSDK sends NaN for unused parameters.
 #[test]
-fn wire_numbers_that_an_item_does_not_give_are_no_fault() {
+fn wire_nan_is_accepted_for_unused_item_parameters() {
     let mut station = ready(7);
     let silent = |command| MISSION_ITEM_INT_DATA { param1: NAN, param2: NAN, param3: NAN, ..item(0, command, 0.0, 5.0) };
     for command in [MavCmd::MAV_CMD_NAV_TAKEOFF, MavCmd::MAV_CMD_NAV_WAYPOINT, MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH] {

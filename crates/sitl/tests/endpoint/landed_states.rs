@@ -10,8 +10,8 @@ const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const CLEAR_M: f64 = 1.5;
 /// Takeoff height in these tests, m above home, and distance within which it counts as reached (the autopilot's 0.4 m
 /// and the error of the estimate).
-const UP_M: f32 = 8.0;
-const SHORT_M: f64 = 1.0;
+const HEIGHT_M: f32 = 8.0;
+const HEIGHT_TOLERANCE_M: f64 = 1.0;
 
 const GLOBAL_POSITION_INT: u32 = 33;
 
@@ -35,16 +35,16 @@ fn states(station: &mut Station, limit_s: f64, last: MavLandedState) -> Vec<(Mav
 }
 
 /// Checks the sequence ON_GROUND, then TAKEOFF until the height is reached, then IN_AIR.
-fn holds_take_off(seen: &[(MavLandedState, f64)]) {
+fn assert_take_off_states(seen: &[(MavLandedState, f64)]) {
     use MavLandedState as L;
     let order: Vec<L> = seen.iter().map(|(state, _)| *state).filter(|state| *state != L::MAV_LANDED_STATE_ON_GROUND).collect();
     assert_eq!(order, [L::MAV_LANDED_STATE_TAKEOFF, L::MAV_LANDED_STATE_IN_AIR], "{seen:?}");
     let up = seen.last().map_or(0.0, |(_, up)| *up);
-    assert!(up > CLEAR_M && up > f64::from(UP_M) - SHORT_M, "IN_AIR from {up} m: {seen:?}");
+    assert!(up > CLEAR_M && up > f64::from(HEIGHT_M) - HEIGHT_TOLERANCE_M, "IN_AIR from {up} m: {seen:?}");
 }
 
 #[test]
-fn regress_px4s_take_off_lasts_until_its_height_and_its_landing_until_the_ground() {
+fn regress_px4_landed_state_covers_takeoff_and_landing() {
     use MavLandedState as L;
     let mut station = ready(7);
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
@@ -52,26 +52,27 @@ fn regress_px4s_take_off_lasts_until_its_height_and_its_landing_until_the_ground
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None })
         .unwrap();
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
-    let up = [0.0, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN, ground + UP_M];
+    let up = [0.0, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN, ground + HEIGHT_M];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, up), ACCEPTED);
-    holds_take_off(&states(&mut station, 30.0, L::MAV_LANDED_STATE_IN_AIR));
+    assert_take_off_states(&states(&mut station, 30.0, L::MAV_LANDED_STATE_IN_AIR));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 4.0, 6.0])), ACCEPTED);
     let down: Vec<L> = states(&mut station, 60.0, L::MAV_LANDED_STATE_ON_GROUND).iter().map(|(state, _)| *state).collect();
     assert_eq!(down, [L::MAV_LANDED_STATE_LANDING, L::MAV_LANDED_STATE_ON_GROUND]);
 }
 
 #[test]
-fn regress_a_missions_take_off_and_a_copters_report_it_until_their_height() {
+fn regress_mission_and_copter_takeoffs_report_takeoff_until_their_height() {
     let mut mission = ready(7);
     let north = home_north(&mission);
-    let plan = [item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, north, UP_M), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 20.0, UP_M)];
+    let plan =
+        [item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, north, HEIGHT_M), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 20.0, HEIGHT_M)];
     assert_eq!(upload(&mut mission, &plan), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(mission.command(1, ARM, one(1.0)), ACCEPTED);
     assert_eq!(mission.command(1, MavCmd::MAV_CMD_MISSION_START, p(&[])), ACCEPTED);
-    holds_take_off(&states(&mut mission, 30.0, MavLandedState::MAV_LANDED_STATE_IN_AIR));
+    assert_take_off_states(&states(&mut mission, 30.0, MavLandedState::MAV_LANDED_STATE_IN_AIR));
     let mut station = copter();
     assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
-    assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, UP_M])), ACCEPTED);
-    holds_take_off(&states(&mut station, 30.0, MavLandedState::MAV_LANDED_STATE_IN_AIR));
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, HEIGHT_M])), ACCEPTED);
+    assert_take_off_states(&states(&mut station, 30.0, MavLandedState::MAV_LANDED_STATE_IN_AIR));
 }

@@ -10,11 +10,11 @@ use spandrel_testkit::station::{Station, p};
 
 /// Maximum drift of an estimate at rest after the origin was set, m: three sigma of the white noise of GNSS heights
 /// (0.48 m), averaged over the first eight fixes.
-const SETTLES_M: f32 = 0.5;
+const SETTLED_TOLERANCE_M: f32 = 0.5;
 /// Maximum difference between degrees E7, millimeters and single-precision meters, m.
 const ROUNDING_M: f64 = 0.03;
 /// Maximum height error in the vehicle's own estimate, m.
-const HELD_M: f32 = 0.5;
+const HOLD_TOLERANCE_M: f32 = 0.5;
 
 fn place(latitude: i32, longitude: i32, altitude: i32) -> Geo {
     Geo {
@@ -50,14 +50,14 @@ fn off(plane: &LocalPlane, geo: Geo, local: [f32; 3]) -> f64 {
 }
 
 #[test]
-fn regress_local_position_is_zero_on_the_pad_and_agrees_with_origin_and_home() {
+fn regress_local_position_on_the_pad_is_zero_and_matches_origin_and_home() {
     for flavour in [&flavour::px4::FLAVOUR, &flavour::ardupilot::FLAVOUR] {
         for seed in 1..=5 {
-            let mut station = Station::speaking(flavour, "two-bridges", seed);
+            let mut station = Station::with_flavor(flavour, "two-bridges", seed);
             station.run_ms(5_000);
             let at = local(&mut station);
             let far = at.iter().map(|c| c.abs()).fold(0.0, f32::max);
-            assert!(far < SETTLES_M, "{}, seed {seed}: {at:?}", flavour.name);
+            assert!(far < SETTLED_TOLERANCE_M, "{}, seed {seed}: {at:?}", flavour.name);
             let plane = plane(&mut station);
             let here = requested(&mut station, 33, |m| match m {
                 MavMessage::GLOBAL_POSITION_INT(g) => Some(place(g.lat, g.lon, g.alt)),
@@ -70,7 +70,7 @@ fn regress_local_position_is_zero_on_the_pad_and_agrees_with_origin_and_home() {
                 _ => None,
             });
             assert!(off(&plane, home, home_local) < ROUNDING_M, "{home:?} {home_local:?}");
-            assert!(home_local.iter().all(|c| c.abs() < SETTLES_M), "{home_local:?}");
+            assert!(home_local.iter().all(|c| c.abs() < SETTLED_TOLERANCE_M), "{home_local:?}");
             let odometry =
                 requested(&mut station, 331, |m| if let MavMessage::ODOMETRY(o) = m { Some([o.x, o.y, o.z]) } else { None });
             let at = local(&mut station);
@@ -86,7 +86,7 @@ fn regress_local_position_is_zero_on_the_pad_and_agrees_with_origin_and_home() {
 }
 
 #[test]
-fn regress_a_local_set_point_counts_from_the_pad() {
+fn regress_local_setpoint_is_relative_to_the_pad() {
     let mut station = Station::of(scenario("two-bridges"), "phantom2", 7);
     station.run_ms(3_000);
     let pad = station.sim.truth().rigid.position_m;
@@ -112,7 +112,7 @@ fn regress_a_local_set_point_counts_from_the_pad() {
     }
     let at = station.place();
     let held = (at[0] - north).hypot(at[1] - east).hypot(at[2] - down);
-    assert!(held < HELD_M, "{at:?}: {held} m off");
+    assert!(held < HOLD_TOLERANCE_M, "{at:?}: {held} m off");
     let told = station.last_message(|m| match m {
         MavMessage::POSITION_TARGET_LOCAL_NED(t) => Some([t.x, t.y, t.z]),
         _ => None,

@@ -16,7 +16,7 @@ fn one(p: f32) -> [f32; 7] {
     [p, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
 }
 
-fn said(station: &Station, what: &str) -> bool {
+fn has_text(station: &Station, what: &str) -> bool {
     let text = |m: &MavMessage| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None };
     station.all(text).iter().any(|text| text.contains(what))
 }
@@ -29,15 +29,15 @@ fn speed(station: &Station) -> f32 {
     station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None }).unwrap()
 }
 
-fn fence_is_there(station: &mut Station) -> bool {
+fn has_fence(station: &mut Station) -> bool {
     station.run_ms(1_100);
     let enabled = |m: &MavMessage| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_enabled) } else { None };
     station.last_message(enabled).unwrap().contains(MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE)
 }
 
 #[test]
-fn wire_the_fence_is_switched_by_the_command_and_the_parameter_alike() {
-    let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
+fn wire_command_and_parameter_both_switch_the_fence() {
+    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(2_500);
     let interval = [1.0, 200_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, interval), OK);
@@ -48,7 +48,7 @@ fn wire_the_fence_is_switched_by_the_command_and_the_parameter_alike() {
     };
     assert_eq!(upload(&mut station, &[area]), ACCEPTED);
     set(&mut station, "FENCE_ENABLE", 0.0);
-    assert!(!fence_is_there(&mut station));
+    assert!(!has_fence(&mut station));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FENCE_ENABLE, one(1.0)), OK);
     station.run_ms(10);
     let shown = |m: &MavMessage| match m {
@@ -56,14 +56,14 @@ fn wire_the_fence_is_switched_by_the_command_and_the_parameter_alike() {
         _ => None,
     };
     assert_eq!(station.last_message(shown), Some(1.0));
-    assert!(fence_is_there(&mut station));
+    assert!(has_fence(&mut station));
     // Another parameter must not affect the fence.
     set(&mut station, "WPNAV_SPEED", 300.0);
-    assert!(fence_is_there(&mut station));
+    assert!(has_fence(&mut station));
 }
 
 #[test]
-fn wire_a_fence_that_was_switched_off_in_a_flight_acts_again_after_it() {
+fn wire_fence_disabled_in_flight_is_enabled_after_landing() {
     let mut station = Station::airborne("drill-hover", 7);
     let area = MISSION_ITEM_INT_DATA {
         param1: 500.0,
@@ -73,17 +73,17 @@ fn wire_a_fence_that_was_switched_off_in_a_flight_acts_again_after_it() {
     let back = MISSION_ITEM_INT_DATA { mission_type: FENCE, ..item(1, MavCmd::MAV_CMD_NAV_FENCE_RETURN_POINT, 0.0, 5.0) };
     assert_eq!(upload(&mut station, &[area, back]), ACCEPTED, "with a return point");
     station.run_ms(10);
-    assert!(said(&station, "Fence return point not used"));
+    assert!(has_text(&station, "Fence return point not used"));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FENCE_ENABLE, one(0.0)), OK);
-    assert!(!fence_is_there(&mut station));
+    assert!(!has_fence(&mut station));
     set(&mut station, "MIS_TAKEOFF_ALT", 3.0);
-    assert!(!fence_is_there(&mut station), "another parameter must have no effect");
+    assert!(!has_fence(&mut station), "another parameter must have no effect");
     assert_eq!(station.command(1, ARM, FORCED), OK);
-    assert!(fence_is_there(&mut station));
+    assert!(has_fence(&mut station));
 }
 
 #[test]
-fn wire_a_home_that_was_set_stays_when_motors_are_armed() {
+fn wire_arming_keeps_a_home_set_by_command() {
     let mut station = ready(7);
     let there = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 55.0, 0.0);
     let home = |s: &mut Station| {
@@ -107,7 +107,7 @@ fn wire_a_home_that_was_set_stays_when_motors_are_armed() {
 }
 
 #[test]
-fn flight_a_height_that_was_not_reached_is_forgotten_when_the_motors_stop() {
+fn flight_disarming_discards_an_unreached_takeoff_height() {
     let mut station = ready(7);
     let amsl = spandrel_testkit::shipped::scenario("drill-hover").origin.altitude_m as f32;
     let up = [0.0, 0.0, 0.0, NAN, NAN, NAN, amsl + 40.0];
@@ -115,7 +115,7 @@ fn flight_a_height_that_was_not_reached_is_forgotten_when_the_motors_stop() {
     assert_eq!(station.command(1, ARM, one(1.0)), OK);
     station.run_ms(3_000);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_LAND, [0.0; 7]), OK);
-    assert!(station.run_until(60.0, |s| said(s, "Disarmed by landing")), "{:?}", station.place());
+    assert!(station.run_until(60.0, |s| has_text(s, "Disarmed by landing")), "{:?}", station.place());
     let ground = station.place()[2];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 2.0, 0.0, 0.0, 0.0, 0.0]), OK);
     assert_eq!(station.command(1, ARM, one(1.0)), OK);
@@ -125,7 +125,7 @@ fn flight_a_height_that_was_not_reached_is_forgotten_when_the_motors_stop() {
 }
 
 #[test]
-fn flight_a_speed_by_command_outlasts_other_parameters_and_ends_with_its_own() {
+fn flight_commanded_speed_lasts_until_its_parameter_changes() {
     let mut station = Station::airborne("drill-hover", 7);
     let north = home_north(&station);
     assert_eq!(upload(&mut station, &[item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 150.0, 8.0)]), ACCEPTED);
@@ -142,14 +142,14 @@ fn flight_a_speed_by_command_outlasts_other_parameters_and_ends_with_its_own() {
 
 /// The circle is interrupted after more than half of its turns; only the rest must be flown.
 #[test]
-fn flight_a_circle_that_was_paused_is_flown_on_and_not_restarted() {
+fn flight_paused_circle_resumes_with_the_remaining_turns() {
     let mut station = Station::airborne("drill-hover", 7);
     let north = home_north(&station);
     let round = MISSION_ITEM_INT_DATA { param1: 3.0, param3: 6.0, ..item(0, MavCmd::MAV_CMD_NAV_LOITER_TURNS, north, 8.0) };
     assert_eq!(upload(&mut station, &[round]), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
     let began = station.sim.now();
-    assert!(station.run_until(120.0, |s| said(s, "Mission finished")));
+    assert!(station.run_until(120.0, |s| has_text(s, "Mission finished")));
     let whole_s = (station.sim.now() - began).s();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
     station.run_ms((whole_s * 700.0) as i64);
@@ -159,7 +159,7 @@ fn flight_a_circle_that_was_paused_is_flown_on_and_not_restarted() {
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
     let resumed = station.sim.now();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_PAUSE_CONTINUE, one(1.0)), OK);
-    assert!(station.run_until(120.0, |s| said(s, "Mission finished")));
+    assert!(station.run_until(120.0, |s| has_text(s, "Mission finished")));
     let rest_s = (station.sim.now() - resumed).s();
     assert!(rest_s < 0.65 * whole_s, "{rest_s} of {whole_s} s");
 }
@@ -185,14 +185,14 @@ fn flat_m(a: [f32; 3], b: [f32; 3]) -> f32 {
 const BACK_M: f32 = 1.5;
 
 #[test]
-fn flight_a_take_off_that_the_pilot_interrupts_goes_on_over_its_place() {
+fn flight_interrupted_takeoff_resumes_at_its_position() {
     let mut station = ready(7);
     let home = home_north(&station);
     let plan = [item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, home, 30.0), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 40.0, 30.0)];
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
     assert_eq!(station.command(1, ARM, one(1.0)), OK);
-    let over = station.place_after(25);
+    let over = station.local_position_after(25);
     assert!(station.run_until(30.0, |s| s.place()[2] < -8.0));
     fly_by_hand(&mut station, 1000, 500, 4_000);
     fly_by_hand(&mut station, 0, 500, 2_000);
@@ -201,17 +201,17 @@ fn flight_a_take_off_that_the_pilot_interrupts_goes_on_over_its_place() {
     let mut up = f32::INFINITY;
     assert!(station.run_until(60.0, |s| {
         up = up.min(s.place()[2]);
-        said(s, "Mission resumed from interruption point")
+        has_text(s, "Mission resumed from interruption point")
     }));
     assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
     assert!(up > -14.0, "the vehicle must return before it climbs: {up}");
     assert!(station.run_until(60.0, |s| s.place()[2] < -27.0));
     assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
-    assert!(station.run_until(60.0, |s| said(s, "Mission finished")));
+    assert!(station.run_until(60.0, |s| has_text(s, "Mission finished")));
 }
 
 #[test]
-fn flight_a_landing_that_is_paused_twice_sinks_on_from_there_and_not_from_above() {
+fn flight_landing_paused_twice_resumes_its_descent() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     let place = home + 20.0;
@@ -233,17 +233,17 @@ fn flight_a_landing_that_is_paused_twice_sinks_on_from_there_and_not_from_above(
     station.run_ms(1_500);
     assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "the mission must be paused on the way back");
     continued(&mut station, true);
-    assert!(station.run_until(60.0, |s| said(s, "Mission resumed from interruption point")));
+    assert!(station.run_until(60.0, |s| has_text(s, "Mission resumed from interruption point")));
     let back = station.place();
     assert!(flat_m(back, left) < BACK_M && (back[2] - left[2]).abs() < BACK_M, "{left:?} {back:?}");
     station.run_ms(1_500);
     assert!(station.place()[2] > back[2] + 0.5, "the vehicle must descend immediately: {back:?} to {:?}", station.place());
-    assert!(station.run_until(90.0, |s| said(s, "Disarmed by landing")));
+    assert!(station.run_until(90.0, |s| has_text(s, "Disarmed by landing")));
     assert!(flat_m(station.place(), left) < BACK_M, "{left:?} {:?}", station.place());
 }
 
 #[test]
-fn flight_a_return_that_is_left_on_its_way_down_does_not_climb_again() {
+fn flight_return_interrupted_during_descent_does_not_climb() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     let plan = [
@@ -257,7 +257,7 @@ fn flight_a_return_that_is_left_on_its_way_down_does_not_climb_again() {
     ];
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
-    assert!(station.run_until(180.0, |s| said(s, "Home reached, landing") && s.place()[2] > -8.0), "{:?}", station.place());
+    assert!(station.run_until(180.0, |s| has_text(s, "Home reached, landing") && s.place()[2] > -8.0), "{:?}", station.place());
     let left = station.place();
     fly_by_hand(&mut station, 1000, 500, 6_000);
     fly_by_hand(&mut station, 0, 500, 2_000);
@@ -266,14 +266,14 @@ fn flight_a_return_that_is_left_on_its_way_down_does_not_climb_again() {
     let mut highest = f32::INFINITY;
     assert!(station.run_until(120.0, |s| {
         highest = highest.min(s.place()[2]);
-        said(s, "Disarmed by landing")
+        has_text(s, "Disarmed by landing")
     }));
     assert!(highest > left[2].min(-8.0) - 4.0, "{left:?} up to {highest}");
     assert!((home_north(&station) - home).abs() < 2.0, "{:?}", station.place());
 }
 
 #[test]
-fn wire_items_that_stations_offer_are_taken_and_the_mission_moves_the_gimbal_whoever_controls_it() {
+fn wire_common_items_are_accepted_and_missions_move_the_gimbal() {
     let mut station = Station::airborne("drill-hover", 7);
     let north = home_north(&station);
     let plain = MavFrame::MAV_FRAME_MISSION;
@@ -290,8 +290,8 @@ fn wire_items_that_stations_offer_are_taken_and_the_mission_moves_the_gimbal_who
     let mine = [-2.0, -2.0, -1.0, -1.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE, mine), OK);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
-    assert!(station.run_until(60.0, |s| said(s, "Mission finished")), "{:?}", station.place());
-    assert!(!said(&station, "Mission item 4:"));
+    assert!(station.run_until(60.0, |s| has_text(s, "Mission finished")), "{:?}", station.place());
+    assert!(!has_text(&station, "Mission item 4:"));
     let q =
         station.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.q) } else { None }).unwrap();
     let pitch = (2.0 * q[2].atan2(q[0])).to_degrees();
@@ -304,7 +304,7 @@ fn wire_items_that_stations_offer_are_taken_and_the_mission_moves_the_gimbal_who
 }
 
 #[test]
-fn wire_a_place_of_interest_at_zero_is_none() {
+fn wire_region_of_interest_at_zero_clears_it() {
     let mut station = Station::airborne("drill-hover", 7);
     let aim = [0.0, 0.0, 0.0, 0.0, 46.71, 8.38, 0.0];
     let pitch = |s: &mut Station| {

@@ -25,7 +25,7 @@ fn channels(station: &mut Station, pitch: u16, throttle: u16) {
 }
 
 #[test]
-fn wire_overridden_channels_fly_like_sticks_and_pitch_is_a_transmitters() {
+fn wire_rc_override_acts_like_sticks_with_transmitter_pitch() {
     let mut station = Station::airborne("drill-hover", 7);
     // The first sender controls the sticks until it has released them.
     station.run_ms(600);
@@ -60,11 +60,11 @@ fn echoes(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(LinkId, [u
 }
 
 #[test]
-fn wire_the_echo_of_the_sticks_is_what_was_sent_and_a_sidecars_is_forward_positive() {
+fn wire_stick_echo_matches_the_input_on_each_link() {
     const SDK: LinkId = LinkId(5);
     const SIDECAR: LinkId = LinkId(6);
     for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
-        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
         station.sim.open_link(SDK, LinkKind::Sdk, false);
         station.sim.open_link(SIDECAR, LinkKind::Payload, false);
         station.run_ms(1_000);
@@ -92,7 +92,7 @@ fn wire_the_echo_of_the_sticks_is_what_was_sent_and_a_sidecars_is_forward_positi
 /// Session records depend on this: the monitor's link carries every stick sample, even several within one control tick,
 /// and those of senders that do not control the sticks.
 #[test]
-fn wire_a_sidecar_receives_every_sample_of_the_sticks_as_it_was_sent() {
+fn wire_sidecar_receives_every_stick_sample() {
     let sidecar = LinkId(6);
     let mut station = Station::new("drill-hover", 7);
     station.sim.open_link(sidecar, LinkKind::Payload, false);
@@ -103,7 +103,7 @@ fn wire_a_sidecar_receives_every_sample_of_the_sticks_as_it_was_sent() {
     for at in 0..60 {
         for k in 0..at % 4 {
             let sample = (255 - u8::from(k == 2), 10 * at + k);
-            station.speak_as(sample.0, 190);
+            station.send_as(sample.0, 190);
             station.sticks(sample.1, 0, 500, 0);
             sent.push(sample);
         }
@@ -122,7 +122,7 @@ fn wire_a_sidecar_receives_every_sample_of_the_sticks_as_it_was_sent() {
 
 /// The first negative value shows that a sender's throttle ranges from -1000 to 1000; this is remembered per sender.
 #[test]
-fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {
+fn wire_negative_throttle_selects_the_symmetric_range() {
     let mut station = Station::new("drill-hover", 7);
     let up = |station: &mut Station, z: i16| {
         station.sticks(0, 0, z, 0);
@@ -139,12 +139,12 @@ fn wire_a_sender_that_has_sent_a_negative_throttle_has_its_middle_at_zero() {
     }
     assert_eq!(told(&station), 1, "once: {:?}", texts(&station));
     station.run_ms(600);
-    station.speak_as(254, 190);
+    station.send_as(254, 190);
     assert_eq!(up(&mut station, 0), 1000, "the center for another sender must be 500");
 }
 
 #[test]
-fn wire_released_channels_are_no_sticks() {
+fn wire_released_channels_are_not_stick_input() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(1_000);
     station.received.clear();
@@ -165,7 +165,7 @@ fn wire_released_channels_are_no_sticks() {
 
 /// Returns the time without messages from the client until the failsafe of a manually flown vehicle, s, at a simulation
 /// speed.
-fn patience_s(pace: f64, lockstep: bool) -> f64 {
+fn timeout_s(pace: f64, lockstep: bool) -> f64 {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.set_speed_factor(pace);
     if lockstep {
@@ -202,10 +202,10 @@ fn answer_lockstep(station: &mut Station) {
 }
 
 #[test]
-fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_reported() {
+fn wire_client_timeouts_scale_with_the_speed_without_lockstep() {
     // COM_RC_LOSS_T is 0.5 s; the failsafe check runs every 50 ms.
     for (pace, lockstep, expected_s) in [(1.0, false, 0.5), (8.0, false, 4.0), (8.0, true, 0.5), (0.5, false, 0.5)] {
-        let s = patience_s(pace, lockstep);
+        let s = timeout_s(pace, lockstep);
         assert!((expected_s..expected_s + 0.15).contains(&s), "pace {pace}, lockstep {lockstep}: {s} s for {expected_s} s");
     }
     let mut station = Station::new("drill-hover", 7);
@@ -222,7 +222,7 @@ fn wire_without_lockstep_the_limits_of_clients_grow_with_the_speed_and_that_is_r
 }
 
 #[test]
-fn wire_lost_sticks_stop_the_flight_and_returning_sticks_resume_it() {
+fn wire_stick_loss_holds_and_returning_sticks_resume() {
     let mut station = Station::airborne("drill-hover", 7);
     station.run_ms(1_700);
     assert_eq!(station.mode(), Some(HOLD));
@@ -232,29 +232,29 @@ fn wire_lost_sticks_stop_the_flight_and_returning_sticks_resume_it() {
     }
     assert_eq!(station.mode(), Some(POSITION));
     // The link closes; another station observes the flight and takes control of the sticks.
-    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
+    station.sim.open_link(OTHER_LINK, LinkKind::GroundStation, false);
     station.sim.close_link(GCS);
     station.received.clear();
     station.run_ms(2_000);
     assert_eq!(station.mode(), Some(HOLD));
-    assert!(station.said("manual control lost"), "{:?}", station.texts());
+    assert!(station.has_text("manual control lost"), "{:?}", station.texts());
     let [north, east, down] = station.place();
-    let later = station.place_after(3_000);
+    let later = station.local_position_after(3_000);
     assert!(
         (later[0] - north).hypot(later[1] - east) < DRIFT_M && (later[2] - down).abs() < DRIFT_M,
         "the vehicle must hold its position: {later:?}"
     );
     for _ in 0..60 {
-        rival(&mut station, 0);
+        send_from_other_link(&mut station, 0);
         station.run_ms(20);
     }
     assert_eq!(station.mode(), Some(POSITION));
-    assert!(station.said("Failsafe cleared"), "{:?}", station.texts());
+    assert!(station.has_text("Failsafe cleared"), "{:?}", station.texts());
 }
 
 /// The parameter selects land (3), return (2) or warn only (0).
 #[test]
-fn wire_the_failsafe_of_a_lost_hand_is_the_one_that_was_chosen() {
+fn wire_stick_loss_failsafe_follows_its_parameter() {
     const LAND: u32 = 4 << 16 | 6 << 24;
     const RETURN: u32 = 4 << 16 | 5 << 24;
     for (choice, mode) in [(3, LAND), (2, RETURN), (1, HOLD)] {
@@ -271,17 +271,17 @@ fn wire_the_failsafe_of_a_lost_hand_is_the_one_that_was_chosen() {
     }
 }
 
-const OTHER: LinkId = LinkId(5);
+const OTHER_LINK: LinkId = LinkId(5);
 
 fn texts(station: &Station) -> Vec<String> {
     station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
 }
 
 /// Sends sticks to the right from a second ground station with the same IDs on its own link.
-fn rival(station: &mut Station, y: i16) {
+fn send_from_other_link(station: &mut Station, y: i16) {
     let sticks = MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() };
     let frame = spandrel_mavlink::codec::Encoder::new(255, 190).encode(&MavMessage::MANUAL_CONTROL(sticks));
-    station.sim.handle_datagram(OTHER, &frame);
+    station.sim.handle_datagram(OTHER_LINK, &frame);
 }
 
 fn set(station: &mut Station, name: &str, value: i32) {
@@ -300,19 +300,19 @@ fn roll_echo(station: &Station) -> u16 {
 }
 
 #[test]
-fn wire_the_first_keeps_the_sticks_until_silent_and_the_other_is_informed() {
+fn wire_first_sender_keeps_the_sticks_until_its_timeout() {
     let mut station = Station::airborne("drill-hover", 7);
-    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
+    station.sim.open_link(OTHER_LINK, LinkKind::GroundStation, false);
     for _ in 0..100 {
         station.sticks(0, 0, 500, 0);
-        rival(&mut station, 1000);
+        send_from_other_link(&mut station, 1000);
         station.run_ms(20);
     }
     assert_eq!(roll_echo(&station), 1500);
     let ignored = texts(&station).iter().filter(|text| text.contains("ignored")).count();
     assert_eq!(ignored, 2, "the text must be sent once on each link: {:?}", texts(&station));
     for _ in 0..40 {
-        rival(&mut station, 1000);
+        send_from_other_link(&mut station, 1000);
         station.run_ms(20);
     }
     assert_eq!(roll_echo(&station), 2000, "control must pass on when the first sender stops");
@@ -320,14 +320,14 @@ fn wire_the_first_keeps_the_sticks_until_silent_and_the_other_is_informed() {
 }
 
 #[test]
-fn wire_by_parameter_whoever_moves_the_sticks_last_has_them() {
+fn wire_parameter_gives_the_sticks_to_the_last_mover() {
     let mut station = Station::airborne("drill-hover", 7);
-    station.sim.open_link(OTHER, LinkKind::GroundStation, false);
+    station.sim.open_link(OTHER_LINK, LinkKind::GroundStation, false);
     set(&mut station, "SPAN_STICKS", 1);
     for y in [0, 1000] {
         for _ in 0..5 {
             station.sticks(0, 0, 500, 0);
-            rival(&mut station, y);
+            send_from_other_link(&mut station, y);
             station.run_ms(20);
         }
         assert_eq!(roll_echo(&station), if y == 0 { 1500 } else { 2000 }, "centered sticks must not take control");
@@ -335,7 +335,7 @@ fn wire_by_parameter_whoever_moves_the_sticks_last_has_them() {
 }
 
 #[test]
-fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
+fn wire_unset_channels_keep_their_value_until_all_are_released() {
     let mut station = Station::airborne("drill-hover", 7);
     station.run_ms(600);
     channels(&mut station, 1300, 1500);
@@ -362,7 +362,7 @@ fn wire_a_channel_that_is_left_alone_keeps_its_value_and_all_released_let_go() {
 }
 
 #[test]
-fn wire_buttons_do_what_their_parameters_set_once_a_press() {
+fn wire_buttons_trigger_their_configured_action_once_per_press() {
     let mut station = Station::airborne("drill-hover", 7);
     set(&mut station, "BTN3_FUNCTION", 11);
     set(&mut station, "BTN9_FUNCTION", 10);

@@ -9,9 +9,9 @@ const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const NAN: f32 = f32::NAN;
 /// Time within which the gimbal must have reached its target at 90 degrees per second, ms.
-const SWING_MS: i64 = 4_000;
+const GIMBAL_MOVE_MS: i64 = 4_000;
 /// Maximum angle error at the target, deg.
-const NEAR_DEG: f32 = 0.5;
+const TOLERANCE_DEG: f32 = 0.5;
 
 fn on_the_pad() -> Station {
     let mut station = Station::new("drill-hover", 7);
@@ -25,7 +25,7 @@ fn attitude(station: &Station) -> GIMBAL_DEVICE_ATTITUDE_STATUS_DATA {
 }
 
 fn pitch_deg(station: &mut Station) -> f32 {
-    station.run_ms(SWING_MS);
+    station.run_ms(GIMBAL_MOVE_MS);
     let q = attitude(station).q;
     (2.0 * q[2].atan2(q[0])).to_degrees()
 }
@@ -43,9 +43,9 @@ fn control(station: &Station) -> Option<[(u8, u8); 2]> {
 /// A region of interest 50 m north of the pad and 50 m above it, with the height above sea level in a frame relative to
 /// home, as MAVSDK sends it. PX4 uses only the number; others respect the frame.
 #[test]
-fn wire_the_height_of_a_place_to_look_at_is_read_as_the_flavour_reads_it() {
+fn wire_region_of_interest_height_follows_the_flavor() {
     for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
-        let mut station = Station::speaking(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
         station.run_ms(2_500);
         let home = |m: &MavMessage| if let MavMessage::HOME_POSITION(h) = m { Some(h.clone()) } else { None };
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[242.0])), OK);
@@ -73,7 +73,7 @@ fn wire_the_height_of_a_place_to_look_at_is_read_as_the_flavour_reads_it() {
 }
 
 #[test]
-fn wire_control_of_the_gimbal_is_given_kept_taken_and_let_go_for_system_and_component() {
+fn wire_gimbal_control_can_be_acquired_transferred_and_released() {
     let mut station = on_the_pad();
     let configure = MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE;
     let (me, nobody) = ((255, 190), (0, 0));
@@ -95,7 +95,7 @@ fn wire_control_of_the_gimbal_is_given_kept_taken_and_let_go_for_system_and_comp
 }
 
 #[test]
-fn wire_an_angle_with_a_rate_gets_there_at_that_rate_and_whole_numbers_carry_the_flags() {
+fn wire_gimbal_angle_respects_its_rate_and_integer_flags() {
     let mut station = on_the_pad();
     let aim = MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW;
     assert_eq!(station.command(1, aim, p(&[-60.0, NAN, 10.0, NAN])), OK);
@@ -122,18 +122,18 @@ fn wire_an_angle_with_a_rate_gets_there_at_that_rate_and_whole_numbers_carry_the
     let result = |m: &MavMessage| if let MavMessage::COMMAND_ACK(a) = m { Some(a.result) } else { None };
     assert_eq!(station.ask(&whole(1), result), Some(DENIED), "retracting must be rejected");
     assert_eq!(station.ask(&whole(2), result), Some(OK));
-    assert!(pitch_deg(&mut station).abs() < NEAR_DEG);
+    assert!(pitch_deg(&mut station).abs() < TOLERANCE_DEG);
     assert!(attitude(&station).flags.contains(GimbalDeviceFlags::GIMBAL_DEVICE_FLAGS_NEUTRAL));
     assert_eq!(station.command(1, aim, p(&[NAN, 30.0, NAN, NAN])), DENIED, "yaw must be rejected");
     assert_eq!(station.command(1, aim, p(&[NAN, NAN, -40.0, NAN])), OK);
-    assert!((pitch_deg(&mut station) + 90.0).abs() < NEAR_DEG);
+    assert!((pitch_deg(&mut station) + 90.0).abs() < TOLERANCE_DEG);
     let flags = attitude(&station);
     assert!(flags.failure_flags.contains(GimbalDeviceErrorFlags::GIMBAL_DEVICE_ERROR_FLAGS_AT_PITCH_LIMIT), "{flags:?}");
     assert!(!flags.flags.contains(GimbalDeviceFlags::GIMBAL_DEVICE_FLAGS_NEUTRAL));
 }
 
 #[test]
-fn wire_manager_and_device_report_what_the_gimbal_can_and_the_device_obeys_its_own_message() {
+fn wire_gimbal_manager_and_device_report_their_capabilities() {
     let mut station = on_the_pad();
     for id in [280.0, 281.0, 283.0, 285.0] {
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[id])), OK, "{id}");
@@ -161,21 +161,21 @@ fn wire_manager_and_device_report_what_the_gimbal_can_and_the_device_obeys_its_o
         target_component: 1,
     });
     station.send(&look);
-    assert!((pitch_deg(&mut station) + 50.0).abs() < NEAR_DEG);
+    assert!((pitch_deg(&mut station) + 50.0).abs() < TOLERANCE_DEG);
     station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, p(&[10.0, NAN, NAN, NAN]));
     station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE, p(&[42.0, 17.0, -1.0, -1.0]));
     station.send(&look);
-    assert!((pitch_deg(&mut station) - 10.0).abs() < NEAR_DEG, "only the controlling station may move the gimbal");
+    assert!((pitch_deg(&mut station) - 10.0).abs() < TOLERANCE_DEG, "only the controlling station may move the gimbal");
 }
 
 #[test]
-fn wire_the_older_mount_follows_its_modes() {
+fn wire_superseded_mount_commands_follow_their_modes() {
     let mut station = on_the_pad();
     let (control, configure) = (MavCmd::MAV_CMD_DO_MOUNT_CONTROL, MavCmd::MAV_CMD_DO_MOUNT_CONFIGURE);
     assert_eq!(station.command(1, control, p(&[-35.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0])), OK);
-    assert!((pitch_deg(&mut station) + 35.0).abs() < NEAR_DEG);
+    assert!((pitch_deg(&mut station) + 35.0).abs() < TOLERANCE_DEG);
     assert_eq!(station.command(1, control, p(&[-35.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])), OK);
-    assert!(pitch_deg(&mut station).abs() < NEAR_DEG, "neutral");
+    assert!(pitch_deg(&mut station).abs() < TOLERANCE_DEG, "neutral");
     // A position 100 m north of the pad and 100 m above it is at an elevation of 45 degrees.
     let (lat, lon, up) = (46.7052 + 100.0 / 111_180.0, 8.3814, 430.0 + 100.0);
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, up, lat, lon, 4.0])), OK);
@@ -189,7 +189,7 @@ fn wire_the_older_mount_follows_its_modes() {
         assert_eq!(station.command(1, configure, p(&[mode, 1.0, 1.0])), DENIED, "{mode}");
     }
     assert_eq!(station.command(1, configure, p(&[1.0, 1.0, 1.0, 0.0])), OK);
-    assert!(pitch_deg(&mut station).abs() < NEAR_DEG);
+    assert!(pitch_deg(&mut station).abs() < TOLERANCE_DEG);
     assert_eq!(
         station.command(1, configure, p(&[2.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0])),
         OK,
@@ -197,7 +197,7 @@ fn wire_the_older_mount_follows_its_modes() {
     );
     assert_eq!(station.command(1, control, p(&[5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0])), OK);
     let turned = pitch_deg(&mut station);
-    assert!((turned - 5.0 * SWING_MS as f32 / 1000.0).abs() < 1.0, "{turned}");
+    assert!((turned - 5.0 * GIMBAL_MOVE_MS as f32 / 1000.0).abs() < 1.0, "{turned}");
 }
 
 fn lamp(station: &Station) -> Option<bool> {
@@ -205,7 +205,7 @@ fn lamp(station: &Station) -> Option<bool> {
 }
 
 #[test]
-fn wire_the_lamp_obeys_its_service_and_every_alias_of_it() {
+fn wire_lamp_responds_to_all_of_its_interfaces() {
     let mut station = on_the_pad();
     use MavCmd as M;
     for (command, values, on) in [
@@ -245,7 +245,7 @@ fn wire_the_lamp_obeys_its_service_and_every_alias_of_it() {
 }
 
 #[test]
-fn wire_a_repeated_relay_blinks_the_lamp_as_often_as_requested_and_leaves_it_as_it_was() {
+fn wire_repeated_relay_blinks_the_lamp_and_restores_its_state() {
     let mut station = on_the_pad();
     station.received.clear();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPEAT_RELAY, p(&[0.0, 3.0, 0.4])), OK);

@@ -47,7 +47,7 @@ fn command(command: MavCmd, param1: f32) -> MavMessage {
 /// The response to a TIMESYNC request must reach its sender; only the response to the vehicle's own request must be
 /// consumed.
 #[test]
-fn wire_answers_to_others_questions_about_time_go_on_from_a_link_in_step() {
+fn wire_timesync_responses_are_forwarded_from_a_lockstep_link() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let (sidecar, other) = (LinkId(7), LinkId(8));
     sim.open_link(sidecar, LinkKind::Payload, true);
@@ -98,7 +98,7 @@ fn share_of_a_tick(first: bool) -> usize {
 
 /// Runs fifty ground stations besides the first, and a vehicle with and without a flooding peer.
 #[test]
-fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing() {
+fn wire_flood_is_bounded_per_tick_and_does_not_affect_fifty_peers() {
     const TICKS: i64 = 1_000;
     let mut calm = Station::new("drill-hover", 7).vehicle.sim;
     let peers: Vec<LinkId> = (10..60).map(LinkId).collect();
@@ -150,7 +150,7 @@ fn wire_a_flood_beside_fifty_peers_is_bounded_in_each_tick_and_they_miss_nothing
 }
 
 #[test]
-fn wire_fifty_peers_at_once_get_everything_that_one_gets() {
+fn wire_fifty_peers_receive_the_same_as_one() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let peers: Vec<LinkId> = (10..60).map(LinkId).collect();
     peers.iter().for_each(|peer| sim.open_link(*peer, LinkKind::GroundStation, false));
@@ -178,7 +178,7 @@ fn wire_fifty_peers_at_once_get_everything_that_one_gets() {
 }
 
 #[test]
-fn wire_a_radio_gets_what_it_carries_and_answers_come_soon() {
+fn wire_radio_stays_within_its_capacity_with_prompt_responses() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(RADIO, LinkKind::Serial, false);
     sim.limit_link(RADIO, RADIO_BYTES_S);
@@ -228,7 +228,7 @@ fn old_frame(sequence: u8, id: u8, payload: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn wire_a_client_that_speaks_mavlink_1_is_obeyed() {
+fn wire_mavlink_1_clients_are_supported() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(2_500);
     let mut lamp = [0u8; 33];
@@ -241,7 +241,7 @@ fn wire_a_client_that_speaks_mavlink_1_is_obeyed() {
 }
 
 #[test]
-fn wire_nobody_hands_on_what_sets_up_signatures() {
+fn wire_setup_signing_is_never_forwarded() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(FLOOD, LinkKind::GroundStation, false);
     let mut encoder = Encoder::new(77, 190);
@@ -254,7 +254,7 @@ fn wire_nobody_hands_on_what_sets_up_signatures() {
 }
 
 #[test]
-fn wire_a_datagram_longer_than_any_clients_is_dropped_whole() {
+fn wire_oversized_datagram_is_dropped() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let question = Encoder::new(255, 190).encode(&question(1));
     sim.handle_datagram(GCS, &question.repeat(BYTES_A_TICK / question.len() + 1));
@@ -265,7 +265,7 @@ fn wire_a_datagram_longer_than_any_clients_is_dropped_whole() {
 /// A peer that is known only by its source address must get responses, but streams only after a heartbeat from there;
 /// otherwise one byte would trigger 266 kB.
 #[test]
-fn regress_a_peer_that_was_not_dialed_gets_no_streams_before_its_heartbeat() {
+fn regress_unknown_peer_gets_no_streams_before_its_heartbeat() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let peer = LinkId(9);
     sim.open_link(peer, LinkKind::Payload, false);

@@ -64,7 +64,7 @@ fn level() -> Station {
 }
 
 #[test]
-fn wire_offboard_flies_to_a_position_from_the_ground_up() {
+fn wire_offboard_position_flight_starts_from_the_ground() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(2_500);
     let [n, e, d] = station.place();
@@ -80,7 +80,7 @@ fn wire_offboard_flies_to_a_position_from_the_ground_up() {
 }
 
 #[test]
-fn wire_velocities_in_the_bodys_frame_turn_with_the_heading() {
+fn wire_body_frame_velocities_rotate_with_the_heading() {
     for frame in [MavFrame::MAV_FRAME_BODY_NED, MavFrame::MAV_FRAME_BODY_OFFSET_NED, MavFrame::MAV_FRAME_BODY_FRD] {
         let mut station = level();
         let ahead = local(frame, VELOCITY, |t| (t.vx, t.vy) = (2.0, 0.0));
@@ -95,7 +95,7 @@ fn wire_velocities_in_the_bodys_frame_turn_with_the_heading() {
 }
 
 #[test]
-fn wire_an_acceleration_alone_gathers_speed() {
+fn wire_acceleration_setpoint_increases_the_speed() {
     let mut station = level();
     let push = local(MavFrame::MAV_FRAME_LOCAL_NED, ACCELERATION, |t| (t.afx, t.afy, t.afz) = (0.5, 0.0, 0.0));
     offboard(&mut station, &push);
@@ -106,7 +106,7 @@ fn wire_an_acceleration_alone_gathers_speed() {
 }
 
 #[test]
-fn wire_attitudes_and_body_rates_are_flown() {
+fn wire_attitude_and_rate_setpoints_are_flown() {
     let mut station = level();
     let hover = station.last_message(|m| if let MavMessage::ATTITUDE_TARGET(t) = m { Some(t.thrust) } else { None }).unwrap();
     let (sin, cos) = (0.05f32.sin(), 0.05f32.cos());
@@ -124,7 +124,7 @@ fn wire_attitudes_and_body_rates_are_flown() {
 }
 
 #[test]
-fn wire_set_points_that_cannot_be_flown_do_not_count_and_are_reported_once_a_second() {
+fn wire_invalid_setpoints_are_ignored_and_reported_once_per_second() {
     let frame = MavFrame::MAV_FRAME_LOCAL_NED;
     let wrong = [
         (local(MavFrame::MAV_FRAME_LOCAL_ENU, POSITION, |_| {}), "frame"),
@@ -150,7 +150,7 @@ fn wire_set_points_that_cannot_be_flown_do_not_count_and_are_reported_once_a_sec
 }
 
 #[test]
-fn wire_set_points_for_another_vehicle_are_not_ours() {
+fn wire_setpoints_for_other_vehicles_are_ignored() {
     let mut station = level();
     let ours = local(MavFrame::MAV_FRAME_LOCAL_NED, VELOCITY, |_| {});
     offboard(&mut station, &ours);
@@ -165,7 +165,7 @@ fn wire_set_points_for_another_vehicle_are_not_ours() {
 }
 
 #[test]
-fn wire_when_set_points_stop_it_holds_and_reports_it() {
+fn wire_lost_setpoints_lead_to_hold_and_are_reported() {
     let mut station = level();
     let ahead = local(MavFrame::MAV_FRAME_LOCAL_NED, VELOCITY, |t| t.vx = 2.0);
     offboard(&mut station, &ahead);

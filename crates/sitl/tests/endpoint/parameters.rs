@@ -17,7 +17,7 @@ use std::io::Cursor;
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 /// Minimum fraction of these names that must exist (issue 16).
-const LEAST_SHARE: f64 = 0.9;
+const MIN_FRACTION: f64 = 0.9;
 
 const QGROUNDCONTROL_PX4: &str = include_str!("names/qgroundcontrol-px4.tsv");
 const QGROUNDCONTROL_COPTER: &str = include_str!("names/qgroundcontrol-copter.tsv");
@@ -42,7 +42,7 @@ fn described(face: &ParamView) -> Vec<serde_json::Value> {
 }
 
 #[test]
-fn regress_every_parameter_of_qgroundcontrols_setup_pages_is_there_with_texts_units_and_enums() {
+fn regress_parameters_of_qgroundcontrols_setup_pages_exist_with_metadata() {
     for (face, list) in [(&PX4, QGROUNDCONTROL_PX4), (&COPTER, QGROUNDCONTROL_COPTER)] {
         let (own, all) = (params(face), described(face));
         let mut wrong = Vec::new();
@@ -65,7 +65,7 @@ fn regress_every_parameter_of_qgroundcontrols_setup_pages_is_there_with_texts_un
 }
 
 #[test]
-fn regress_flight_mode_slots_have_words_for_their_value() {
+fn regress_flight_mode_slot_values_have_descriptions() {
     for (face, prefix) in [(&PX4, "COM_FLTMODE"), (&COPTER, "FLTMODE")] {
         let (own, all) = (params(face), described(face));
         for slot in 1..=6 {
@@ -79,7 +79,7 @@ fn regress_flight_mode_slots_have_words_for_their_value() {
 }
 
 #[test]
-fn regress_nine_in_ten_names_of_the_setup_pages_and_the_suites_are_there() {
+fn regress_90_percent_of_setup_page_and_test_suite_parameters_exist() {
     for (face, lists) in [(&PX4, [QGROUNDCONTROL_PX4, SUITE_PX4]), (&COPTER, [QGROUNDCONTROL_COPTER, SUITE_COPTER])] {
         let own = params(face);
         let mut all: Vec<&str> = lists.iter().flat_map(|list| names(list)).map(|(name, _)| name).collect();
@@ -88,16 +88,16 @@ fn regress_nine_in_ten_names_of_the_setup_pages_and_the_suites_are_there() {
         let missing: Vec<&&str> = all.iter().filter(|name| own.find(name).is_none()).collect();
         let share = 1.0 - missing.len() as f64 / all.len() as f64;
         println!("flavor {}: {} of {} names, {:.1} %", face.number, all.len() - missing.len(), all.len(), 100.0 * share);
-        assert!(share >= LEAST_SHARE, "flavor {}: {share}, without {missing:?}", face.number);
+        assert!(share >= MIN_FRACTION, "flavor {}: {share}, without {missing:?}", face.number);
         let suite = names(lists[1]);
         let known = suite.iter().filter(|(name, _)| own.find(name).is_some()).count();
         println!("flavor {}: suite alone {known} of {}", face.number, suite.len());
-        assert!(known as f64 >= LEAST_SHARE * suite.len() as f64, "flavor {}: {known} of {}", face.number, suite.len());
+        assert!(known as f64 >= MIN_FRACTION * suite.len() as f64, "flavor {}: {known} of {}", face.number, suite.len());
     }
 }
 
 /// Returns the tuning after a parameter was set.
-fn tuned(face: &'static ParamView, name: &str, value: f64) -> Tuning {
+fn tuning_after(face: &'static ParamView, name: &str, value: f64) -> Tuning {
     let mut own = params(face);
     let kind = own.find(name).unwrap_or_else(|| panic!("{name}")).2;
     let value = match kind {
@@ -111,7 +111,7 @@ fn tuned(face: &'static ParamView, name: &str, value: f64) -> Tuning {
 }
 
 #[test]
-fn exact_untouched_parameters_leave_the_rules_as_the_autopilot_has_them() {
+fn exact_default_parameters_give_the_default_tuning() {
     let mut tuning = Tuning::default();
     params(&PX4).apply(&mut tuning);
     let mut expected = OperatorRules::default();
@@ -125,7 +125,7 @@ fn exact_untouched_parameters_leave_the_rules_as_the_autopilot_has_them() {
 type Check = fn(&Tuning) -> bool;
 
 #[test]
-fn exact_px4s_parameters_set_what_they_name() {
+fn exact_px4_parameters_change_their_settings() {
     let checks: [(&str, f64, Check); 23] = [
         ("COM_RCL_EXCEPT", 5.0, |t| {
             t.rules.responses.manual_loss_except
@@ -158,12 +158,12 @@ fn exact_px4s_parameters_set_what_they_name() {
     ];
     for (name, value, holds) in checks {
         assert!(!holds(&Tuning::default()), "{name}: the check already passes before the change");
-        assert!(holds(&tuned(&PX4, name, value)), "{name} = {value}");
+        assert!(holds(&tuning_after(&PX4, name, value)), "{name} = {value}");
     }
 }
 
 #[test]
-fn exact_copters_parameters_set_what_they_name() {
+fn exact_copter_parameters_change_their_settings() {
     let checks: [(&str, f64, Check); 24] = [
         ("FS_OPTIONS", 1.0, |t| t.rules.responses.manual_loss_except.mission && !t.rules.responses.data_link_loss_except.manual),
         ("FS_OPTIONS", 18.0, |t| {
@@ -196,9 +196,9 @@ fn exact_copters_parameters_set_what_they_name() {
         let mut before = Tuning::default();
         params(&COPTER).apply(&mut before);
         assert!(!holds(&before), "{name}: the check already passes before the change");
-        assert!(holds(&tuned(&COPTER, name, value)), "{name} = {value}");
+        assert!(holds(&tuning_after(&COPTER, name, value)), "{name} = {value}");
     }
-    assert_eq!(tuned(&COPTER, "MAV_GCS_SYSID", 42.0).rules, tuned(&COPTER, "SYSID_MYGCS", 42.0).rules);
+    assert_eq!(tuning_after(&COPTER, "MAV_GCS_SYSID", 42.0).rules, tuning_after(&COPTER, "SYSID_MYGCS", 42.0).rules);
 }
 
 fn set(station: &mut Station, name: &str, value: f32) {
@@ -239,7 +239,7 @@ const LOITER_NUMBER: u32 = 5;
 const BRAKE_NUMBER: u32 = 17;
 
 #[test]
-fn wire_sticks_count_from_the_ground_station_that_sysid_mygcs_names_only() {
+fn wire_sticks_are_accepted_only_from_sysid_mygcs() {
     let mut station = copter_at(6.0);
     station.send(&pulses([1_500; 4]));
     station.run_ms(50);
@@ -250,7 +250,7 @@ fn wire_sticks_count_from_the_ground_station_that_sysid_mygcs_names_only() {
         station.run_ms(100);
     }
     assert!(station.speed() < 0.5, "sticks of system 255 were obeyed: {} m/s", station.speed());
-    station.speak_as(42, 190);
+    station.send_as(42, 190);
     // For a while, the other station still counts as the controlling one.
     for _ in 0..45 {
         station.send(&pulses([1_500, 1_300, 1_500, 1_500]));
@@ -260,7 +260,7 @@ fn wire_sticks_count_from_the_ground_station_that_sysid_mygcs_names_only() {
 }
 
 #[test]
-fn wire_a_throttle_pulse_below_fs_thr_value_is_a_lost_transmitter() {
+fn wire_throttle_below_fs_thr_value_counts_as_rc_loss() {
     let mut station = copter_at(6.0);
     station.send(&pulses([1_500; 4]));
     station.run_ms(50);
@@ -292,7 +292,7 @@ fn wire_auto_options_allow_arming_in_auto_and_mis_total_counts_the_mission() {
     // The option only allows arming; takeoff waits for the throttle.
     set(&mut station, "AUTO_OPTIONS", 1.0);
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
-    let ground = station.place_after(100)[2];
+    let ground = station.local_position_after(100)[2];
     station.run_ms(4_000);
     assert!((ground - station.place()[2]).abs() < 0.2, "took off without raised throttle");
     // With the other bit, the vehicle also takes off.
@@ -320,14 +320,14 @@ fn flight_com_act_fail_act_terminates_on_a_failed_motor() {
         }
         station.run_ms(20);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, p(&[MOTOR, OFF, 1.0])), ACCEPTED);
-        station.run_until(3.0, |s| s.said("Disarmed: motor failure"));
-        assert!(station.said("Attitude lost"), "{:?}", station.texts());
-        assert_eq!(station.said("Disarmed: motor failure"), terminate, "{:?}", station.texts());
+        station.run_until(3.0, |s| s.has_text("Disarmed: motor failure"));
+        assert!(station.has_text("Attitude lost"), "{:?}", station.texts());
+        assert_eq!(station.has_text("Disarmed: motor failure"), terminate, "{:?}", station.texts());
     }
 }
 
 #[test]
-fn exact_modes_that_a_lost_link_never_stops() {
+fn exact_rc_loss_exceptions_cover_the_right_modes() {
     for mode in [FlightMode::Land, FlightMode::Return] {
         assert!(LinkLossExceptions::default().cover(mode), "{mode:?}");
     }
@@ -337,7 +337,7 @@ fn exact_modes_that_a_lost_link_never_stops() {
 }
 
 #[test]
-fn regress_the_height_reference_takes_every_value_and_reaches_the_filter() {
+fn regress_height_reference_accepts_every_value_and_affects_the_filter() {
     use HeightReference::{Barometer, Gnss, RangeFinder};
     const INT: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
     const REAL: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;

@@ -5,7 +5,7 @@ use spandrel_testkit::station::Station;
 use std::f32::consts::FRAC_PI_2;
 
 /// Time within which the gimbal must have reached its target at its limited rate, ms.
-const SWING_MS: i64 = 4_000;
+const GIMBAL_MOVE_MS: i64 = 4_000;
 /// Maximum angle error at the target, rad.
 const NEAR: f32 = 0.01;
 
@@ -19,14 +19,14 @@ fn pitch(station: &Station) -> f32 {
 }
 
 #[test]
-fn wire_the_gimbal_swings_from_straight_down_to_straight_up_and_no_further() {
+fn wire_gimbal_range_is_straight_down_to_straight_up() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
     let aim = |deg: f32| [deg, 0.0, f32::NAN, f32::NAN, 0.0, 0.0, 0.0];
     for deg in [-90.0, 90.0, 0.0, 45.0] {
         let result = station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, aim(deg));
         assert_eq!(result, MavResult::MAV_RESULT_ACCEPTED);
-        station.run_ms(SWING_MS);
+        station.run_ms(GIMBAL_MOVE_MS);
         assert!((pitch(&station) - deg.to_radians()).abs() < NEAR, "{deg}: {}", pitch(&station));
     }
     for deg in [-120.0, 91.5] {
@@ -36,7 +36,7 @@ fn wire_the_gimbal_swings_from_straight_down_to_straight_up_and_no_further() {
 }
 
 #[test]
-fn wire_the_gimbal_follows_the_managers_messages() {
+fn wire_gimbal_follows_manager_messages() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
     let pitch_yaw = |pitch, pitch_rate, gimbal_device_id| {
@@ -75,16 +75,16 @@ fn wire_the_gimbal_follows_the_managers_messages() {
         (attitude(-1.0), -1.0),
         (manual(1.0), FRAC_PI_2),
         (manual(-0.5), -FRAC_PI_2 / 2.0),
-        (pitch_yaw(f32::NAN, -0.1, 0), -FRAC_PI_2 / 2.0 - 0.1 * SWING_MS as f32 / 1000.0),
+        (pitch_yaw(f32::NAN, -0.1, 0), -FRAC_PI_2 / 2.0 - 0.1 * GIMBAL_MOVE_MS as f32 / 1000.0),
     ] {
         station.send(&message);
-        station.run_ms(SWING_MS);
+        station.run_ms(GIMBAL_MOVE_MS);
         assert!((pitch(&station) - expected).abs() < 2.0 * NEAR, "{message:?}: {} for {expected}", pitch(&station));
     }
 }
 
 #[test]
-fn wire_who_takes_control_of_the_gimbal_keeps_others_out_until_he_releases() {
+fn wire_gimbal_control_is_exclusive_until_released() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
     let aim = [-20.0, 0.0, f32::NAN, f32::NAN, 0.0, 0.0, 0.0];
@@ -98,7 +98,7 @@ fn wire_who_takes_control_of_the_gimbal_keeps_others_out_until_he_releases() {
         _ => None,
     });
     assert_eq!(holder, Some((255, 190)));
-    station.speak_as(254, 190);
+    station.send_as(254, 190);
     station.received.clear();
     let other = MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         command: MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW,
@@ -110,10 +110,10 @@ fn wire_who_takes_control_of_the_gimbal_keeps_others_out_until_he_releases() {
     });
     let result = |m: &MavMessage| if let MavMessage::COMMAND_ACK(a) = m { Some(a.result) } else { None };
     assert_eq!(station.ask(&other, result), Some(MavResult::MAV_RESULT_DENIED));
-    station.speak_as(255, 190);
+    station.send_as(255, 190);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, aim), MavResult::MAV_RESULT_ACCEPTED);
     assert_eq!(station.command(1, configure, release), MavResult::MAV_RESULT_ACCEPTED);
-    station.speak_as(254, 190);
+    station.send_as(254, 190);
     assert_eq!(station.ask(&other, result), Some(MavResult::MAV_RESULT_ACCEPTED));
 }
 
@@ -122,7 +122,7 @@ fn shots(station: &Station) -> Vec<(i32, i32, i32)> {
 }
 
 #[test]
-fn wire_missed_shots_are_sent_again_and_a_series_stops_on_command() {
+fn wire_missed_pictures_are_sent_again_and_a_series_stops_on_command() {
     let mut station = Station::airborne("drill-hover", 7);
     station.received.clear();
     let series = [0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -145,12 +145,12 @@ fn wire_missed_shots_are_sent_again_and_a_series_stops_on_command() {
 }
 
 #[test]
-fn wire_pictures_by_distance_come_as_far_apart_as_asked() {
+fn wire_distance_triggered_pictures_have_the_requested_spacing() {
     let mut station = Station::airborne("drill-hover", 7);
     station.received.clear();
     let every = [3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(100, MavCmd::MAV_CMD_DO_SET_CAM_TRIGG_DIST, every), MavResult::MAV_RESULT_ACCEPTED);
-    let [n0, e0, _] = station.place_after(10);
+    let [n0, e0, _] = station.local_position_after(10);
     for _ in 0..250 {
         station.sticks(400, 0, 500, 0);
         station.run_ms(20);
@@ -164,7 +164,7 @@ fn wire_pictures_by_distance_come_as_far_apart_as_asked() {
 
 /// The buttons that QGroundControl creates from the actions file in docs/src/how-to/.
 #[test]
-fn wire_every_action_of_the_ground_stations_file_is_accepted() {
+fn wire_actions_of_the_qgroundcontrol_file_are_accepted() {
     let file: serde_json::Value =
         serde_json::from_str(&spandrel_testkit::shipped::text("docs/src/how-to/qgroundcontrol-actions.json")).unwrap();
     assert_eq!((file["fileType"].as_str(), file["version"].as_u64()), (Some("MavlinkActions"), Some(1)));
@@ -193,7 +193,7 @@ fn wire_every_action_of_the_ground_stations_file_is_accepted() {
 }
 
 #[test]
-fn wire_only_who_has_the_gimbal_lets_go_of_it() {
+fn wire_only_the_controlling_client_can_release_the_gimbal() {
     let mut station = Station::airborne("drill-hover", 7);
     let configure = |s: &mut Station, who: f32| {
         let message = MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
@@ -215,16 +215,16 @@ fn wire_only_who_has_the_gimbal_lets_go_of_it() {
     };
     configure(&mut station, -2.0);
     assert_eq!(control(&mut station), 255);
-    station.speak_as(254, 190);
+    station.send_as(254, 190);
     configure(&mut station, -3.0);
     assert_eq!(control(&mut station), 255, "another client must not be able to release it");
-    station.speak_as(255, 190);
+    station.send_as(255, 190);
     configure(&mut station, -3.0);
     assert_eq!(control(&mut station), 0);
 }
 
 #[test]
-fn wire_a_single_picture_does_not_end_a_running_series() {
+fn wire_single_picture_does_not_end_a_series() {
     let mut station = Station::airborne("drill-hover", 7);
     let taken = |s: &Station| s.all(|m| matches!(m, MavMessage::CAMERA_IMAGE_CAPTURED(_)).then_some(())).len();
     let series = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -238,7 +238,7 @@ fn wire_a_single_picture_does_not_end_a_running_series() {
 }
 
 #[test]
-fn wire_the_lamp_neither_dims_nor_strobes_and_the_gimbal_has_a_neutral_place() {
+fn wire_lamp_rejects_dimming_and_gimbal_has_a_neutral_position() {
     let mut station = Station::airborne("drill-hover", 7);
     let configure = MavCmd::MAV_CMD_DO_ILLUMINATOR_CONFIGURE;
     for (mode, pct, result) in [(1.0, 100.0, true), (0.0, f32::NAN, true), (1.0, 30.0, false), (2.0, 100.0, false)] {

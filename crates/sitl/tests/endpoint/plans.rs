@@ -8,7 +8,7 @@ use spandrel_testkit::station::Station;
 const NAN: f32 = f32::NAN;
 
 #[test]
-fn wire_a_mission_is_uploaded_given_back_and_flown_to_its_end() {
+fn wire_mission_is_uploaded_downloaded_and_flown() {
     let mut station = ready(7);
     let north = home_north(&station);
     let items = [
@@ -68,7 +68,7 @@ fn wire_a_mission_is_uploaded_given_back_and_flown_to_its_end() {
 }
 
 #[test]
-fn wire_lost_doubled_and_exchanged_items_are_requested_until_the_plan_is_whole() {
+fn wire_upload_recovers_from_lost_duplicated_and_reordered_items() {
     let mut station = ready(7);
     let items: Vec<_> = (0..4).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(k), 6.0)).collect();
     let send = |s: &mut Station, k: usize| {
@@ -101,10 +101,10 @@ fn wire_lost_doubled_and_exchanged_items_are_requested_until_the_plan_is_whole()
 }
 
 #[test]
-fn wire_an_upload_that_stalls_is_given_up_and_a_second_station_waits_its_turn() {
+fn wire_stalled_upload_is_aborted_and_a_second_station_waits() {
     let mut station = ready(7);
     assert_eq!(station.ask(&count(2, PLAN), asked), Some(0));
-    station.speak_as(254, 190);
+    station.send_as(254, 190);
     assert_eq!(station.ask(&count(1, PLAN), result), Some(MavMissionResult::MAV_MISSION_DENIED));
     station.received.clear();
     station.run_ms(11_000);
@@ -113,7 +113,7 @@ fn wire_an_upload_that_stalls_is_given_up_and_a_second_station_waits_its_turn() 
 }
 
 #[test]
-fn wire_clearing_empties_the_plan_and_stops_nobody_else() {
+fn wire_clearing_affects_only_its_plan() {
     let mut station = ready(7);
     let fence = MISSION_ITEM_INT_DATA {
         mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
@@ -138,7 +138,7 @@ fn wire_clearing_empties_the_plan_and_stops_nobody_else() {
 }
 
 #[test]
-fn wire_items_that_cannot_be_flown_are_refused_by_the_parameter_that_is_wrong() {
+fn wire_unflyable_items_are_rejected_with_the_faulty_parameter() {
     use MavMissionResult as R;
     let mut station = ready(7);
     let waypoint = || item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 5.0);
@@ -169,7 +169,7 @@ fn wire_items_that_cannot_be_flown_are_refused_by_the_parameter_that_is_wrong() 
 }
 
 #[test]
-fn wire_the_current_item_is_set_by_message_and_by_command() {
+fn wire_current_item_can_be_set_by_message_and_command() {
     let mut station = ready(7);
     let items: Vec<_> = (0..3).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0, 6.0)).collect();
     upload(&mut station, &items);
@@ -188,7 +188,7 @@ fn wire_the_current_item_is_set_by_message_and_by_command() {
 }
 
 #[test]
-fn wire_heights_over_home_follow_a_home_that_is_set_again() {
+fn wire_relative_heights_follow_a_new_home() {
     let mut station = Station::airborne("drill-hover", 7);
     let north = home_north(&station);
     let amsl = MISSION_ITEM_INT_DATA {
@@ -223,7 +223,7 @@ fn wire_heights_over_home_follow_a_home_that_is_set_again() {
 }
 
 #[test]
-fn wire_older_and_partial_forms_are_taken_or_refused_but_always_answered() {
+fn wire_superseded_and_partial_requests_are_always_answered() {
     use MavMissionResult as R;
     let mut station = ready(7);
     let origin = spandrel_testkit::shipped::scenario("drill-hover").origin;
@@ -265,7 +265,7 @@ fn wire_older_and_partial_forms_are_taken_or_refused_but_always_answered() {
 
 /// A station that connects later must be able to tell from the ID whether it has the current plan or must download it.
 #[test]
-fn wire_each_plan_has_an_id_that_changes_with_it() {
+fn wire_plan_ids_change_with_their_plans() {
     let mut station = ready(7);
     let id_in_ack =
         |s: &Station| s.last_message(|m| if let MavMessage::MISSION_ACK(a) = m { Some(a.opaque_id) } else { None }).unwrap();
@@ -289,7 +289,7 @@ fn wire_each_plan_has_an_id_that_changes_with_it() {
 }
 
 #[test]
-fn wire_five_hundred_items_go_up_and_come_back() {
+fn wire_500_items_are_uploaded_and_downloaded() {
     let mut station = ready(7);
     let items: Vec<_> = (0..500).map(|k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, f64::from(k), 6.0)).collect();
     assert_eq!(upload(&mut station, &items), ACCEPTED);

@@ -43,7 +43,7 @@ fn assert_shown(station: &Station, message: &str, level: u8) {
 }
 
 #[test]
-fn regress_refusals_take_off_landing_and_a_lost_pilot_are_events_that_the_definitions_explain() {
+fn regress_rejections_takeoff_landing_and_rc_loss_are_defined_events() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(2_500);
     assert_ne!(station.command(1, SET_MODE, p(&[1.0, 4.0, 4.0])), MavResult::MAV_RESULT_ACCEPTED);
@@ -62,14 +62,14 @@ fn regress_refusals_take_off_landing_and_a_lost_pilot_are_events_that_the_defini
     station.run_ms(2_000);
     assert_shown(&station, "Failsafe: manual control lost", 2);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_LAND, p(&[])), MavResult::MAV_RESULT_ACCEPTED);
-    assert!(station.run_until(60.0, |s| s.said("Landing detected")), "{:?}", station.texts());
+    assert!(station.run_until(60.0, |s| s.has_text("Landing detected")), "{:?}", station.texts());
     assert_shown(&station, "Landing detected", 6);
 }
 
 /// PX4 marks a text that an event repeats with a tab, and QGroundControl then shows only the event. Information that
 /// the event omits must stay readable.
 #[test]
-fn regress_a_text_that_an_event_repeats_ends_with_a_tab() {
+fn regress_texts_that_are_also_events_end_with_a_tab() {
     let mut station = Station::airborne("drill-hover", 7);
     station.run_ms(2_000);
     let texts = station.texts();
@@ -84,7 +84,7 @@ fn regress_a_text_that_an_event_repeats_ends_with_a_tab() {
 }
 
 #[test]
-fn regress_the_end_of_a_mission_and_a_breached_fence_are_events() {
+fn regress_mission_end_and_fence_breach_are_events() {
     let known = definitions();
     for message in ["Mission finished", "Geofence breached", "Low battery", "Critical battery", "Failsafe: ground station lost"] {
         assert!(known.values().any(|own| own == message), "{message}");

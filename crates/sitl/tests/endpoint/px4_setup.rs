@@ -25,7 +25,7 @@ fn param(station: &mut Station, name: &str) -> f32 {
 }
 
 #[test]
-fn regress_a_gyro_calibration_reports_itself_in_the_texts_that_qgroundcontrol_reads() {
+fn regress_gyro_calibration_sends_the_texts_that_qgroundcontrol_parses() {
     let mut station = ready();
     assert_eq!(station.command(1, CALIBRATE, one(1.0)), ACCEPTED);
     station.run_ms(5_000);
@@ -48,13 +48,13 @@ fn regress_a_gyro_calibration_reports_itself_in_the_texts_that_qgroundcontrol_re
 }
 
 #[test]
-fn regress_the_radio_pages_calibration_is_accepted_and_manual_steps_are_explained() {
+fn regress_radio_calibration_is_accepted_and_other_calibrations_respond() {
     let mut station = ready();
     assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 0.0, 0.0, 1.0])), ACCEPTED, "start of the radio calibration");
     assert_eq!(station.command(1, CALIBRATE, p(&[])), ACCEPTED, "end of the radio calibration");
     assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 1.0])), ACCEPTED);
     station.run_ms(5);
-    assert!(station.said("[cal] calibration failed"), "{:?}", station.texts());
+    assert!(station.has_text("[cal] calibration failed"), "{:?}", station.texts());
     assert_eq!(station.command(1, CALIBRATE, p(&[0.0, 0.0, 0.0, 0.0, 2.0])), ACCEPTED);
     assert_eq!(
         station.command(1, CALIBRATE, one(1.0)),
@@ -62,11 +62,11 @@ fn regress_the_radio_pages_calibration_is_accepted_and_manual_steps_are_explaine
         "another calibration is running"
     );
     station.run_ms(5_000);
-    assert!(station.said("[cal] calibration done: level"), "{:?}", station.texts());
+    assert!(station.has_text("[cal] calibration done: level"), "{:?}", station.texts());
     assert_eq!(station.command(1, CALIBRATE, one(1.0)), ACCEPTED);
     assert_eq!(station.command(1, CALIBRATE, p(&[])), ACCEPTED);
     station.run_ms(5);
-    assert!(station.said("[cal] calibration cancelled"), "{:?}", station.texts());
+    assert!(station.has_text("[cal] calibration cancelled"), "{:?}", station.texts());
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)), ACCEPTED);
     assert_eq!(station.command(1, CALIBRATE, one(1.0)), MavResult::MAV_RESULT_TEMPORARILY_REJECTED, "armed");
 }
@@ -95,7 +95,7 @@ fn console(station: &mut Station, line: &str) -> String {
 }
 
 #[test]
-fn regress_the_mavlink_console_answers() {
+fn regress_mavlink_console_responds() {
     let mut station = ready();
     let help = console(&mut station, "help");
     assert!(help.starts_with("nsh> help\n") && help.contains("  listener\n") && help.ends_with("nsh> "), "{help}");
@@ -120,13 +120,13 @@ fn regress_the_mavlink_console_answers() {
     assert!(armed.unwrap().contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED));
     assert!(console(&mut station, "commander mode nowhere").contains("unknown mode nowhere"));
     assert!(console(&mut station, "reboot now").contains("reboot: command not found"));
-    let mut copter = Station::speaking(&spandrel_sitl::endpoint::flavour::ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut copter = Station::with_flavor(&spandrel_sitl::endpoint::flavour::ardupilot::FLAVOUR, "drill-hover", 7);
     copter.run_ms(1_000);
     assert_eq!(console(&mut copter, "help"), "", "ArduPilot must not have a console");
 }
 
 #[test]
-fn regress_follow_me_keeps_its_distance_behind_the_target() {
+fn regress_follow_me_keeps_its_distance() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sticks(0, 0, 500, 0);
     station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
@@ -138,7 +138,7 @@ fn regress_follow_me_keeps_its_distance_behind_the_target() {
     }));
     station.run_ms(5);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 4.0, 8.0])), ACCEPTED);
-    let start = station.place_after(100);
+    let start = station.local_position_after(100);
     // A person walks north at 2 m/s, starting at the drill's pad.
     for k in 0..250 {
         station.send(&MavMessage::FOLLOW_TARGET(FOLLOW_TARGET_DATA {
@@ -165,7 +165,7 @@ fn regress_follow_me_keeps_its_distance_behind_the_target() {
 /// Events as libevents reads them: a summary of the checks, one event for each failed check, a summary of the health.
 /// The definitions served by FTP contain their texts.
 #[test]
-fn regress_arming_checks_are_reported_as_events_and_can_be_asked_for_again() {
+fn regress_arming_checks_are_events_that_can_be_requested_again() {
     let events = |s: &Station| s.all(|m| if let MavMessage::EVENT(event) = m { Some(event.clone()) } else { None });
     let name = |name: &str| {
         let hash = name.bytes().fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));

@@ -41,7 +41,7 @@ fn finders() -> Vec<(MavSensorOrientation, Vec3<Frd>)> {
 }
 
 /// Returns the job with its pad at a position and the drone at a heading, without traffic.
-fn standing_at(base: &Scenario, place_m: Vec3<Enu>, heading_deg: f64) -> Scenario {
+fn placed_at(base: &Scenario, place_m: Vec3<Enu>, heading_deg: f64) -> Scenario {
     let mut job = base.clone();
     (job.traffic.cars, job.traffic.trucks, job.traffic.pedestrians) = (0, 0, 0);
     job.ground_team.pad_m = place_m;
@@ -51,7 +51,7 @@ fn standing_at(base: &Scenario, place_m: Vec3<Enu>, heading_deg: f64) -> Scenari
 
 /// Returns, for each task, the position on its path with the most surfaces within range. The pad is placed there in
 /// mid-air.
-fn crowded(job: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
+fn positions_near_objects(job: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     let hits = |place: &Vec3<Enu>| {
         let level = |k: usize| {
             let (sin, cos) = math::sin_cos(k as f64 * FRAC_PI_4);
@@ -65,7 +65,7 @@ fn crowded(job: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
 }
 
 /// Returns the distances in DISTANCE_SENSOR and OBSTACLE_DISTANCE, m, with their maximum range.
-fn told(station: &Station, orientation: MavSensorOrientation) -> (f64, f64) {
+fn reported_range(station: &Station, orientation: MavSensorOrientation) -> (f64, f64) {
     let found = station.last_message(|m| match m {
         MavMessage::DISTANCE_SENSOR(d) if d.orientation == orientation => {
             Some((f64::from(d.current_distance) / 100.0, f64::from(d.max_distance) / 100.0))
@@ -75,7 +75,7 @@ fn told(station: &Station, orientation: MavSensorOrientation) -> (f64, f64) {
     found.unwrap_or_else(|| panic!("no data for {orientation:?}"))
 }
 
-fn agrees(told: f64, there: Option<f64>, what: &str) {
+fn assert_range(told: f64, there: Option<f64>, what: &str) {
     match there {
         Some(distance) if distance < REACH_M - TOLERANCE_M => {
             assert!((told - distance).abs() < TOLERANCE_M, "{what}: {told} for {distance}");
@@ -86,12 +86,12 @@ fn agrees(told: f64, there: Option<f64>, what: &str) {
 }
 
 #[test]
-fn wire_every_range_finder_reports_the_sites_distance_in_its_own_direction() {
+fn wire_range_finders_report_the_distance_in_their_direction() {
     let base = scenario("two-bridges");
-    let places = crowded(&base, &Site::build(&base, 7));
+    let places = positions_near_objects(&base, &Site::build(&base, 7));
     let mut met = [0; 10];
     for (place, heading_deg) in places.iter().flat_map(|place| [0.0, 130.0, 250.0].map(|heading| (*place, heading))) {
-        let job = standing_at(&base, place, heading_deg);
+        let job = placed_at(&base, place, heading_deg);
         let site = Site::build(&job, 7);
         let mut station = Station::of(job, "phantom2", 7);
         station.run_ms(1_500);
@@ -112,11 +112,11 @@ fn wire_every_range_finder_reports_the_sites_distance_in_its_own_direction() {
         for (k, (orientation, direction)) in finders().into_iter().enumerate() {
             let there = ray(direction);
             let what = format!("{orientation:?} at {place:?} heading {heading_deg}");
-            let (distance, reach) = told(&station, orientation);
+            let (distance, reach) = reported_range(&station, orientation);
             assert_eq!(reach, REACH_M);
-            agrees(distance, there, &what);
+            assert_range(distance, there, &what);
             if let Some(sector) = k.checked_sub(2) {
-                agrees(f64::from(map.distances[9 * sector]) / 100.0, there, &what);
+                assert_range(f64::from(map.distances[9 * sector]) / 100.0, there, &what);
             }
             met[k] += usize::from(there.is_some_and(|distance| distance < REACH_M - TOLERANCE_M));
         }
@@ -125,7 +125,7 @@ fn wire_every_range_finder_reports_the_sites_distance_in_its_own_direction() {
 }
 
 #[test]
-fn wire_rates_of_the_finders_are_each_links_own() {
+fn wire_range_finder_rates_are_set_per_link() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(1_000);
     let count = |station: &mut Station| {

@@ -34,7 +34,7 @@ fn asked<T>(station: &mut Station, id: f32, pick: impl Fn(&MavMessage) -> Option
 }
 
 #[test]
-fn wire_a_mission_moves_its_gimbal_whoever_is_in_control_and_reports_why_it_cannot() {
+fn wire_missions_move_the_gimbal_and_report_range_violations() {
     let mut station = ready(7);
     let north = home_north(&station);
     let aim = |seq, pitch| MISSION_ITEM_INT_DATA {
@@ -91,7 +91,7 @@ fn question(sim: &mut Sim) -> i64 {
 }
 
 #[test]
-fn wire_an_answer_moves_time_only_when_it_is_for_us_and_signed_where_signatures_are_demanded() {
+fn wire_lockstep_response_must_be_addressed_and_signed() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(SIDECAR, LinkKind::Payload, true);
     let token = question(&mut sim);
@@ -131,8 +131,8 @@ fn armed(station: &mut Station) -> bool {
 }
 
 #[test]
-fn wire_a_button_is_refused_where_its_command_would_be() {
-    let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
+fn wire_buttons_follow_the_rules_of_their_commands() {
+    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(2_500);
     for (name, value) in [("BTN1_FUNCTION", 1.0), ("BTN2_FUNCTION", 3.0)] {
         station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
@@ -164,8 +164,8 @@ fn wire_a_button_is_refused_where_its_command_would_be() {
 }
 
 #[test]
-fn wire_force_arms_a_copter_in_a_mode_that_is_not_armable() {
-    let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
+fn wire_forced_arming_works_in_a_mode_that_is_not_armable() {
+    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(2_500);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 6.0])), OK);
     assert_eq!(station.command(1, ARM, p(&[1.0])), FAILED);
@@ -173,8 +173,8 @@ fn wire_force_arms_a_copter_in_a_mode_that_is_not_armable() {
 }
 
 #[test]
-fn wire_a_copters_home_is_no_aim_of_jumps_and_its_repetition_is_acknowledged() {
-    let mut station = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
+fn wire_home_item_is_not_a_jump_target() {
+    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
     station.run_ms(2_500);
     let result = |m: &MavMessage| if let MavMessage::MISSION_ACK(a) = m { Some(a.mavtype) } else { None };
     let home = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0);
@@ -188,9 +188,9 @@ fn wire_a_copters_home_is_no_aim_of_jumps_and_its_repetition_is_acknowledged() {
 }
 
 #[test]
-fn wire_every_vehicle_has_a_number_of_its_own_and_our_brand() {
+fn wire_vehicles_have_unique_ids_and_the_products_vendor() {
     let of = |instance| {
-        let mut station = Station::numbered("drill-hover", 7, instance);
+        let mut station = Station::with_instance("drill-hover", 7, instance);
         station.run_ms(1_000);
         let command = COMMAND_LONG_DATA {
             command: MavCmd::MAV_CMD_REQUEST_MESSAGE,
@@ -209,7 +209,7 @@ fn wire_every_vehicle_has_a_number_of_its_own_and_our_brand() {
 }
 
 #[test]
-fn wire_the_batterys_state_goes_by_the_parameters() {
+fn wire_battery_state_follows_its_parameters() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(1_000);
     let state = |station: &mut Station| {
@@ -252,7 +252,7 @@ fn wire_the_batterys_state_goes_by_the_parameters() {
 }
 
 #[test]
-fn wire_a_failsafe_shows_the_mode_that_was_requested_beside_the_one_that_is_flown() {
+fn wire_failsafe_reports_current_and_intended_mode() {
     let mut station = Station::airborne("drill-hover", 7);
     let modes =
         |m: &MavMessage| if let MavMessage::CURRENT_MODE(c) = m { Some((c.custom_mode, c.intended_custom_mode)) } else { None };
@@ -266,7 +266,7 @@ fn wire_a_failsafe_shows_the_mode_that_was_requested_beside_the_one_that_is_flow
 }
 
 #[test]
-fn wire_a_flights_times_are_reported_and_start_over_with_the_next() {
+fn wire_flight_times_are_reported_per_flight() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(2_500);
     let info = |m: &MavMessage| if let MavMessage::FLIGHT_INFORMATION(f) = m { Some(f.clone()) } else { None };
@@ -292,7 +292,7 @@ fn wire_a_flights_times_are_reported_and_start_over_with_the_next() {
 }
 
 #[test]
-fn wire_every_refusal_gives_the_reason() {
+fn wire_rejections_include_a_reason() {
     use MavCmd as M;
     let mut station = ready(7);
     for (command, values, wanted, words) in [
@@ -312,7 +312,7 @@ fn wire_every_refusal_gives_the_reason() {
         station.run_ms(5);
         assert!(texts(&station).iter().any(|text| text.starts_with(words)), "{command:?}: {:?}", texts(&station));
     }
-    let mut copter = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut copter = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
     copter.run_ms(2_500);
     assert_eq!(copter.command(1, M::MAV_CMD_DO_REPOSITION, p(&[0.0, 0.0, 0.0, NAN, NAN, NAN, NAN])), DENIED);
     copter.run_ms(5);

@@ -56,7 +56,7 @@ fn fastest_of_a_flight(station: &mut Station, slow: Option<f32>) -> f32 {
         }));
     }
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_LAND, p(&[])), OK);
-    assert!(station.run_until(60.0, |s| s.said("Disarmed by landing")), "{:?}", station.place());
+    assert!(station.run_until(60.0, |s| s.has_text("Disarmed by landing")), "{:?}", station.place());
     fastest
 }
 
@@ -66,7 +66,7 @@ fn heading_deg(station: &Station) -> f32 {
 
 /// Speed and region of interest of one flight must not affect the next.
 #[test]
-fn flight_a_speed_and_a_look_end_with_their_flight() {
+fn flight_speed_and_region_of_interest_end_with_the_flight() {
     let mut station = ready(7);
     let slow = fastest_of_a_flight(&mut station, Some(1.5));
     assert!((1.2..2.0).contains(&slow), "{slow}");
@@ -84,7 +84,7 @@ fn reached(station: &Station) -> Vec<u16> {
 /// Completed jumps must keep their count when another item becomes current, until a reset is requested (parameter 2),
 /// as MAVLink specifies.
 #[test]
-fn flight_jumps_count_on_until_the_mission_is_reset() {
+fn flight_jump_counts_persist_until_a_mission_reset() {
     for (reset, then) in [(0.0, vec![0, 1, 2, 3]), (1.0, vec![0, 1, 2, 0, 1, 2, 3])] {
         let mut station = Station::airborne("drill-hover", 7);
         let north = home_north(&station);
@@ -99,14 +99,14 @@ fn flight_jumps_count_on_until_the_mission_is_reset() {
         assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, p(&[])), OK);
         assert!(station.run_until(60.0, |s| reached(s) == [0, 1, 2]), "{:?}", reached(&station));
         assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT, p(&[0.0, reset])), OK);
-        assert!(station.run_until(120.0, |s| s.said("Mission finished")), "{:?}", station.place());
+        assert!(station.run_until(120.0, |s| s.has_text("Mission finished")), "{:?}", station.place());
         assert_eq!(reached(&station), then, "reset {reset}");
     }
 }
 
 /// Copter's spline items are flown as waypoints; PX4 does not have them.
 #[test]
-fn flight_a_copter_flies_a_spline_as_a_waypoint() {
+fn flight_copter_spline_is_flown_as_a_waypoint() {
     let mut station = copter_at(5.0);
     let north = home_north(&station);
     let spline = |seq, metres| item(seq, MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT, north + metres, 6.0);
@@ -120,7 +120,7 @@ fn flight_a_copter_flies_a_spline_as_a_waypoint() {
 
 /// The controlling client must keep the gimbal, but any client may end the vehicle's region of interest.
 #[test]
-fn flight_looking_ends_for_the_vehicle_while_the_gimbal_stays_with_its_holder() {
+fn flight_clearing_the_region_of_interest_keeps_gimbal_control() {
     let mut station = Station::airborne("drill-hover", 7);
     let place = |station: &mut Station, command| {
         let there = item(0, command, 60.0, 0.0);
@@ -145,7 +145,7 @@ fn flight_looking_ends_for_the_vehicle_while_the_gimbal_stays_with_its_holder() 
     assert_eq!(place(&mut station, MavCmd::MAV_CMD_DO_SET_ROI_LOCATION), Some(MavResult::MAV_RESULT_DENIED));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_ROI_NONE, p(&[])), OK);
     station.run_ms(20);
-    assert!(station.said("ROI cleared"), "{:?}", station.texts());
+    assert!(station.has_text("ROI cleared"), "{:?}", station.texts());
     // The vehicle must turn freely again: it turns south, although the region of interest is elsewhere.
     assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[180.0, 30.0, 1.0])), OK);
     station.run_ms(9_000);
@@ -155,7 +155,7 @@ fn flight_looking_ends_for_the_vehicle_while_the_gimbal_stays_with_its_holder() 
 
 /// After the motors stop in flight, the vehicle falls and respawns; its next landing must then end the flight as usual.
 #[test]
-fn flight_a_respawned_vehicle_lands_and_disarms() {
+fn flight_respawned_vehicle_can_land_and_disarm() {
     let mut station = Station::airborne("drill-hover", 7);
     // Flies away from the pad, where contact with the ground is a crash.
     for _ in 0..200 {
@@ -163,8 +163,8 @@ fn flight_a_respawned_vehicle_lands_and_disarms() {
         station.run_ms(20);
     }
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FLIGHTTERMINATION, one(1.0)), OK);
-    assert!(station.run_until(30.0, |s| s.said("Respawned at last safe hover")));
+    assert!(station.run_until(30.0, |s| s.has_text("Respawned at last safe hover")));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_LAND, p(&[])), OK);
-    assert!(station.run_until(60.0, |s| s.said("Disarmed")), "{:?}", station.place());
-    assert!(station.said("Disarmed by landing"), "{:?}", station.texts());
+    assert!(station.run_until(60.0, |s| s.has_text("Disarmed")), "{:?}", station.place());
+    assert!(station.has_text("Disarmed by landing"), "{:?}", station.texts());
 }

@@ -51,7 +51,7 @@ fn messages(sim: &mut Sim) -> Vec<(LinkId, &'static str)> {
 }
 
 #[test]
-fn wire_only_who_signs_is_obeyed_and_never_twice() {
+fn wire_only_signed_frames_are_accepted_and_only_once() {
     let mut sim = signed_vehicle();
     let (mut encoder, mut signing) = (Encoder::new(255, 190), Signing::new(key(), 9, NOW));
     let bare = lamp_on(&mut encoder);
@@ -69,7 +69,7 @@ fn wire_only_who_signs_is_obeyed_and_never_twice() {
 }
 
 #[test]
-fn wire_everything_the_vehicle_reports_is_signed() {
+fn wire_all_outgoing_frames_are_signed() {
     let mut sim = signed_vehicle();
     let until = sim.now() + spandrel_model::time::SimTime::from_ms(2_000);
     sim.handle_timeout(until);
@@ -90,7 +90,7 @@ fn wire_everything_the_vehicle_reports_is_signed() {
 }
 
 #[test]
-fn wire_a_sidecar_without_the_key_is_heard_by_others_and_commands_nothing() {
+fn wire_unsigned_sidecar_is_forwarded_but_cannot_command() {
     let mut sim = signed_vehicle();
     let mut monitor = Encoder::new(1, 191);
     sim.handle_datagram(SIDECAR, &monitor.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default())));
@@ -102,7 +102,7 @@ fn wire_a_sidecar_without_the_key_is_heard_by_others_and_commands_nothing() {
 }
 
 #[test]
-fn wire_an_unsigned_frame_acts_on_trusted_kinds_of_links_alone_and_a_forged_one_nowhere() {
+fn wire_unsigned_frames_require_a_trusted_link() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(SIDECAR, LinkKind::Sdk, false);
     sim.demand_signatures(key(), NOW, &[LinkKind::Sdk]);

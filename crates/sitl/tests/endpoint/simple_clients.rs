@@ -18,10 +18,10 @@ const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const PEER: LinkId = LinkId(9);
 const SIDECAR: LinkId = LinkId(10);
 /// Maximum position error, m: the mission's acceptance radius and the deceleration.
-const KEPT_M: f64 = 1.5;
+const POSITION_TOLERANCE_M: f64 = 1.5;
 
 /// Returns the senders of heartbeats in the order of their arrival.
-fn beats(station: &mut Station, ms: i64) -> Vec<u8> {
+fn heartbeat_senders(station: &mut Station, ms: i64) -> Vec<u8> {
     station.received.clear();
     station.run_ms(ms);
     let beat = |m: &Option<MavMessage>| matches!(m, Some(MavMessage::HEARTBEAT(_)));
@@ -29,7 +29,7 @@ fn beats(station: &mut Station, ms: i64) -> Vec<u8> {
 }
 
 #[test]
-fn regress_the_first_and_the_last_heartbeat_of_every_datagram_are_the_autopilots() {
+fn regress_autopilot_heartbeat_is_first_and_last_in_every_datagram() {
     let mut station = Station::new("drill-hover", 7);
     let until = station.sim.now() + SimTime::from_ms(20_000);
     let (mut autopilot, mut camera) = (0, 0);
@@ -50,10 +50,10 @@ fn regress_the_first_and_the_last_heartbeat_of_every_datagram_are_the_autopilots
 }
 
 #[test]
-fn regress_the_camera_beats_once_a_second_where_it_is_used_and_not_at_all_where_it_is_off() {
+fn regress_camera_heartbeat_depends_on_its_use() {
     let mut station = ready(7);
     station.command(100, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(259.0));
-    let used = beats(&mut station, 10_000);
+    let used = heartbeat_senders(&mut station, 10_000);
     assert_eq!(used.iter().filter(|component| **component == 100).count(), 10, "{used:?}");
     assert_eq!((used[0], used.len()), (1, 20), "the autopilot's heartbeat must come first: {used:?}");
     let set = |value: i32| {
@@ -67,7 +67,7 @@ fn regress_the_camera_beats_once_a_second_where_it_is_used_and_not_at_all_where_
     };
     station.send(&set(0));
     station.run_ms(20);
-    assert_eq!(beats(&mut station, 5_000), [1; 5]);
+    assert_eq!(heartbeat_senders(&mut station, 5_000), [1; 5]);
     assert_eq!(
         station.command(1, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, p(&[0.0, 0.0, 1.0])),
         ACCEPTED,
@@ -75,10 +75,10 @@ fn regress_the_camera_beats_once_a_second_where_it_is_used_and_not_at_all_where_
     );
     station.send(&set(1));
     station.run_ms(20);
-    assert!(beats(&mut station, 5_000).contains(&100));
+    assert!(heartbeat_senders(&mut station, 5_000).contains(&100));
     let mut silent = Station::new("drill-hover", 7);
     silent.sim.mute_camera_heartbeat();
-    assert!(!beats(&mut silent, 10_000).contains(&100));
+    assert!(!heartbeat_senders(&mut silent, 10_000).contains(&100));
 }
 
 fn boot_ms(station: &Station) -> u32 {
@@ -86,7 +86,7 @@ fn boot_ms(station: &Station) -> u32 {
 }
 
 #[test]
-fn regress_the_boot_clock_starts_again_with_the_autopilot_and_the_truths_goes_on() {
+fn regress_reboot_restarts_the_boot_clock_but_not_the_truth_clock() {
     let mut station = ready(7);
     station.sim.open_link(SIDECAR, LinkKind::Payload, false);
     station.run_ms(10_000);
@@ -113,7 +113,7 @@ fn regress_the_boot_clock_starts_again_with_the_autopilot_and_the_truths_goes_on
 }
 
 #[test]
-fn regress_gps_raw_reports_the_height_over_the_ellipsoid() {
+fn regress_gps_raw_reports_the_ellipsoid_height() {
     let station = ready(7);
     let (alt, ellipsoid) = station
         .last_message(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some((g.alt, g.alt_ellipsoid)) } else { None })
@@ -132,12 +132,12 @@ fn question(m: &MavMessage) -> Option<(u16, bool)> {
     }
 }
 
-fn counting(count: u16) -> MavMessage {
+fn mission_count(count: u16) -> MavMessage {
     MavMessage::MISSION_COUNT(MISSION_COUNT_DATA { count, target_system: 1, target_component: 1, ..Default::default() })
 }
 
 /// Returns an item in the older form, as sent by clients that do not support the newer one.
-fn older(item: &MISSION_ITEM_INT_DATA) -> MavMessage {
+fn to_mission_item(item: &MISSION_ITEM_INT_DATA) -> MavMessage {
     MavMessage::MISSION_ITEM(MISSION_ITEM_DATA {
         x: (f64::from(item.x) * 1e-7) as f32,
         y: (f64::from(item.y) * 1e-7) as f32,
@@ -153,28 +153,28 @@ fn older(item: &MISSION_ITEM_INT_DATA) -> MavMessage {
 }
 
 #[test]
-fn regress_a_copter_asks_for_items_by_the_older_request() {
+fn regress_copter_requests_items_with_mission_request() {
     let mut station = copter();
     let home = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0);
     let there = item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, 10.0, 5.0);
-    assert_eq!(station.ask(&counting(2), question), Some((0, true)));
-    assert_eq!(station.ask(&older(&home), question), Some((1, true)));
-    let done = station.ask(&older(&there), |m| if let MavMessage::MISSION_ACK(a) = m { Some(a.mavtype) } else { None });
+    assert_eq!(station.ask(&mission_count(2), question), Some((0, true)));
+    assert_eq!(station.ask(&to_mission_item(&home), question), Some((1, true)));
+    let done = station.ask(&to_mission_item(&there), |m| if let MavMessage::MISSION_ACK(a) = m { Some(a.mavtype) } else { None });
     assert_eq!(done, Some(MavMissionResult::MAV_MISSION_ACCEPTED));
 }
 
 #[test]
-fn regress_an_uploader_that_knows_one_request_only_is_asked_by_it() {
+fn regress_upload_uses_the_request_form_that_the_client_answers() {
     let mut station = ready(7);
     let items = [0, 1, 2].map(|seq| item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(seq), 5.0));
     // A client that responds only to the older request.
-    assert_eq!(station.ask(&counting(3), question), Some((0, false)));
+    assert_eq!(station.ask(&mission_count(3), question), Some((0, false)));
     station.received.clear();
     assert!(station.run_until(3.0, |s| s.last_message(question) == Some((0, true))), "the other form must be tried");
-    assert_eq!(station.ask(&older(&items[0]), question), Some((1, true)), "the form that was answered must be kept");
-    assert_eq!(station.ask(&older(&items[1]), question), Some((2, true)));
+    assert_eq!(station.ask(&to_mission_item(&items[0]), question), Some((1, true)), "the form that was answered must be kept");
+    assert_eq!(station.ask(&to_mission_item(&items[1]), question), Some((2, true)));
     // If a client rejects one form, the other must be used immediately.
-    assert_eq!(station.ask(&counting(3), question), Some((0, false)));
+    assert_eq!(station.ask(&mission_count(3), question), Some((0, false)));
     let refusal = MavMessage::MISSION_ACK(MISSION_ACK_DATA {
         mavtype: MavMissionResult::MAV_MISSION_UNSUPPORTED,
         target_system: 1,
@@ -197,7 +197,7 @@ fn place(station: &mut Station) -> (f64, f64) {
 }
 
 #[test]
-fn regress_zero_in_a_copters_item_is_where_it_is_then() {
+fn regress_zero_position_in_a_copter_item_means_the_current_position() {
     let mut station = copter();
     let (_, pad_m) = place(&mut station);
     let open = |seq, command, z| MISSION_ITEM_INT_DATA { x: 0, y: 0, ..item(seq, command, 0.0, z) };
@@ -224,31 +224,34 @@ fn regress_zero_in_a_copters_item_is_where_it_is_then() {
     assert!(station.run_until(120.0, |s| reached(s, 4)), "{:?}", station.texts());
     let (north, up) = place(&mut station);
     assert!(
-        (north - 12.0).abs() < KEPT_M && (up - pad_m - 9.0).abs() < KEPT_M,
+        (north - 12.0).abs() < POSITION_TOLERANCE_M && (up - pad_m - 9.0).abs() < POSITION_TOLERANCE_M,
         "vertical takeoff: {north} m north, {} m up",
         up - pad_m
     );
     assert!(station.run_until(120.0, |s| reached(s, 7)), "{:?}", station.texts());
     let (north, up) = place(&mut station);
     assert!(
-        (north - 20.0).abs() < KEPT_M && (up - pad_m - 9.0).abs() < KEPT_M,
+        (north - 20.0).abs() < POSITION_TOLERANCE_M && (up - pad_m - 9.0).abs() < POSITION_TOLERANCE_M,
         "at the current height: {north} m north, {} m up",
         up - pad_m
     );
     let home =
         station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(f64::from(h.altitude) * 1e-3) } else { None });
-    assert!(home.is_none_or(|home| (home - pad_m - 9.0).abs() < KEPT_M), "home must be at the position of item 5: {home:?}");
+    assert!(
+        home.is_none_or(|home| (home - pad_m - 9.0).abs() < POSITION_TOLERANCE_M),
+        "home must be at the position of item 5: {home:?}"
+    );
 }
 
 #[test]
-fn regress_home_at_zero_is_where_a_copter_is_and_nowhere_for_px4() {
+fn regress_home_at_zero_means_the_current_position_only_for_copter() {
     let mut station = copter_at(6.0);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), ACCEPTED);
     station.run_ms(100);
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     let up = station
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None });
-    assert!(up.is_some_and(|up| up.abs() < KEPT_M), "home must be at the hover position: {up:?} m above it");
+    assert!(up.is_some_and(|up| up.abs() < POSITION_TOLERANCE_M), "home must be at the hover position: {up:?} m above it");
     assert_eq!(ready(7).command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
 
@@ -259,7 +262,7 @@ fn answer(clock: i64, token: i64) -> Vec<u8> {
 }
 
 #[test]
-fn regress_lockstep_begins_with_a_peers_first_answer() {
+fn regress_lockstep_starts_with_the_first_response() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(PEER, LinkKind::Sdk, true);
     let heard = |sim: &mut spandrel_sitl::sim::Sim| -> Vec<MavMessage> {
@@ -297,7 +300,7 @@ fn regress_lockstep_begins_with_a_peers_first_answer() {
 }
 
 #[test]
-fn regress_the_digest_holds_what_acts_and_no_clock_of_a_client() {
+fn regress_digest_does_not_depend_on_client_clocks() {
     let fly = |clock: u32, north: f32| {
         let mut station = Station::new("drill-hover", 7);
         station.sim.open_link(PEER, LinkKind::Sdk, true);
@@ -332,10 +335,10 @@ fn regress_the_digest_holds_what_acts_and_no_clock_of_a_client() {
 }
 
 #[test]
-fn exact_the_pad_of_these_tests_is_the_drills() {
+fn exact_test_pad_matches_the_drill() {
     let job = scenario("drill-hover");
     let plane = LocalPlane::new(job.origin);
     let pad = Geo { latitude_deg: f64::from(PAD.0) * 1e-7, longitude_deg: f64::from(PAD.1) * 1e-7, ..job.origin };
     let off = plane.enu_from_geo(pad) - job.ground_team.pad_m;
-    assert!(off.ned().horizontal_norm() < KEPT_M, "{off:?}");
+    assert!(off.ned().horizontal_norm() < POSITION_TOLERANCE_M, "{off:?}");
 }

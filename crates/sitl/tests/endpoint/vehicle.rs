@@ -6,7 +6,7 @@ use spandrel_mavlink::dialect::{
 use spandrel_testkit::station::Station;
 
 #[test]
-fn wire_the_first_heartbeat_comes_at_once_and_the_vehicle_is_armable_within_two_seconds() {
+fn wire_heartbeat_is_immediate_and_arming_possible_within_2_s() {
     let mut station = Station::new("two-bridges", 7);
     station.run_ms(100);
     assert!(station.last_message(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(())).is_some(), "heartbeat within 0.1 s");
@@ -22,7 +22,7 @@ fn wire_the_first_heartbeat_comes_at_once_and_the_vehicle_is_armable_within_two_
 }
 
 #[test]
-fn wire_every_command_is_answered_at_once() {
+fn wire_commands_are_answered_immediately() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(500);
     let commands = [
@@ -49,7 +49,7 @@ fn wire_every_command_is_answered_at_once() {
 }
 
 #[test]
-fn wire_the_parameter_list_is_complete() {
+fn wire_parameter_list_is_complete() {
     let mut station = Station::new("drill-hover", 7);
     station.send(&MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 0 }));
     station.run_ms(500);
@@ -69,7 +69,7 @@ fn wire_the_parameter_list_is_complete() {
 }
 
 #[test]
-fn wire_an_empty_mission_is_counted_as_such() {
+fn wire_empty_mission_has_count_zero() {
     let mut station = Station::new("drill-hover", 7);
     for kind in
         [MavMissionType::MAV_MISSION_TYPE_MISSION, MavMissionType::MAV_MISSION_TYPE_FENCE, MavMissionType::MAV_MISSION_TYPE_RALLY]
@@ -89,7 +89,7 @@ fn wire_an_empty_mission_is_counted_as_such() {
 }
 
 #[test]
-fn wire_flown_by_hand_it_climbs_photographs_and_lights_up() {
+fn wire_manual_flight_with_pictures_and_lamp() {
     let mut station = Station::airborne("two-bridges", 7);
     let up = station.last_message(|m| match m {
         MavMessage::LOCAL_POSITION_NED(p) => Some(-p.z),
@@ -116,7 +116,7 @@ fn wire_flown_by_hand_it_climbs_photographs_and_lights_up() {
 }
 
 #[test]
-fn flight_the_same_inputs_give_the_same_digest_also_from_a_snapshot() {
+fn flight_same_inputs_give_the_same_digest_also_from_a_snapshot() {
     let mut a = Station::airborne("two-bridges", 7);
     let mut b = Station::airborne("two-bridges", 7);
     let mut snapshot = a.sim.clone();

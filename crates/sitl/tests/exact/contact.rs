@@ -38,7 +38,7 @@ impl Plate {
 impl Obstacles for Plate {
     fn contacts(&self, probe: &HullProbe, margin_m: f64, _: SimTime, out: &mut Vec<Contact>) {
         match *probe {
-            HullProbe::Ball { centre_m, radius_m } => self.touch(centre_m, radius_m, margin_m, out),
+            HullProbe::Ball { center_m, radius_m } => self.touch(center_m, radius_m, margin_m, out),
             HullProbe::Capsule { a_m, b_m, radius_m } => {
                 self.touch(a_m, radius_m, margin_m, out);
                 self.touch(b_m, radius_m, margin_m, out);
@@ -71,7 +71,7 @@ fn run(plate: &Plate, state: &mut PhysicsState, steps: i64, mut each: impl FnMut
 }
 
 #[test]
-fn exact_a_standing_aircraft_stays_where_it_stands() {
+fn exact_aircraft_at_rest_does_not_drift() {
     // Drift in 60 s, m, and relative tolerance of the force.
     const DRIFT_M: f64 = 1e-6;
     const FORCE: f64 = 1e-6;
@@ -91,7 +91,7 @@ fn exact_a_standing_aircraft_stays_where_it_stands() {
 }
 
 #[test]
-fn exact_a_dropped_aircraft_comes_to_rest_on_its_feet() {
+fn exact_dropped_aircraft_comes_to_rest_on_its_feet() {
     // Tolerance of the height, m.
     const TOLERANCE: f64 = 1e-3;
     let mut state = at(0.8);
@@ -101,7 +101,7 @@ fn exact_a_dropped_aircraft_comes_to_rest_on_its_feet() {
 }
 
 #[test]
-fn exact_a_bounce_gains_no_energy() {
+fn exact_bounce_does_not_gain_energy() {
     let mut state = at(1.5);
     state.rigid.attitude = Rotation::from_euler(0.4, 0.2, 0.0);
     state.rigid.velocity_m_s = Vec3::new(2.0, 0.0, 0.0);
@@ -120,7 +120,7 @@ fn exact_a_bounce_gains_no_energy() {
 }
 
 #[test]
-fn exact_friction_stays_in_its_cone() {
+fn exact_friction_stays_within_its_cone() {
     let mut state = at(STANDING_M);
     state.rigid.velocity_m_s = Vec3::new(3.0, 0.0, 0.0);
     let mut before = 3.0;
@@ -134,7 +134,7 @@ fn exact_friction_stays_in_its_cone() {
 }
 
 #[test]
-fn exact_nothing_passes_a_five_centimetre_plate_at_thirty_metres_a_second() {
+fn exact_thin_plate_stops_aircraft_at_30_m_s() {
     let plate = Plate { top_m: 0.0, thick_m: 0.05 };
     for (roll, start) in [(0.0, 2.013), (0.7, 1.987), (1.5, 2.001), (3.1, 2.029)] {
         let mut state = at(start);

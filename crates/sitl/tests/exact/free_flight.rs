@@ -92,7 +92,7 @@ fn exact_hover_thrust_balances_weight() {
 }
 
 #[test]
-fn exact_motor_step_reaches_its_share_at_the_time_constant() {
+fn exact_motor_step_follows_its_time_constant() {
     // Relative tolerance; the exponential is exact.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
@@ -115,7 +115,7 @@ fn brick() -> (AirframeModel, PhysicsState) {
 }
 
 #[test]
-fn val_tumbling_brick_matches_the_nesc_case_02_figures() {
+fn val_tumbling_brick_matches_nesc_case_02() {
     // Tolerance compared with simulator 04 of the check case, deg/s.
     const TOLERANCE: f64 = 1e-8;
     let (model, mut state) = brick();
@@ -155,7 +155,7 @@ fn exact_tumbling_keeps_energy_and_angular_momentum() {
 }
 
 #[test]
-fn exact_the_integrator_is_of_fourth_order() {
+fn exact_integrator_is_fourth_order() {
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let air = AirState { velocity_m_s: Vec3::new(3.0, -2.0, 0.5), ..AirState::STILL };
     let motors = [0.62, 0.58, 0.60, 0.61, 0.0, 0.0, 0.0, 0.0];
@@ -174,7 +174,7 @@ fn exact_the_integrator_is_of_fourth_order() {
 }
 
 #[test]
-fn exact_wind_pushes_a_free_body_where_it_blows() {
+fn exact_wind_pushes_a_free_body_downwind() {
     let mut vehicle = bare();
     vehicle.drag.area_m2 = [0.05; 3];
     let mut state = start();
@@ -184,7 +184,7 @@ fn exact_wind_pushes_a_free_body_where_it_blows() {
 }
 
 #[test]
-fn exact_only_the_speed_through_the_air_counts() {
+fn exact_drag_depends_on_airspeed() {
     // Tolerance, m/s.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
@@ -200,7 +200,7 @@ fn exact_only_the_speed_through_the_air_counts() {
 }
 
 #[test]
-fn exact_no_heading_is_preferred() {
+fn exact_motion_does_not_depend_on_heading() {
     // Tolerance, m.
     const TOLERANCE: f64 = 1e-9;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
@@ -216,7 +216,7 @@ fn exact_no_heading_is_preferred() {
 }
 
 #[test]
-fn exact_one_rotor_pulls_and_turns_as_force_times_arm() {
+fn exact_rotor_torque_is_force_times_arm() {
     // Tolerance for a few roundings, N and N m.
     const TOLERANCE: f64 = 1e-14;
     let vehicle = quad();
@@ -230,7 +230,7 @@ fn exact_one_rotor_pulls_and_turns_as_force_times_arm() {
 }
 
 #[test]
-fn exact_the_paper_battery_is_empty_after_its_endurance() {
+fn exact_tasbid_battery_is_empty_after_its_endurance() {
     // Tolerance for the rounding of 1.5 million subtractions, %.
     const TOLERANCE: f64 = 1e-7;
     let mut vehicle = bare();
@@ -245,7 +245,7 @@ fn exact_the_paper_battery_is_empty_after_its_endurance() {
 }
 
 #[test]
-fn exact_the_physical_battery_obeys_ohm_and_counts_its_charge() {
+fn exact_physical_battery_follows_ohms_law_and_integrates_charge() {
     // Rounding tolerance, V and A; and relative tolerance of the charge, because the current changes slightly during
     // the second.
     const ROUNDING: f64 = 1e-9;

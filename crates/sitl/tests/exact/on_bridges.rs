@@ -62,7 +62,7 @@ fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> V
     let bridge = scenario.bridges.iter().find(|b| b.name == name).unwrap();
     let k = site.members().iter().position(|m| m.name == member).unwrap_or_else(|| panic!("no {member}"));
     let high = site.geometry().shape(k).unwrap().bounds().1.up() + 1.0;
-    let from = bridge.placement().point([x, y, high - bridge.centre_m.up()]);
+    let from = bridge.placement().point([x, y, high - bridge.center_m.up()]);
     let down = Vec3::new(0.0, 0.0, -1.0);
     let (distance, _) = site
         .geometry()
@@ -80,7 +80,7 @@ fn lowest_m(vehicle: &Vehicle) -> f64 {
 }
 
 #[test]
-fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
+fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
     // Maximum drift in 5 s, m, after one second of settling from a height of about a centimeter.
     const DRIFT_M: f64 = 1e-3;
     // Relative tolerance of the mean force over 5 s.
@@ -119,7 +119,7 @@ fn exact_set_down_on_a_bridge_an_aircraft_stays_within_a_millimetre() {
 }
 
 #[test]
-fn exact_standing_on_the_pad_an_aircraft_stays_where_it_stands() {
+fn exact_aircraft_on_the_pad_does_not_drift() {
     // Maximum drift in 60 s, m, and relative tolerance of the mean normal force.
     const DRIFT_M: f64 = 1e-6;
     const FORCE: f64 = 1e-6;
@@ -142,7 +142,7 @@ fn exact_standing_on_the_pad_an_aircraft_stays_where_it_stands() {
 }
 
 #[test]
-fn exact_a_tilted_aircraft_dropped_on_the_edge_of_a_beam_topples_outwards() {
+fn exact_tilted_aircraft_on_a_beam_edge_falls_outward() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     let model = AirframeModel::new(&vehicles()[0], BatteryModel::Paper);
@@ -169,7 +169,7 @@ fn exact_a_tilted_aircraft_dropped_on_the_edge_of_a_beam_topples_outwards() {
 }
 
 #[test]
-fn exact_a_tilted_aircraft_dropped_on_the_deck_stands_up() {
+fn exact_tilted_aircraft_on_the_deck_comes_to_rest_upright() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     let vehicle = &vehicles()[0];
@@ -182,14 +182,14 @@ fn exact_a_tilted_aircraft_dropped_on_the_deck_stands_up() {
 }
 
 /// Checks that the arms do not penetrate anything: there must be no obstacle between the center and the hubs.
-fn nothing_is_within(vehicle: &Vehicle, site: &Site, s: &PhysicsState) -> bool {
+fn is_free_of_obstacles(vehicle: &Vehicle, site: &Site, s: &PhysicsState) -> bool {
     let centre = s.rigid.position_m.enu();
     let mut all = vehicle.rotors.iter().map(|r| (s.rigid.attitude * r.position_m).enu());
     all.all(|arm| site.geometry().ray(centre, arm.unit(), arm.norm()).is_none())
 }
 
 #[test]
-fn exact_nothing_passes_a_member_at_thirty_metres_a_second() {
+fn exact_members_stop_aircraft_at_30_m_s() {
     const SPEED_M_S: f64 = 30.0;
     let site = Site::build(&scenario(), 3);
     let mut random = RandomStream::new(5, "shots");
@@ -237,7 +237,7 @@ fn exact_nothing_passes_a_member_at_thirty_metres_a_second() {
                     let step = now - before;
                     let way = site.geometry().ray(before, step.unit(), step.norm());
                     assert!(step.norm() == 0.0 || way.is_none(), "{} went through {:?} at {member}", vehicle.id, way);
-                    assert!(nothing_is_within(vehicle, &site, s), "{}: an arm penetrates an obstacle at {member}", vehicle.id);
+                    assert!(is_free_of_obstacles(vehicle, &site, s), "{}: an arm penetrates an obstacle at {member}", vehicle.id);
                     before = now;
                     touched |= s.contact.touching();
                 });
@@ -264,7 +264,7 @@ impl Obstacles for Always<'_> {
 }
 
 #[test]
-fn exact_leaving_contact_out_where_all_is_free_changes_no_bit() {
+fn exact_skipping_contact_queries_in_clear_space_changes_nothing() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     let model = AirframeModel::new(&vehicles()[0], BatteryModel::Paper);

@@ -12,7 +12,7 @@ use spandrel_testkit::shipped::vehicle;
 const NEAR_M: f64 = 1.5;
 
 #[test]
-fn flight_every_aircraft_is_armable_within_two_seconds() {
+fn flight_every_aircraft_can_arm_within_2_s() {
     for name in VEHICLES {
         let mut bench = Bench::new(&vehicle(name), 1);
         let reasons = bench.autopilot.arming_reasons(bench.now);
@@ -24,7 +24,7 @@ fn flight_every_aircraft_is_armable_within_two_seconds() {
 }
 
 #[test]
-fn flight_arming_is_refused_with_every_reason_named() {
+fn flight_arming_rejection_lists_all_reasons() {
     let mut bench = Bench::new(&vehicle("phantom2"), 1);
     bench.jammed = true;
     bench.run(2.0, |_| ());
@@ -38,7 +38,7 @@ fn flight_arming_is_refused_with_every_reason_named() {
 }
 
 #[test]
-fn flight_takes_off_holds_and_lands_where_it_was() {
+fn flight_takeoff_hold_and_landing_at_the_same_position() {
     // Height tolerance, m: offset of the barometer and the receiver's part of the height error.
     const HEIGHT_M: f64 = 0.8;
     for name in VEHICLES {
@@ -58,7 +58,7 @@ fn flight_takes_off_holds_and_lands_where_it_was() {
 }
 
 #[test]
-fn flight_takes_off_and_lands_by_the_sticks() {
+fn flight_takeoff_and_landing_with_sticks() {
     for name in VEHICLES {
         let mut bench = Bench::new(&vehicle(name), 2);
         bench.sticks = Some(Sticks::default());
@@ -82,7 +82,7 @@ fn flight_takes_off_and_lands_by_the_sticks() {
 }
 
 #[test]
-fn flight_a_return_comes_home_and_lands() {
+fn flight_return_lands_at_home() {
     for name in VEHICLES {
         let mut bench = Bench::airborne(&vehicle(name), 6, 6.0);
         bench.autopilot.tuning.return_height_m = 12.0;
@@ -106,7 +106,7 @@ fn point(north: f64, east: f64, up: f64) -> MissionStep {
 }
 
 #[test]
-fn flight_a_mission_is_flown_in_order_and_ends_on_the_ground() {
+fn flight_mission_is_flown_in_order_and_lands() {
     let mut bench = Bench::new(&vehicle("phantom2"), 7);
     bench.autopilot.set_mission(vec![
         MissionStep::Takeoff { up_m: Some(5.0) },
@@ -136,7 +136,7 @@ fn flight_a_mission_is_flown_in_order_and_ends_on_the_ground() {
 }
 
 #[test]
-fn flight_external_set_points_are_followed_and_their_loss_leads_to_hold() {
+fn flight_setpoints_are_followed_and_their_loss_leads_to_hold() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 8, 6.0);
     let refused = bench.autopilot.request(AutopilotRequest::SetMode(FlightMode::Offboard), bench.now);
     assert!(matches!(refused, RequestOutcome::TemporarilyRejected(_)), "{refused:?}");
@@ -156,7 +156,7 @@ fn flight_external_set_points_are_followed_and_their_loss_leads_to_hold() {
 }
 
 #[test]
-fn regress_the_same_seed_flies_the_same_bits() {
+fn regress_same_seed_gives_identical_flights() {
     let fly = |seed| {
         let mut bench = Bench::airborne(&vehicle("f450"), seed, 4.0);
         bench.air.velocity_m_s = Vec3::new(2.0, 1.0, 0.0);
@@ -168,7 +168,7 @@ fn regress_the_same_seed_flies_the_same_bits() {
 }
 
 #[test]
-fn regress_a_clone_in_mid_flight_goes_on_with_the_same_bits() {
+fn regress_clone_in_flight_continues_identically() {
     let mut bench = Bench::airborne(&vehicle("m30"), 9, 4.0);
     bench.ask(AutopilotRequest::GoTo {
         north_east_m: Some((8.0, 3.0)),

@@ -119,12 +119,12 @@ impl Run {
         let dt = SimTime::from_ns(TICK.ns() / SUBSTEPS);
         for _ in 0..SUBSTEPS {
             let (a, b) = (velocity(self.now.s()), velocity((self.now + dt).s()));
-            let mid = self.rigid.attitude.turned_by(rates(self.now.s(), self.rocking_rad_s) * (0.5 * dt.s()));
+            let mid = self.rigid.attitude.rotated_by(rates(self.now.s(), self.rocking_rad_s) * (0.5 * dt.s()));
             let felt = mid.inverse() * ((b - a) / dt.s() - Vec3::new(0.0, 0.0, math::GRAVITY_M_S2));
             self.rigid.position_m += (a + b) * (0.5 * dt.s());
             self.rigid.velocity_m_s = b;
             self.rigid.rates_rad_s = rates(self.now.s(), self.rocking_rad_s);
-            self.rigid.attitude = self.rigid.attitude.turned_by(self.rigid.rates_rad_s * dt.s());
+            self.rigid.attitude = self.rigid.attitude.rotated_by(self.rigid.rates_rad_s * dt.s());
             self.sensors.integrate_imu(&self.rigid, felt, dt);
             self.now += dt;
         }
@@ -197,12 +197,12 @@ fn assert_consistent(what: &str, new: impl Fn(u64, Shadow) -> Run) {
 }
 
 #[test]
-fn prop_the_normalised_error_lies_in_its_own_95_percent_band_over_fifty_seeds() {
+fn prop_normalized_error_is_within_its_95_percent_band() {
     assert_consistent("without flow", Run::new);
 }
 
 #[test]
-fn prop_the_normalised_error_lies_in_its_band_with_every_shipped_aircrafts_sensors() {
+fn prop_normalized_error_is_within_its_band_for_every_supplied_aircraft() {
     for name in VEHICLES {
         let vehicle = vehicle(name);
         assert!(vehicle.sensors.flow_velocity_m_s > 0.0, "{name} has no optical flow, so the test is pointless");
@@ -211,7 +211,7 @@ fn prop_the_normalised_error_lies_in_its_band_with_every_shipped_aircrafts_senso
 }
 
 #[test]
-fn prop_ten_seconds_without_gnss_make_error_and_covariance_grow_together_and_recover() {
+fn prop_error_and_covariance_grow_and_recover_together_without_gnss() {
     let (from, until) = (SimTime::from_ms(20_000), SimTime::from_ms(30_000));
     let (mut before, mut blind, mut after) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let mut nees = 0.0;

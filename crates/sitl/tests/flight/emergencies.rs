@@ -7,7 +7,7 @@ use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
 #[test]
-fn flight_lost_sticks_lead_to_hold_and_found_ones_give_the_mode_back() {
+fn flight_stick_loss_holds_and_recovery_restores_the_mode() {
     let mut bench = Bench::by_hand(&vehicle("phantom2"), 5, 6.0);
     bench.sticks = Some(Sticks { forward: 0.3, ..Sticks::default() });
     bench.run(2.0, |_| ());
@@ -53,7 +53,7 @@ fn flight_a_lost_ground_station_acts_if_enabled() {
 }
 
 #[test]
-fn flight_minutes_without_satellites_stay_controllable_where_flow_sees_a_surface() {
+fn flight_without_satellites_is_controllable_with_optical_flow() {
     // Maximum drift in two minutes, m.
     const DRIFT_M: f64 = 2.0;
     for name in VEHICLES {
@@ -69,7 +69,7 @@ fn flight_minutes_without_satellites_stay_controllable_where_flow_sees_a_surface
 }
 
 #[test]
-fn flight_without_satellites_and_flow_the_pilot_keeps_height_and_tilt_and_gets_position_back() {
+fn flight_without_position_keeps_height_and_tilt_control() {
     // Maximum change of height in two minutes, m: drift of the barometer.
     const HEIGHT_M: f64 = 1.0;
     for name in VEHICLES {
@@ -96,7 +96,7 @@ fn flight_without_satellites_and_flow_the_pilot_keeps_height_and_tilt_and_gets_p
 }
 
 #[test]
-fn flight_without_satellites_flow_and_pilot_it_lands() {
+fn flight_without_position_and_pilot_lands() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 9, 4.0);
     (bench.jammed, bench.dark) = (true, true);
     bench.run(90.0, |_| ());
@@ -159,26 +159,26 @@ fn flight_a_takeoff_with_a_low_battery_returns_once() {
 }
 
 #[test]
-fn flight_an_upset_is_mended_in_the_air() {
+fn flight_recovers_from_an_upset() {
     // Limits of the lost height, m, and recovery time, s, for a body that was turned upside down.
-    const FALL_M: f64 = 14.0;
-    const MENDED_S: f64 = 5.0;
+    const MAX_HEIGHT_LOSS_M: f64 = 14.0;
+    const RECOVERY_S: f64 = 5.0;
     for name in VEHICLES {
         let mut bench = Bench::airborne(&vehicle(name), 12, 25.0);
         let height = bench.position().down();
         bench.state.rigid.rates_rad_s = Vec3::new(14.0, 3.0, 2.0);
         bench.run(0.2, |_| ());
         let mut fall: f64 = 0.0;
-        bench.run(MENDED_S, |b| fall = fall.max(b.position().down() - height));
+        bench.run(RECOVERY_S, |b| fall = fall.max(b.position().down() - height));
         let down = (bench.state.rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
-        assert!(down > 0.95 && fall < FALL_M, "{name}: fell {fall} m, upright {down}");
+        assert!(down > 0.95 && fall < MAX_HEIGHT_LOSS_M, "{name}: fell {fall} m, upright {down}");
         bench.run(10.0, |_| ());
         assert!(bench.state.rigid.velocity_m_s.norm() < 0.3, "{name}: {:?}", bench.state.rigid.velocity_m_s);
     }
 }
 
 #[test]
-fn flight_lying_on_its_back_it_stops_the_motors() {
+fn flight_upside_down_on_the_ground_stops_the_motors() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 13, 3.0);
     bench.state.rigid.attitude = Rotation::from_euler(math::PI, 0.0, 0.0);
     bench.state.rigid.position_m = Vec3::<Ned>::new(0.0, 0.0, -0.15);
@@ -189,7 +189,7 @@ fn flight_lying_on_its_back_it_stops_the_motors() {
 }
 
 #[test]
-fn flight_respawned_in_the_air_it_hovers_there() {
+fn flight_respawned_vehicle_hovers() {
     for name in VEHICLES {
         let mut bench = Bench::by_hand(&vehicle(name), 14, 5.0);
         bench.ask(AutopilotRequest::Disarm { force: true });
@@ -209,7 +209,7 @@ fn flight_respawned_in_the_air_it_hovers_there() {
 }
 
 #[test]
-fn flight_moved_sticks_take_over_from_an_automatic_mode() {
+fn flight_stick_movement_interrupts_automatic_modes() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 15, 5.0);
     bench.sticks = Some(Sticks { up: -1.0, ..Sticks::default() });
     bench.ask(AutopilotRequest::SetMode(FlightMode::Position));

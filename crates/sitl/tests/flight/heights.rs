@@ -8,13 +8,13 @@ use spandrel_sitl::sensors::Readings;
 
 /// Final value of a sensor's slow error, m, and start and end of its growth, s.
 const ERROR_M: f64 = 6.0;
-const GROWS_S: (f64, f64) = (20.0, 80.0);
+const GROWTH_INTERVAL_S: (f64, f64) = (20.0, 80.0);
 /// The height follows a sensor if it is within this distance of it, and does not follow one if it shows less than this
 /// of its error, m (the receiver alone: 0.64 m, 1 sigma).
 const NEAR_M: f64 = 1.5;
 
-fn grown_m(now: SimTime) -> f64 {
-    ERROR_M * ((now.s() - GROWS_S.0) / (GROWS_S.1 - GROWS_S.0)).clamp(0.0, 1.0)
+fn error_at_m(now: SimTime) -> f64 {
+    ERROR_M * ((now.s() - GROWTH_INTERVAL_S.0) / (GROWTH_INTERVAL_S.1 - GROWTH_INTERVAL_S.0)).clamp(0.0, 1.0)
 }
 
 /// A test case with a slow change, either in the readings or of the ground.
@@ -44,21 +44,21 @@ impl Case {
 fn nothing_changes(_: &mut Readings, _: SimTime) {}
 
 fn ground_sinks(now: SimTime) -> f64 {
-    -grown_m(now)
+    -error_at_m(now)
 }
 
 fn barometer_rises(readings: &mut Readings, now: SimTime) {
-    readings.baro_up_m = readings.baro_up_m.map(|up| up + grown_m(now));
+    readings.baro_up_m = readings.baro_up_m.map(|up| up + error_at_m(now));
 }
 
 fn receiver_rises(readings: &mut Readings, now: SimTime) {
     if let Some(fix) = &mut readings.gnss {
-        fix.position_m += Vec3::new(0.0, 0.0, -grown_m(now));
+        fix.position_m += Vec3::new(0.0, 0.0, -error_at_m(now));
     }
 }
 
 #[test]
-fn regress_the_height_follows_the_sensor_that_is_its_reference() {
+fn regress_height_follows_its_reference_sensor() {
     use HeightReference::{Barometer, Gnss, RangeFinder};
     let case = |reference, change, ground_up_m, wanted_m| Case { reference, change, ground_up_m, wanted_m };
     let cases = [
@@ -77,7 +77,7 @@ fn regress_the_height_follows_the_sensor_that_is_its_reference() {
 }
 
 #[test]
-fn regress_a_reference_that_falls_silent_gives_way_to_gnss() {
+fn regress_gnss_replaces_a_lost_height_reference() {
     let silent = |readings: &mut Readings, now: SimTime| {
         barometer_rises(readings, now);
         if now > SimTime::from_s(90.0) {

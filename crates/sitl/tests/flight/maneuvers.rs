@@ -15,9 +15,9 @@ fn stick(share: f64) -> f64 {
 }
 
 #[test]
-fn flight_a_hover_is_steady() {
+fn flight_hover_is_steady() {
     // Maximum deviation, m: the receiver's slow drift of 0.4 m (1 sigma) over half a minute.
-    const STRAY_M: f64 = 0.8;
+    const MAX_DEVIATION_M: f64 = 0.8;
     // Maximum tilt, rad: one and a half degrees.
     const LEAN_RAD: f64 = 0.026;
     // Maximum speed, m/s.
@@ -32,12 +32,12 @@ fn flight_a_hover_is_steady() {
             lean = lean.max(roll.abs()).max(pitch.abs());
             speed = speed.max(b.state.rigid.velocity_m_s.norm());
         });
-        assert!(stray < STRAY_M && lean < LEAN_RAD && speed < SPEED_M_S, "{name}: {stray} m, {lean} rad, {speed} m/s");
+        assert!(stray < MAX_DEVIATION_M && lean < LEAN_RAD && speed < SPEED_M_S, "{name}: {stray} m, {lean} rad, {speed} m/s");
     }
 }
 
 #[test]
-fn flight_a_step_on_the_stick_gives_the_speed_and_letting_go_stops_within_the_slow_down_time() {
+fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
     // Tolerance of the velocity estimate, m/s.
     const SPEED_M_S: f64 = 0.2;
     // Limits as fractions of the speed: overshoot, and remaining speed that counts as stopped.
@@ -79,7 +79,7 @@ fn flight_a_step_on_the_stick_gives_the_speed_and_letting_go_stops_within_the_sl
 }
 
 #[test]
-fn flight_full_stick_reaches_the_full_speed_in_every_axis() {
+fn flight_full_stick_reaches_full_speed_on_every_axis() {
     // Tolerance as a fraction of the full speed.
     const SHORT: f64 = 0.06;
     for name in VEHICLES {
@@ -103,7 +103,7 @@ fn flight_full_stick_reaches_the_full_speed_in_every_axis() {
 }
 
 #[test]
-fn flight_a_circle_by_stick_is_round() {
+fn flight_stick_flown_circle_is_round() {
     // Tolerance as a fraction of the radius.
     const ROUND: f64 = 0.08;
     for name in VEHICLES {
@@ -128,9 +128,9 @@ fn flight_a_circle_by_stick_is_round() {
 }
 
 #[test]
-fn flight_a_gust_is_ridden_out() {
+fn flight_recovers_from_a_gust() {
     // Maximum deviation after a wind step of 6 m/s, m, and deviation that remains after a quarter of a minute.
-    const STRAY_M: f64 = 0.9;
+    const MAX_DEVIATION_M: f64 = 0.9;
     const LEFT_M: f64 = 0.6;
     for name in VEHICLES {
         let mut bench = Bench::by_hand(&vehicle(name), 4, 8.0);
@@ -139,14 +139,14 @@ fn flight_a_gust_is_ridden_out() {
         let mut worst: f64 = 0.0;
         bench.run(15.0, |b| worst = worst.max((b.position() - start).norm()));
         let left = (bench.position() - start).norm();
-        assert!(worst < STRAY_M && left < LEFT_M, "{name}: strayed {worst} m, left {left} m");
+        assert!(worst < MAX_DEVIATION_M && left < LEFT_M, "{name}: strayed {worst} m, left {left} m");
         let nose = bench.state.rigid.attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
         assert!(nose.down() < 0.0, "{name} must lean back against wind from behind: {nose:?}");
     }
 }
 
 #[test]
-fn flight_all_sticks_at_once_saturate_the_motors_and_stay_upright() {
+fn flight_saturated_motors_keep_the_vehicle_upright() {
     // Maximum excess over the tilt limit, rad.
     const BEYOND_RAD: f64 = 0.1;
     for name in VEHICLES {
@@ -174,7 +174,7 @@ fn flight_all_sticks_at_once_saturate_the_motors_and_stay_upright() {
 }
 
 #[test]
-fn flight_from_full_speed_it_stops_within_its_slow_down_time() {
+fn flight_stops_from_full_speed_in_time() {
     // Fraction of the full speed that counts as stopped.
     const STOPPED: f64 = 0.1;
     for name in VEHICLES {
@@ -210,7 +210,7 @@ fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
 }
 
 #[test]
-fn regress_the_nose_does_not_swing_back_when_the_yaw_stick_is_released() {
+fn regress_yaw_release_does_not_swing_back() {
     // Limit of issue 16, rad (1 deg); a real PX4 swings back by 0.4 deg.
     const SWING_RAD: f64 = 0.017_453;
     // Slowing from 100 deg/s to rest in 0.3 s takes 15 deg; half as much again for the lag, rad.

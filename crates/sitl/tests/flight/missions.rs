@@ -18,18 +18,22 @@ fn point(north: f64, east: f64, up: f64) -> MissionStep {
     MissionStep::Waypoint { position_m: Vec3::new(north, east, -up), accept_m: 0.0, hold_s: 0.0, yaw_rad: None }
 }
 
-fn somewhere(stream: &mut RandomStream, reach_m: f64) -> Vec3<Ned> {
+fn random_position(stream: &mut RandomStream, reach_m: f64) -> Vec3<Ned> {
     Vec3::new(stream.range(-reach_m, reach_m), stream.range(-reach_m, reach_m), stream.range(-0.3 * reach_m, 0.3 * reach_m))
 }
 
 #[test]
-fn prop_a_planned_way_is_smooth_passes_every_waypoint_and_ends_at_rest() {
+fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
     let mut stream = RandomStream::new(3, "ways");
     for case in 0..200 {
         let reach_m = [3.0, 10.0, 40.0][case % 3];
         let accept_m = stream.range(0.5, 3.0);
         let waypoints: Vec<Waypoint> = (0..2 + case % 7)
-            .map(|_| Waypoint { position_m: somewhere(&mut stream, reach_m), speed_m_s: Some(stream.range(1.0, 6.0)), accept_m })
+            .map(|_| Waypoint {
+                position_m: random_position(&mut stream, reach_m),
+                speed_m_s: Some(stream.range(1.0, 6.0)),
+                accept_m,
+            })
             .collect();
         let mut way = Trajectory::join(TrajectoryPoint::default(), &waypoints, AccelerationLimits::within(6.0, 4.0))
             .expect("there are waypoints");
@@ -55,15 +59,15 @@ fn prop_a_planned_way_is_smooth_passes_every_waypoint_and_ends_at_rest() {
 }
 
 #[test]
-fn prop_a_way_that_is_joined_in_flight_goes_on_from_its_motion() {
+fn prop_trajectory_joined_in_flight_continues_the_motion() {
     let mut stream = RandomStream::new(4, "joins");
     for _ in 0..50 {
         let from = TrajectoryPoint {
-            position_m: somewhere(&mut stream, 5.0),
-            velocity_m_s: somewhere(&mut stream, 2.0),
-            acceleration_m_s2: somewhere(&mut stream, 1.0),
+            position_m: random_position(&mut stream, 5.0),
+            velocity_m_s: random_position(&mut stream, 2.0),
+            acceleration_m_s2: random_position(&mut stream, 1.0),
         };
-        let to = Waypoint { position_m: somewhere(&mut stream, 30.0), speed_m_s: None, accept_m: 2.0 };
+        let to = Waypoint { position_m: random_position(&mut stream, 30.0), speed_m_s: None, accept_m: 2.0 };
         let mut way = Trajectory::join(from, &[to], AccelerationLimits::within(6.0, 4.0)).expect("a waypoint");
         let begins = way.planned();
         // Rounding tolerances, m, m/s, m/s².
@@ -78,7 +82,7 @@ fn prop_a_way_that_is_joined_in_flight_goes_on_from_its_motion() {
 }
 
 #[test]
-fn regress_a_straight_leg_holds_its_speed_through_waypoints() {
+fn regress_straight_leg_keeps_its_speed_through_waypoints() {
     // Minimum speed of 5 m/s that PX4's integration test requires when flying through waypoints.
     const HELD_M_S: f64 = 4.0;
     for name in VEHICLES {
@@ -104,7 +108,7 @@ fn regress_a_straight_leg_holds_its_speed_through_waypoints() {
 }
 
 #[test]
-fn regress_a_take_off_step_below_the_ground_takes_off_instead_of_tipping_over() {
+fn regress_takeoff_item_below_the_ground_still_takes_off() {
     for up_m in [-5.0, -0.5, 0.0] {
         let mut bench = Bench::new(&vehicle("phantom2"), 5);
         bench.autopilot.set_mission(vec![MissionStep::Takeoff { up_m: Some(up_m) }, point(10.0, 0.0, 6.0)]);
@@ -124,7 +128,7 @@ fn regress_a_take_off_step_below_the_ground_takes_off_instead_of_tipping_over() 
 }
 
 #[test]
-fn regress_a_take_off_climbs_at_its_own_rate() {
+fn regress_takeoff_uses_its_own_climb_rate() {
     // Tolerance, m/s.
     const NEAR_M_S: f64 = 0.3;
     for (own_m_s, climb_m_s, at_climb_speed, expected_m_s) in
@@ -156,7 +160,7 @@ fn regress_a_take_off_climbs_at_its_own_rate() {
 }
 
 #[test]
-fn regress_a_mission_without_a_take_off_step_climbs_before_it_flies_away() {
+fn regress_mission_without_takeoff_item_climbs_first() {
     // Maximum drift, m: a quarter of the takeoff height.
     const DRIFT_M: f64 = 0.6;
     let mut bench = Bench::new(&vehicle("phantom2"), 7);

@@ -43,7 +43,7 @@ fn waypoints() -> Vec<MissionStep> {
 }
 
 #[test]
-fn flight_lost_sticks_end_a_mission_unless_it_is_excepted_or_they_were_let_go_of() {
+fn flight_stick_loss_ends_a_mission_unless_excepted_or_released() {
     for (except, let_go, expected) in
         [(false, false, FlightMode::Hold), (true, false, FlightMode::Mission), (false, true, FlightMode::Mission)]
     {
@@ -65,7 +65,7 @@ fn flight_lost_sticks_end_a_mission_unless_it_is_excepted_or_they_were_let_go_of
 }
 
 #[test]
-fn flight_a_mission_that_nobody_had_sticks_for_goes_on_without_them() {
+fn flight_mission_without_stick_input_continues() {
     let mut bench = airborne(|tuning| tuning.rules.responses.manual_loss_except = LinkLossExceptions::default());
     bench.autopilot.set_mission(waypoints());
     bench.ask(AutopilotRequest::StartMission { first: None });
@@ -74,7 +74,7 @@ fn flight_a_mission_that_nobody_had_sticks_for_goes_on_without_them() {
 }
 
 #[test]
-fn flight_lost_set_points_lead_to_what_the_operator_set() {
+fn flight_setpoint_loss_action_follows_its_setting() {
     let fixed = OffboardLoss::Fixed;
     let cases = [
         (OffboardLoss::Sticks(FlightMode::Position), true, FlightMode::Position),
@@ -98,7 +98,7 @@ fn flight_lost_set_points_lead_to_what_the_operator_set() {
 }
 
 #[test]
-fn flight_the_battery_leads_to_what_the_operator_set_at_each_level() {
+fn flight_battery_actions_follow_their_settings() {
     let land = Some(FailsafeResponse::Land);
     let cases = [
         ([None; 3], 9.0, FlightMode::Hold),
@@ -126,7 +126,7 @@ fn flight_the_battery_leads_to_what_the_operator_set_at_each_level() {
 }
 
 #[test]
-fn flight_arming_needs_what_the_operator_asks_for() {
+fn flight_arming_requirements_follow_their_settings() {
     let mut bench = Bench::new(&vehicle("phantom2"), 5);
     bench.run(2.0, |_| ());
     bench.ask(AutopilotRequest::Arm { force: false });
@@ -141,7 +141,7 @@ fn flight_arming_needs_what_the_operator_asks_for() {
 }
 
 #[test]
-fn flight_a_return_keeps_its_speed_waits_and_stays_at_its_final_height() {
+fn flight_return_respects_speed_delay_and_final_height() {
     let mut bench = airborne(|tuning| {
         tuning.return_height_m = 8.0;
         let rules = &mut tuning.rules.homeward;
@@ -166,7 +166,7 @@ fn flight_a_return_keeps_its_speed_waits_and_stays_at_its_final_height() {
 }
 
 #[test]
-fn flight_a_negative_delay_keeps_a_return_over_home() {
+fn flight_negative_delay_keeps_the_return_hovering() {
     let mut bench = airborne(|tuning| {
         tuning.return_height_m = 8.0;
         (tuning.rules.homeward.wait_height_m, tuning.rules.homeward.wait_s) = (Some(5.0), -1.0);
@@ -179,7 +179,7 @@ fn flight_a_negative_delay_keeps_a_return_over_home() {
 }
 
 #[test]
-fn flight_the_cone_and_the_least_climb_set_the_height_of_a_return() {
+fn flight_return_height_follows_cone_and_minimum_climb() {
     for (cone_slope, climb_min_m, height_m) in [(0.0, 0.0, 20.0), (0.5, 0.0, 10.0), (0.5, 7.0, 13.0)] {
         let mut bench = airborne(|tuning| {
             tuning.return_height_m = 20.0;
@@ -195,7 +195,7 @@ fn flight_the_cone_and_the_least_climb_set_the_height_of_a_return() {
 }
 
 #[test]
-fn flight_a_return_goes_to_the_places_that_its_type_allows() {
+fn flight_return_destination_follows_its_type() {
     use spandrel_sitl::autopilot::home::RallyPoint;
     let rally = RallyPoint { place_m: Vec3::new(30.0, 10.0, 0.0), over_home: false };
     let landing = MissionStep::Land { position_m: Some(Vec3::new(0.0, 30.0, 0.0)) };
@@ -222,7 +222,7 @@ fn flight_a_return_goes_to_the_places_that_its_type_allows() {
 }
 
 #[test]
-fn flight_the_nose_points_where_the_operator_set() {
+fn flight_heading_follows_its_setting() {
     // The bench starts with the nose to the north; the flight goes east, so home is to the west.
     let east = std::f64::consts::FRAC_PI_2;
     let cases = [
@@ -251,7 +251,7 @@ fn flight_the_nose_points_where_the_operator_set() {
 }
 
 #[test]
-fn flight_limits_of_sticks_and_of_automatic_flight_are_kept() {
+fn flight_manual_and_automatic_limits_are_respected() {
     // Acceleration of a go-to command.
     for limit in [1.0, f64::INFINITY] {
         let mut bench = airborne(|tuning| tuning.rules.envelope.acceleration_m_s2 = limit);
@@ -293,7 +293,7 @@ fn flight_limits_of_sticks_and_of_automatic_flight_are_kept() {
 }
 
 #[test]
-fn flight_a_mission_that_lacks_what_is_requested_is_refused() {
+fn flight_incomplete_mission_is_rejected() {
     let place = waypoints()[0];
     let takeoff = MissionStep::Takeoff { up_m: Some(6.0) };
     let cases = [
@@ -322,7 +322,7 @@ fn flight_a_mission_that_lacks_what_is_requested_is_refused() {
 }
 
 #[test]
-fn flight_a_mission_that_restarts_starts_over_when_it_is_entered_again() {
+fn flight_restarting_mission_starts_from_its_first_item() {
     for restarts in [false, true] {
         let mut bench = airborne(|tuning| tuning.rules.mission_restarts = restarts);
         bench.autopilot.set_mission(waypoints());
@@ -340,7 +340,7 @@ fn flight_a_mission_that_restarts_starts_over_when_it_is_entered_again() {
 }
 
 #[test]
-fn flight_only_the_parts_of_the_fence_that_are_on_act_and_its_floor_is_kept() {
+fn flight_only_enabled_fence_parts_act() {
     let parts = |height, floor_m| FenceParts { height, distance: true, areas: true, floor_m, auto: FenceSwitching::Never };
     let up = |up_m| AutopilotRequest::GoTo { north_east_m: None, up_m: Some(up_m), yaw_rad: None, speed_m_s: None };
     for height in [true, false] {

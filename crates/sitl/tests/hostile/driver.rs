@@ -16,20 +16,20 @@ pub const STATION: LinkId = LinkId(1);
 const SIDECAR: LinkId = LinkId(2);
 /// Maximum number of responses and copies caused by one frame, in addition to all of a flavor's modes: an
 /// acknowledgment, and a copy to the other link.
-const BESIDE_MODES: usize = 2;
+const EXTRA_RESPONSES: usize = 2;
 /// Maximum number of unsolicited frames in five ticks: streams at their fastest, named values and full text queues, on
 /// two links.
 const FRAMES_A_TICK: usize = 800;
 
 /// A vehicle under test, or one with a planted fault.
-pub trait Subject {
+pub trait TestVehicle {
     fn receive(&mut self, bytes: &[u8]);
     /// Lets the vehicle process received datagrams without a tick.
     fn look(&mut self);
     /// Advances by some ticks.
     fn tick(&mut self);
     fn drain(&mut self) -> Vec<Vec<u8>>;
-    fn sound(&self) -> bool;
+    fn all_finite(&self) -> bool;
 }
 
 /// A vehicle without planted faults.
@@ -62,7 +62,7 @@ impl Vehicle {
     }
 }
 
-impl Subject for Vehicle {
+impl TestVehicle for Vehicle {
     fn receive(&mut self, bytes: &[u8]) {
         self.0.handle_datagram(STATION, bytes);
     }
@@ -82,7 +82,7 @@ impl Subject for Vehicle {
         std::iter::from_fn(|| self.0.poll_transmit()).map(|t| t.bytes).collect()
     }
 
-    fn sound(&self) -> bool {
+    fn all_finite(&self) -> bool {
         let truth = &self.0.truth().rigid;
         let all = truth.position_m.array().into_iter().chain(truth.velocity_m_s.array()).chain(truth.rates_rad_s.array());
         all.chain(truth.attitude.wxyz()).chain(truth.rotor_rad_s).all(f64::is_finite)
@@ -98,11 +98,11 @@ pub struct Finding {
 
 /// Coverage of a run: counts of the vehicle's reactions.
 #[derive(Debug, Default)]
-pub struct Depth {
+pub struct Coverage {
     pub datagrams: usize,
     pub commands_accepted: BTreeSet<u16>,
     pub plans_accepted: usize,
-    pub parameters_told: usize,
+    pub parameter_values: usize,
     pub file_data: usize,
     pub refusals: usize,
     pub modes: BTreeSet<u32>,
@@ -113,13 +113,13 @@ pub struct Driver<'a> {
     pub stream: RandomStream,
     /// Numbers of the commands that are handled.
     pub numbers: &'a [u16],
-    pub depth: Depth,
+    pub coverage: Coverage,
 }
 
 impl Driver<'_> {
     /// Sends `count` datagrams with some ticks after every second one, and finally checks whether the vehicle still
     /// responds.
-    pub fn shoot(&mut self, subject: &mut dyn Subject, count: usize) -> Result<(), Finding> {
+    pub fn send_datagrams(&mut self, subject: &mut dyn TestVehicle, count: usize) -> Result<(), Finding> {
         let mut queue: Vec<Vec<u8>> = Vec::new();
         for k in 0..count {
             if queue.is_empty() {
@@ -130,8 +130,8 @@ impl Driver<'_> {
                 };
             }
             let datagram = queue.remove(0);
-            self.depth.datagrams += 1;
-            let done = catch_unwind(AssertUnwindSafe(|| self.one(subject, &datagram, k % 2 == 0)));
+            self.coverage.datagrams += 1;
+            let done = catch_unwind(AssertUnwindSafe(|| self.send_one(subject, &datagram, k % 2 == 0)));
             let result = done.unwrap_or_else(|panic| {
                 let text = panic.downcast_ref::<String>().cloned();
                 Err(format!("panic: {}", text.unwrap_or_else(|| panic.downcast_ref::<&str>().unwrap_or(&"?").to_string())))
@@ -141,12 +141,12 @@ impl Driver<'_> {
         self.still_answers(subject).map_err(|what| Finding { what, datagram: Vec::new() })
     }
 
-    fn one(&mut self, subject: &mut dyn Subject, datagram: &[u8], tick: bool) -> Result<(), String> {
+    fn send_one(&mut self, subject: &mut dyn TestVehicle, datagram: &[u8], tick: bool) -> Result<(), String> {
         let frames = Decoder::new().datagram(datagram).len();
         subject.receive(datagram);
         subject.look();
         let answers = self.listen(subject)?;
-        if answers > (most_modes() + BESIDE_MODES) * frames {
+        if answers > (most_modes() + EXTRA_RESPONSES) * frames {
             return Err(format!("{answers} responses to {frames} frames"));
         }
         if tick {
@@ -156,11 +156,11 @@ impl Driver<'_> {
                 return Err(format!("{said} frames in five ticks"));
             }
         }
-        if subject.sound() { Ok(()) } else { Err("the state contains NaN or infinity".into()) }
+        if subject.all_finite() { Ok(()) } else { Err("the state contains NaN or infinity".into()) }
     }
 
     /// Returns the number of outgoing frames. Checks that each is complete and contains only finite numbers.
-    fn listen(&mut self, subject: &mut dyn Subject) -> Result<usize, String> {
+    fn listen(&mut self, subject: &mut dyn TestVehicle) -> Result<usize, String> {
         let mut count = 0;
         for bytes in subject.drain() {
             let mut decoder = Decoder::new();
@@ -180,27 +180,27 @@ impl Driver<'_> {
     }
 
     fn note(&mut self, frame: &ReceivedFrame) {
-        let depth = &mut self.depth;
-        *depth.answers.entry(frame.message_id).or_default() += 1;
+        let coverage = &mut self.coverage;
+        *coverage.answers.entry(frame.message_id).or_default() += 1;
         match &frame.message {
             Some(MavMessage::COMMAND_ACK(ack)) if ack.result == MavResult::MAV_RESULT_ACCEPTED => {
-                depth.commands_accepted.insert(ack.command as u16);
+                coverage.commands_accepted.insert(ack.command as u16);
             }
-            Some(MavMessage::COMMAND_ACK(_)) => depth.refusals += 1,
+            Some(MavMessage::COMMAND_ACK(_)) => coverage.refusals += 1,
             Some(MavMessage::MISSION_ACK(ack)) if ack.mavtype == MavMissionResult::MAV_MISSION_ACCEPTED => {
-                depth.plans_accepted += 1;
+                coverage.plans_accepted += 1;
             }
-            Some(MavMessage::MISSION_ACK(_)) => depth.refusals += 1,
-            Some(MavMessage::FILE_TRANSFER_PROTOCOL(f)) if f.payload[3] == 128 && f.payload[4] > 0 => depth.file_data += 1,
-            Some(MavMessage::PARAM_VALUE(_)) => depth.parameters_told += 1,
+            Some(MavMessage::MISSION_ACK(_)) => coverage.refusals += 1,
+            Some(MavMessage::FILE_TRANSFER_PROTOCOL(f)) if f.payload[3] == 128 && f.payload[4] > 0 => coverage.file_data += 1,
+            Some(MavMessage::PARAM_VALUE(_)) => coverage.parameter_values += 1,
             Some(MavMessage::CURRENT_MODE(mode)) => {
-                depth.modes.insert(mode.custom_mode);
+                coverage.modes.insert(mode.custom_mode);
             }
             _ => {}
         }
     }
 
-    fn still_answers(&mut self, subject: &mut dyn Subject) -> Result<(), String> {
+    fn still_answers(&mut self, subject: &mut dyn TestVehicle) -> Result<(), String> {
         let mut encoder = Encoder::new(255, 190);
         let read = PARAM_REQUEST_READ_DATA { target_system: 1, target_component: 1, ..Default::default() };
         let beat = COMMAND_LONG_DATA {

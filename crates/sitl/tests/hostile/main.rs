@@ -8,7 +8,7 @@ mod mutate;
 mod planted;
 mod seeds;
 
-use driver::{Depth, Driver, Finding, STATION, Subject, Vehicle};
+use driver::{Coverage, Driver, Finding, STATION, TestVehicle, Vehicle};
 use mavlink::Message;
 use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult};
@@ -22,7 +22,7 @@ use spandrel_testkit::station::Station;
 const DATAGRAMS: usize = 40_000;
 /// Number of datagrams before the vehicle restarts from one of its situations, so that most of them reach a vehicle in
 /// flight.
-const VOLLEY: usize = 400;
+const BATCH: usize = 400;
 
 /// Returns the commands that the vehicle does not report as unsupported.
 fn known_commands(sim: &Sim) -> Vec<u16> {
@@ -65,12 +65,12 @@ fn situations() -> Vec<Sim> {
     });
     mission.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 4.0, 0.0, 0.0, 0.0, 0.0]);
     let mut offboard = Station::airborne("drill-hover", 3);
-    offboard.send(&seeds::good(84)[0]);
+    offboard.send(&seeds::messages(84)[0]);
     offboard.run_ms(1);
     offboard.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let mut copter = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 3);
+    let mut copter = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 3);
     copter.run_ms(2_500);
-    let mut guided = Station::speaking(&ardupilot::FLAVOUR, "drill-hover", 3);
+    let mut guided = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 3);
     guided.run_ms(2_500);
     for (command, p) in [
         (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
@@ -84,25 +84,25 @@ fn situations() -> Vec<Sim> {
 }
 
 /// Fuzzes one situation after the other, with a new copy for each batch, until an invariant is violated.
-fn run(seed: u64, wrap: impl Fn(Vehicle) -> Box<dyn Subject>) -> Result<Depth, Finding> {
+fn run(seed: u64, wrap: impl Fn(Vehicle) -> Box<dyn TestVehicle>) -> Result<Coverage, Finding> {
     let situations = situations();
     let mut numbers = known_commands(&situations[0]);
     // A command that only one flavor handles: ArduPilot's DO_SEND_BANNER.
     numbers.push(42_428);
     assert!(numbers.len() > 40, "{numbers:?}");
     let stream = RandomStream::new(seed, "endpoint under fire");
-    let mut driver = Driver { stream, numbers: &numbers, depth: Depth::default() };
-    for volley in 0..DATAGRAMS / VOLLEY {
-        let mut subject = wrap(Vehicle::new(situations[volley % situations.len()].clone()));
-        driver.shoot(subject.as_mut(), VOLLEY)?;
+    let mut driver = Driver { stream, numbers: &numbers, coverage: Coverage::default() };
+    for batch in 0..DATAGRAMS / BATCH {
+        let mut subject = wrap(Vehicle::new(situations[batch % situations.len()].clone()));
+        driver.send_datagrams(subject.as_mut(), BATCH)?;
     }
-    Ok(driver.depth)
+    Ok(driver.coverage)
 }
 
 #[test]
-fn prop_every_message_that_is_handled_has_a_good_one_to_start_from() {
+fn prop_every_handled_message_has_a_valid_seed() {
     for id in HANDLED {
-        let good = seeds::good(*id);
+        let good = seeds::messages(*id);
         assert!(!good.is_empty(), "message {id} is handled but not fuzzed: add a valid message to seeds.rs");
         assert!(good.iter().all(|m| m.message_id() == *id));
     }
@@ -111,23 +111,29 @@ fn prop_every_message_that_is_handled_has_a_good_one_to_start_from() {
 }
 
 #[test]
-fn prop_no_datagram_brings_the_vehicle_down() {
+fn prop_no_datagram_violates_the_invariants() {
     let seed = std::env::var("SPANDREL_FUZZ_SEED").ok().and_then(|text| text.parse().ok()).unwrap_or(7);
-    let depth = run(seed, |vehicle| Box::new(vehicle)).unwrap_or_else(|found| panic!("{}: {:02x?}", found.what, found.datagram));
-    assert!(depth.datagrams >= 20_000);
+    let coverage =
+        run(seed, |vehicle| Box::new(vehicle)).unwrap_or_else(|found| panic!("{}: {:02x?}", found.what, found.datagram));
+    assert!(coverage.datagrams >= 20_000);
     // The test is pointless if the datagrams have no effect.
-    assert!(depth.commands_accepted.len() > 35, "{:?}", depth.commands_accepted);
-    assert!(depth.plans_accepted > 500, "{}", depth.plans_accepted);
-    assert!(depth.parameters_told > 1_000 && depth.refusals > 5_000, "{} {}", depth.parameters_told, depth.refusals);
-    assert!(depth.file_data > 50, "{}", depth.file_data);
-    assert!(depth.modes.len() >= 6, "{:x?}", depth.modes);
+    assert!(coverage.commands_accepted.len() > 35, "{:?}", coverage.commands_accepted);
+    assert!(coverage.plans_accepted > 500, "{}", coverage.plans_accepted);
+    assert!(
+        coverage.parameter_values > 1_000 && coverage.refusals > 5_000,
+        "{} {}",
+        coverage.parameter_values,
+        coverage.refusals
+    );
+    assert!(coverage.file_data > 50, "{}", coverage.file_data);
+    assert!(coverage.modes.len() >= 6, "{:x?}", coverage.modes);
     for id in [0, 22, 44, 47, 51, 73, 77, 110, 111, 118, 120, 253, 345, 263, 435] {
-        assert!(depth.answers.contains_key(&id), "message {id} was never sent");
+        assert!(coverage.answers.contains_key(&id), "message {id} was never sent");
     }
 }
 
 #[test]
-fn prop_what_is_no_frame_is_counted_byte_by_byte() {
+fn prop_invalid_bytes_are_counted() {
     let mut sim = situations().remove(1);
     let mut stream = RandomStream::new(5, "noise");
     let numbers = [400u16];
@@ -147,10 +153,10 @@ fn prop_what_is_no_frame_is_counted_byte_by_byte() {
 
 /// Without a reader, the queued output must stay within a bound.
 #[test]
-fn prop_what_waits_to_be_sent_is_bounded() {
-    const MOST_BYTES: usize = 4_000 * 1_400 + 300_000;
+fn prop_output_queue_is_bounded() {
+    const MAX_BYTES: usize = 4_000 * 1_400 + 300_000;
     let mut sim = situations().remove(1);
-    let modes = seeds::good(76).pop().unwrap();
+    let modes = seeds::messages(76).pop().unwrap();
     let mut stream = RandomStream::new(6, "flood");
     let datagram: Vec<u8> = (0..40).flat_map(|_| mutate::frame(76, &mutate::payload(&modes), (255, 190), &mut stream)).collect();
     for _ in 0..2_000 {
@@ -159,17 +165,17 @@ fn prop_what_waits_to_be_sent_is_bounded() {
         sim.handle_timeout(until);
     }
     let waiting: usize = std::iter::from_fn(|| sim.poll_transmit()).map(|t| t.bytes.len()).sum();
-    assert!(waiting < MOST_BYTES, "{waiting} bytes");
+    assert!(waiting < MAX_BYTES, "{waiting} bytes");
 }
 
 #[test]
-fn prop_planted_faults_are_found() {
+fn prop_fuzzer_finds_planted_faults() {
     // The planted faults panic on purpose.
     std::panic::set_hook(Box::new(|_| {}));
     for (fault, needle) in planted::FAULTS {
         // Each fault affects one value of one field of one message among dozens, so that more than one run may be
         // needed.
-        let found = (11..15).find_map(|seed| run(seed, |vehicle| Box::new(planted::Planted::new(vehicle, fault))).err());
+        let found = (11..15).find_map(|seed| run(seed, |vehicle| Box::new(planted::FaultyVehicle::new(vehicle, fault))).err());
         let found = found.unwrap_or_else(|| panic!("{fault:?} was not found"));
         assert!(found.what.contains(needle), "{fault:?}: {}", found.what);
     }

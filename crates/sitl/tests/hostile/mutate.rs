@@ -7,7 +7,7 @@ use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavMessage, MavMissionTyp
 use spandrel_model::random::RandomStream;
 use spandrel_sitl::endpoint::HANDLED;
 
-const REALS: [f32; 14] = [
+const F32_VALUES: [f32; 14] = [
     f32::NAN,
     -f32::NAN,
     f32::INFINITY,
@@ -23,8 +23,8 @@ const REALS: [f32; 14] = [
     0.5,
     90.0,
 ];
-const LONGS: [i32; 9] = [i32::MIN, i32::MAX, -1, 0, 1, 900_000_001, -900_000_001, 1_800_000_001, 467_052_000];
-const SHORTS: [u16; 14] = [0, 1, 2, 3, 4, 5, 2000, 2001, 32_767, 32_768, 65_534, 65_535, 255, 256];
+const I32_VALUES: [i32; 9] = [i32::MIN, i32::MAX, -1, 0, 1, 900_000_001, -900_000_001, 1_800_000_001, 467_052_000];
+const U16_VALUES: [u16; 14] = [0, 1, 2, 3, 4, 5, 2000, 2001, 32_767, 32_768, 65_534, 65_535, 255, 256];
 const BYTES: [u8; 10] = [0, 1, 2, 3, 7, 8, 127, 128, 254, 255];
 /// PX4's number of the mission mode.
 const MISSION_MODE: u32 = 4 << 16 | 4 << 24;
@@ -72,9 +72,9 @@ pub fn field(bytes: &mut [u8], stream: &mut RandomStream) {
         }
     }
     match stream.below(7) {
-        0 | 1 => put(bytes, REALS[stream.below(REALS.len())].to_le_bytes(), stream),
-        2 => put(bytes, LONGS[stream.below(LONGS.len())].to_le_bytes(), stream),
-        3 => put(bytes, SHORTS[stream.below(SHORTS.len())].to_le_bytes(), stream),
+        0 | 1 => put(bytes, F32_VALUES[stream.below(F32_VALUES.len())].to_le_bytes(), stream),
+        2 => put(bytes, I32_VALUES[stream.below(I32_VALUES.len())].to_le_bytes(), stream),
+        3 => put(bytes, U16_VALUES[stream.below(U16_VALUES.len())].to_le_bytes(), stream),
         4 => put(bytes, [BYTES[stream.below(BYTES.len())]], stream),
         5 => {
             let at = stream.below(bytes.len());
@@ -116,7 +116,7 @@ fn sender(stream: &mut RandomStream) -> (u8, u8) {
 /// the command to fly the mission.
 pub fn upload(stream: &mut RandomStream) -> Vec<Vec<u8>> {
     let (items, item): (u16, fn(u16) -> MISSION_ITEM_INT_DATA) = match stream.below(4) {
-        0 => (2, seeds::placeless),
+        0 => (2, seeds::item_without_position),
         1 => (3 + stream.below(2) as u16, seeds::corner),
         _ => (1 + stream.below(5) as u16, seeds::item),
     };
@@ -132,7 +132,7 @@ pub fn upload(stream: &mut RandomStream) -> Vec<Vec<u8>> {
         4 => payloads.swap(at, 0),
         _ => {}
     }
-    payloads.extend(seeds::good(11).iter().take(1).map(|mode| {
+    payloads.extend(seeds::messages(11).iter().take(1).map(|mode| {
         let mut bytes = payload(mode);
         bytes[..4].copy_from_slice(&MISSION_MODE.to_le_bytes());
         (11, bytes)

@@ -1,7 +1,7 @@
 //! Vehicles with planted faults, each triggered by one rare value of one field. If the fuzzer does not find these, it
 //! is useless.
 
-use super::driver::{Subject, Vehicle};
+use super::driver::{TestVehicle, Vehicle};
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
 
@@ -25,37 +25,37 @@ pub const FAULTS: [(Fault, &str); 4] = [
     (Fault::Deaf, "no more responses"),
 ];
 
-pub struct Planted {
+pub struct FaultyVehicle {
     vehicle: Vehicle,
     fault: Fault,
-    struck: bool,
-    owed: usize,
+    poisoned: bool,
+    extra_responses: usize,
 }
 
-impl Planted {
+impl FaultyVehicle {
     pub fn new(vehicle: Vehicle, fault: Fault) -> Self {
-        Self { vehicle, fault, struck: false, owed: 0 }
+        Self { vehicle, fault, poisoned: false, extra_responses: 0 }
     }
 
-    fn strike(&mut self, message: &MavMessage) {
+    fn apply(&mut self, message: &MavMessage) {
         match (self.fault, message) {
             (Fault::Index, MavMessage::MISSION_ITEM_INT(item)) if item.seq == u16::MAX => panic!("item {} of a plan", item.seq),
-            (Fault::Poison, MavMessage::SET_POSITION_TARGET_LOCAL_NED(t)) if t.x.is_nan() => self.struck = true,
-            (Fault::Flood, MavMessage::PARAM_REQUEST_READ(r)) if r.param_index == i16::MIN => self.owed = 10_000,
-            (Fault::Deaf, MavMessage::COMMAND_LONG(c)) if c.param1 == f32::INFINITY => self.struck = true,
+            (Fault::Poison, MavMessage::SET_POSITION_TARGET_LOCAL_NED(t)) if t.x.is_nan() => self.poisoned = true,
+            (Fault::Flood, MavMessage::PARAM_REQUEST_READ(r)) if r.param_index == i16::MIN => self.extra_responses = 10_000,
+            (Fault::Deaf, MavMessage::COMMAND_LONG(c)) if c.param1 == f32::INFINITY => self.poisoned = true,
             _ => {}
         }
     }
 }
 
-impl Subject for Planted {
+impl TestVehicle for FaultyVehicle {
     fn receive(&mut self, bytes: &[u8]) {
-        if self.fault == Fault::Deaf && self.struck {
+        if self.fault == Fault::Deaf && self.poisoned {
             return;
         }
         for frame in Decoder::new().datagram(bytes) {
             if let Some(message) = &frame.message {
-                self.strike(message);
+                self.apply(message);
             }
         }
         self.vehicle.receive(bytes);
@@ -72,16 +72,16 @@ impl Subject for Planted {
     fn drain(&mut self) -> Vec<Vec<u8>> {
         let mut out = self.vehicle.drain();
         let mut encoder = Encoder::new(1, 1);
-        if self.fault == Fault::Poison && self.struck {
+        if self.fault == Fault::Poison && self.poisoned {
             let x = f32::NAN;
             out.push(encoder.encode(&MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { x, ..Default::default() })));
         }
         let answer = MavMessage::PARAM_VALUE(PARAM_VALUE_DATA::default());
-        out.extend((0..std::mem::take(&mut self.owed)).map(|_| encoder.encode(&answer)));
+        out.extend((0..std::mem::take(&mut self.extra_responses)).map(|_| encoder.encode(&answer)));
         out
     }
 
-    fn sound(&self) -> bool {
-        self.vehicle.sound()
+    fn all_finite(&self) -> bool {
+        self.vehicle.all_finite()
     }
 }

@@ -10,7 +10,7 @@ const NAN: f32 = f32::NAN;
 pub const HERE: (i32, i32) = (467_052_000, 83_814_000);
 
 pub fn all(number: u32) -> Vec<MavMessage> {
-    let mut out = good(number);
+    let mut out = messages(number);
     // Adds the codec's default message, addressed to the vehicle.
     out.extend(MavMessage::default_message_from_id(number));
     // Only the camera has extended parameters.
@@ -27,7 +27,7 @@ pub fn all(number: u32) -> Vec<MavMessage> {
 }
 
 /// Returns handwritten messages; the test that counts them fails if there are none.
-pub fn good(number: u32) -> Vec<MavMessage> {
+pub fn messages(number: u32) -> Vec<MavMessage> {
     let made = [connection(), files(), sticks(), set_points(), gimbal(), parameters(), plans(), partial_plans(), commands()];
     made.into_iter().flatten().filter(|m| m.message_id() == number).collect()
 }
@@ -263,7 +263,7 @@ pub fn item(seq: u16) -> MISSION_ITEM_INT_DATA {
 }
 
 /// Returns an item without a position: a takeoff or landing at the vehicle's current position.
-pub fn placeless(seq: u16) -> MISSION_ITEM_INT_DATA {
+pub fn item_without_position(seq: u16) -> MISSION_ITEM_INT_DATA {
     let command = if seq == 0 { MavCmd::MAV_CMD_NAV_TAKEOFF } else { MavCmd::MAV_CMD_NAV_LAND };
     MISSION_ITEM_INT_DATA { command, x: 0, y: 0, ..item(seq) }
 }
@@ -293,7 +293,7 @@ pub fn count(count: u16) -> MavMessage {
 
 fn plans() -> Vec<MavMessage> {
     let mut out: Vec<MavMessage> = (0..5).map(|seq| MavMessage::MISSION_ITEM_INT(item(seq))).collect();
-    out.extend((0..2).map(|seq| MavMessage::MISSION_ITEM_INT(placeless(seq))));
+    out.extend((0..2).map(|seq| MavMessage::MISSION_ITEM_INT(item_without_position(seq))));
     out.extend([1, 2, 5].map(count));
     out.push(MavMessage::MISSION_ITEM(MISSION_ITEM_DATA {
         x: 46.7052,

@@ -7,9 +7,9 @@ use crate::statistics::{Correlation, quantile, spearman};
 use serde::Serialize;
 
 /// Highest answer that counts as agreement.
-const AGREE: u8 = 2;
+const MAX_AGREEING_ANSWER: u8 = 2;
 /// Lowest mean self-rating that counts as a good performance.
-const WELL: f64 = 4.0;
+const MIN_GOOD_SELF_RATING: f64 = 4.0;
 
 /// Distribution of the answers to one question.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -78,7 +78,7 @@ fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<Likert> {
             counts[usize::from((*answer).clamp(STRONGLY_AGREE, STRONGLY_DISAGREE) - STRONGLY_AGREE)] += 1;
         }
         let n: usize = counts.iter().sum();
-        let agreeing: usize = counts[..usize::from(AGREE)].iter().sum();
+        let agreeing: usize = counts[..usize::from(MAX_AGREEING_ANSWER)].iter().sum();
         (n > 0).then(|| Likert { question: item.to_string(), repetition, counts, n, agree: agreeing as f64 / n as f64 })
     };
     QuestionnaireItem::all(&tasks).into_iter().filter_map(row).collect()
@@ -101,13 +101,13 @@ pub fn self_rating(firsts: &[&SessionRecord]) -> SelfRating {
     tasks.dedup();
     SelfRating {
         overall: spearman(&own, &measured).ok(),
-        tasks: tasks.into_iter().map(|id| (id, of_task(firsts, id))).collect(),
+        tasks: tasks.into_iter().map(|id| (id, task_correlation(firsts, id))).collect(),
         contradictions: contradictions(firsts, &people),
         people,
     }
 }
 
-fn of_task(firsts: &[&SessionRecord], id: u32) -> Option<Correlation> {
+fn task_correlation(firsts: &[&SessionRecord], id: u32) -> Option<Correlation> {
     let pair = |record: &&SessionRecord| {
         let answer = answer_value(record, QuestionnaireItem::Phase(InspectionPhase::Task(id), PhaseAspect::Performance))?;
         let task = record.tasks.iter().find(|task| task.id == id)?;
@@ -132,9 +132,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
     if let Some((low, high)) = ends(people.iter().map(|pair| pair.measured_pct).collect()) {
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
-            let words = if own >= WELL && measured < low {
+            let words = if own >= MIN_GOOD_SELF_RATING && measured < low {
                 format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the lowest quarter")
-            } else if own < WELL && measured > high {
+            } else if own < MIN_GOOD_SELF_RATING && measured > high {
                 format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the highest quarter")
             } else {
                 continue;
@@ -146,9 +146,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
         for record in firsts {
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
-            let words = if answer <= AGREE && record.seconds > slow {
+            let words = if answer <= MAX_AGREEING_ANSWER && record.seconds > slow {
                 format!("felt no time pressure, but flew for {minutes:.1} min, in the slowest quarter")
-            } else if answer > AGREE + 1 && record.seconds < quick {
+            } else if answer > MAX_AGREEING_ANSWER + 1 && record.seconds < quick {
                 format!("felt time pressure, but flew for {minutes:.1} min, in the fastest quarter")
             } else {
                 continue;

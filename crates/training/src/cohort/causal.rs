@@ -10,17 +10,17 @@ use spandrel_model::random::RandomStream;
 
 /// Number of trainees needed to detect medium effects with a power of 0.8 using a percentile bootstrap (Fritz and MacKinnon
 /// 2007). Smaller samples produce a warning.
-pub const SENSIBLE_N: usize = 78;
+pub const RECOMMENDED_TRAINEES: usize = 78;
 /// Maximum number of bootstrap samples.
-const RESAMPLES: usize = 2_000;
+const MAX_RESAMPLES: usize = 2_000;
 /// Minimum number of bootstrap samples, used for cohorts so large that more samples would take seconds.
-const RESAMPLES_MIN: usize = 200;
+const MIN_RESAMPLES: usize = 200;
 /// Maximum number of trainees drawn in all bootstrap samples together.
-const DRAWN_MAX: usize = 1_000_000;
+const MAX_DRAWN_TRAINEES: usize = 1_000_000;
 /// Fixed seed, so that the bootstrap is reproducible.
-const SEED: u64 = 20_221;
+const BOOTSTRAP_SEED: u64 = 20_221;
 /// Range of the answer scale on which feedback is rated.
-const SCALE: [f64; 2] = [1.0, 5.0];
+const ANSWER_RANGE: [f64; 2] = [1.0, 5.0];
 
 /// An estimated model of moderated mediation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -52,7 +52,7 @@ pub struct IndirectEffect {
     pub interval_95: Option<[f64; 2]>,
 }
 
-struct PersonRow {
+struct Respondent {
     demand: f64,
     strain: f64,
     feedback: f64,
@@ -61,11 +61,11 @@ struct PersonRow {
 
 /// Estimates the model. Appends the limitations of the estimate to `warnings`.
 pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
-    let people: Vec<PersonRow> = firsts.iter().filter_map(|record| person(record)).collect();
+    let people: Vec<Respondent> = firsts.iter().filter_map(|record| person(record)).collect();
     let n = people.len();
-    if n < SENSIBLE_N {
+    if n < RECOMMENDED_TRAINEES {
         warnings.push(format!(
-            "demand, strain, performance: only {n} trainees gave complete answers; with fewer than {SENSIBLE_N}, the model can miss medium effects, \
+            "demand, strain, performance: only {n} trainees gave complete answers; with fewer than {RECOMMENDED_TRAINEES}, the model can miss medium effects, \
              so it describes these trainees only and does not generalize"
         ));
     }
@@ -78,14 +78,14 @@ pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<M
     }
 }
 
-fn person(record: &SessionRecord) -> Option<PersonRow> {
+fn person(record: &SessionRecord) -> Option<Respondent> {
     let scales = record.scales()?;
     let (demand, strain, feedback) = (scales.demand?, scales.strain?, scales.feedback?);
-    Some(PersonRow { demand, strain, feedback, performance: measured_pct(record) })
+    Some(Respondent { demand, strain, feedback, performance: measured_pct(record) })
 }
 
-fn estimate(people: &[PersonRow]) -> Result<MediationModel, String> {
-    let column = |pick: fn(&PersonRow) -> f64| people.iter().map(pick).collect::<Vec<f64>>();
+fn estimate(people: &[Respondent]) -> Result<MediationModel, String> {
+    let column = |pick: fn(&Respondent) -> f64| people.iter().map(pick).collect::<Vec<f64>>();
     let about_mean = |values: Vec<f64>| {
         let middle = mean(&values).unwrap_or_default();
         values.into_iter().map(|value| value - middle).collect::<Vec<f64>>()
@@ -105,7 +105,7 @@ fn estimate(people: &[PersonRow]) -> Result<MediationModel, String> {
     let rows: Vec<[f64; 3]> = (0..people.len()).map(|k| [demand[k], feedback[k], product[k]]).collect();
     let second_rows: Vec<[f64; 2]> = (0..people.len()).map(|k| [strain[k], demand[k]]).collect();
     let drawn = resample(&rows, &strain, &second_rows, &performance);
-    let places = [-spread, 0.0, spread].map(|at| at.clamp(SCALE[0] - middle, SCALE[1] - middle));
+    let places = [-spread, 0.0, spread].map(|at| at.clamp(ANSWER_RANGE[0] - middle, ANSWER_RANGE[1] - middle));
     let indirect = places.map(|at| IndirectEffect {
         feedback: middle + at,
         effect: (a[1] + a[3] * at) * b[1],
@@ -129,8 +129,8 @@ fn estimate(people: &[PersonRow]) -> Result<MediationModel, String> {
 /// Returns two values for each bootstrap sample: the indirect effect at mean feedback and its change per unit of feedback.
 fn resample(rows: &[[f64; 3]], strain: &[f64], second: &[[f64; 2]], performance: &[f64]) -> Vec<(f64, f64)> {
     let n = rows.len();
-    let draws = (DRAWN_MAX / n.max(1)).clamp(RESAMPLES_MIN, RESAMPLES);
-    let mut stream = RandomStream::new(SEED, "cohort resampling");
+    let draws = (MAX_DRAWN_TRAINEES / n.max(1)).clamp(MIN_RESAMPLES, MAX_RESAMPLES);
+    let mut stream = RandomStream::new(BOOTSTRAP_SEED, "cohort resampling");
     let draw = |_| {
         let mut weights = vec![0u32; n];
         for _ in 0..n {
@@ -146,5 +146,5 @@ fn resample(rows: &[[f64; 3]], strain: &[f64], second: &[[f64; 2]], performance:
 fn interval(mut effects: Vec<f64>) -> Option<[f64; 2]> {
     effects.sort_by(f64::total_cmp);
     let end = |share| quantile(&effects, share);
-    (effects.len() >= RESAMPLES_MIN).then(|| end(0.025).zip(end(0.975))).flatten().map(|(low, high)| [low, high])
+    (effects.len() >= MIN_RESAMPLES).then(|| end(0.025).zip(end(0.975))).flatten().map(|(low, high)| [low, high])
 }

@@ -3,7 +3,7 @@
 
 /// Unit and definition of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Definition {
+pub struct ColumnDefinition {
     /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
     /// Definition of the value, in one sentence.
@@ -113,8 +113,8 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
 
 /// Returns the definition of a column of a table; `None` if there is none.
 #[must_use]
-pub fn definition(table: &str, column: &str) -> Option<Definition> {
+pub fn definition(table: &str, column: &str) -> Option<ColumnDefinition> {
     let fits = |name: &str| name.strip_suffix('*').map_or(name == column, |start| column.starts_with(start));
     let row = COLUMNS.iter().find(|(of, name, ..)| (of.is_empty() || *of == table) && fits(name))?;
-    Some(Definition { unit: row.2, description: row.3 })
+    Some(ColumnDefinition { unit: row.2, description: row.3 })
 }

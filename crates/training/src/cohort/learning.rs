@@ -3,7 +3,7 @@
 use super::progress::Repetition;
 use super::progress::TraineeProgress;
 use super::samples::SCORES;
-use crate::statistics::{LEARNING_NEEDS, LearningCurve, learning_curve, mean};
+use crate::statistics::{LearningCurve, MIN_LEARNING_REPETITIONS, learning_curve, mean};
 use serde::Serialize;
 
 /// Learning curve of a group for one score.
@@ -20,14 +20,14 @@ pub struct GroupCurve {
     pub curve: LearningCurve,
 }
 
-/// Computes the curves from trainees with at least [`LEARNING_NEEDS`] sessions; empty if there are no such trainees.
+/// Computes the curves from trainees with at least [`MIN_LEARNING_REPETITIONS`] sessions; empty if there are no such trainees.
 pub fn learning(progress: &[TraineeProgress]) -> Vec<GroupCurve> {
-    SCORES.into_iter().filter_map(|(score, _)| of_score(score, progress)).collect()
+    SCORES.into_iter().filter_map(|(score, _)| curve_of_score(score, progress)).collect()
 }
 
-fn of_score(score: &str, progress: &[TraineeProgress]) -> Option<GroupCurve> {
+fn curve_of_score(score: &str, progress: &[TraineeProgress]) -> Option<GroupCurve> {
     let values = |one: &TraineeProgress| one.repetitions.iter().map(|repetition: &Repetition| repetition.score(score)).collect();
-    let often = progress.iter().filter(|one| one.repetitions.len() >= LEARNING_NEEDS);
+    let often = progress.iter().filter(|one| one.repetitions.len() >= MIN_LEARNING_REPETITIONS);
     let people: Vec<Vec<f64>> = often.filter_map(values).collect();
     let shared = people.iter().map(Vec::len).min()?;
     let at = |k: usize| mean(&people.iter().map(|values| values[k]).collect::<Vec<f64>>());

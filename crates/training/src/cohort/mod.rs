@@ -12,10 +12,10 @@ mod scores;
 mod tables;
 
 pub use answers::{Contradiction, Likert, SelfRating, SelfRatingPair};
-pub use causal::{IndirectEffect, MediationModel, SENSIBLE_N};
+pub use causal::{IndirectEffect, MediationModel, RECOMMENDED_TRAINEES};
 pub use learning::GroupCurve;
 pub use progress::{JobProgress, Repetition, ScoreCurve, TraineeProgress, by_job};
-pub use scores::{Comparison, CrashRow, CrashTable, Distribution, GroupTest, Individual, RepetitionBox, TaskShare};
+pub use scores::{Comparison, CrashRow, CrashTable, Distribution, GroupHomogeneityTest, Individual, RepetitionBox, TaskShare};
 pub use tables::{TABLES, table, tables};
 
 use super::record::{IncompletePolicy, SessionRecord};
@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 
 /// Minimum number of pairs for meaningful paired tests. Detecting a medium effect (d = 0.5) with a power of 0.8 at a two-tailed
 /// significance level of 0.05 takes 34 pairs (Cohen 1988).
-const SENSIBLE_PAIRS: usize = 34;
+const RECOMMENDED_PAIRS: usize = 34;
 
 /// Sessions and number of repetitions to analyze.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,7 +64,7 @@ pub struct Cohort {
     /// Paired comparisons of the repetitions, for the group.
     pub tests: Vec<Comparison>,
     /// Tests whether the group's scores are distributed like those of the other trainees.
-    pub homogeneity: Vec<GroupTest>,
+    pub homogeneity: Vec<GroupHomogeneityTest>,
     /// Answer counts of all first sessions, and of the group by repetition.
     pub likert: Vec<Likert>,
     /// Self-ratings compared with measured scores.
@@ -99,9 +99,9 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
         runs.iter().filter(|(_, sessions)| sessions.len() >= repetitions).map(|(k, v)| (*k, v.clone())).collect();
     let mut warnings = Vec::new();
     let causal = causal::causal(&firsts, &mut warnings);
-    if repetitions > 1 && group.len() < SENSIBLE_PAIRS {
+    if repetitions > 1 && group.len() < RECOMMENDED_PAIRS {
         warnings.push(format!(
-            "only {} trainees flew {repetitions} times; with fewer than {SENSIBLE_PAIRS}, a paired test can miss medium effects",
+            "only {} trainees flew {repetitions} times; with fewer than {RECOMMENDED_PAIRS}, a paired test can miss medium effects",
             group.len()
         ));
     }

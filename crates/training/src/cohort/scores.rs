@@ -9,7 +9,7 @@ use crate::statistics::{
 use serde::Serialize;
 
 /// Number of bins in a score histogram.
-const BARS: usize = 20;
+const HISTOGRAM_BINS: usize = 20;
 
 /// Distribution of one score over the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -119,7 +119,7 @@ pub struct Comparison {
 
 /// Tests whether the group's first sessions are distributed over low, middle and high scores like those of the other trainees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct GroupTest {
+pub struct GroupHomogeneityTest {
     /// Name of the score, such as `conformity`.
     pub score: String,
     /// Upper limits of low and middle scores: the terciles of all first sessions.
@@ -141,7 +141,7 @@ pub fn distributions(firsts: &[&SessionRecord]) -> Vec<Distribution> {
     let most = |score: &str| if score == OVERALL.0 { 400.0 } else { 100.0 };
     let one = |(score, pick): (&str, ScorePicker)| {
         let values = values(firsts, pick);
-        let histogram = histogram(&values, (0.0, most(score)), BARS);
+        let histogram = histogram(&values, (0.0, most(score)), HISTOGRAM_BINS);
         Some(Distribution { score: score.to_owned(), summary: summary(&values).ok()?, histogram })
     };
     SCORES.into_iter().filter_map(one).collect()
@@ -224,13 +224,13 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
         }
     }
     for overall in [false, true] {
-        correct(tests.iter_mut().filter(|test| (test.score == OVERALL.0) == overall).collect());
+        apply_holm_correction(tests.iter_mut().filter(|test| (test.score == OVERALL.0) == overall).collect());
     }
     tests
 }
 
 /// Applies Holm's correction to one family of comparisons, separately for each tail.
-fn correct(mut family: Vec<&mut Comparison>) {
+fn apply_holm_correction(mut family: Vec<&mut Comparison>) {
     family.retain(|test| test.test.p.is_some());
     let tail = |pick: fn(&TailProbabilities) -> f64| {
         let p: Vec<f64> = family.iter().filter_map(|test| test.test.p.as_ref()).map(pick).collect();
@@ -242,7 +242,11 @@ fn correct(mut family: Vec<&mut Comparison>) {
     }
 }
 
-pub fn homogeneity_of(firsts: &[&SessionRecord], group: &SessionsByTrainee<'_>, warnings: &mut Vec<String>) -> Vec<GroupTest> {
+pub fn homogeneity_of(
+    firsts: &[&SessionRecord],
+    group: &SessionsByTrainee<'_>,
+    warnings: &mut Vec<String>,
+) -> Vec<GroupHomogeneityTest> {
     let mut tests = Vec::new();
     if group.is_empty() || group.len() == firsts.len() {
         return tests;
@@ -261,7 +265,9 @@ pub fn homogeneity_of(firsts: &[&SessionRecord], group: &SessionsByTrainee<'_>, 
         };
         let (own, others) = (count(true), count(false));
         match homogeneity(&[own.clone(), others.clone()]) {
-            Ok(test) => tests.push(GroupTest { score: score.to_owned(), cuts: [low, middle], group: own, others, test }),
+            Ok(test) => {
+                tests.push(GroupHomogeneityTest { score: score.to_owned(), cuts: [low, middle], group: own, others, test })
+            }
             Err(error) => warnings.push(format!("{score}: the group cannot be compared with the others: {error}")),
         }
     }

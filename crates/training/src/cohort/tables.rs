@@ -43,7 +43,7 @@ pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
         "progress.csv" => progress(cohort),
         "learning_curves.csv" => curves(cohort),
         "learning_of_the_group.csv" => learning(cohort),
-        "warnings.csv" => NamedTable::new(&["warning"]).rows(cohort.warnings.iter().map(|words| vec![text(words)])),
+        "warnings.csv" => CsvTable::new(&["warning"]).rows(cohort.warnings.iter().map(|words| vec![text(words)])),
         _ => return None,
     })
 }
@@ -54,9 +54,9 @@ pub fn tables(cohort: &Cohort) -> Vec<(&'static str, String)> {
     TABLES.iter().filter_map(|name| Some((*name, table(cohort, name)?))).collect()
 }
 
-struct NamedTable(String);
+struct CsvTable(String);
 
-impl NamedTable {
+impl CsvTable {
     fn new(columns: &[&str]) -> Self {
         Self(columns.join(",") + "\n")
     }
@@ -81,16 +81,21 @@ fn number(value: impl Display) -> String {
     value.to_string()
 }
 
-fn maybe(value: Option<f64>) -> String {
+fn optional_number(value: Option<f64>) -> String {
     value.map_or(String::new(), number)
 }
 
 fn distributions(cohort: &Cohort) -> String {
     let columns = ["score", "n", "mean", "sd", "min", "q1", "median", "q3", "max", "range", "skewness"];
-    NamedTable::new(&columns).rows(cohort.distributions.iter().map(|one| {
+    CsvTable::new(&columns).rows(cohort.distributions.iter().map(|one| {
         let s = &one.summary;
         let figures = [s.min, s.q1, s.median, s.q3, s.max, s.range].map(number);
-        [vec![text(&one.score), number(s.n), number(s.mean), maybe(s.sd)], figures.to_vec(), vec![maybe(s.skewness)]].concat()
+        [
+            vec![text(&one.score), number(s.n), number(s.mean), optional_number(s.sd)],
+            figures.to_vec(),
+            vec![optional_number(s.skewness)],
+        ]
+        .concat()
     }))
 }
 
@@ -99,21 +104,21 @@ fn histograms(cohort: &Cohort) -> String {
     let row = |(score, bar): (&String, &crate::statistics::HistogramBin)| {
         vec![text(score), number(bar.from), number(bar.to), number(bar.count)]
     };
-    NamedTable::new(&["score", "from", "to", "count"]).rows(bars.map(row))
+    CsvTable::new(&["score", "from", "to", "count"]).rows(bars.map(row))
 }
 
 fn individuals(cohort: &Cohort) -> String {
     let columns = ["trainee", "session", "conformity", "efficiency", "safety", "accuracy", "overall", "seconds", "purpose"];
-    NamedTable::new(&columns).rows(cohort.individuals.iter().map(|one| {
+    CsvTable::new(&columns).rows(cohort.individuals.iter().map(|one| {
         let purpose = one.purpose.as_deref().map_or(String::new(), text);
         let scores = [one.conformity, Some(one.efficiency), Some(one.safety), one.accuracy, Some(one.overall), Some(one.seconds)];
-        [vec![text(&one.trainee), text(&one.session)], scores.map(maybe).to_vec(), vec![purpose]].concat()
+        [vec![text(&one.trainee), text(&one.session)], scores.map(optional_number).to_vec(), vec![purpose]].concat()
     }))
 }
 
 fn conformity(cohort: &Cohort) -> String {
     let rows = cohort.individuals.iter().flat_map(|one| one.tasks.iter().map(|task| (&one.trainee, task)));
-    NamedTable::new(&["trainee", "task", "name", "attempted", "on_path", "speeding"]).rows(rows.map(|(trainee, task)| {
+    CsvTable::new(&["trainee", "task", "name", "attempted", "on_path", "speeding"]).rows(rows.map(|(trainee, task)| {
         let attempted = u8::from(task.attempted);
         vec![text(trainee), number(task.id), text(&task.name), number(attempted), number(task.on_path), number(task.speeding)]
     }))
@@ -125,7 +130,7 @@ fn crashes(cohort: &Cohort) -> String {
         ["trainee"].into_iter().chain(tasks.iter().map(String::as_str)).chain(["outside", "total"]).collect();
     let sum = (&"all".to_owned(), &cohort.crashes.by_task, cohort.crashes.total);
     let people = cohort.crashes.rows.iter().map(|row| (&row.trainee, &row.by_task, row.total));
-    NamedTable::new(&columns).rows(people.chain([sum]).map(|(who, by_task, total)| {
+    CsvTable::new(&columns).rows(people.chain([sum]).map(|(who, by_task, total)| {
         let counts = by_task.iter().map(number);
         [text(who)].into_iter().chain(counts).chain([number(total)]).collect()
     }))
@@ -133,7 +138,7 @@ fn crashes(cohort: &Cohort) -> String {
 
 fn repetitions(cohort: &Cohort) -> String {
     let columns = ["score", "repetition", "n", "mean", "low_whisker", "q1", "median", "q3", "high_whisker", "outliers"];
-    NamedTable::new(&columns).rows(cohort.boxes.iter().map(|one| {
+    CsvTable::new(&columns).rows(cohort.boxes.iter().map(|one| {
         let p = &one.plot;
         let outliers: Vec<String> = p.outliers.iter().map(number).collect();
         let figures = [p.mean, p.low_whisker, p.q1, p.median, p.q3, p.high_whisker].map(number);
@@ -161,14 +166,15 @@ fn t_tests(cohort: &Cohort) -> String {
         "p_lower_holm",
         "p_two_holm",
     ];
-    NamedTable::new(&columns).rows(cohort.tests.iter().map(|one| {
+    CsvTable::new(&columns).rows(cohort.tests.iter().map(|one| {
         let t = &one.test;
-        let tails =
-            |p: &Option<TailProbabilities>| [p.map(|p| p.upper), p.map(|p| p.lower), p.map(|p| p.two)].map(maybe).to_vec();
+        let tails = |p: &Option<TailProbabilities>| {
+            [p.map(|p| p.upper), p.map(|p| p.lower), p.map(|p| p.two)].map(optional_number).to_vec()
+        };
         let figures = [t.mean_difference, t.sd_difference, t.interval_95[0], t.interval_95[1]].map(number);
         let start = vec![text(&one.score), number(one.earlier), number(one.later), number(t.n)];
-        let test = vec![number(t.df), maybe(t.t)];
-        [start, figures.to_vec(), test, tails(&t.p), vec![maybe(t.effect_size_dz)], tails(&one.p_holm)].concat()
+        let test = vec![number(t.df), optional_number(t.t)];
+        [start, figures.to_vec(), test, tails(&t.p), vec![optional_number(t.effect_size_dz)], tails(&one.p_holm)].concat()
     }))
 }
 
@@ -188,7 +194,7 @@ fn homogeneity(cohort: &Cohort) -> String {
         "p",
         "smallest_expected",
     ];
-    NamedTable::new(&columns).rows(cohort.homogeneity.iter().map(|one| {
+    CsvTable::new(&columns).rows(cohort.homogeneity.iter().map(|one| {
         let counts = one.group.iter().chain(&one.others).map(number).collect();
         let test = &one.test;
         let test = vec![number(test.chi_squared), number(test.df), number(test.p), number(test.smallest_expected)];
@@ -199,7 +205,7 @@ fn homogeneity(cohort: &Cohort) -> String {
 fn likert(cohort: &Cohort) -> String {
     let columns =
         ["question", "repetition", "strongly_agree", "agree", "neutral", "disagree", "strongly_disagree", "n", "agreeing"];
-    NamedTable::new(&columns).rows(cohort.likert.iter().map(|one| {
+    CsvTable::new(&columns).rows(cohort.likert.iter().map(|one| {
         let repetition = one.repetition.map_or("all first".to_owned(), number);
         [vec![text(&one.question), repetition], one.counts.map(number).to_vec(), vec![number(one.n), number(one.agree)]].concat()
     }))
@@ -208,21 +214,22 @@ fn likert(cohort: &Cohort) -> String {
 fn self_rating(cohort: &Cohort) -> String {
     let people = cohort.self_rating.people.iter();
     let row = |one: &super::SelfRatingPair| vec![text(&one.trainee), number(one.self_rating), number(one.measured_pct)];
-    NamedTable::new(&["trainee", "self_rating", "measured_pct"]).rows(people.map(row))
+    CsvTable::new(&["trainee", "self_rating", "measured_pct"]).rows(people.map(row))
 }
 
 fn contradictions(cohort: &Cohort) -> String {
     let found = cohort.self_rating.contradictions.iter();
-    NamedTable::new(&["trainee", "words"]).rows(found.map(|one| vec![text(&one.trainee), text(&one.words)]))
+    CsvTable::new(&["trainee", "words"]).rows(found.map(|one| vec![text(&one.trainee), text(&one.words)]))
 }
 
 fn causal(cohort: &Cohort) -> String {
     let columns = ["model", "term", "estimate", "standard_error", "t", "p", "low_95", "high_95"];
-    let Some(model) = &cohort.causal else { return NamedTable::new(&columns).rows(std::iter::empty()) };
+    let Some(model) = &cohort.causal else { return CsvTable::new(&columns).rows(std::iter::empty()) };
     let terms = |name: &'static str, regression: &Regression| {
         let row = move |one: &crate::statistics::Coefficient| {
             let start = vec![name.to_owned(), text(&one.name), number(one.estimate), number(one.standard_error)];
-            [start, vec![maybe(one.t), maybe(one.p), number(one.interval_95[0]), number(one.interval_95[1])]].concat()
+            [start, vec![optional_number(one.t), optional_number(one.p), number(one.interval_95[0]), number(one.interval_95[1])]]
+                .concat()
         };
         regression.coefficients.iter().map(row).collect::<Vec<_>>()
     };
@@ -233,7 +240,7 @@ fn causal(cohort: &Cohort) -> String {
         [vec!["resampled".to_owned(), text(&name), number(one.effect), none(), none(), none()], ends.to_vec()].concat()
     });
     let rows = [terms("strain", &model.strain), terms("performance", &model.performance), effects.collect()].concat();
-    NamedTable::new(&columns).rows(rows.into_iter())
+    CsvTable::new(&columns).rows(rows.into_iter())
 }
 
 fn progress(cohort: &Cohort) -> String {
@@ -242,20 +249,21 @@ fn progress(cohort: &Cohort) -> String {
     let end = ["bridge", "terrain", "water", "other", "vehicle", "person"];
     let columns: Vec<&str> = start.into_iter().chain(tasks.iter().map(String::as_str)).chain(end).collect();
     let rows = cohort.progress.iter().flat_map(|one| one.repetitions.iter().map(|repetition| (&one.trainee, repetition)));
-    NamedTable::new(&columns).rows(rows.map(|(trainee, one)| {
+    CsvTable::new(&columns).rows(rows.map(|(trainee, one)| {
         let scores = [one.conformity, Some(one.efficiency), Some(one.safety), one.accuracy, Some(one.overall), Some(one.seconds)];
-        let on_path = |id: &u32| maybe(one.on_path.iter().find(|(task, _)| task == id).and_then(|(_, share)| *share));
+        let on_path = |id: &u32| optional_number(one.on_path.iter().find(|(task, _)| task == id).and_then(|(_, share)| *share));
         let crashes = one.crashes.by_kind().map(|(_, count)| number(count)).to_vec();
         let paths = cohort.crashes.tasks.iter().map(on_path).collect();
-        [vec![text(trainee), number(one.number), text(&one.session)], scores.map(maybe).to_vec(), paths, crashes].concat()
+        [vec![text(trainee), number(one.number), text(&one.session)], scores.map(optional_number).to_vec(), paths, crashes]
+            .concat()
     }))
 }
 
 fn curves(cohort: &Cohort) -> String {
     let rows = cohort.progress.iter().flat_map(|one| one.curves.iter().map(|curve| (&one.trainee, curve)));
-    NamedTable::new(&["trainee", "score", "n", "first", "exponent", "r_squared", "next"]).rows(rows.map(|(trainee, one)| {
+    CsvTable::new(&["trainee", "score", "n", "first", "exponent", "r_squared", "next"]).rows(rows.map(|(trainee, one)| {
         let c = &one.curve;
-        let figures = vec![number(c.n), number(c.first), number(c.exponent), maybe(c.r_squared), number(c.next)];
+        let figures = vec![number(c.n), number(c.first), number(c.exponent), optional_number(c.r_squared), number(c.next)];
         [vec![text(trainee), text(&one.score)], figures].concat()
     }))
 }
@@ -263,9 +271,9 @@ fn curves(cohort: &Cohort) -> String {
 fn learning(cohort: &Cohort) -> String {
     let columns = ["score", "people", "repetition", "mean", "fitted", "first", "exponent", "r_squared"];
     let rows = cohort.learning.iter().flat_map(|one| one.means.iter().enumerate().map(move |(k, mean)| (one, k + 1, *mean)));
-    NamedTable::new(&columns).rows(rows.map(|(one, repetition, mean)| {
+    CsvTable::new(&columns).rows(rows.map(|(one, repetition, mean)| {
         let c = &one.curve;
-        let curve = vec![number(c.at(repetition as f64)), number(c.first), number(c.exponent), maybe(c.r_squared)];
+        let curve = vec![number(c.at(repetition as f64)), number(c.first), number(c.exponent), optional_number(c.r_squared)];
         [vec![text(&one.score), number(one.people), number(repetition), number(mean)], curve].concat()
     }))
 }
@@ -275,7 +283,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_fields_are_quoted_and_no_formula_gets_through() {
+    fn exact_csv_fields_are_quoted_and_formulas_escaped() {
         assert_eq!(text("plain"), "plain");
         assert_eq!(text("a,b \"c\"\n"), "\"a,b \"\"c\"\"\n\"");
         assert_eq!(text("=1+1"), "'=1+1");

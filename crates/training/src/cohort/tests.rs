@@ -1,16 +1,16 @@
 use super::*;
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem};
-use crate::testing::{broken_off, faultless};
+use crate::testing::{aborted_record, perfect_record};
 use spandrel_model::random::RandomStream;
 
 /// Returns records of 22 trainees, the first eight with three sessions each. Scores and answers are random, but higher demand
 /// leads to more strain and more strain to less safety.
-fn pilot() -> Vec<SessionRecord> {
+fn pilot_study_records() -> Vec<SessionRecord> {
     let mut stream = RandomStream::new(11, "made-up cohort");
     let mut records = Vec::new();
     for person in 0..22usize {
         for repetition in 0..if person < 8 { 3 } else { 1 } {
-            let mut record = faultless(&format!("p{person:02}"), repetition + 1);
+            let mut record = perfect_record(&format!("p{person:02}"), repetition + 1);
             let demand = stream.range(1.0, 5.0);
             let strain = (0.7 * demand + stream.range(0.0, 1.5)).clamp(1.0, 5.0);
             let answers = record.answers.as_mut().unwrap();
@@ -37,13 +37,13 @@ fn pilot() -> Vec<SessionRecord> {
     records
 }
 
-fn worked(records: &[SessionRecord]) -> Cohort {
-    cohort(records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::LeaveOut })
+fn analyzed(records: &[SessionRecord]) -> Cohort {
+    cohort(records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Exclude })
 }
 
 #[test]
-fn exact_the_papers_design_gives_the_papers_tables() {
-    let cohort = worked(&pilot());
+fn exact_tasbid_study_design_yields_its_tables() {
+    let cohort = analyzed(&pilot_study_records());
     assert_eq!((cohort.trainees, cohort.sessions, cohort.group.len()), (22, 38, 8));
     assert_eq!(cohort.scenarios, ["two-bridges"]);
     assert_eq!(cohort.distributions.len(), 5);
@@ -62,11 +62,11 @@ fn exact_the_papers_design_gives_the_papers_tables() {
 }
 
 #[test]
-fn exact_repetitions_follow_time_and_compare_the_same_people() {
-    let mut records = pilot();
-    let expected = worked(&records);
+fn exact_repetitions_are_chronological_and_paired_by_trainee() {
+    let mut records = pilot_study_records();
+    let expected = analyzed(&records);
     records.reverse();
-    assert_eq!(worked(&records), expected, "the order of the records does not matter");
+    assert_eq!(analyzed(&records), expected, "the order of the records does not matter");
     let test = expected.tests.iter().find(|test| test.score == "conformity" && (test.earlier, test.later) == (1, 3)).unwrap();
     assert_eq!(test.test.n, 8);
     let of = |k: usize| {
@@ -82,8 +82,8 @@ fn exact_repetitions_follow_time_and_compare_the_same_people() {
 }
 
 #[test]
-fn exact_the_causal_model_finds_what_made_the_data() {
-    let model = worked(&pilot()).causal.unwrap();
+fn exact_causal_model_recovers_generating_effects() {
+    let model = analyzed(&pilot_study_records()).causal.unwrap();
     let of = |model: &crate::statistics::Regression, name: &str| {
         model.coefficients.iter().find(|one| one.name == name).unwrap().estimate
     };
@@ -94,18 +94,18 @@ fn exact_the_causal_model_finds_what_made_the_data() {
     let middle = model.indirect[1];
     let interval = middle.interval_95.unwrap();
     assert!(interval[0] < middle.effect && middle.effect < interval[1] && interval[1] < 0.0, "{middle:?}");
-    assert_eq!(worked(&pilot()).causal.unwrap(), model, "the bootstrap is reproducible");
+    assert_eq!(analyzed(&pilot_study_records()).causal.unwrap(), model, "the bootstrap is reproducible");
 }
 
 #[test]
-fn exact_contradictions_of_the_papers_kinds_are_found() {
-    let mut records: Vec<SessionRecord> = (0..8).map(|k| faultless(&format!("p{k}"), 1)).collect();
+fn exact_contradictions_are_found() {
+    let mut records: Vec<SessionRecord> = (0..8).map(|k| perfect_record(&format!("p{k}"), 1)).collect();
     for (k, record) in records.iter_mut().enumerate() {
         record.scores.overall = 400.0 - 10.0 * k as f64;
         record.seconds = 800.0 + 50.0 * k as f64;
     }
     records[0].answers.as_mut().unwrap().given.insert(QuestionnaireItem::Overall(OverallItem::TimePressure), 4);
-    let found = worked(&records).self_rating.contradictions;
+    let found = analyzed(&records).self_rating.contradictions;
     let of = |who: &str| found.iter().filter(|one| one.trainee == who).map(|one| one.words.as_str()).collect::<Vec<_>>();
     assert!(of("p0").iter().any(|words| words.starts_with("felt time pressure")));
     assert!(of("p7").iter().any(|words| words.contains("in the lowest quarter")));
@@ -114,27 +114,27 @@ fn exact_contradictions_of_the_papers_kinds_are_found() {
 }
 
 #[test]
-fn exact_four_repetitions_make_a_learning_curve() {
-    let mut records: Vec<SessionRecord> = (1..=5).map(|k| faultless("anna", k)).collect();
+fn exact_learning_curve_requires_four_repetitions() {
+    let mut records: Vec<SessionRecord> = (1..=5).map(|k| perfect_record("anna", k)).collect();
     for (k, record) in records.iter_mut().enumerate() {
         record.scores.safety = 40.0 * spandrel_model::math::pow((k + 1) as f64, 0.4);
         record.scores.accuracy = None;
     }
-    let cohort = worked(&records);
+    let cohort = analyzed(&records);
     let curve = cohort.progress[0].curves.iter().find(|curve| curve.score == "safety").unwrap();
     assert!((curve.curve.exponent - 0.4).abs() < 1e-9);
     assert!(!cohort.progress[0].curves.iter().any(|curve| curve.score == "accuracy"));
 }
 
 #[test]
-fn exact_the_groups_curve_goes_through_the_means_of_those_who_flew_often_enough() {
+fn exact_group_curve_fits_means_of_eligible_trainees() {
     let safety = |first: f64, k: usize| first * spandrel_model::math::pow(k as f64, 0.3);
     let mut records = Vec::new();
     // Two trainees have curves with the same exponent, so the curve of their mean has it, too. Only the repetitions that both
     // flew count. A third trainee has too few sessions. A fourth has no accuracy score in one session.
     for (who, first, times) in [("anna", 30.0, 6), ("ben", 50.0, 4), ("cleo", 90.0, 3), ("dan", 40.0, 4)] {
         for k in 1..=times {
-            let mut record = faultless(who, k);
+            let mut record = perfect_record(who, k);
             record.scores.safety = safety(first, k);
             if who == "dan" && k == 2 {
                 record.scores.accuracy = None;
@@ -142,39 +142,39 @@ fn exact_the_groups_curve_goes_through_the_means_of_those_who_flew_often_enough(
             records.push(record);
         }
     }
-    let learning = worked(&records).learning;
+    let learning = analyzed(&records).learning;
     let of = |score: &str| learning.iter().find(|one| one.score == score).unwrap();
     assert_eq!((of("safety").people, of("safety").means.len(), of("accuracy").people), (3, 4, 2));
     assert!((of("safety").curve.exponent - 0.3).abs() < 1e-9 && (of("safety").curve.first - 40.0).abs() < 1e-6);
     assert!((of("safety").curve.at(3.0) - of("safety").means[2]).abs() < 1e-6);
-    assert!(worked(&pilot()).learning.is_empty(), "a curve requires four repetitions");
+    assert!(analyzed(&pilot_study_records()).learning.is_empty(), "a curve requires four repetitions");
 }
 
 #[test]
-fn exact_one_trainees_jobs_are_kept_apart() {
-    let mut records: Vec<SessionRecord> = (1..=9).map(|k| faultless("anna", k)).collect();
+fn exact_jobs_of_one_trainee_are_separate() {
+    let mut records: Vec<SessionRecord> = (1..=9).map(|k| perfect_record("anna", k)).collect();
     for record in records.iter_mut().step_by(2) {
         record.scenario = "drill-gap".into();
         record.tasks.truncate(1);
         record.scores.safety = 10.0;
     }
     records.reverse();
-    let jobs = by_job(&records, IncompletePolicy::LeaveOut);
+    let jobs = by_job(&records, IncompletePolicy::Exclude);
     let told: Vec<(&str, usize, usize)> =
         jobs.iter().map(|job| (job.scenario.as_str(), job.tasks.len(), job.progress.repetitions.len())).collect();
     assert_eq!(told, [("two-bridges", 4, 4), ("drill-gap", 1, 5)], "the job is listed before its drills");
     assert!(jobs[0].progress.repetitions.iter().all(|one| one.safety == 100.0));
     assert!(jobs[1].progress.repetitions.windows(2).all(|pair| pair[0].started_unix_us < pair[1].started_unix_us));
     assert_eq!((jobs[0].progress.curves.len(), jobs[1].progress.curves.len()), (5, 5));
-    assert!(by_job(&[], IncompletePolicy::LeaveOut).is_empty());
+    assert!(by_job(&[], IncompletePolicy::Exclude).is_empty());
 }
 
 #[test]
-fn exact_small_and_empty_cohorts_are_described_and_warned_of() {
-    let none = worked(&[]);
+fn exact_small_and_empty_cohorts_have_warnings() {
+    let none = analyzed(&[]);
     assert_eq!((none.trainees, none.causal, none.tests.len()), (0, None, 0));
     assert!(!none.warnings.is_empty());
-    let one = worked(&[faultless("anna", 1)]);
+    let one = analyzed(&[perfect_record("anna", 1)]);
     assert_eq!((one.trainees, one.distributions.len(), one.distributions[0].summary.sd), (1, 5, None));
     assert!(one.warnings.iter().any(|words| words.contains("could not be estimated")));
     for (name, table) in tables(&one) {
@@ -189,23 +189,23 @@ fn exact_small_and_empty_cohorts_are_described_and_warned_of() {
 }
 
 #[test]
-fn exact_other_jobs_do_not_count_unless_asked_for() {
-    let mut records = pilot();
-    let mut drill = faultless("p00", 9);
+fn exact_only_selected_jobs_count() {
+    let mut records = pilot_study_records();
+    let mut drill = perfect_record("p00", 9);
     drill.scenario = "drill-gap".into();
     records.push(drill);
-    assert_eq!(worked(&records).sessions, 38);
+    assert_eq!(analyzed(&records).sessions, 38);
     let both = Selection {
         scenarios: vec!["two-bridges".into(), "drill-gap".into()],
         repetitions: 3,
-        incomplete: IncompletePolicy::LeaveOut,
+        incomplete: IncompletePolicy::Exclude,
     };
     assert_eq!(cohort(&records, &both).sessions, 39);
 }
 
 #[test]
-fn exact_a_task_is_rated_against_its_own_path() {
-    let mut records: Vec<SessionRecord> = (0..6).map(|k| faultless(&format!("p{k}"), 1)).collect();
+fn exact_task_self_rating_correlates_with_its_path_share() {
+    let mut records: Vec<SessionRecord> = (0..6).map(|k| perfect_record(&format!("p{k}"), 1)).collect();
     for (k, record) in records.iter_mut().enumerate() {
         record.tasks[2].on_path = 0.3 + 0.1 * k as f64;
         let answer = 5 - (k as u8).min(4);
@@ -216,17 +216,17 @@ fn exact_a_task_is_rated_against_its_own_path() {
             .given
             .insert(QuestionnaireItem::Phase(InspectionPhase::Task(3), PhaseAspect::Performance), answer);
     }
-    let rating = worked(&records).self_rating;
+    let rating = analyzed(&records).self_rating;
     let third = rating.tasks.iter().find(|(id, _)| *id == 3).and_then(|(_, correlation)| *correlation).unwrap();
     assert!(third.r > 0.95, "{third:?}");
     assert_eq!(rating.tasks.iter().find(|(id, _)| *id == 1).unwrap().1, None, "all answers are equal");
 }
 
 #[test]
-fn regress_an_abort_is_no_first_session_unless_asked_for() {
-    let records = vec![broken_off("anna", 1), faultless("anna", 2), faultless("ben", 1), broken_off("cleo", 1)];
+fn regress_aborted_session_is_not_a_first_session_by_default() {
+    let records = vec![aborted_record("anna", 1), perfect_record("anna", 2), perfect_record("ben", 1), aborted_record("cleo", 1)];
     let of = |incomplete: IncompletePolicy| cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete });
-    let (without, with) = (of(IncompletePolicy::LeaveOut), of(IncompletePolicy::Include));
+    let (without, with) = (of(IncompletePolicy::Exclude), of(IncompletePolicy::Include));
     assert_eq!((without.trainees, without.sessions, without.left_out), (2, 2, 2));
     assert_eq!(
         without.individuals.iter().map(|one| one.session.as_str()).collect::<Vec<_>>(),
@@ -235,16 +235,16 @@ fn regress_an_abort_is_no_first_session_unless_asked_for() {
     assert_eq!(without.progress[0].repetitions.len(), 1);
     assert_eq!((with.trainees, with.sessions, with.left_out), (3, 4, 0));
     assert_eq!(with.individuals[0].session, "session-anna-001");
-    let older = vec![SessionRecord { completion: None, ..faultless("anna", 1) }];
-    let older = cohort(&older, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut });
+    let older = vec![SessionRecord { completion: None, ..perfect_record("anna", 1) }];
+    let older = cohort(&older, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude });
     assert_eq!((older.sessions, older.left_out), (0, 1), "a record without completion data counts as incomplete");
 }
 
 #[test]
-fn regress_learning_curves_leave_incomplete_sessions_out() {
-    let mut records: Vec<SessionRecord> = (1..=4).map(|k| faultless("anna", k)).collect();
-    records.push(broken_off("anna", 5));
-    let (without, with) = (&by_job(&records, IncompletePolicy::LeaveOut)[0], &by_job(&records, IncompletePolicy::Include)[0]);
+fn regress_learning_curves_exclude_incomplete_sessions() {
+    let mut records: Vec<SessionRecord> = (1..=4).map(|k| perfect_record("anna", k)).collect();
+    records.push(aborted_record("anna", 5));
+    let (without, with) = (&by_job(&records, IncompletePolicy::Exclude)[0], &by_job(&records, IncompletePolicy::Include)[0]);
     assert_eq!((without.progress.repetitions.len(), without.left_out), (4, 1));
     assert_eq!((with.progress.repetitions.len(), with.left_out), (5, 0));
     assert!(without.progress.curves.iter().all(|curve| curve.curve.n == 4));

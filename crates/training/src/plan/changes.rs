@@ -4,7 +4,7 @@ use crate::record::SessionRecord;
 use serde::Serialize;
 
 /// Score changes below this threshold are reported as unchanged, points.
-const WORTH_A_WORD: f64 = 0.05;
+const MIN_REPORTED_CHANGE: f64 = 0.05;
 
 /// The latest session compared with the previous one on the same job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -35,7 +35,7 @@ pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     let mut changes = Vec::new();
     let mut add = |what: String, before: Option<f64>, now: Option<f64>, more_is_better: bool| {
         if let (Some(before), Some(now)) = (before, now) {
-            let same = (now - before).abs() < WORTH_A_WORD;
+            let same = (now - before).abs() < MIN_REPORTED_CHANGE;
             changes.push(MeasureChange { what, before, now, better: (!same).then_some((now > before) == more_is_better) });
         }
     };

@@ -9,13 +9,13 @@ pub use rules::{PlanRule, PlanRules, RULES, RuleMeasure, read_rules};
 
 use super::record::{Crashes, DefectRecord, IncompletePolicy, SessionOutcome, SessionRecord, TaskRecord};
 use serde::Serialize;
-use spandrel_model::numbers::format_beside_limit;
+use spandrel_model::numbers::format_with_limit;
 use std::cmp::Ordering;
 
 /// Minimum condition state at which a missed defect is severe: poor (AASHTO MBEI).
-const SEVERE_STATE: u8 = 3;
+const MIN_SEVERE_STATE: u8 = 3;
 /// Maximum number of missed defects named in a reason.
-const DEFECTS_NAMED: usize = 3;
+const MAX_DEFECTS_LISTED: usize = 3;
 /// Length of a day, µs.
 const DAY_US: f64 = 86_400e6;
 /// A landing with less battery than this counts as late, % (docs/src/reference/assessment.md, "Certification").
@@ -23,7 +23,7 @@ const BATTERY_RESERVE_PCT: f64 = 20.0;
 /// Points lost per minute beyond the time for full efficiency (TASBID).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
 /// A deviation is described by one direction only if it is larger than the other by this factor.
-const MAINLY: f64 = 2.0;
+const DOMINANCE_RATIO: f64 = 2.0;
 
 /// Scenarios recommended to one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -99,9 +99,9 @@ pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> O
     let overdue = days > rules.retention_days;
     if overdue {
         let words = rules.retention_reason.replace("{value}", &format!("{days:.0}"));
-        steps.insert(0, single(&rules.retention_scenario, last, ("retention", words), (days, rules.retention_days)));
+        steps.insert(0, single_reason_step(&rules.retention_scenario, last, ("retention", words), (days, rules.retention_days)));
     } else if steps.is_empty() {
-        steps.push(single(&rules.job, last, ("job", rules.job_reason.clone()), (0.0, 0.0)));
+        steps.push(single_reason_step(&rules.job, last, ("job", rules.job_reason.clone()), (0.0, 0.0)));
     }
     let after = |days: f64| last.started_unix_us.saturating_add((days * DAY_US) as u64);
     Some(TrainingPlan {
@@ -118,7 +118,7 @@ pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> O
 
 /// Creates a plan from the sessions that the policy allows. If there are none, the plan recommends the job.
 #[must_use]
-pub fn plan_counting(
+pub fn plan_for_policy(
     mut records: Vec<SessionRecord>,
     incomplete: IncompletePolicy,
     rules: &PlanRules,
@@ -132,7 +132,7 @@ pub fn plan_counting(
         return Some(TrainingPlan { left_out, ..plan });
     }
     let words = format!("No complete session yet. The last one: {}.", newest.completion_summary());
-    let steps = vec![single(&rules.job, &newest, ("job", words), (0.0, 0.0))];
+    let steps = vec![single_reason_step(&rules.job, &newest, ("job", words), (0.0, 0.0))];
     let after = |days: f64| newest.started_unix_us.saturating_add((days * DAY_US) as u64);
     let (trainee, session) = (newest.trainee.clone(), newest.id.clone());
     let (from_unix_us, until_unix_us) = (newest.started_unix_us, after(rules.retention_days));
@@ -149,7 +149,12 @@ fn add(steps: &mut Vec<PlanStep>, scenario: &str, urgency: f64, reason: PlanReas
     }
 }
 
-fn single(scenario: &str, record: &SessionRecord, (rule, words): (&str, String), (value, limit): (f64, f64)) -> PlanStep {
+fn single_reason_step(
+    scenario: &str,
+    record: &SessionRecord,
+    (rule, words): (&str, String),
+    (value, limit): (f64, f64),
+) -> PlanStep {
     let reason = PlanReason { rule: rule.to_owned(), session: record.id.clone(), words, value, limit };
     PlanStep { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason] }
 }
@@ -164,8 +169,8 @@ fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a
         | RuleMeasure::Crashes
         | RuleMeasure::NotAttempted => {
             let fits = |task: &&TaskRecord| rule.task.is_none_or(|kind| task.kind == kind);
-            let newest = newest_tasks(records).into_iter().filter(|(_, task)| fits(task));
-            let of = |(record, task)| Some(Finding { value: of_task(rule, task)?, task: Some(task), record });
+            let newest = latest_flights_by_task(records).into_iter().filter(|(_, task)| fits(task));
+            let of = |(record, task)| Some(Finding { value: task_value(rule, task)?, task: Some(task), record });
             newest.filter_map(of).collect()
         }
         RuleMeasure::CrashesOutside
@@ -177,14 +182,14 @@ fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a
         | RuleMeasure::Overtime
         | RuleMeasure::NotLanded
         | RuleMeasure::BatteryLow => {
-            let of = |record| Some(Finding { value: of_session(rule, record)?, task: None, record });
+            let of = |record| Some(Finding { value: session_value(rule, record)?, task: None, record });
             records.iter().rev().find_map(of).into_iter().collect()
         }
     }
 }
 
 /// Returns the latest flight of each task, matched by kind; free tasks are matched by name.
-fn newest_tasks(records: &[SessionRecord]) -> Vec<(&SessionRecord, &TaskRecord)> {
+fn latest_flights_by_task(records: &[SessionRecord]) -> Vec<(&SessionRecord, &TaskRecord)> {
     let mut newest: Vec<(&SessionRecord, &TaskRecord)> = Vec::new();
     for (record, task) in records.iter().rev().flat_map(|record| record.tasks.iter().map(move |task| (record, task))) {
         let same = |(_, other): &(&SessionRecord, &TaskRecord)| {
@@ -198,7 +203,7 @@ fn newest_tasks(records: &[SessionRecord]) -> Vec<(&SessionRecord, &TaskRecord)>
     newest
 }
 
-fn of_task(rule: &PlanRule, task: &TaskRecord) -> Option<f64> {
+fn task_value(rule: &PlanRule, task: &TaskRecord) -> Option<f64> {
     let flown = task.attempted.then_some(());
     match rule.measure {
         RuleMeasure::OffPath => flown.map(|()| 1.0 - task.on_path),
@@ -218,7 +223,7 @@ fn of_task(rule: &PlanRule, task: &TaskRecord) -> Option<f64> {
     }
 }
 
-fn of_session(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
+fn session_value(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
     let yes = |is: bool| Some(f64::from(u8::from(is)));
     let share = |part: usize, whole: usize| (whole > 0).then(|| part as f64 / whole as f64);
     match rule.measure {
@@ -267,7 +272,7 @@ fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecor
         | RuleMeasure::FalseSnapshots
         | RuleMeasure::Overtime
         | RuleMeasure::NotLanded
-        | RuleMeasure::BatteryLow => defect.condition_state >= SEVERE_STATE,
+        | RuleMeasure::BatteryLow => defect.condition_state >= MIN_SEVERE_STATE,
     };
     let mut missed: Vec<&DefectRecord> = record.defects.iter().filter(|defect| !defect.found).filter(about).collect();
     missed.sort_by(|a, b| {
@@ -278,15 +283,15 @@ fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecor
     missed
 }
 
-/// Describes the missed defects that a rule applies to, listing at most [`DEFECTS_NAMED`] of them.
+/// Describes the missed defects that a rule applies to, listing at most [`MAX_DEFECTS_LISTED`] of them.
 fn missed_summary(rule: &PlanRule, record: &SessionRecord) -> String {
     let missed = missed(rule, record);
     let name = |defect: &&DefectRecord| {
         format!("defect {} ({}, condition state {})", defect.id, defect.kind_name, defect.condition_state)
     };
-    let mut names: Vec<String> = missed.iter().take(DEFECTS_NAMED).map(name).collect();
-    if missed.len() > DEFECTS_NAMED {
-        names.push(format!("{} more", missed.len() - DEFECTS_NAMED));
+    let mut names: Vec<String> = missed.iter().take(MAX_DEFECTS_LISTED).map(name).collect();
+    if missed.len() > MAX_DEFECTS_LISTED {
+        names.push(format!("{} more", missed.len() - MAX_DEFECTS_LISTED));
     }
     match names.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
@@ -315,8 +320,8 @@ fn reason(rule: &PlanRule, finding: &Finding<'_>) -> PlanReason {
 /// Describes the direction in which the drone was off the task's path.
 fn axis(task: &TaskRecord) -> &'static str {
     match (task.off_sideways_m, task.off_height_m) {
-        (Some(sideways), Some(height)) if sideways > MAINLY * height => "mainly to the side",
-        (Some(sideways), Some(height)) if height > MAINLY * sideways => "mainly in height",
+        (Some(sideways), Some(height)) if sideways > DOMINANCE_RATIO * height => "mainly to the side",
+        (Some(sideways), Some(height)) if height > DOMINANCE_RATIO * sideways => "mainly in height",
         (Some(_), Some(_)) => "to the side and in height",
         (Some(_) | None, None) | (None, Some(_)) => "and far away from it",
     }
@@ -326,11 +331,11 @@ fn axis(task: &TaskRecord) -> &'static str {
 fn displayed_value(measure: RuleMeasure, value: f64, limit: f64) -> String {
     match measure {
         RuleMeasure::OffPath | RuleMeasure::Speeding | RuleMeasure::Missed | RuleMeasure::FalseSnapshots => {
-            format!("{} %", format_beside_limit(100.0 * value, 100.0 * limit, 0))
+            format!("{} %", format_with_limit(100.0 * value, 100.0 * limit, 0))
         }
-        RuleMeasure::OffHeight => format!("{} m", format_beside_limit(value, limit, 1)),
-        RuleMeasure::Overtime => format!("{} min", format_beside_limit(value, limit, 1)),
-        RuleMeasure::MissedInView => format!("{} s", format_beside_limit(value, limit, 1)),
+        RuleMeasure::OffHeight => format!("{} m", format_with_limit(value, limit, 1)),
+        RuleMeasure::Overtime => format!("{} min", format_with_limit(value, limit, 1)),
+        RuleMeasure::MissedInView => format!("{} s", format_with_limit(value, limit, 1)),
         RuleMeasure::Crashes
         | RuleMeasure::CrashesOutside
         | RuleMeasure::CrashesAll

@@ -57,7 +57,7 @@ const MEASURES: &[(&str, RuleMeasure)] = &[
     ("not_landed", RuleMeasure::NotLanded),
     ("battery_low", RuleMeasure::BatteryLow),
 ];
-const TASKS: &[(&str, Option<&str>)] = &[
+const TASK_KINDS: &[(&str, Option<&str>)] = &[
     ("any", None),
     ("slab_side", Some("slab_side")),
     ("arch_bottom", Some("arch_bottom")),
@@ -65,7 +65,7 @@ const TASKS: &[(&str, Option<&str>)] = &[
     ("pier_circle", Some("pier_circle")),
     ("free", Some("free")),
 ];
-const WITH: &[(&str, Option<&str>)] = &[
+const CRASH_OBJECTS: &[(&str, Option<&str>)] = &[
     ("any", None),
     ("bridge", Some("bridge")),
     ("terrain", Some("terrain")),
@@ -164,9 +164,9 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
 fn one(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
     PlanRule {
         name: reader.text(section, "name", None),
-        measure: reader.choice(section, "measure", MEASURES, None),
-        task: reader.choice(section, "task", TASKS, Some(0)),
-        with: reader.choice(section, "with", WITH, Some(0)),
+        measure: reader.keyword(section, "measure", MEASURES, None),
+        task: reader.keyword(section, "task", TASK_KINDS, Some(0)),
+        with: reader.keyword(section, "with", CRASH_OBJECTS, Some(0)),
         lacked: reader.text(section, "lacked", Some("")),
         limit: reader.number(section, "limit", (0.001, 1000.0), None),
         weight: reader.number(section, "weight", (0.01, 100.0), Some(1.0)),
@@ -180,7 +180,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_shipped_rules_are_valid_and_a_wrong_one_is_reported_by_line_and_key() {
+    fn exact_shipped_rules_are_valid_and_errors_name_line_and_key() {
         assert!(read_rules("rules.toml", RULES).unwrap().rules.len() > 20);
         let wrong =
             RULES.replacen("measure = \"off_path\"", "measure = \"elegance\"", 1).replacen("limit = 0.1\n", "limit = -1\n", 1);

@@ -1,5 +1,5 @@
 use super::*;
-use crate::testing::{broken_off, faultless};
+use crate::testing::{aborted_record, perfect_record};
 
 const NOW: u64 = 1_700_000_000_000_000 + 864_000_000_000;
 
@@ -8,8 +8,8 @@ fn rules() -> PlanRules {
 }
 
 /// Returns a record in which the rule's measure is `factor` times its limit.
-fn suffering(rule: &PlanRule, factor: f64) -> SessionRecord {
-    let mut record = faultless("anna", 1);
+fn record_with_measure(rule: &PlanRule, factor: f64) -> SessionRecord {
+    let mut record = perfect_record("anna", 1);
     let value = factor * rule.limit;
     // Counts are integers: with a limit of 0.5, a count of 1 exceeds it and 0 does not.
     let count = if factor > 1.0 { value.ceil().max(1.0) as usize } else { 0 };
@@ -52,11 +52,11 @@ fn suffering(rule: &PlanRule, factor: f64) -> SessionRecord {
 }
 
 #[test]
-fn exact_every_shipped_rule_fires_above_its_limit_and_not_below() {
+fn exact_shipped_rules_apply_only_above_their_limit() {
     let rules = rules();
     for rule in &rules.rules {
         let fired = |factor: f64| {
-            let plan = plan(&[suffering(rule, factor)], &rules, NOW).unwrap();
+            let plan = plan(&[record_with_measure(rule, factor)], &rules, NOW).unwrap();
             let step = plan.steps.into_iter().find(|step| step.reasons.iter().any(|reason| reason.rule == rule.name));
             step.map(|step| (step.scenario, step.reasons.into_iter().find(|reason| reason.rule == rule.name).unwrap().words))
         };
@@ -68,8 +68,8 @@ fn exact_every_shipped_rule_fires_above_its_limit_and_not_below() {
 }
 
 #[test]
-fn exact_poor_interlayer_flights_lead_to_the_gap_drill() {
-    let mut record = faultless("anna", 1);
+fn exact_poor_interlayer_flight_recommends_gap_drill() {
+    let mut record = perfect_record("anna", 1);
     record.tasks[2].on_path = 0.3;
     record.tasks[2].off_sideways_m = Some(0.4);
     record.tasks[2].off_height_m = Some(2.1);
@@ -82,10 +82,10 @@ fn exact_poor_interlayer_flights_lead_to_the_gap_drill() {
 }
 
 #[test]
-fn exact_a_good_drill_leads_to_the_job() {
-    let mut job = faultless("anna", 1);
+fn exact_good_drill_recommends_the_job() {
+    let mut job = perfect_record("anna", 1);
     job.tasks[2].on_path = 0.3;
-    let mut drill = faultless("anna", 2);
+    let mut drill = perfect_record("anna", 2);
     drill.scenario = "drill-gap".into();
     drill.tasks.retain(|task| task.kind == "interlayer");
     drill.defects.clear();
@@ -96,8 +96,8 @@ fn exact_a_good_drill_leads_to_the_job() {
 }
 
 #[test]
-fn exact_after_a_long_pause_one_begins_with_a_refresher() {
-    let record = faultless("anna", 0);
+fn exact_refresher_is_recommended_after_long_pause() {
+    let record = perfect_record("anna", 0);
     let day = 86_400_000_000;
     let at = |days: u64| plan(std::slice::from_ref(&record), &rules(), record.started_unix_us + days * day).unwrap();
     assert!(!at(90).overdue);
@@ -109,12 +109,12 @@ fn exact_after_a_long_pause_one_begins_with_a_refresher() {
 }
 
 #[test]
-fn exact_changes_report_what_got_better_and_what_worse() {
-    let (mut then, mut now) = (faultless("anna", 1), faultless("anna", 2));
+fn exact_changes_mark_improvements_and_regressions() {
+    let (mut then, mut now) = (perfect_record("anna", 1), perfect_record("anna", 2));
     then.scores.safety = 64.0;
     then.tasks[1].crashes.bridge = 12;
     now.scores.accuracy = Some(60.0);
-    let mut drill = faultless("anna", 1);
+    let mut drill = perfect_record("anna", 1);
     drill.scenario = "drill-gap".into();
     let changes = plan(&[then, drill, now], &rules(), NOW).unwrap().changes.unwrap();
     let of = |what: &str| changes.changes.iter().find(|change| change.what == what).unwrap();
@@ -126,13 +126,13 @@ fn exact_changes_report_what_got_better_and_what_worse() {
 }
 
 #[test]
-fn exact_no_sessions_no_plan() {
+fn exact_no_plan_without_sessions() {
     assert_eq!(plan(&[], &rules(), NOW), None);
 }
 
 #[test]
-fn exact_braces_in_a_tasks_name_mean_nothing() {
-    let mut record = faultless("anna", 1);
+fn exact_braces_in_task_names_are_not_expanded() {
+    let mut record = perfect_record("anna", 1);
     record.tasks[2].name = "{value} {axis}".into();
     record.tasks[2].on_path = 0.5;
     let plan = plan(&[record], &rules(), NOW).unwrap();
@@ -140,21 +140,21 @@ fn exact_braces_in_a_tasks_name_mean_nothing() {
 }
 
 #[test]
-fn regress_plans_leave_incomplete_sessions_out_and_report_it() {
-    let records = vec![faultless("anna", 1), broken_off("anna", 2)];
-    let of = |records: &[SessionRecord], incomplete| plan_counting(records.to_vec(), incomplete, &rules(), NOW).unwrap();
-    let without = of(&records, IncompletePolicy::LeaveOut);
+fn regress_plan_excludes_and_counts_incomplete_sessions() {
+    let records = vec![perfect_record("anna", 1), aborted_record("anna", 2)];
+    let of = |records: &[SessionRecord], incomplete| plan_for_policy(records.to_vec(), incomplete, &rules(), NOW).unwrap();
+    let without = of(&records, IncompletePolicy::Exclude);
     assert_eq!((without.session.as_str(), without.left_out), ("session-anna-001", 1));
     let with = of(&records, IncompletePolicy::Include);
     assert_eq!((with.session.as_str(), with.left_out), ("session-anna-002", 0));
-    let none = of(&records[1..], IncompletePolicy::LeaveOut);
+    let none = of(&records[1..], IncompletePolicy::Exclude);
     assert_eq!((none.steps[0].scenario.as_str(), none.left_out), (rules().job.as_str(), 1));
     assert!(none.steps[0].reasons[0].words.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{:?}", none.steps);
 }
 
 #[test]
-fn regress_a_severe_defect_missed_in_plain_view_is_named_next() {
-    let mut record = faultless("anna", 1);
+fn regress_missed_visible_severe_defect_is_reported() {
+    let mut record = perfect_record("anna", 1);
     record.defects[3].found = false;
     record.defects[3].kind_name = "spalling".into();
     record.defects[3].in_view_s = Some(5.5);

@@ -15,7 +15,7 @@ pub const ANSWERS: &str = "answers.json";
 /// Format version of the file.
 const FORMAT: u64 = 1;
 /// Maximum file size, bytes; 24 answers need far less.
-const LARGEST: usize = 64 * 1024;
+const MAX_FILE_BYTES: usize = 64 * 1024;
 
 /// Answers of one session, possibly incomplete.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -91,15 +91,15 @@ impl<'de> Deserialize<'de> for Answers {
 /// # Errors
 /// All errors in the file, with file, line, key, value and allowed values.
 pub fn read_answers(file: &str, text: &str, tasks: &[u32]) -> Result<Answers, Problems> {
-    let mut reading = AnswerReading { file, text, problems: Vec::new() };
-    if text.len() > LARGEST {
-        reading.invalid_answer("", &format!("{} bytes", text.len()), &format!("at most {LARGEST} bytes"), "too large");
+    let mut reading = AnswerReader { file, text, problems: Vec::new() };
+    if text.len() > MAX_FILE_BYTES {
+        reading.invalid_answer("", &format!("{} bytes", text.len()), &format!("at most {MAX_FILE_BYTES} bytes"), "too large");
         return Err(Problems(reading.problems));
     }
     let answers = match serde_json::from_str::<Value>(text) {
         Ok(Value::Object(map)) => reading.answers(&map, tasks),
         Ok(other) => {
-            reading.invalid_answer("", &shown(&other), "a JSON object", "not an object");
+            reading.invalid_answer("", &json_text(&other), "a JSON object", "not an object");
             Answers::default()
         }
         Err(error) => {
@@ -111,26 +111,28 @@ pub fn read_answers(file: &str, text: &str, tasks: &[u32]) -> Result<Answers, Pr
     if reading.problems.is_empty() { Ok(answers) } else { Err(Problems(reading.problems)) }
 }
 
-struct AnswerReading<'a> {
+struct AnswerReader<'a> {
     file: &'a str,
     text: &'a str,
     problems: Vec<Problem>,
 }
 
-impl AnswerReading<'_> {
+impl AnswerReader<'_> {
     fn answers(&mut self, map: &serde_json::Map<String, Value>, tasks: &[u32]) -> Answers {
         let keys = "format, language, answers, tlx";
         for (key, value) in map.iter().filter(|(key, _)| !keys.split(", ").any(|known| known == *key)) {
-            self.invalid_answer(key, &shown(value), keys, "unknown key");
+            self.invalid_answer(key, &json_text(value), keys, "unknown key");
         }
         match map.get("format").map(|value| (value.as_u64(), value)) {
             Some((Some(FORMAT), _)) => {}
-            Some((_, value)) => self.invalid_answer("format", &shown(value), &FORMAT.to_string(), "unsupported format version"),
+            Some((_, value)) => {
+                self.invalid_answer("format", &json_text(value), &FORMAT.to_string(), "unsupported format version")
+            }
             None => self.invalid_answer("format", "", &FORMAT.to_string(), "missing"),
         }
         let language = map.get("language").and_then(Value::as_str).filter(|tag| is_tag(tag));
         if language.is_none() {
-            let value = map.get("language").map(shown).unwrap_or_default();
+            let value = map.get("language").map(json_text).unwrap_or_default();
             self.invalid_answer("language", &value, "a language tag such as en", "missing or invalid");
         }
         let known = QuestionnaireItem::all(tasks);
@@ -161,7 +163,7 @@ impl AnswerReading<'_> {
             None => return found,
             Some(Value::Object(table)) => table,
             Some(other) => {
-                self.invalid_answer(name, &shown(other), "a JSON object", "not an object");
+                self.invalid_answer(name, &json_text(other), "a JSON object", "not an object");
                 return found;
             }
         };
@@ -171,8 +173,8 @@ impl AnswerReading<'_> {
                 (Some(key), Some(number)) => {
                     found.insert(key, number);
                 }
-                (None, _) => self.invalid_answer(key, &shown(value), allowed_keys, &format!("unknown key in {name}")),
-                (Some(_), None) => self.invalid_answer(key, &shown(value), allowed, "invalid answer"),
+                (None, _) => self.invalid_answer(key, &json_text(value), allowed_keys, &format!("unknown key in {name}")),
+                (Some(_), None) => self.invalid_answer(key, &json_text(value), allowed, "invalid answer"),
             }
         }
         found
@@ -198,7 +200,7 @@ impl AnswerReading<'_> {
     }
 }
 
-fn shown(value: &Value) -> String {
+fn json_text(value: &Value) -> String {
     value.to_string()
 }
 
@@ -214,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_written_is_read_again() {
+    fn exact_answers_round_trip() {
         let mut answers = Answers { language: "en".into(), ..Answers::default() };
         answers.given.insert(QuestionnaireItem::Overall(OverallItem::Feedback), 1);
         answers.given.insert(QuestionnaireItem::Phase(InspectionPhase::Task(3), PhaseAspect::MentalDemand), 5);
@@ -227,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_fault_is_reported_with_file_line_key_value_and_range() {
+    fn exact_errors_name_file_line_key_value_and_range() {
         let told = problems("{\"format\": 1, \"language\": \"en\",\n\"answers\": {\n\"frustration\": 6}}");
         assert_eq!(told, "answers.json:3: frustration = 6: invalid answer (allowed: whole number 1 to 5)");
         for (text, expected) in [
@@ -246,7 +248,7 @@ mod tests {
         ] {
             assert!(problems(text).contains(expected), "{text}: {}", problems(text));
         }
-        let large = format!("{{\"format\": 1, \"language\": \"{}\"}}", "x".repeat(LARGEST));
+        let large = format!("{{\"format\": 1, \"language\": \"{}\"}}", "x".repeat(MAX_FILE_BYTES));
         assert!(problems(&large).contains("too large"));
     }
 }

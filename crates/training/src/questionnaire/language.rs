@@ -8,7 +8,7 @@ use spandrel_model::toml::Problems;
 pub const SHIPPED: [(&str, &str); 3] =
     [("en.toml", include_str!("en.toml")), ("de.toml", include_str!("de.toml")), ("es.toml", include_str!("es.toml"))];
 /// Maximum number of entries evaluated in an Accept-Language header.
-const ACCEPTED_MOST: usize = 20;
+const MAX_ACCEPT_ENTRIES: usize = 20;
 
 /// All available languages; the first one is the default.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,7 +48,7 @@ impl Languages {
     /// Returns the wording that an Accept-Language header prefers (RFC 9110, section 12.5.4), or the default if none matches.
     #[must_use]
     pub fn accepted(&self, header: &str) -> &Wording {
-        let mut wanted: Vec<(&str, f64)> = header.split(',').take(ACCEPTED_MOST).filter_map(accept_language).collect();
+        let mut wanted: Vec<(&str, f64)> = header.split(',').take(MAX_ACCEPT_ENTRIES).filter_map(parse_accept_entry).collect();
         // Entries of equal weight stay in the browser's order.
         wanted.sort_by(|a, b| b.1.total_cmp(&a.1));
         wanted.into_iter().find_map(|(tag, _)| self.of(tag)).unwrap_or(&self.0[0])
@@ -56,7 +56,7 @@ impl Languages {
 }
 
 /// Parses an Accept-Language entry into tag and weight; `None` if the weight is zero or the tag is invalid.
-fn accept_language(part: &str) -> Option<(&str, f64)> {
+fn parse_accept_entry(part: &str) -> Option<(&str, f64)> {
     let (tag, parameter) = part.split_once(';').unwrap_or((part, "q=1"));
     let weight: f64 = parameter.trim().strip_prefix("q=")?.parse().ok()?;
     let tag = tag.trim();
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_browsers_get_what_they_like_best_of_what_there_is() {
+    fn exact_preferred_available_language_is_selected() {
         let all = languages();
         for (header, expected) in [
             ("", "en"),
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_sites_own_wording_comes_first_and_replaces_the_shipped_one() {
+    fn exact_site_wording_takes_precedence_over_shipped() {
         let swiss = SHIPPED[1].1.replace("language = \"de\"", "language = \"de-CH\"");
         let english = SHIPPED[0].1.replace("After the flight", "Debriefing");
         let own = [("ch.toml", swiss), ("ours.toml", english)].map(|(file, text)| read_wording(file, &text).unwrap());

@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_papers_job_asks_24_questions_with_keys_of_their_own() {
+    fn exact_tasbid_job_has_24_questions_with_unique_keys() {
         let items = QuestionnaireItem::all(&[1, 2, 3, 4]);
         assert_eq!(items.len(), 24);
         for item in &items {

@@ -63,7 +63,7 @@ mod tests {
     const TASKS: [u32; 4] = [1, 2, 3, 4];
 
     #[test]
-    fn exact_scales_point_where_their_names_say() {
+    fn exact_scale_directions_match_their_names() {
         let mut answers = Answers::default();
         for item in QuestionnaireItem::all(&TASKS) {
             answers.given.insert(item, STRONGLY_AGREE);
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_scale_needs_half_of_its_answers() {
+    fn exact_scale_requires_half_of_its_answers() {
         let mut answers = Answers::default();
         answers.given.insert(QuestionnaireItem::Overall(OverallItem::TimePressure), 4);
         let told = scales(&answers, &TASKS);

@@ -9,8 +9,8 @@ use spandrel_model::toml::{Problems, Reader, Section};
 /// Format version of the file.
 const FORMAT: i64 = 1;
 /// Placeholder for a task's number and, below, for its name.
-const NUMBER: &str = "{number}";
-const NAME: &str = "{name}";
+const NUMBER_PLACEHOLDER: &str = "{number}";
+const NAME_PLACEHOLDER: &str = "{name}";
 /// The questionnaire in one language.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Wording {
@@ -88,26 +88,27 @@ pub fn read_wording(file: &str, text: &str) -> Result<Wording, Problems> {
 fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     reader.integer(root, "format", (FORMAT, FORMAT), None);
     let [language, language_name, title, introduction] =
-        texts(reader, root, ["language", "language_name", "title", "introduction"]);
+        read_texts(reader, root, ["language", "language_name", "title", "introduction"]);
     if root.has("language") && !is_tag(&language) {
         reader.add_problem(root, "language", &language, "a language tag such as de or pt-BR", "not a language tag");
     }
     let mut scale = reader.section(root, "scale");
-    let answers = texts(reader, &mut scale, ["strongly_agree", "agree", "neutral", "disagree", "strongly_disagree"]);
+    let answers = read_texts(reader, &mut scale, ["strongly_agree", "agree", "neutral", "disagree", "strongly_disagree"]);
     let mut overall = reader.section(root, "overall");
-    let [overall_heading] = texts(reader, &mut overall, ["heading"]);
-    let statements = texts(reader, &mut overall, OverallItem::ALL.map(OverallItem::key));
+    let [overall_heading] = read_texts(reader, &mut overall, ["heading"]);
+    let statements = read_texts(reader, &mut overall, OverallItem::ALL.map(OverallItem::key));
     let mut by_phase = reader.section(root, "by_phase");
-    let aspects = texts(reader, &mut by_phase, PhaseAspect::ALL.map(PhaseAspect::key));
+    let aspects = read_texts(reader, &mut by_phase, PhaseAspect::ALL.map(PhaseAspect::key));
     let mut phases = reader.section(root, "phases");
-    let [calibration, taking_off, task, landing] = texts(reader, &mut phases, ["calibration", "taking_off", "task", "landing"]);
-    if phases.has("task") && !task.contains(NUMBER) {
+    let [calibration, taking_off, task, landing] =
+        read_texts(reader, &mut phases, ["calibration", "taking_off", "task", "landing"]);
+    if phases.has("task") && !task.contains(NUMBER_PLACEHOLDER) {
         reader.add_problem(&phases, "task", &task, "text that contains {number} and optionally {name}", "missing {number}");
     }
     let mut tlx = reader.section(root, "tlx");
-    let [tlx_title, tlx_introduction] = texts(reader, &mut tlx, ["title", "introduction"]);
-    let scales = texts(reader, &mut tlx, TlxScale::ALL.map(TlxScale::key));
-    let tlx_ends = texts(reader, &mut tlx, ["low", "high", "best", "worst"]);
+    let [tlx_title, tlx_introduction] = read_texts(reader, &mut tlx, ["title", "introduction"]);
+    let scales = read_texts(reader, &mut tlx, TlxScale::ALL.map(TlxScale::key));
+    let tlx_ends = read_texts(reader, &mut tlx, ["low", "high", "best", "worst"]);
     let mut around = reader.section(root, "form");
     let form = form(reader, &mut around);
     for section in [&scale, &overall, &by_phase, &phases, &tlx, &around, root] {
@@ -187,7 +188,7 @@ impl FormWording {
     }
 }
 
-fn texts<const N: usize>(reader: &mut Reader<'_>, section: &mut Section<'_>, keys: [&'static str; N]) -> [String; N] {
+fn read_texts<const N: usize>(reader: &mut Reader<'_>, section: &mut Section<'_>, keys: [&'static str; N]) -> [String; N] {
     keys.map(|key| reader.text(section, key, None))
 }
 
@@ -218,7 +219,9 @@ impl Wording {
         match phase {
             InspectionPhase::Calibration => self.calibration.clone(),
             InspectionPhase::TakingOff => self.taking_off.clone(),
-            InspectionPhase::Task(id) => self.task.replace(NUMBER, &id.to_string()).replace(NAME, &name(id)),
+            InspectionPhase::Task(id) => {
+                self.task.replace(NUMBER_PLACEHOLDER, &id.to_string()).replace(NAME_PLACEHOLDER, &name(id))
+            }
             InspectionPhase::Landing => self.landing.clone(),
         }
     }
@@ -246,7 +249,7 @@ mod tests {
     const ENGLISH: &str = SHIPPED[0].1;
 
     #[test]
-    fn exact_shipped_wordings_are_whole_and_no_two_questions_read_alike() {
+    fn exact_shipped_wordings_are_complete_and_distinct() {
         for (file, text) in SHIPPED {
             let wording = read_wording(file, text).unwrap();
             let name = |id: u32| format!("no. {id}");
@@ -269,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_no_translation_left_an_english_text_behind() {
+    fn exact_translations_contain_no_english_text() {
         let texts = |text: &str| -> Vec<String> {
             let lines = text.lines().filter(|line| !line.starts_with('#')).filter_map(|line| line.split_once(" = "));
             lines.filter(|(key, _)| !matches!(*key, "format" | "neutral")).map(|(_, value)| value.to_owned()).collect()
@@ -282,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_translation_that_leaves_a_text_out_is_refused_by_line_and_key() {
+    fn exact_incomplete_translation_is_rejected_with_line_and_key() {
         let half = ENGLISH.replace("agree = \"agree\"\n", "").replace("task = \"Task {number}: {name}\"", "task = \"Aufgabe\"");
         let half = half.replace("{answered} of {all} answered", "{answered} beantwortet").replace("\"en\"", "\"Deutsch!\"");
         let problems = read_wording("de.toml", &half).unwrap_err().to_string();

@@ -3,17 +3,17 @@
 use super::source::RecordSource;
 use super::task_record::{Crashes, DefectRecord, TaskRecord, kind_word};
 use spandrel_mavlink::telemetry::Frame;
-use spandrel_model::defect_codes::kind_name;
+use spandrel_model::defect_codes::defect_name;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_monitor::assessment::SnapshotCounts;
 use spandrel_monitor::measures::crash::{self, Crash};
-use spandrel_monitor::measures::on_path::{OnPath, OnPathWindow, ReferencePaths};
+use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths, TaskWindow};
 use spandrel_monitor::measures::on_speed;
 
 /// Maximum distance from a path at which the drone counts as off this path, m. Farther away, it is considered to be elsewhere
 /// (docs/src/reference/assessment.md, "Feedback during the flight").
-const OFF_PATH_WITHIN_M: f64 = 8.0;
+const MAX_OFF_PATH_M: f64 = 8.0;
 
 /// The parts of a session record that are computed from its frames.
 pub struct ScoreCauses {
@@ -87,13 +87,13 @@ fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize,
 
 /// Returns the horizontal and vertical distance from the task's path, m, for each frame in the window that is on no path but
 /// within 8 m of this one.
-fn off_path(flown: &FlownSession<'_>, task: usize, window: OnPathWindow) -> Vec<(f64, f64)> {
+fn off_path(flown: &FlownSession<'_>, task: usize, window: TaskWindow) -> Vec<(f64, f64)> {
     let frames = (window.first..=window.last).filter(|k| flown.on_path.task[*k].is_none());
     let offset = |k: usize| {
         let position_m = flown.frames[k].position_m;
-        flown.paths.path(task).closest_on_segment(position_m).map(|foot_m| position_m - foot_m)
+        flown.paths.path(task).closest_position(position_m).map(|foot_m| position_m - foot_m)
     };
-    let near = frames.filter_map(offset).filter(|offset| offset.norm() <= OFF_PATH_WITHIN_M);
+    let near = frames.filter_map(offset).filter(|offset| offset.norm() <= MAX_OFF_PATH_M);
     near.map(|offset: Vec3<Enu>| (offset.horizontal_norm(), offset.up().abs())).collect()
 }
 
@@ -122,7 +122,7 @@ fn defect_causes(
     DefectRecord {
         id: defect.id,
         kind: defect.kind,
-        kind_name: kind_name(defect.kind).to_owned(),
+        kind_name: defect_name(defect.kind).to_owned(),
         element: defect.element,
         condition_state: defect.condition_state,
         task: nearest_task(paths, defect.position_m).map(|task| source.scenario.tasks[task].id),

@@ -130,16 +130,16 @@ pub struct SessionListEntry {
 pub enum IncompletePolicy {
     /// Excludes incomplete sessions.
     #[default]
-    LeaveOut,
+    Exclude,
     /// Includes incomplete sessions.
     Include,
 }
 
 impl IncompletePolicy {
-    /// Returns [`Self::Include`] if `include` is set, otherwise [`Self::LeaveOut`].
+    /// Returns [`Self::Include`] if `include` is set, otherwise [`Self::Exclude`].
     #[must_use]
     pub fn included(include: bool) -> Self {
-        if include { Self::Include } else { Self::LeaveOut }
+        if include { Self::Include } else { Self::Exclude }
     }
 
     /// Returns whether a session counts under this policy.
@@ -281,7 +281,7 @@ mod tests {
     use spandrel_mavlink::contract::contact::ContactKind;
 
     #[test]
-    fn exact_a_fingerprint_follows_every_source() {
+    fn exact_fingerprint_depends_on_every_source() {
         let base = SourceHashes::of(b"s", b"v", b"t", b"");
         let others = [
             SourceHashes::of(b"S", b"v", b"t", b""),
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_crashes_add_up() {
+    fn exact_crash_counts_are_summed() {
         let mut crashes = Crashes::default();
         for with in [ContactKind::Bridge, ContactKind::Bridge, ContactKind::Water, ContactKind::None, ContactKind::Person] {
             crashes.add(with);

@@ -57,7 +57,7 @@ mod tests {
     use spandrel_monitor::folder::sha256_hex;
 
     #[test]
-    fn val_libraries_are_as_their_makers_published_them() {
+    fn val_embedded_libraries_match_published_hashes() {
         // SHA-256 of the files in the npm packages uplot-1.6.32.tgz and three-0.184.0.tgz.
         let published = [
             (UPLOT, "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f"),
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_nothing_in_the_assets_ends_its_element() {
+    fn exact_assets_cannot_end_their_element() {
         for text in [COMMON, SCRIPT, COMPARE, UPLOT, THREE_CORE, THREE] {
             assert!(!text.contains("</script") && !text.contains("<!--"));
         }
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_policy_names_what_runs_and_nothing_else() {
+    fn exact_policy_allows_only_listed_scripts_and_styles() {
         // SHA-256 of the empty string, Base64.
         let empty = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='";
         let policy = policy(&[""], &[""]);

@@ -1,10 +1,10 @@
 //! Outcome of each defect and, for missed defects, how close the flight came to photographing them.
 
 use super::context::ReviewContext;
-use super::words;
+use super::formatting;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
-use spandrel_model::site::visibility::judge;
+use spandrel_model::site::visibility::evaluate_defect;
 use spandrel_model::site::{CameraPose, DefectView};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
@@ -12,10 +12,10 @@ use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 
 /// Sampling interval at which the flight is searched for views of a defect.
-const STEP: SimTime = SimTime::from_ms(500);
+const SAMPLE_INTERVAL: SimTime = SimTime::from_ms(500);
 /// Distance from which the report's drawings show a missed defect, m (estimate: close enough to see a crack at the limit between
 /// condition states).
-const SHOWN_FROM_M: f64 = 4.0;
+const VIEW_DISTANCE_M: f64 = 4.0;
 
 /// Whether one defect was found, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +25,7 @@ pub struct DefectOutcome {
     /// Number of the first picture that shows it; `None` if it was missed.
     pub found_by: Option<u32>,
     /// Closest that the flight came to a picture of the defect; `None` if a picture shows it.
-    pub chance: Option<BestApproach>,
+    pub best_approach: Option<BestApproach>,
 }
 
 /// How close the flight came to a valid picture of a defect.
@@ -44,21 +44,21 @@ impl DefectOutcome {
     /// Describes the outcome for the report.
     #[must_use]
     pub fn words(&self) -> String {
-        let Some(chance) = &self.chance else {
+        let Some(best_approach) = &self.best_approach else {
             return self.found_by.map_or_else(|| "found".into(), |number| format!("found by picture {number}"));
         };
-        let (nearest_m, nearest_s) = chance.nearest;
-        match &chance.best {
+        let (nearest_m, nearest_s) = best_approach.nearest;
+        match &best_approach.best {
             Some((t_s, view)) if view.hit => format!(
                 "clearly visible for {} s, first at {}, but not photographed",
-                words::number(chance.in_view_s, 1),
-                words::clock(*t_s)
+                formatting::number(best_approach.in_view_s, 1),
+                formatting::clock(*t_s)
             ),
-            Some((t_s, view)) => format!("best seen at {}, but {}", words::clock(*t_s), view.reasons().join("; ")),
+            Some((t_s, view)) => format!("best seen at {}, but {}", formatting::clock(*t_s), view.reasons().join("; ")),
             None => format!(
                 "the camera never pointed at it; the drone came within {} m at {}",
-                words::number(nearest_m, 1),
-                words::clock(nearest_s)
+                formatting::number(nearest_m, 1),
+                formatting::clock(nearest_s)
             ),
         }
     }
@@ -70,34 +70,34 @@ impl DefectOutcome {
         let up = Vec3::new(0.0, 0.0, 1.0);
         // If the camera looks straight up or down, any horizontal direction can be "right".
         let right = if forward.up().abs() > 0.999 { Vec3::new(1.0, 0.0, 0.0) } else { forward.cross(up).unit() };
-        CameraPose { position_m: self.defect.position_m + self.defect.normal * SHOWN_FROM_M, forward, right, lamp_on: true }
+        CameraPose { position_m: self.defect.position_m + self.defect.normal * VIEW_DISTANCE_M, forward, right, lamp_on: true }
     }
 }
 
 /// Determines the outcome of every defect in a session.
 #[must_use]
-pub fn fates(scene: &ReviewContext<'_>, assessment: &Assessment) -> Vec<DefectOutcome> {
+pub fn defect_outcomes(scene: &ReviewContext<'_>, assessment: &Assessment) -> Vec<DefectOutcome> {
     let each = &assessment.snapshots.each;
     let number = |id: u32| each.iter().position(|s| s.found.contains(&id)).map(|k| u32::try_from(k + 1).unwrap_or(u32::MAX));
     let fate = |defect: &PlacedDefect| {
         let found_by = number(defect.id);
-        let chance = if found_by.is_none() { Some(chance(scene, defect)) } else { None };
-        DefectOutcome { defect: defect.clone(), found_by, chance }
+        let best_approach = if found_by.is_none() { Some(best_approach(scene, defect)) } else { None };
+        DefectOutcome { defect: defect.clone(), found_by, best_approach }
     };
     scene.site.defects().iter().map(fate).collect()
 }
 
-fn chance(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {
+fn best_approach(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {
     let rate_hz = scene.scenario.scoring.frame_rate_hz;
-    let stride = (STEP.s() * rate_hz).round().max(1.0) as usize;
-    let mut chance = BestApproach { in_view_s: 0.0, best: None, nearest: (f64::INFINITY, 0.0) };
+    let stride = (SAMPLE_INTERVAL.s() * rate_hz).round().max(1.0) as usize;
+    let mut best_approach = BestApproach { in_view_s: 0.0, best: None, nearest: (f64::INFINITY, 0.0) };
     // The sun moves little during a flight, so the ambient light on the defect is computed only once.
     let mut ambient_lux = None;
     for frame in scene.frames.iter().step_by(stride) {
         let t_s = scene.time_since_lift_off_s(frame.time);
         let away_m = (frame.position_m - defect.position_m).norm();
-        if away_m < chance.nearest.0 {
-            chance.nearest = (away_m, t_s);
+        if away_m < best_approach.nearest.0 {
+            best_approach.nearest = (away_m, t_s);
         }
         let Some(pose) = attention::pose(scene.flight, frame.time, scene.vehicle) else { continue };
         let camera = attention::camera(scene.flight, frame.time, &scene.vehicle.camera);
@@ -106,22 +106,22 @@ fn chance(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {
         }
         let lux = *ambient_lux.get_or_insert_with(|| scene.site.ambient_lux(defect.position_m, Some(defect.normal), frame.time));
         let cast = |from, direction, max_m| scene.site.geometry().ray(from, direction, max_m);
-        let Some(view) = judge(defect, &pose, (&camera, &scene.vehicle.lamp), &cast, &|_, _| lux) else { continue };
+        let Some(view) = evaluate_defect(defect, &pose, (&camera, &scene.vehicle.lamp), &cast, &|_, _| lux) else { continue };
         if !view.in_frame {
             continue;
         }
         if view.hit {
-            chance.in_view_s += stride as f64 / rate_hz;
+            best_approach.in_view_s += stride as f64 / rate_hz;
         }
-        if chance.best.as_ref().is_none_or(|(_, best)| failing(&view) < failing(best)) {
-            chance.best = Some((t_s, view));
+        if best_approach.best.as_ref().is_none_or(|(_, best)| failed_conditions(&view) < failed_conditions(best)) {
+            best_approach.best = Some((t_s, view));
         }
     }
-    chance
+    best_approach
 }
 
 /// Returns the number of failed conditions. A hidden defect ranks worse than a badly visible one.
-fn failing(view: &DefectView) -> usize {
+fn failed_conditions(view: &DefectView) -> usize {
     view.conditions().iter().filter(|holds| !**holds).count() + if view.unoccluded { 0 } else { 6 }
 }
 

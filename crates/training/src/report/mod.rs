@@ -7,8 +7,9 @@
 pub mod assets;
 mod context;
 pub mod coverage;
-pub mod cues;
 pub mod defects;
+pub mod feedback;
+pub mod formatting;
 pub mod outline;
 pub mod page;
 pub mod pictures;
@@ -16,8 +17,7 @@ pub mod plots;
 pub mod scorm;
 pub mod sketch;
 pub mod table;
-pub mod track;
-pub mod words;
+pub mod task_proximity;
 
 pub use context::ReviewContext;
 
@@ -38,7 +38,7 @@ use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 
 /// Metadata of a session, from its folder.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct SessionFacts {
+pub struct SessionMetadata {
     /// Pseudonym of the trainee.
     pub trainee: String,
     /// `practice` or `assessment`, if chosen.
@@ -70,7 +70,7 @@ pub struct Jpeg {
 #[derive(Debug)]
 pub struct Review {
     /// Metadata from the session folder.
-    pub about: SessionFacts,
+    pub about: SessionMetadata,
     /// Scenario of the session.
     pub scenario: Scenario,
     /// Vehicle that was flown.
@@ -84,15 +84,15 @@ pub struct Review {
     /// Frames of the session; frame 1 has index 0.
     pub frames: Vec<Frame>,
     /// Position relative to the tasks in each frame.
-    pub track: Vec<track::TaskProximityStep>,
+    pub track: Vec<task_proximity::TaskProximityStep>,
     /// Task windows and on-path frames.
     pub on_path: OnPath,
     /// All contacts, in order of their start.
     pub crashes: Vec<Crash>,
     /// Measures of each task's window.
-    pub tasks: Vec<track::TaskFacts>,
+    pub tasks: Vec<task_proximity::TaskTotals>,
     /// Feedback and the trainee's reactions.
-    pub feedback: cues::CueText,
+    pub feedback: feedback::SessionFeedback,
     /// Pictures with their verdicts.
     pub pictures: Vec<pictures::ReviewedPicture>,
     /// Defects with their outcomes.
@@ -114,25 +114,26 @@ impl Review {
         log: &(impl TelemetryLog + ?Sized),
         scenario: &Scenario,
         vehicle: &Vehicle,
-        about: SessionFacts,
+        about: SessionMetadata,
     ) -> Result<Self, AssessError> {
         // The replay comes first, because the monitor holds its own copy of the flight until it is dropped.
-        let events = cues::events(log, scenario, vehicle)?;
+        let events = feedback::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log)?;
         let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
         let link = timeline.counts();
         drop(timeline);
-        let site = Site::build(scenario, seed).with_closures(attention::gates(&flight));
+        let site = Site::build(scenario, seed).with_closures(attention::bridge_closures(&flight));
         let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: &site })?;
         let paths = ReferencePaths::new(scenario);
         let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
         let scene = ReviewContext { flight: &flight, frames: &frames, scenario, vehicle, site: &site };
-        let track = track::steps(&paths, &on_path, &scene);
-        let pictures = pictures::judged(&scene, &assessment, &track);
-        let coverage = coverage::covered(&scene, &pictures);
-        let (crashes, tasks) = (crash::crashes(&frames, &on_path), track::tasks(&scene, &on_path, &track));
-        let (feedback, defects) = (cues::cue_text(events, &scene, &track), defects::fates(&scene, &assessment));
+        let track = task_proximity::steps(&paths, &on_path, &scene);
+        let pictures = pictures::evaluate_pictures(&scene, &assessment, &track);
+        let coverage = coverage::compute_coverage(&scene, &pictures);
+        let (crashes, tasks) = (crash::crashes(&frames, &on_path), task_proximity::tasks(&scene, &on_path, &track));
+        let (feedback, defects) =
+            (feedback::collect_feedback(events, &scene, &track), defects::defect_outcomes(&scene, &assessment));
         let graded = AssessedSession { assessment, frames, seed };
         let next = next(&about, scenario, vehicle, &graded, (&site, &defects));
         let AssessedSession { assessment, frames, .. } = graded;
@@ -168,11 +169,11 @@ impl Review {
 /// Returns the recommended scenarios from the default rules and this session only; empty if the rules are invalid, which a test
 /// excludes.
 fn next(
-    about: &SessionFacts,
+    about: &SessionMetadata,
     scenario: &Scenario,
     vehicle: &Vehicle,
     graded: &AssessedSession,
-    (site, fates): (&Site, &[defects::DefectOutcome]),
+    (site, defect_outcomes): (&Site, &[defects::DefectOutcome]),
 ) -> Vec<PlanStep> {
     let hashes = SourceHashes {
         scenario: about.scenario_sha256.clone(),
@@ -194,8 +195,8 @@ fn next(
         answers: None,
     });
     for defect in &mut record.defects {
-        let fate = fates.iter().find(|fate| fate.defect.id == defect.id);
-        defect.in_view_s = fate.and_then(|fate| fate.chance.as_ref()).map(|chance| chance.in_view_s);
+        let fate = defect_outcomes.iter().find(|fate| fate.defect.id == defect.id);
+        defect.in_view_s = fate.and_then(|fate| fate.best_approach.as_ref()).map(|best_approach| best_approach.in_view_s);
     }
     let rules = read_rules("rules.toml", RULES).ok();
     rules.and_then(|rules| plan::plan(&[record], &rules, about.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)

@@ -165,13 +165,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_hull_of_a_square_with_points_inside_and_on_its_edges() {
+    fn exact_hull_omits_inner_and_edge_points() {
         let points = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (1.0, 1.0), (1.0, 0.0), (2.0, 1.0), (0.0, 0.0)];
         assert_eq!(hull(&points), [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]);
     }
 
     #[test]
-    fn exact_views_are_right_handed_and_square() {
+    fn exact_views_are_orthonormal_and_face_the_viewer() {
         for view in [ParallelView::plan(), ParallelView::from_south(), ParallelView::oblique(30.0, 25.0)] {
             assert!(view.right.dot(view.up).abs() < 1e-12);
             assert!((view.right.norm() - 1.0).abs() < 1e-12 && (view.up.norm() - 1.0).abs() < 1e-12);

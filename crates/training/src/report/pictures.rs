@@ -1,7 +1,7 @@
 //! The session's pictures with their verdicts, based on the same geometry and lighting as the score.
 
 use super::context::ReviewContext;
-use super::track::TaskProximityStep;
+use super::task_proximity::TaskProximityStep;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::visibility::{lamp_lux, needed_lux};
 use spandrel_model::site::{CameraPose, DefectView, ObjectId, Surface};
@@ -11,7 +11,7 @@ use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 
 /// Maximum distance of the object in the center of a picture, m; beyond it, the picture shows sky.
-const TARGET_REACH_M: f64 = 120.0;
+const MAX_TARGET_DISTANCE_M: f64 = 120.0;
 
 /// Verdict on a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,12 +27,12 @@ pub enum PictureVerdict {
     /// A defect is in view, but the angle from its surface normal is too large.
     TooOblique,
     /// No defect is in view.
-    False,
+    NoDefect,
 }
 
 impl PictureVerdict {
     /// All verdicts, in legend order.
-    pub const ALL: [Self; 6] = [Self::Hit, Self::Repeat, Self::TooDark, Self::TooFar, Self::TooOblique, Self::False];
+    pub const ALL: [Self; 6] = [Self::Hit, Self::Repeat, Self::TooDark, Self::TooFar, Self::TooOblique, Self::NoDefect];
 
     /// Returns the name shown in the report.
     #[must_use]
@@ -43,7 +43,7 @@ impl PictureVerdict {
             Self::TooDark => "too dark",
             Self::TooFar => "too far",
             Self::TooOblique => "too oblique",
-            Self::False => "false",
+            Self::NoDefect => "false",
         }
     }
 
@@ -54,7 +54,7 @@ impl PictureVerdict {
             Self::Hit => "v-hit",
             Self::Repeat => "v-repeat",
             Self::TooDark | Self::TooFar | Self::TooOblique => "v-near",
-            Self::False => "v-false",
+            Self::NoDefect => "v-false",
         }
     }
 }
@@ -111,7 +111,11 @@ pub struct ReviewedPicture {
 
 /// Evaluates all pictures of a session.
 #[must_use]
-pub fn judged(scene: &ReviewContext<'_>, assessment: &Assessment, track: &[TaskProximityStep]) -> Vec<ReviewedPicture> {
+pub fn evaluate_pictures(
+    scene: &ReviewContext<'_>,
+    assessment: &Assessment,
+    track: &[TaskProximityStep],
+) -> Vec<ReviewedPicture> {
     let each = assessment.snapshots.each.iter().enumerate();
     each.filter_map(|(k, snapshot)| {
         let at = usize::try_from(snapshot.frame).ok()?.checked_sub(1)?;
@@ -157,7 +161,7 @@ pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) 
     let nearest = views.iter().filter(|view| view.unoccluded).min_by_key(failing);
     let Some(view) = nearest else {
         let behind = views.first().map(|view| format!(" (defect {} is occluded)", view.defect_id));
-        return (PictureVerdict::False, format!("no defect visible{}", behind.unwrap_or_default()));
+        return (PictureVerdict::NoDefect, format!("no defect visible{}", behind.unwrap_or_default()));
     };
     let [_, _, square, large, wide, lit] = view.conditions();
     let verdict = if !square {
@@ -167,7 +171,7 @@ pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) 
     } else if !lit {
         PictureVerdict::TooDark
     } else {
-        PictureVerdict::False
+        PictureVerdict::NoDefect
     };
     (verdict, format!("defect {} is {}", view.defect_id, view.reasons().join("; ")))
 }
@@ -178,7 +182,7 @@ fn target(
     camera: &Camera,
     (time, velocity_m_s): (SimTime, Vec3<Enu>),
 ) -> Option<PictureSubject> {
-    let hit = scene.site.ray(pose.position_m, pose.forward, TARGET_REACH_M, time)?;
+    let hit = scene.site.ray(pose.position_m, pose.forward, MAX_TARGET_DISTANCE_M, time)?;
     let point_m = pose.position_m + pose.forward * hit.distance_m;
     let ambient = scene.site.ambient_lux(point_m, Some(hit.normal), time);
     let lux = ambient + lamp_lux(&scene.vehicle.lamp, pose, point_m, hit.normal);
@@ -228,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_verdict_has_its_cause() {
+    fn exact_verdicts_match_failed_conditions() {
         let hit = DefectView { hit: true, ..view() };
         assert_eq!(verdict(&[4], &[hit]).0, PictureVerdict::Hit);
         assert_eq!(verdict(&[], &[hit]).0, PictureVerdict::Repeat);
@@ -237,18 +241,18 @@ mod tests {
             (DefectView { extent_px: 3.0, ..view() }, PictureVerdict::TooFar, "too small"),
             (DefectView { line: true, width_px: 0.2, ..view() }, PictureVerdict::TooFar, "line too thin"),
             (DefectView { incidence_rad: 1.2, ..view() }, PictureVerdict::TooOblique, "69 deg"),
-            (DefectView { unoccluded: false, ..view() }, PictureVerdict::False, "is occluded"),
+            (DefectView { unoccluded: false, ..view() }, PictureVerdict::NoDefect, "is occluded"),
         ];
         for (case, expected, word) in cases {
             let (got, reason) = verdict(&[], &[case]);
             assert_eq!(got, expected, "{reason}");
             assert!(reason.contains(word), "{reason}");
         }
-        assert_eq!(verdict(&[], &[]), (PictureVerdict::False, "no defect visible".into()));
+        assert_eq!(verdict(&[], &[]), (PictureVerdict::NoDefect, "no defect visible".into()));
     }
 
     #[test]
-    fn exact_the_defect_nearest_to_a_hit_decides() {
+    fn exact_defect_closest_to_a_hit_determines_verdict() {
         let worse = DefectView { defect_id: 1, incidence_rad: 1.2, illuminance_lux: 1.0, ..view() };
         let better = DefectView { illuminance_lux: 10.0, ..view() };
         assert_eq!(verdict(&[], &[worse, better]).0, PictureVerdict::TooDark);

@@ -2,7 +2,7 @@
 //! duration to the LMS through its script interface, and shows the report.
 
 use super::Review;
-use super::words;
+use super::formatting;
 use maud::{DOCTYPE, PreEscaped, html};
 use serde_json::{Value, json};
 use spandrel_monitor::Assessment;
@@ -52,7 +52,7 @@ fn title(review: &Review) -> String {
 /// Returns the result as SCORM data and as text. An incomplete session has no score, because a partial sum would be misleading.
 fn result(assessment: &Assessment) -> (Value, String) {
     let (scores, certification) = (&assessment.scores, &assessment.certification);
-    let time = span(assessment.end.seconds);
+    let time = scorm_timespan(assessment.end.seconds);
     if !assessment.completion.complete {
         let result = json!({ "cmi.core.lesson_status": "incomplete", "cmi.core.session_time": time });
         return (result, assessment.completion.headline());
@@ -65,7 +65,7 @@ fn result(assessment: &Assessment) -> (Value, String) {
         "cmi.core.lesson_status": if certification.passed { "passed" } else { "failed" },
         "cmi.core.session_time": time,
     });
-    (result, format!("{} of 100. {}", words::number(pct, 0), verdict(certification.passed, &certification.unmet)))
+    (result, format!("{} of 100. {}", formatting::number(pct, 0), verdict(certification.passed, &certification.unmet)))
 }
 
 fn index(review: &Review) -> String {
@@ -90,7 +90,7 @@ fn index(review: &Review) -> String {
 }
 
 /// Formats a duration as HHHH:MM:SS.SS, the CMITimespan of SCORM.
-fn span(seconds: f64) -> String {
+fn scorm_timespan(seconds: f64) -> String {
     let hundredths = (seconds.max(0.0) * 100.0).round() as u64;
     let (s, rest) = (hundredths / 100, hundredths % 100);
     format!("{:04}:{:02}:{:02}.{rest:02}", s / 3600, s / 60 % 60, s % 60)
@@ -101,9 +101,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_times_are_written_as_the_standard_has_them() {
-        assert_eq!(span(0.0), "0000:00:00.00");
-        assert_eq!(span(3_725.678), "0001:02:05.68");
-        assert_eq!(span(-1.0), "0000:00:00.00");
+    fn exact_durations_follow_scorm_format() {
+        assert_eq!(scorm_timespan(0.0), "0000:00:00.00");
+        assert_eq!(scorm_timespan(3_725.678), "0001:02:05.68");
+        assert_eq!(scorm_timespan(-1.0), "0000:00:00.00");
     }
 }

@@ -15,7 +15,7 @@ pub const WIDTH_PX: usize = 400;
 /// Distance of the near clipping plane, m.
 const NEAR_M: f64 = 0.05;
 /// Maximum distance at which members are drawn, m.
-const REACH_M: f64 = 400.0;
+const MAX_DISTANCE_M: f64 = 400.0;
 /// Side length of the squares that form ground and water, m.
 const GROUND_STEP_M: f64 = 12.0;
 /// Distance at which haze hides about two thirds of an object's color, m (for appearance only).
@@ -30,7 +30,7 @@ struct Facet {
 /// Index of a color in the palette. Faces of the same color share an index.
 type ShadeIndex = u32;
 /// Index of the sky color.
-const BLUE: ShadeIndex = 0;
+const SKY_INDEX: ShadeIndex = 0;
 
 /// Colors of a site. A drawing stores an index per pixel, which takes a sixth of the space of a color.
 struct Palette {
@@ -40,27 +40,27 @@ struct Palette {
 
 impl Palette {
     fn new() -> Self {
-        Self { colours: vec![SKY], numbers: [(SKY.map(f64::to_bits), BLUE)].into() }
+        Self { colours: vec![SKY], numbers: [(SKY.map(f64::to_bits), SKY_INDEX)].into() }
     }
 
     fn number(&mut self, colour: [f64; 3]) -> ShadeIndex {
         let next = self.colours.len();
         *self.numbers.entry(colour.map(f64::to_bits)).or_insert_with(|| {
             self.colours.push(colour);
-            ShadeIndex::try_from(next).unwrap_or(BLUE)
+            ShadeIndex::try_from(next).unwrap_or(SKY_INDEX)
         })
     }
 }
 
-struct SketchBody {
-    centre_m: Vec3<Enu>,
+struct ShadedBody {
+    center_m: Vec3<Enu>,
     radius_m: f64,
     facets: Vec<Facet>,
 }
 
 /// The shaded site, which can be drawn from any camera.
 pub struct Sketcher {
-    bodies: Vec<SketchBody>,
+    bodies: Vec<ShadedBody>,
     colours: Vec<[f64; 3]>,
 }
 
@@ -79,7 +79,7 @@ impl Sketcher {
     pub fn new(site: &Site, scenario: &Scenario, at: SimTime) -> Self {
         let sun = sun::direction(scenario.light.start_unix_s as f64 + at.s(), scenario.origin);
         let mut palette = Palette::new();
-        let mut bodies: Vec<SketchBody> = site.members().iter().map(|member| structure(member, sun, &mut palette)).collect();
+        let mut bodies: Vec<ShadedBody> = site.members().iter().map(|member| structure(member, sun, &mut palette)).collect();
         bodies.extend(ground(site, scenario, sun, &mut palette));
         Self { bodies, colours: palette.colours }
     }
@@ -90,12 +90,15 @@ impl Sketcher {
     /// Fails if the image cannot be encoded.
     pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: SketchExposure) -> Result<Vec<u8>, png::EncodingError> {
         let height = (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX);
-        let mut sheet = SketchSheet::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
+        let mut sheet = SketchCanvas::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
         let slope = |px: u32| 0.5 * f64::from(px) / camera.focal_px();
-        let lens =
-            SketchLens { pose, down: pose.forward.cross(pose.right), slopes: [slope(camera.width_px), slope(camera.height_px)] };
+        let lens = SketchCamera {
+            pose,
+            down: pose.forward.cross(pose.right),
+            slopes: [slope(camera.width_px), slope(camera.height_px)],
+        };
         for body in &self.bodies {
-            if !lens.may_show(body) {
+            if !lens.may_be_visible(body) {
                 continue;
             }
             for facet in &body.facets {
@@ -106,15 +109,15 @@ impl Sketcher {
     }
 }
 
-fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>, palette: &mut Palette) -> SketchBody {
+fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>, palette: &mut Palette) -> ShadedBody {
     let v = &member.solid.vertices_m;
-    let centre_m = v.iter().fold(Vec3::zero(), |sum, x| sum + *x) / v.len().max(1) as f64;
+    let center_m = v.iter().fold(Vec3::zero(), |sum, x| sum + *x) / v.len().max(1) as f64;
     let steel = member.element.material() == ElementMaterial::Steel;
     let base = if steel { [0.50, 0.57, 0.60] } else { [0.74, 0.72, 0.68] };
     let facet = |t: [u32; 3]| facet(t.map(|k| v[k as usize]), base, sun, palette);
-    SketchBody {
-        centre_m,
-        radius_m: v.iter().map(|x| (*x - centre_m).norm()).fold(0.0, f64::max),
+    ShadedBody {
+        center_m,
+        radius_m: v.iter().map(|x| (*x - center_m).norm()).fold(0.0, f64::max),
         facets: member.solid.triangles().into_iter().map(facet).collect(),
     }
 }
@@ -127,7 +130,7 @@ fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut 
 }
 
 /// Creates the shaded squares of ground and water.
-fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<SketchBody> {
+fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<ShadedBody> {
     let half = 0.5 * scenario.terrain.size_m;
     let water_m = scenario.terrain.water_level_m;
     let count = (scenario.terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 200.0) as usize;
@@ -140,33 +143,33 @@ fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palett
                 Vec3::new(e, n, site.ground_up_m(e, n))
             };
             let square = [at(0, 0), at(1, 0), at(1, 1), at(0, 1)];
-            bodies.push(slab(square, [0.42, 0.47, 0.34], sun, palette));
+            bodies.push(shaded_square(square, [0.42, 0.47, 0.34], sun, palette));
             if square.iter().any(|corner| corner.up() < water_m) {
                 let flat = square.map(|c| Vec3::new(c.east(), c.north(), water_m));
-                bodies.push(slab(flat, [0.36, 0.50, 0.58], sun, palette));
+                bodies.push(shaded_square(flat, [0.36, 0.50, 0.58], sun, palette));
             }
         }
     }
     bodies
 }
 
-fn slab(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> SketchBody {
-    let centre_m = square.iter().fold(Vec3::zero(), |sum, x| sum + *x) / 4.0;
-    SketchBody {
-        centre_m,
-        radius_m: square.iter().map(|x| (*x - centre_m).norm()).fold(0.0, f64::max),
+fn shaded_square(square: [Vec3<Enu>; 4], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> ShadedBody {
+    let center_m = square.iter().fold(Vec3::zero(), |sum, x| sum + *x) / 4.0;
+    ShadedBody {
+        center_m,
+        radius_m: square.iter().map(|x| (*x - center_m).norm()).fold(0.0, f64::max),
         facets: [[0, 1, 2], [0, 2, 3]].map(|corners| facet(corners.map(|k: usize| square[k]), base, sun, palette)).into(),
     }
 }
 
-struct SketchLens<'a> {
+struct SketchCamera<'a> {
     pose: &'a CameraPose,
     down: Vec3<Enu>,
     /// Half the width and half the height of the image at a depth of 1 m.
     slopes: [f64; 2],
 }
 
-impl SketchLens<'_> {
+impl SketchCamera<'_> {
     /// Transforms a point to camera coordinates: right, down, forward.
     fn project(&self, point_m: Vec3<Enu>) -> [f64; 3] {
         let to = point_m - self.pose.position_m;
@@ -174,15 +177,15 @@ impl SketchLens<'_> {
     }
 
     /// Returns false if the body is certainly behind the camera, too far away or outside the image.
-    fn may_show(&self, body: &SketchBody) -> bool {
-        let [x, y, depth] = self.project(body.centre_m);
+    fn may_be_visible(&self, body: &ShadedBody) -> bool {
+        let [x, y, depth] = self.project(body.center_m);
         let r = body.radius_m;
         let beside = |aside: f64, slope: f64| aside.abs() - slope * depth > r * (1.0 + slope * slope).sqrt();
-        depth + r >= NEAR_M && depth - r <= REACH_M && !beside(x, self.slopes[0]) && !beside(y, self.slopes[1])
+        depth + r >= NEAR_M && depth - r <= MAX_DISTANCE_M && !beside(x, self.slopes[0]) && !beside(y, self.slopes[1])
     }
 }
 
-struct SketchSheet {
+struct SketchCanvas {
     height: usize,
     focal_px: f64,
     /// Inverse depth of each pixel, 1/m; 0 for the sky.
@@ -190,12 +193,12 @@ struct SketchSheet {
     shade: Vec<ShadeIndex>,
 }
 
-impl SketchSheet {
+impl SketchCanvas {
     fn new(height: usize, focal_px: f64) -> Self {
-        Self { height, focal_px, near: vec![0.0; WIDTH_PX * height], shade: vec![BLUE; WIDTH_PX * height] }
+        Self { height, focal_px, near: vec![0.0; WIDTH_PX * height], shade: vec![SKY_INDEX; WIDTH_PX * height] }
     }
 
-    fn draw(&mut self, lens: &SketchLens<'_>, facet: &Facet) {
+    fn draw(&mut self, lens: &SketchCamera<'_>, facet: &Facet) {
         let seen = facet.corners.map(|corner| lens.project(corner));
         let clipped = clip(&seen);
         for k in 2..clipped.len() {
@@ -252,7 +255,7 @@ impl SketchSheet {
                     let haze = 1.0 - math::exp(-1.0 / (self.near[at] * HAZE_M));
                     colour = [0, 1, 2].map(|k| math::lerp(colour[k], SKY[k], haze));
                 }
-                let lit = dim * if exposure.by_lamp { self.beam(x, y) } else { 1.0 };
+                let lit = dim * if exposure.by_lamp { self.lamp_falloff(x, y) } else { 1.0 };
                 rgb.extend(colour.map(|c| (255.0 * (c * lit).clamp(0.0, 1.0) + 0.5) as u8));
             }
         }
@@ -270,7 +273,7 @@ impl SketchSheet {
     }
 
     /// Returns the lamp's brightness at a pixel; it decreases from the center toward the sides.
-    fn beam(&self, x: usize, y: usize) -> f64 {
+    fn lamp_falloff(&self, x: usize, y: usize) -> f64 {
         let (dx, dy) = (x as f64 - 0.5 * WIDTH_PX as f64, y as f64 - 0.5 * self.height as f64);
         let away = math::hypot(dx, dy) / (0.5 * WIDTH_PX as f64);
         (1.15 - 0.75 * away * away).clamp(0.15, 1.0)
@@ -330,33 +333,33 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_nearer_face_hides_the_farther_whatever_comes_first() {
+    fn exact_nearer_face_hides_farther_in_any_order() {
         let pose = CameraPose {
             position_m: Vec3::zero(),
             forward: Vec3::new(0.0, 1.0, 0.0),
             right: Vec3::new(1.0, 0.0, 0.0),
             lamp_on: false,
         };
-        let lens = SketchLens { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
+        let lens = SketchCamera { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
         assert_eq!(lens.project(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, forward");
         let (near, far) = (triangle(2.0, 1), triangle(4.0, 2));
         for order in [[&near, &far], [&far, &near]] {
-            let mut sheet = SketchSheet::new(300, 200.0);
+            let mut sheet = SketchCanvas::new(300, 200.0);
             order.iter().for_each(|facet| sheet.draw(&lens, facet));
             let middle = 150 * WIDTH_PX + 200;
             assert_eq!(sheet.shade[middle], 1);
             assert!((1.0 / sheet.near[middle] - 2.0).abs() < 1e-12);
-            assert_eq!(sheet.shade[0], BLUE);
+            assert_eq!(sheet.shade[0], SKY_INDEX);
         }
     }
 
     #[test]
-    fn exact_a_face_covers_its_pixels_and_its_back_none() {
+    fn exact_front_face_fills_pixels_and_back_face_none() {
         // Corners at pixels (10, 10), (10, 30), (30, 10), counterclockwise in the image; focal length 100 px, 1 m away.
         let corner = |x: f64, y: f64| [(x - 200.0) / 100.0, (y - 150.0) / 100.0, 1.0];
         let face = [corner(10.0, 10.0), corner(10.0, 30.0), corner(30.0, 10.0)];
         let filled = |corners: [[f64; 3]; 3]| {
-            let mut sheet = SketchSheet::new(300, 100.0);
+            let mut sheet = SketchCanvas::new(300, 100.0);
             sheet.fill(corners, 1);
             sheet.shade.iter().filter(|shade| **shade == 1).count()
         };
@@ -366,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_behind_the_lens_is_cut_off() {
+    fn exact_geometry_behind_camera_is_clipped() {
         assert!(clip(&[[0.0, 0.0, -1.0]; 3]).is_empty());
         let cut = clip(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 0.0, -1.0]]);
         assert_eq!(cut.len(), 4);
@@ -374,10 +377,10 @@ mod tests {
     }
 
     #[test]
-    fn exact_one_shade_has_one_number_and_the_sky_the_first() {
+    fn exact_palette_indices_are_unique_and_sky_is_first() {
         let mut palette = Palette::new();
         let numbers = [[0.1, 0.2, 0.3], SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]].map(|colour| palette.number(colour));
-        assert_eq!(numbers, [1, BLUE, 1, 2]);
+        assert_eq!(numbers, [1, SKY_INDEX, 1, 2]);
         assert_eq!(palette.colours, [SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]);
     }
 }

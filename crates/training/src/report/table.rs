@@ -1,6 +1,6 @@
 //! Data tables for figures: rounded for display, with full precision for download.
 
-use super::words;
+use super::formatting;
 use maud::{Markup, html};
 
 /// A cell of a data table.
@@ -44,8 +44,8 @@ impl TableCell {
     fn shown(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
-            Self::Number(value, digits) => words::number(*value, *digits),
-            Self::Clock(t_s) => words::clock(*t_s),
+            Self::Number(value, digits) => formatting::number(*value, *digits),
+            Self::Clock(t_s) => formatting::clock(*t_s),
             Self::Empty => String::new(),
         }
     }
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_shown_rounded_and_downloaded_whole() {
+    fn exact_table_is_rounded_on_page_and_exact_in_csv() {
         let page = table("a").shown().into_string();
         assert!(page.contains("0.33") && page.contains("1:02"), "{page}");
         assert_eq!(table("a").csv(), "words,\"x, m\",time\na,0.3333333333333333,61.5\n");
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_words_are_escaped_in_the_page_and_are_no_formulas_in_the_file() {
+    fn exact_text_is_escaped_in_html_and_csv() {
         let evil = "=1+\"<script>alert(1)</script>\"";
         let page = table(evil).shown().into_string();
         assert!(!page.contains("<script"), "{page}");

@@ -1,6 +1,6 @@
 //! Correlation between two measures of the same trainees.
 
-use super::distribution::tails_of_t;
+use super::distribution::t_tail_probabilities;
 use super::{StatisticsError, mean};
 use serde::Serialize;
 
@@ -32,7 +32,7 @@ pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
     let df = n as f64 - 2.0;
     // At r = 1, t is infinite and p is zero.
     let t = r * (df / ((1.0 - r) * (1.0 + r))).sqrt();
-    let p = (df > 0.0).then(|| tails_of_t(t, df).map_or(0.0, |tails| tails.two));
+    let p = (df > 0.0).then(|| t_tail_probabilities(t, df).map_or(0.0, |tails| tails.two));
     Ok(Correlation { n, r, p })
 }
 
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_line_and_a_cross() {
+    fn exact_correlation_of_line_and_cross() {
         let line = pearson(&[1.0, 2.0, 3.0], &[2.0, 4.0, 6.0]).unwrap();
         assert!((line.r - 1.0).abs() < 1e-15 && line.p.unwrap() < 1e-6);
         assert!(pearson(&[-1.0, 1.0, 1.0, -1.0], &[1.0, 1.0, -1.0, -1.0]).unwrap().r.abs() < 1e-15);

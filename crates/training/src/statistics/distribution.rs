@@ -5,7 +5,7 @@ use statrs::distribution::{ChiSquared, Continuous, ContinuousCDF, FisherSnedecor
 
 /// Number of Newton steps that improve the library's quantile (accurate to about 1e-6) to machine precision. Each step doubles the
 /// number of correct digits.
-const POLISHING: usize = 4;
+const NEWTON_STEPS: usize = 4;
 
 /// One- and two-tailed p values of a t statistic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -20,7 +20,7 @@ pub struct TailProbabilities {
 
 /// Returns the p values of `t` with `df` degrees of freedom; `None` if `df` is not positive or `t` is NaN.
 #[must_use]
-pub fn tails_of_t(t: f64, df: f64) -> Option<TailProbabilities> {
+pub fn t_tail_probabilities(t: f64, df: f64) -> Option<TailProbabilities> {
     let student = student(df)?;
     if t.is_nan() {
         return None;
@@ -30,10 +30,10 @@ pub fn tails_of_t(t: f64, df: f64) -> Option<TailProbabilities> {
 }
 
 /// Returns the quantile of the t distribution for probability `share`.
-pub(super) fn quantile_of_t(share: f64, df: f64) -> Option<f64> {
+pub(super) fn t_quantile(share: f64, df: f64) -> Option<f64> {
     let student = student(df).filter(|_| share > 0.0 && share < 1.0)?;
     let mut t = student.inverse_cdf(share);
-    for _ in 0..POLISHING {
+    for _ in 0..NEWTON_STEPS {
         let slope = student.pdf(t);
         if slope > 0.0 {
             t -= (student.cdf(t) - share) / slope;
@@ -43,13 +43,13 @@ pub(super) fn quantile_of_t(share: f64, df: f64) -> Option<f64> {
 }
 
 /// Returns the upper tail probability of the chi-squared distribution with `df` degrees of freedom.
-pub(super) fn above_chi_squared(statistic: f64, df: f64) -> Option<f64> {
+pub(super) fn chi_squared_upper_tail(statistic: f64, df: f64) -> Option<f64> {
     let distribution = ChiSquared::new(df).ok()?;
     (statistic >= 0.0).then(|| distribution.sf(statistic))
 }
 
 /// Returns the upper tail probability of the F distribution.
-pub(super) fn above_f(statistic: f64, df_model: f64, df_residual: f64) -> Option<f64> {
+pub(super) fn f_upper_tail(statistic: f64, df_model: f64, df_residual: f64) -> Option<f64> {
     let distribution = FisherSnedecor::new(df_model, df_residual).ok()?;
     (statistic >= 0.0).then(|| if statistic.is_finite() { distribution.sf(statistic) } else { 0.0 })
 }
@@ -63,35 +63,39 @@ mod tests {
     use super::*;
 
     /// Tolerance for the rounding error of the library's functions.
-    const CLOSE: f64 = 1e-12;
+    const TOLERANCE: f64 = 1e-12;
 
     #[test]
-    fn exact_one_degree_of_freedom_is_cauchy() {
+    fn exact_t_with_one_degree_of_freedom_is_cauchy() {
         // Closed form for one degree of freedom: P(T > 1) = 1/4; the 97.5 % quantile is tan(0.475 pi).
-        let tails = tails_of_t(1.0, 1.0).unwrap();
-        assert!((tails.upper - 0.25).abs() < CLOSE && (tails.lower - 0.75).abs() < CLOSE && (tails.two - 0.5).abs() < CLOSE);
+        let tails = t_tail_probabilities(1.0, 1.0).unwrap();
+        assert!(
+            (tails.upper - 0.25).abs() < TOLERANCE
+                && (tails.lower - 0.75).abs() < TOLERANCE
+                && (tails.two - 0.5).abs() < TOLERANCE
+        );
         let exact = spandrel_model::math::tan(0.475 * spandrel_model::math::PI);
-        assert!((quantile_of_t(0.975, 1.0).unwrap() - exact).abs() < 1e-9 * exact);
-        assert!(tails_of_t(1.0, 0.0).is_none() && tails_of_t(f64::NAN, 3.0).is_none());
+        assert!((t_quantile(0.975, 1.0).unwrap() - exact).abs() < 1e-9 * exact);
+        assert!(t_tail_probabilities(1.0, 0.0).is_none() && t_tail_probabilities(f64::NAN, 3.0).is_none());
     }
 
     #[test]
     fn exact_two_degrees_of_chi_squared_are_exponential() {
         let exact = spandrel_model::math::exp(-1.5);
-        assert!((above_chi_squared(3.0, 2.0).unwrap() - exact).abs() < CLOSE);
+        assert!((chi_squared_upper_tail(3.0, 2.0).unwrap() - exact).abs() < TOLERANCE);
     }
 
     #[test]
-    fn exact_f_with_two_and_two_is_a_fraction() {
+    fn exact_f_with_two_and_two_has_closed_form() {
         // P(F > x) = 1 / (1 + x) for 2 and 2 degrees of freedom.
-        assert!((above_f(3.0, 2.0, 2.0).unwrap() - 0.25).abs() < CLOSE);
-        assert_eq!(above_f(f64::INFINITY, 2.0, 2.0), Some(0.0));
+        assert!((f_upper_tail(3.0, 2.0, 2.0).unwrap() - 0.25).abs() < TOLERANCE);
+        assert_eq!(f_upper_tail(f64::INFINITY, 2.0, 2.0), Some(0.0));
     }
 
     #[test]
-    fn val_tails_are_those_that_the_papers_table_prints() {
+    fn val_p_values_match_tasbid_table() {
         /// Half a unit of the table's last digit, plus a margin because its t values are rounded (0.475 by up to 1e-7).
-        const PRINTED: f64 = 0.5e-4 + 2e-7;
+        const TABLE_TOLERANCE: f64 = 0.5e-4 + 2e-7;
         let table = [
             (2.609, 0.0175, 0.9825, 0.0350),
             (2.969, 0.0104, 0.9896, 0.0208),
@@ -107,9 +111,9 @@ mod tests {
             (-7.638, 0.9999, 0.0001, 0.0001),
         ];
         for (t, upper, lower, two) in table {
-            let tails = tails_of_t(t, 7.0).unwrap();
+            let tails = t_tail_probabilities(t, 7.0).unwrap();
             for (ours, printed) in [(tails.upper, upper), (tails.lower, lower), (tails.two, two)] {
-                assert!((ours - printed).abs() <= PRINTED, "t = {t}: {ours} is printed as {printed}");
+                assert!((ours - printed).abs() <= TABLE_TOLERANCE, "t = {t}: {ours} is printed as {printed}");
             }
         }
     }

@@ -1,11 +1,11 @@
 //! Chi-squared test of homogeneity for answers or scores of several groups.
 
 use super::StatisticsError;
-use super::distribution::above_chi_squared;
+use super::distribution::chi_squared_upper_tail;
 use serde::Serialize;
 
 /// Minimum expected count of a cell, below which the chi-squared approximation is poor (Cochran 1954).
-const LEAST_EXPECTED: f64 = 5.0;
+const MIN_EXPECTED_COUNT: f64 = 5.0;
 
 /// Result of a chi-squared test of homogeneity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -53,14 +53,15 @@ pub fn homogeneity(table: &[Vec<usize>]) -> Result<Homogeneity, StatisticsError>
         }
     }
     let df = (rows.len() - 1) * (kept.len() - 1);
-    let few = smallest < LEAST_EXPECTED;
+    let few = smallest < MIN_EXPECTED_COUNT;
     Ok(Homogeneity {
         chi_squared,
         df,
-        p: above_chi_squared(chi_squared, df as f64).unwrap_or(1.0),
+        p: chi_squared_upper_tail(chi_squared, df as f64).unwrap_or(1.0),
         smallest_expected: smallest,
-        warning: few
-            .then(|| format!("an expected count is {smallest:.2}, below {LEAST_EXPECTED}, so the p value is only approximate")),
+        warning: few.then(|| {
+            format!("an expected count is {smallest:.2}, below {MIN_EXPECTED_COUNT}, so the p value is only approximate")
+        }),
     })
 }
 
@@ -69,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_two_by_two_table_by_hand() {
+    fn exact_two_by_two_table_matches_closed_form() {
         // n (ad - bc)^2 / (product of the marginal sums) = 100 (10 x 20 - 30 x 40)^2 / (40 x 60 x 50 x 50).
         let test = homogeneity(&[vec![10, 30], vec![40, 20]]).unwrap();
         assert!((test.chi_squared - 100.0 * 1e6 / (40.0 * 60.0 * 50.0 * 50.0)).abs() < 1e-12);
@@ -77,14 +78,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_equal_groups_do_not_differ_and_few_people_are_warned_of() {
+    fn exact_equal_groups_have_p_1_and_small_counts_a_warning() {
         let test = homogeneity(&[vec![2, 0, 4], vec![1, 0, 2], vec![0, 0, 0]]).unwrap();
         assert_eq!((test.chi_squared, test.df, test.p), (0.0, 1, 1.0));
         assert!(test.warning.unwrap().contains("below 5"));
     }
 
     #[test]
-    fn exact_empty_tables_are_refused() {
+    fn exact_degenerate_tables_are_rejected() {
         assert!(homogeneity(&[vec![3, 4]]).is_err());
         assert!(homogeneity(&[vec![3, 0], vec![4, 0]]).is_err());
         assert!(homogeneity(&[vec![3, 0], vec![4]]).is_err());

@@ -5,13 +5,13 @@ use serde::Serialize;
 use spandrel_model::math;
 
 /// Minimum number of repetitions for a curve. Its two parameters would fit three repetitions almost perfectly.
-pub const LEARNING_NEEDS: usize = 4;
+pub const MIN_LEARNING_REPETITIONS: usize = 4;
 /// Range in which the exponent is searched, wider than any plausible effect of practice.
-const EXPONENTS: (f64, f64) = (-4.0, 4.0);
+const EXPONENT_RANGE: (f64, f64) = (-4.0, 4.0);
 /// Number of steps in the initial grid search.
-const GRID: usize = 400;
+const GRID_STEPS: usize = 400;
 /// Number of bisection steps, enough to reach machine precision.
-const NARROWING: usize = 120;
+const BISECTION_STEPS: usize = 120;
 
 /// A power law: `first * n^exponent` for the n-th repetition.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -39,17 +39,17 @@ impl LearningCurve {
 /// Fits the curve to the values of consecutive repetitions by least squares on the values themselves, so zeros are allowed.
 ///
 /// # Errors
-/// Fails if there are fewer than [`LEARNING_NEEDS`] values or if a value is not finite.
+/// Fails if there are fewer than [`MIN_LEARNING_REPETITIONS`] values or if a value is not finite.
 pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> {
-    if values.len() < LEARNING_NEEDS {
-        return Err(StatisticsError::TooFew { n: values.len(), needed: LEARNING_NEEDS });
+    if values.len() < MIN_LEARNING_REPETITIONS {
+        return Err(StatisticsError::TooFew { n: values.len(), needed: MIN_LEARNING_REPETITIONS });
     }
     StatisticsError::finite(values)?;
-    let (low, high) = EXPONENTS;
-    let at = |k: usize| low + (high - low) * k as f64 / GRID as f64;
-    let best = (0..=GRID).min_by(|a, b| residual(values, at(*a)).total_cmp(&residual(values, at(*b)))).unwrap_or(0);
-    let exponent = refine_interval(values, at(best.saturating_sub(1)), at((best + 1).min(GRID)));
-    let first = height(values, exponent);
+    let (low, high) = EXPONENT_RANGE;
+    let at = |k: usize| low + (high - low) * k as f64 / GRID_STEPS as f64;
+    let best = (0..=GRID_STEPS).min_by(|a, b| residual(values, at(*a)).total_cmp(&residual(values, at(*b)))).unwrap_or(0);
+    let exponent = bisect_exponent(values, at(best.saturating_sub(1)), at((best + 1).min(GRID_STEPS)));
+    let first = best_first_value(values, exponent);
     let average = mean(values).unwrap_or_default();
     let around: f64 = values.iter().map(|value| (value - average) * (value - average)).sum();
     Ok(LearningCurve {
@@ -63,8 +63,8 @@ pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> 
 
 /// Refines the exponent by bisection on the derivative of the residual, which changes sign at the minimum. Comparing the
 /// residuals themselves would give only half as many correct digits.
-fn refine_interval(values: &[f64], mut low: f64, mut high: f64) -> f64 {
-    for _ in 0..NARROWING {
+fn bisect_exponent(values: &[f64], mut low: f64, mut high: f64) -> f64 {
+    for _ in 0..BISECTION_STEPS {
         let middle = 0.5 * (low + high);
         if slope(values, middle) > 0.0 {
             high = middle;
@@ -75,14 +75,14 @@ fn refine_interval(values: &[f64], mut low: f64, mut high: f64) -> f64 {
     0.5 * (low + high)
 }
 
-fn practice(exponent: f64, count: usize) -> impl Iterator<Item = (f64, f64)> {
+fn power_law_terms(exponent: f64, count: usize) -> impl Iterator<Item = (f64, f64)> {
     (1..=count).map(move |k| (math::ln(k as f64), math::pow(k as f64, exponent)))
 }
 
 /// Returns the best-fitting first value for a given exponent.
-fn height(values: &[f64], exponent: f64) -> f64 {
+fn best_first_value(values: &[f64], exponent: f64) -> f64 {
     let (mut both, mut own) = (0.0, 0.0);
-    for ((_, power), value) in practice(exponent, values.len()).zip(values) {
+    for ((_, power), value) in power_law_terms(exponent, values.len()).zip(values) {
         both += power * value;
         own += power * power;
     }
@@ -90,15 +90,19 @@ fn height(values: &[f64], exponent: f64) -> f64 {
 }
 
 fn residual(values: &[f64], exponent: f64) -> f64 {
-    let first = height(values, exponent);
-    practice(exponent, values.len()).zip(values).map(|((_, power), value)| value - first * power).map(|off| off * off).sum()
+    let first = best_first_value(values, exponent);
+    power_law_terms(exponent, values.len())
+        .zip(values)
+        .map(|((_, power), value)| value - first * power)
+        .map(|off| off * off)
+        .sum()
 }
 
 /// Returns the derivative of the residual with respect to the exponent, except for a positive factor. The first value is the best
 /// one for the exponent, so the residual does not depend on it to first order.
 fn slope(values: &[f64], exponent: f64) -> f64 {
-    let first = height(values, exponent);
-    let terms = practice(exponent, values.len()).zip(values);
+    let first = best_first_value(values, exponent);
+    let terms = power_law_terms(exponent, values.len()).zip(values);
     terms.map(|((log, power), value)| -(value - first * power) * first * power * log).sum()
 }
 
@@ -107,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_power_law_is_found_again() {
+    fn exact_power_law_is_recovered() {
         for (first, exponent) in [(40.0, 0.3), (120.0, -0.5), (70.0, 0.0)] {
             let values: Vec<f64> = (1..=6).map(|k| first * math::pow(f64::from(k), exponent)).collect();
             let curve = learning_curve(&values).unwrap();
@@ -117,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_three_repetitions_make_no_curve_and_zeros_do() {
+    fn exact_curve_requires_four_values_and_allows_zeros() {
         assert!(learning_curve(&[50.0, 60.0, 65.0]).is_err());
         let curve = learning_curve(&[12.0, 0.0, 0.0, 0.0]).unwrap();
         assert!(curve.exponent < -3.0 && curve.first.is_finite());

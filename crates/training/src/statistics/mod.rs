@@ -11,9 +11,9 @@ mod regression;
 mod sample;
 
 pub use correlation::{Correlation, pearson, spearman};
-pub use distribution::{TailProbabilities, tails_of_t};
+pub use distribution::{TailProbabilities, t_tail_probabilities};
 pub use homogeneity::{Homogeneity, homogeneity};
-pub use learning::{LEARNING_NEEDS, LearningCurve, learning_curve};
+pub use learning::{LearningCurve, MIN_LEARNING_REPETITIONS, learning_curve};
 pub use paired::{PairedTest, holm, paired_t};
 pub use regression::{Coefficient, Regression, least_squares, solve};
 pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean, quantile, sd, summary};

@@ -1,11 +1,11 @@
 //! Paired t tests for changes within the same trainees.
 
-use super::distribution::{TailProbabilities, quantile_of_t, tails_of_t};
+use super::distribution::{TailProbabilities, t_quantile, t_tail_probabilities};
 use super::{StatisticsError, mean, sd};
 use serde::Serialize;
 
 /// Probability up to the upper end of a 95 % interval.
-pub(super) const UPPER_END_95: f64 = 0.975;
+pub(super) const UPPER_PROBABILITY_95: f64 = 0.975;
 
 /// Result of a paired t test of later minus earlier values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,14 +40,14 @@ pub fn paired_t(earlier: &[f64], later: &[f64]) -> Result<PairedTest, Statistics
     let error = sd / (n as f64).sqrt();
     let df = n - 1;
     let t = (error > 0.0).then(|| mean / error);
-    let reach = error * quantile_of_t(UPPER_END_95, df as f64).unwrap_or_default();
+    let reach = error * t_quantile(UPPER_PROBABILITY_95, df as f64).unwrap_or_default();
     Ok(PairedTest {
         n,
         mean_difference: mean,
         sd_difference: sd,
         df,
         t,
-        p: t.and_then(|t| tails_of_t(t, df as f64)),
+        p: t.and_then(|t| t_tail_probabilities(t, df as f64)),
         effect_size_dz: t.map(|_| mean / sd),
         interval_95: [mean - reach, mean + reach],
     })
@@ -75,7 +75,7 @@ mod tests {
     const EXACT: f64 = 1e-12;
 
     #[test]
-    fn exact_differences_one_two_three() {
+    fn exact_paired_test_matches_closed_form() {
         // Mean 2, standard deviation 1, t = 2 sqrt 3. With two degrees of freedom, the upper tail is 1/2 - t / (2 sqrt (2 +
         // t^2)).
         let test = paired_t(&[10.0, 20.0, 30.0], &[11.0, 22.0, 33.0]).unwrap();
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_equal_differences_have_no_t() {
+    fn exact_equal_differences_have_no_t_statistic() {
         let test = paired_t(&[1.0, 2.0], &[3.0, 4.0]).unwrap();
         assert_eq!((test.t, test.p, test.effect_size_dz, test.interval_95), (None, None, None, [2.0, 2.0]));
         assert!(paired_t(&[1.0], &[2.0]).is_err());
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_holm_steps_down() {
+    fn exact_holm_correction_matches_hand_calculation() {
         // Expected by hand: 0.01 x 4, 0.02 x 3, 0.03 x 2 (raised to the preceding 0.06), 0.9 x 1.
         let corrected = holm(&[0.03, 0.01, 0.9, 0.02]);
         for (ours, hand) in corrected.iter().zip([0.06, 0.04, 0.9, 0.06]) {

@@ -1,13 +1,13 @@
 //! Ordinary least squares with an intercept, and statistics of its coefficients.
 
 use super::StatisticsError;
-use super::distribution::{above_f, quantile_of_t, tails_of_t};
-use super::paired::UPPER_END_95;
+use super::distribution::{f_upper_tail, t_quantile, t_tail_probabilities};
+use super::paired::UPPER_PROBABILITY_95;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 /// A column counts as collinear if its component orthogonal to the preceding columns is less than this fraction of its length.
-const INDEPENDENT: f64 = 1e-9;
+const COLLINEARITY_TOLERANCE: f64 = 1e-9;
 
 /// A coefficient of a fitted regression model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -61,7 +61,7 @@ pub fn least_squares(outcome: &[f64], predictors: &[(&str, &[f64])]) -> Result<R
     let lengths: Vec<f64> = (0..p).map(|column| x.column(column).norm()).collect();
     let qr = x.clone().qr();
     let r = qr.r();
-    if (0..p).any(|k| r[(k, k)].abs() <= INDEPENDENT * lengths[k]) {
+    if (0..p).any(|k| r[(k, k)].abs() <= COLLINEARITY_TOLERANCE * lengths[k]) {
         return Err(StatisticsError::Collinear);
     }
     let estimates = r.solve_upper_triangular(&(qr.q().transpose() * &y)).ok_or(StatisticsError::Collinear)?;
@@ -84,19 +84,19 @@ pub fn least_squares(outcome: &[f64], predictors: &[(&str, &[f64])]) -> Result<R
         residual_sd: variance.sqrt(),
         r_squared: explained,
         f,
-        p: f.and_then(|f| above_f(f, (p - 1) as f64, df as f64)),
+        p: f.and_then(|f| f_upper_tail(f, (p - 1) as f64, df as f64)),
     })
 }
 
 fn coefficient(name: &str, estimate: f64, standard_error: f64, df: f64) -> Coefficient {
     let t = (standard_error > 0.0).then(|| estimate / standard_error);
-    let reach = standard_error * quantile_of_t(UPPER_END_95, df).unwrap_or_default();
+    let reach = standard_error * t_quantile(UPPER_PROBABILITY_95, df).unwrap_or_default();
     Coefficient {
         name: name.to_owned(),
         estimate,
         standard_error,
         t,
-        p: t.and_then(|t| tails_of_t(t, df)).map(|tails| tails.two),
+        p: t.and_then(|t| t_tail_probabilities(t, df)).map(|tails| tails.two),
         interval_95: [estimate - reach, estimate + reach],
     }
 }
@@ -123,7 +123,7 @@ pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]
     let lower = factor.l();
     // The diagonal elements of the Cholesky factor are the lengths of the columns' components orthogonal to the preceding
     // columns.
-    let distinct = (0..=P).all(|k| lower[(k, k)] > INDEPENDENT.sqrt() * normal[(k, k)].sqrt());
+    let distinct = (0..=P).all(|k| lower[(k, k)] > COLLINEARITY_TOLERANCE.sqrt() * normal[(k, k)].sqrt());
     distinct.then(|| factor.solve(&right).iter().copied().collect())
 }
 
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_made_the_data_is_found_again() {
+    fn exact_regression_recovers_coefficients() {
         let a: Vec<f64> = (0..12).map(|k| f64::from(k % 5)).collect();
         let b: Vec<f64> = (0..12).map(|k| f64::from(k * k % 7)).collect();
         let y: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 3.0 - 2.0 * a + 0.25 * b).collect();
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_weights_are_repetitions() {
+    fn exact_weights_equal_repeated_rows() {
         let rows = [[0.0], [1.0], [3.0]];
         let weighted = solve(&rows, &[1.0, 4.0, 2.0], &[2, 1, 1]).unwrap();
         let repeated = solve(&[[0.0], [0.0], [1.0], [3.0]], &[1.0, 1.0, 4.0, 2.0], &[1; 4]).unwrap();
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_twins_and_too_few_people_are_refused() {
+    fn exact_collinear_or_too_few_observations_are_rejected() {
         let x = [1.0, 2.0, 3.0, 4.0];
         let twice = [2.0, 4.0, 6.0, 8.0];
         assert_eq!(least_squares(&x, &[("x", &x), ("twice", &twice)]).unwrap_err(), StatisticsError::Collinear);

@@ -172,7 +172,7 @@ mod tests {
     const EXACT: f64 = 1e-12;
 
     #[test]
-    fn exact_quartiles_of_one_to_five_and_between_values() {
+    fn exact_quantiles_are_interpolated() {
         assert_eq!(quantile(&[1.0, 2.0, 3.0, 4.0, 5.0], 0.25), Some(2.0));
         assert_eq!(quantile(&[1.0, 2.0, 3.0, 4.0], 0.25), Some(1.75));
         assert_eq!(quantile(&[7.0], 0.9), Some(7.0));
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_whiskers_end_at_values_and_outliers_are_named() {
+    fn exact_whiskers_end_at_values_and_outliers_are_listed() {
         let plot = box_plot(&[1.0, 2.0, 3.0, 4.0, 5.0, 30.0, -20.0]).unwrap();
         assert_eq!((plot.q1, plot.median, plot.q3), (1.5, 3.0, 4.5));
         assert_eq!((plot.low_whisker, plot.high_whisker), (1.0, 5.0));

@@ -6,7 +6,7 @@ use crate::trainee::Role;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AccessLevel {
     /// Everyone, including visitors who are not logged in.
-    Nothing,
+    Public,
     /// Any logged-in user. Access to a trainee's data is checked by [`Visitor::may_see`].
     Login,
     /// Only instructors and administrators.
@@ -39,7 +39,7 @@ impl Visitor {
     #[must_use]
     pub fn satisfies(&self, needs: AccessLevel) -> bool {
         match needs {
-            AccessLevel::Nothing => true,
+            AccessLevel::Public => true,
             AccessLevel::Login => self.is_known(),
             AccessLevel::Instructor => self.is_known() && self.role >= Role::Instructor,
             AccessLevel::Administrator => self.is_known() && self.role >= Role::Administrator,
@@ -54,7 +54,7 @@ impl Visitor {
 
     /// Returns the trainee that lists are restricted to; `None` for visitors who may see all.
     #[must_use]
-    pub fn limited_to(&self) -> Option<&str> {
+    pub fn restricted_to(&self) -> Option<&str> {
         if self.satisfies(AccessLevel::Instructor) { None } else { Some(self.name.as_deref().unwrap_or_default()) }
     }
 }
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn exact_each_role_has_its_permissions() {
-        let all = [AccessLevel::Nothing, AccessLevel::Login, AccessLevel::Instructor, AccessLevel::Administrator];
+        let all = [AccessLevel::Public, AccessLevel::Login, AccessLevel::Instructor, AccessLevel::Administrator];
         for (who, met) in [
             (visitor(None, Role::Administrator, false), [true, false, false, false]),
             (visitor(Some("a"), Role::Trainee, false), [true, true, false, false]),
@@ -85,9 +85,9 @@ mod tests {
     fn exact_trainees_see_only_their_own_sessions() {
         let anna = visitor(Some("anna"), Role::Trainee, false);
         assert!(anna.may_see("anna") && !anna.may_see("ben") && !anna.may_see(""));
-        assert_eq!(anna.limited_to(), Some("anna"));
+        assert_eq!(anna.restricted_to(), Some("anna"));
         let stranger = visitor(None, Role::Trainee, false);
         assert!(!stranger.may_see("anna") && !stranger.may_see(""));
-        assert_eq!(visitor(Some("i"), Role::Instructor, false).limited_to(), None);
+        assert_eq!(visitor(Some("i"), Role::Instructor, false).restricted_to(), None);
     }
 }

@@ -34,7 +34,7 @@ pub fn file(name: &str) -> Option<(String, &'static str)> {
 
 /// Returns the URL of a file, including its content hash.
 #[must_use]
-pub fn address(name: &str) -> String {
+pub fn asset_url(name: &str) -> String {
     let hash = file(name).map(|(text, _)| sha256_hex(text.as_bytes())).unwrap_or_default();
     format!("/assets/{name}?v={}", hash.get(..12).unwrap_or_default())
 }
@@ -44,10 +44,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_file_has_an_address_that_changes_with_it() {
+    fn exact_asset_urls_contain_content_hash() {
         for name in [STYLE_NAME, FORM_NAME, LIVE_NAME, FLIGHT_NAME] {
             let (text, _) = file(name).unwrap();
-            assert_eq!(address(name), format!("/assets/{name}?v={}", &sha256_hex(text.as_bytes())[..12]));
+            assert_eq!(asset_url(name), format!("/assets/{name}?v={}", &sha256_hex(text.as_bytes())[..12]));
         }
         assert_eq!(file("../mod.rs"), None);
     }

@@ -2,16 +2,16 @@
 
 use super::access::Visitor;
 use super::assets;
-use super::frame::{scripted, section, token};
+use super::layout::{scripted, section, token};
 use maud::{Markup, PreEscaped, html};
 
 /// Maximum length of an instructor's note, characters; a note is sent as one MAVLink message.
-pub const NOTE_MOST: usize = 100;
+pub const MAX_NOTE_LEN: usize = 100;
 /// Maximum wind speed, m/s; the upper limit of the vehicle's parameter.
-pub const WIND_MOST_M_S: f64 = 25.0;
+pub const MAX_WIND_M_S: f64 = 25.0;
 
 /// Failures that can be injected: form key, label, MAVLink `FAILURE_UNIT`.
-pub const UNITS: [(&str, &str, f32); 4] = [
+pub const INJECTABLE_FAILURES: [(&str, &str, f32); 4] = [
     ("gnss", "Satellite navigation", 4.0),
     ("compass", "Compass", 2.0),
     ("barometer", "Barometer", 3.0),
@@ -20,7 +20,7 @@ pub const UNITS: [(&str, &str, f32); 4] = [
 
 /// Drawings of the job that is being flown.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct DrawnJob {
+pub struct JobDrawings {
     /// Key that identifies the job and its seed.
     pub key: String,
     /// Title of the job.
@@ -31,14 +31,14 @@ pub struct DrawnJob {
 
 /// Vehicle selected on the page.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct VehicleChoice {
+pub struct VehicleSelection {
     /// `HOST:PORT` of each vehicle.
     pub vehicles: Vec<String>,
     /// Number of the selected vehicle, from 1.
     pub number: usize,
 }
 
-impl VehicleChoice {
+impl VehicleSelection {
     fn address(&self) -> Option<&str> {
         self.number.checked_sub(1).and_then(|k| self.vehicles.get(k)).map(String::as_str)
     }
@@ -46,7 +46,7 @@ impl VehicleChoice {
 
 /// Renders the instructor's live page.
 #[must_use]
-pub fn live(visitor: &Visitor, drawn: Option<&DrawnJob>, choice: &VehicleChoice) -> Markup {
+pub fn live(visitor: &Visitor, drawn: Option<&JobDrawings>, choice: &VehicleSelection) -> Markup {
     let body = html! {
         (others(choice))
         div.live-page data-live[!choice.vehicles.is_empty()] data-vehicle=(choice.number) data-job=(drawn.map_or("", |drawn| drawn.key.as_str())) {
@@ -108,7 +108,7 @@ pub fn own_flight(visitor: &Visitor) -> Markup {
 }
 
 /// Renders links to the other vehicles.
-fn others(choice: &VehicleChoice) -> Markup {
+fn others(choice: &VehicleSelection) -> Markup {
     html! {
         @if choice.vehicles.len() > 1 {
             nav.pages aria-label="Vehicles" {
@@ -125,12 +125,12 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
     html! {
         form.stacked method="post" action="/live/act" data-act {
             (hidden("note"))
-            label { "Note for the report" input name="text" required maxlength=(NOTE_MOST) autocomplete="off"; }
+            label { "Note for the report" input name="text" required maxlength=(MAX_NOTE_LEN) autocomplete="off"; }
             button type="submit" { "Add note" }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("wind"))
-            label { "Wind, m/s" input type="number" name="speed" required min="0" max=(WIND_MOST_M_S) step="0.5" value="6"; }
+            label { "Wind, m/s" input type="number" name="speed" required min="0" max=(MAX_WIND_M_S) step="0.5" value="6"; }
             label { "From, degrees" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
             button type="submit" { "Set wind" }
         }
@@ -144,7 +144,7 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("failure"))
-            label { "Component" select name="unit" { @for (key, words, _) in UNITS { option value=(key) { (words) } } } }
+            label { "Component" select name="unit" { @for (key, words, _) in INJECTABLE_FAILURES { option value=(key) { (words) } } } }
             div.row {
                 button type="submit" name="fails" value="yes" { "Inject failure" }
                 button type="submit" name="fails" value="no" { "Clear failure" }
@@ -155,11 +155,11 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
 
     #[test]
-    fn exact_a_flying_trainee_sees_the_camera_without_map_or_actions() {
+    fn exact_own_flight_page_shows_only_the_camera() {
         let trainee = Visitor { role: crate::trainee::Role::Trainee, ..administrator() };
         let text = own_flight(&trainee).into_string();
         check(&text);
@@ -172,18 +172,22 @@ mod tests {
     }
 
     #[test]
-    fn exact_without_a_flight_there_is_nothing_to_act_in() {
-        let choice = VehicleChoice { vehicles: vec!["127.0.0.1:14280".into(), EVIL.into()], number: 2 };
+    fn exact_live_page_without_flight_has_no_actions() {
+        let choice = VehicleSelection { vehicles: vec!["127.0.0.1:14280".into(), HOSTILE_NAME.into()], number: 2 };
         let text = live(&administrator(), None, &choice).into_string();
         check(&text);
         assert!(!text.contains("/live/act") && text.contains("Waiting for a flight"));
-        let drawn = DrawnJob { key: "k".into(), title: EVIL.into(), drawings: vec![(EVIL.into(), "<svg></svg>".into())] };
+        let drawn = JobDrawings {
+            key: "k".into(),
+            title: HOSTILE_NAME.into(),
+            drawings: vec![(HOSTILE_NAME.into(), "<svg></svg>".into())],
+        };
         let text = live(&administrator(), Some(&drawn), &choice).into_string();
         check(&text);
         assert_eq!(text.matches("action=\"/live/act\"").count(), 4);
         assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
-        let text = live(&administrator(), None, &VehicleChoice::default()).into_string();
+        let text = live(&administrator(), None, &VehicleSelection::default()).into_string();
         assert!(!text.contains("data-live") && text.contains("No vehicle configured"), "no vehicle to connect to: {text}");
     }
 }

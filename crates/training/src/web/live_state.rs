@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
-use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::named_values::Named;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
 use spandrel_mavlink::telemetry::sample;
@@ -17,12 +17,12 @@ use spandrel_monitor::measures::on_path::ReferencePaths;
 use std::collections::VecDeque;
 
 /// Placeholder origin for decoding before the job is known. Positions decoded with it are never shown.
-const NOWHERE: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
+const PLACEHOLDER_ORIGIN: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
 /// Maximum number of messages kept for the page.
-const WORDS: usize = 40;
+const MAX_MESSAGES: usize = 40;
 /// Identifies the job being flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct JobKey {
+pub struct JobIdentity {
     /// CRC of the scenario.
     pub crc: u32,
     /// Seed of the session.
@@ -32,7 +32,7 @@ pub struct JobKey {
 /// Job whose origin and paths are used to decode positions.
 #[derive(Debug)]
 struct TrackedJob {
-    key: JobKey,
+    key: JobIdentity,
     plane: LocalPlane,
     paths: ReferencePaths,
     /// Numbers and names of the tasks.
@@ -92,19 +92,19 @@ impl LiveFlightState {
 
     /// Returns the key of the job being flown; `None` until telemetry has provided it.
     #[must_use]
-    pub fn missing_job(&self) -> Option<JobKey> {
-        let key = JobKey { crc: self.crc?, seed: self.seed? };
+    pub fn announced_job(&self) -> Option<JobIdentity> {
+        let key = JobIdentity { crc: self.crc?, seed: self.seed? };
         Some(key)
     }
 
     /// Returns the key of the job set with [`Self::set_job`].
     #[must_use]
-    pub fn job(&self) -> Option<JobKey> {
+    pub fn job(&self) -> Option<JobIdentity> {
         self.job.as_ref().map(|job| job.key)
     }
 
     /// Sets the job after the application has loaded its scenario.
-    pub fn set_job(&mut self, key: JobKey, scenario: &Scenario) {
+    pub fn set_job(&mut self, key: JobIdentity, scenario: &Scenario) {
         let tasks = scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
         self.job = Some(TrackedJob { key, plane: LocalPlane::new(scenario.origin), paths: ReferencePaths::new(scenario), tasks });
         self.truth = None;
@@ -112,7 +112,7 @@ impl LiveFlightState {
 
     /// Updates the state from a received frame.
     pub fn handle_frame(&mut self, frame: &ReceivedFrame) {
-        self.note_sender(frame);
+        self.record_sender(frame);
         match &frame.message {
             Some(MavMessage::STATUSTEXT(text)) => {
                 let kind = if text.severity as u8 <= MavSeverity::MAV_SEVERITY_WARNING as u8 { "warn" } else { "info" };
@@ -127,14 +127,14 @@ impl LiveFlightState {
             None => {}
         }
         // Until the job is known, messages with a position cannot be decoded. The vehicle repeats them.
-        let nowhere = LocalPlane::new(NOWHERE);
+        let nowhere = LocalPlane::new(PLACEHOLDER_ORIGIN);
         let plane = self.job.as_ref().map_or(&nowhere, |job| &job.plane);
         if let Some(sample) = sample::read(&frame.bytes, plane) {
             self.handle_sample(sample);
         }
     }
 
-    fn note_sender(&mut self, frame: &ReceivedFrame) {
+    fn record_sender(&mut self, frame: &ReceivedFrame) {
         if let Some(MavMessage::HEARTBEAT(beat)) = &frame.message
             && frame.component_id == 1
         {
@@ -145,7 +145,7 @@ impl LiveFlightState {
 
     fn handle_sample(&mut self, sample: Sample) {
         match sample.content {
-            SampleContent::Truth(truth) => self.truth(truth),
+            SampleContent::Truth(truth) => self.handle_truth(truth),
             SampleContent::Value(value) => self.handle_value(value),
         }
     }
@@ -155,8 +155,8 @@ impl LiveFlightState {
             SampleValue::Battery(pct) => self.battery_pct = Some(pct),
             SampleValue::Contact(contact) => self.contact = contact,
             SampleValue::Clearance(metres) => self.clearance_m = Some(metres),
-            SampleValue::Beat { armed, .. } => self.armed = armed,
-            SampleValue::Traffic(code) => self.gates.apply_codes(code),
+            SampleValue::Heartbeat { armed, .. } => self.armed = armed,
+            SampleValue::Traffic(code) => self.gates.apply_code(code),
             SampleValue::Seed(seed) => self.seed = Some(seed),
             SampleValue::ScenarioCrc(crc) => self.crc = Some(crc),
             SampleValue::Snapshot(index) => self.push_message("info", format!("picture {index}")),
@@ -170,7 +170,7 @@ impl LiveFlightState {
         }
     }
 
-    fn truth(&mut self, truth: Truth) {
+    fn handle_truth(&mut self, truth: Truth) {
         let Some(job) = &self.job else { return };
         // If the clock jumps back, a new flight has started. Earlier messages remain visible.
         if self.truth.is_some_and(|before| truth.time < before.time) {
@@ -185,7 +185,7 @@ impl LiveFlightState {
         self.message_count += 1;
         let t_s = self.truth.map_or(0.0, |truth| truth.time.s());
         self.messages.push_back((self.message_count, t_s, kind, words));
-        while self.messages.len() > WORDS {
+        while self.messages.len() > MAX_MESSAGES {
             self.messages.pop_front();
         }
     }
@@ -232,27 +232,27 @@ mod tests {
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA};
     use spandrel_model::scenario::read;
 
-    fn told(watch: &mut LiveFlightState, message: &MavMessage) {
+    fn feed_message(watch: &mut LiveFlightState, message: &MavMessage) {
         let bytes = Encoder::new(1, 1).encode(message);
         Decoder::new().datagram(&bytes).iter().for_each(|frame| watch.handle_frame(frame));
     }
 
     fn number(watch: &mut LiveFlightState, name: &str, value: i32) {
-        told(watch, &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: 0, value, name: name.into() }));
+        feed_message(watch, &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: 0, value, name: name.into() }));
     }
 
     #[test]
-    fn wire_a_flight_is_followed_once_its_job_is_known() {
+    fn wire_flight_is_tracked_once_job_is_known() {
         let scenario = read("j.toml", include_str!("../../../../scenarios/two-bridges.toml"), &|_| Err("none".into())).unwrap();
         let mut watch = LiveFlightState::new();
         assert_eq!(watch.to_json(false)["place"], Value::Null);
         number(&mut watch, "seed", 7);
         number(&mut watch, "scn_crc", scenario.crc.cast_signed());
-        let key = JobKey { crc: scenario.crc, seed: 7 };
-        assert_eq!((watch.missing_job(), watch.job()), (Some(key), None));
+        let key = JobIdentity { crc: scenario.crc, seed: 7 };
+        assert_eq!((watch.announced_job(), watch.job()), (Some(key), None));
         watch.set_job(key, &scenario);
         let origin = scenario.origin;
-        told(
+        feed_message(
             &mut watch,
             &MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
                 time_usec: 2_000_000,
@@ -277,15 +277,15 @@ mod tests {
     }
 
     #[test]
-    fn wire_texts_are_kept_in_order_and_bounded() {
+    fn wire_messages_are_ordered_and_bounded() {
         let mut watch = LiveFlightState::new();
-        told(
+        feed_message(
             &mut watch,
             &MavMessage::HEARTBEAT(HEARTBEAT_DATA { autopilot: MavAutopilot::MAV_AUTOPILOT_PX4, ..HEARTBEAT_DATA::default() }),
         );
         assert_eq!(watch.system, Some(1));
         for k in 0..100 {
-            told(
+            feed_message(
                 &mut watch,
                 &MavMessage::STATUSTEXT(STATUSTEXT_DATA {
                     text: format!("<b>{k}\n").as_str().into(),
@@ -295,6 +295,6 @@ mod tests {
         }
         let moment = watch.to_json(true);
         let words = moment["words"].as_array().unwrap();
-        assert_eq!((words.len(), &words[39]["words"], &words[39]["id"]), (WORDS, &json!("<b>99"), &json!(100)));
+        assert_eq!((words.len(), &words[39]["words"], &words[39]["id"]), (MAX_MESSAGES, &json!("<b>99"), &json!(100)));
     }
 }

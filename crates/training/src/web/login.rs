@@ -1,7 +1,7 @@
 //! Login page and account page.
 
 use super::access::Visitor;
-use super::frame::{message, page, section, token};
+use super::layout::{message, page, section, token};
 use maud::{Markup, html};
 
 /// Allowed password length, characters.
@@ -9,7 +9,7 @@ pub const PASSWORD_LENGTHS: std::ops::RangeInclusive<usize> = 12..=256;
 
 /// Minimum strength of a new password: more than 10^8 guesses as estimated by zxcvbn, which rates this as safe against offline
 /// attacks on a slow hash.
-const LEAST_STRENGTH: zxcvbn::Score = zxcvbn::Score::Three;
+const MIN_PASSWORD_STRENGTH: zxcvbn::Score = zxcvbn::Score::Three;
 
 /// Renders the login page and the error of the previous attempt, if any.
 #[must_use]
@@ -72,7 +72,7 @@ pub fn check(password: &str, name: &str) -> Result<(), String> {
     }
     // Detects common passwords, names, keyboard patterns, repeated characters and dates, including slight variations.
     let estimate = zxcvbn::zxcvbn(password, &[name, "spandrel"]);
-    if estimate.score() < LEAST_STRENGTH {
+    if estimate.score() < MIN_PASSWORD_STRENGTH {
         let why = estimate.feedback().and_then(|feedback| feedback.warning()).map(|warning| format!(" ({warning})"));
         let why = why.unwrap_or_default();
         return Err(format!("the password is too easy to guess{why}; use several unrelated words"));
@@ -82,19 +82,19 @@ pub fn check(password: &str, name: &str) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::tests::{EVIL, administrator};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator};
     use super::*;
 
     #[test]
-    fn exact_the_login_shows_the_name_again_and_never_the_password() {
+    fn exact_login_page_repeats_name_but_not_password() {
         let stranger = Visitor { name: None, ..administrator() };
-        let text = login(&stranger, EVIL, Some(EVIL)).into_string();
+        let text = login(&stranger, HOSTILE_NAME, Some(HOSTILE_NAME)).into_string();
         assert!(!text.contains("<script>") && text.contains("&lt;script&gt;"), "{text}");
         assert!(account(&administrator(), None).into_string().contains("name=\"present\""));
     }
 
     #[test]
-    fn exact_passwords_are_long_and_not_the_name() {
+    fn exact_weak_passwords_are_rejected() {
         for good in ["twelve-chars", "correct horse battery", "quite another one", "Zugspitze 2962 m?"] {
             assert_eq!(check(good, "anna"), Ok(()), "{good}");
         }

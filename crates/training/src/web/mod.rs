@@ -4,16 +4,16 @@
 
 pub mod access;
 pub mod assets;
-pub mod devices;
-pub mod form;
-pub mod frame;
-pub mod group;
-pub mod job;
+pub mod browser_sessions;
+pub mod cohort_page;
+pub mod known_browsers;
+pub mod layout;
 pub mod live;
 pub mod live_state;
 pub mod login;
+pub mod login_throttle;
+pub mod questionnaire_form;
+pub mod scenarios;
 pub mod sessions;
 pub mod settings;
-pub mod throttle;
 pub mod trainees;
-pub mod visits;

@@ -1,12 +1,12 @@
 //! Session lists and the page of a session.
 
 use super::access::{AccessLevel, Visitor};
-use super::frame::{page, pages, section, table};
+use super::layout::{page, pages, section, table};
 use crate::questionnaire::QuestionnaireItem;
 use crate::record::{SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
+use crate::report::formatting;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
-use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
@@ -82,7 +82,7 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
                 tr {
                     th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
                     @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
-                    @if one.is_complete() { td.number { (words::number(one.overall, 1)) " of " (words::number(one.overall_max, 0)) } }
+                    @if one.is_complete() { td.number { (formatting::number(one.overall, 1)) " of " (formatting::number(one.overall_max, 0)) } }
                     @else { td { (one.completion_summary()) } }
                     td { (one.verdict()) }
                     td { (one.scenario) }
@@ -110,7 +110,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageDa
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
             @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
-            (words::duration(record.seconds)) " of flight, end: " (record.end_reason.replace('_', " "))
+            (formatting::duration(record.seconds)) " of flight, end: " (record.end_reason.replace('_', " "))
         }
         (actions(record, beside))
         (section("scores", "Scores", &scores(record)))
@@ -164,10 +164,10 @@ fn scores(record: &SessionRecord) -> Markup {
             figure { figcaption { "The four scores, 0 at the center, 100 at the edge" } (radar(&spokes, "Radar chart of the four scores")) }
             div.cards {
                 @if record.is_complete() {
-                    div.card { h3 { "Overall" } p.figure { (words::number(record.scores.overall, 0)) span.of { " of " (words::number(record.scores.overall_max, 0)) } } }
+                    div.card { h3 { "Overall" } p.figure { (formatting::number(record.scores.overall, 0)) span.of { " of " (formatting::number(record.scores.overall_max, 0)) } } }
                 }
                 @for (name, value) in scores_by_name(record) {
-                    div.card { h3 { (name) } p.figure { @if let Some(value) = value { (words::number(value, 0)) } @else { "n/a" } } }
+                    div.card { h3 { (name) } p.figure { @if let Some(value) = value { (formatting::number(value, 0)) } @else { "n/a" } } }
                 }
             }
         }
@@ -192,8 +192,8 @@ fn tasks(record: &SessionRecord) -> Markup {
                         tr {
                             th scope="row" { (task.id) " · " (task.name) }
                             td { (task_completion_text(record, task)) }
-                            td.number { (words::number(100.0 * task.on_path, 0)) }
-                            td.number { (words::number(task.speeding_s, 1)) }
+                            td.number { (formatting::number(100.0 * task.on_path, 0)) }
+                            td.number { (formatting::number(task.speeding_s, 1)) }
                             td.number { (task.crashes.total()) }
                             td.number { (task.defects_found) " of " (task.defects_placed) }
                         }
@@ -243,7 +243,7 @@ fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
                 input type="hidden" name="first" value=(record.id);
                 label { "Other session "
                     select name="second" {
-                        @for one in others { option value=(one.id) { (minute(one.started_unix_us)) ", " (one.scenario) ", " @if one.is_complete() { (words::number(one.overall, 0)) } @else { "incomplete" } } }
+                        @for one in others { option value=(one.id) { (minute(one.started_unix_us)) ", " (one.scenario) ", " @if one.is_complete() { (formatting::number(one.overall, 0)) } @else { "incomplete" } } }
                     }
                 }
                 button type="submit" { "Compare" }
@@ -254,55 +254,55 @@ fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
-    use crate::testing::{broken_off, faultless};
+    use crate::testing::{aborted_record, perfect_record};
 
     #[test]
-    fn exact_a_sessions_page_escapes_whatever_the_record_says() {
-        let mut record = faultless("anna", 1);
-        record.tasks[0].name = EVIL.into();
-        record.defects[0].lacked = vec![EVIL.into()];
+    fn exact_session_page_escapes_record_text() {
+        let mut record = perfect_record("anna", 1);
+        record.tasks[0].name = HOSTILE_NAME.into();
+        record.defects[0].lacked = vec![HOSTILE_NAME.into()];
         record.defects[0].found = false;
-        record.end_reason = EVIL.into();
-        record.unmet = vec![EVIL.into()];
+        record.end_reason = HOSTILE_NAME.into();
+        record.unmet = vec![HOSTILE_NAME.into()];
         record.certified = false;
         let other = SessionListEntry {
             id: "x".into(),
-            trainee: EVIL.into(),
+            trainee: HOSTILE_NAME.into(),
             started_unix_us: 0,
-            scenario: EVIL.into(),
+            scenario: HOSTILE_NAME.into(),
             overall: 1.0,
             overall_max: 400.0,
-            end_reason: EVIL.into(),
-            purpose: Some(EVIL.into()),
+            end_reason: HOSTILE_NAME.into(),
+            purpose: Some(HOSTILE_NAME.into()),
             completion: None,
             certified: false,
-            unmet: vec![EVIL.into()],
+            unmet: vec![HOSTILE_NAME.into()],
         };
         let others = [other];
         check(&session(&administrator(), &record, &SessionPageData { folder: true, others: &others }).into_string());
-        let listing = SessionList { lines: &others, trainee: Some(EVIL), page: 1, last: 9, count: 401 };
+        let listing = SessionList { lines: &others, trainee: Some(HOSTILE_NAME), page: 1, last: 9, count: 401 };
         check(&list(&administrator(), &listing).into_string());
     }
 
     #[test]
-    fn regress_an_incomplete_session_shows_how_much_was_flown_and_no_sum() {
-        let record = broken_off("anna", 1);
+    fn regress_incomplete_session_shows_completion_without_overall_score() {
+        let record = aborted_record("anna", 1);
         let text = session(&administrator(), &record, &SessionPageData { folder: true, others: &[] }).into_string();
         assert!(text.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{text}");
         assert!(text.contains("Not certified: task 1 not done: 60 % of its path, 80 % needed (and 1 more)"), "{text}");
         assert!(text.contains("cover only the part that was flown") && !text.contains("<h3>Overall</h3>"), "{text}");
         assert!(
-            session(&administrator(), &faultless("anna", 1), &SessionPageData { folder: true, others: &[] })
+            session(&administrator(), &perfect_record("anna", 1), &SessionPageData { folder: true, others: &[] })
                 .into_string()
                 .contains("<h3>Overall</h3>")
         );
     }
 
     #[test]
-    fn exact_the_questionnaire_link_follows_its_progress() {
-        let mut record = faultless("anna", 1);
+    fn exact_questionnaire_link_shows_progress() {
+        let mut record = perfect_record("anna", 1);
         let text = |record: &SessionRecord| {
             session(&administrator(), record, &SessionPageData { folder: true, others: &[] }).into_string()
         };

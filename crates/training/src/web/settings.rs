@@ -1,7 +1,7 @@
 //! The administrators' settings page: login accounts and session retention.
 
 use super::access::Visitor;
-use super::frame::{message, page, section, table, token};
+use super::layout::{message, page, section, table, token};
 use super::login::PASSWORD_LENGTHS;
 use crate::trainee::{Role, Trainee};
 use maud::{Markup, html};
@@ -91,19 +91,19 @@ fn retention(visitor: &Visitor) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
 
     #[test]
-    fn exact_users_cannot_remove_their_own_login_and_names_are_escaped() {
-        let names = [EVIL.to_owned(), "ben".to_owned()];
-        let people = [Trainee::new(EVIL), Trainee::new("ben")];
+    fn exact_own_login_cannot_be_disabled() {
+        let names = [HOSTILE_NAME.to_owned(), "ben".to_owned()];
+        let people = [Trainee::new(HOSTILE_NAME), Trainee::new("ben")];
         let shown = SettingsPage {
             people: &people,
             with_password: &names,
-            database: EVIL,
+            database: HOSTILE_NAME,
             folders: &names,
-            notice: Some(("good", EVIL)),
+            notice: Some(("good", HOSTILE_NAME)),
         };
         let text = settings(&administrator(), &shown).into_string();
         check(&text);

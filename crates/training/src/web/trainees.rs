@@ -1,19 +1,19 @@
 //! Trainee list and trainee page: progress, plan, details, export and erasure.
 
 use super::access::{AccessLevel, Visitor};
-use super::frame::{page, section, table, token};
+use super::layout::{page, section, table, token};
 use super::sessions::lines;
 use crate::cohort::by_job;
 use crate::plan::{MeasureChange, TrainingPlan};
 use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, omitted_summary};
-use crate::report::page::progress::on_job;
-use crate::report::words;
+use crate::report::formatting;
+use crate::report::page::progress::job_progress;
 use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
 /// Prefix of the fields that contain the values at the time when the page was opened. They are used to detect conflicting edits.
-pub const BEFORE: &str = "before_";
+pub const ORIGINAL_VALUE_PREFIX: &str = "before_";
 
 /// Renders the list of trainees.
 #[must_use]
@@ -89,7 +89,7 @@ fn next(plan: &TrainingPlan) -> Markup {
             p.note { "Since " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
             ul {
                 @for change in changes.changes.iter().filter(told) {
-                    li { (change.what) ": " (words::number(change.before, 1)) " → " (words::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
+                    li { (change.what) ": " (formatting::number(change.before, 1)) " → " (formatting::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
                 }
             }
         }
@@ -102,14 +102,14 @@ fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy)
     html! {
         @if unfinished > 0 { p {
             @match incomplete {
-                IncompletePolicy::LeaveOut => a href={ "/trainees/" (name) "?incomplete=1" } { "Include incomplete sessions" },
+                IncompletePolicy::Exclude => a href={ "/trainees/" (name) "?incomplete=1" } { "Include incomplete sessions" },
                 IncompletePolicy::Include => a href={ "/trainees/" (name) } { "Leave out incomplete sessions" },
             }
         } }
         @for job in by_job(records, incomplete) {
             @let times = job.progress.repetitions.len();
             h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (times) @if times == 1 { " session" } @else { " sessions" } }
-            (on_job(&job))
+            (job_progress(&job))
         }
     }
 }
@@ -117,7 +117,7 @@ fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy)
 fn details(visitor: &Visitor, person: &Trainee) -> Markup {
     let choice = |name: &str, label: &str, given: Option<&str>, all: &[&str]| {
         html! {
-            input type="hidden" name={ (BEFORE) (name) } value=(given.unwrap_or_default());
+            input type="hidden" name={ (ORIGINAL_VALUE_PREFIX) (name) } value=(given.unwrap_or_default());
             label { (label)
                 select name=(name) {
                     option value="" selected[given.is_none()] { "not specified" }
@@ -154,24 +154,24 @@ fn erase(visitor: &Visitor, name: &str) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
     use crate::plan::{RULES, plan, read_rules};
-    use crate::testing::{broken_off, faultless};
+    use crate::testing::{aborted_record, perfect_record};
     use crate::trainee::Role;
 
     #[test]
-    fn exact_a_trainees_page_escapes_and_offers_erasure_to_administrators_alone() {
-        let mut records = vec![faultless(EVIL, 1), faultless(EVIL, 2), faultless(EVIL, 3)];
-        records[0].scenario = EVIL.into();
-        let person = Trainee { age_band: Some(EVIL.into()), ..Trainee::new(EVIL) };
+    fn exact_trainee_page_escapes_and_offers_erasure_only_to_administrators() {
+        let mut records = vec![perfect_record(HOSTILE_NAME, 1), perfect_record(HOSTILE_NAME, 2), perfect_record(HOSTILE_NAME, 3)];
+        records[0].scenario = HOSTILE_NAME.into();
+        let person = Trainee { age_band: Some(HOSTILE_NAME.into()), ..Trainee::new(HOSTILE_NAME) };
         let plan = plan(&records, &read_rules("rules.toml", RULES).unwrap(), records[2].started_unix_us);
         let about = TraineeProfile {
             person: &person,
             records: &records,
             listed: &[],
             plan: plan.as_ref(),
-            incomplete: IncompletePolicy::LeaveOut,
+            incomplete: IncompletePolicy::Exclude,
         };
         let text = trainee_page(&administrator(), &about).into_string();
         check(&text);
@@ -182,12 +182,12 @@ mod tests {
             "one section per job"
         );
         assert!(text.contains(", 1 session<") && text.contains(", 2 sessions<"), "{text}");
-        let unfinished = vec![faultless("anna", 1), broken_off("anna", 2)];
+        let unfinished = vec![perfect_record("anna", 1), aborted_record("anna", 2)];
         let text = |incomplete: IncompletePolicy| {
             trainee_page(&administrator(), &TraineeProfile { records: &unfinished, plan: None, incomplete, ..about })
                 .into_string()
         };
-        let (without, with) = (text(IncompletePolicy::LeaveOut), text(IncompletePolicy::Include));
+        let (without, with) = (text(IncompletePolicy::Exclude), text(IncompletePolicy::Include));
         assert!(
             without.contains("1 incomplete session excluded") && without.contains("Include incomplete sessions"),
             "{without}"

@@ -58,7 +58,7 @@ impl ControllerStatus {
     }
 
     /// Returns a line that describes the device and the active input.
-    fn standing(&self) -> String {
+    fn status_line(&self) -> String {
         match &self.device {
             None => "No controller found. Use the keyboard.".to_owned(),
             Some(name) if self.lost => format!("{name} not connected: using keyboard"),
@@ -69,7 +69,7 @@ impl ControllerStatus {
 }
 
 /// Returns the functions of the left and right stick in a mode: vertical, horizontal.
-fn duties(mode: i64) -> [(&'static str, &'static str); 2] {
+fn stick_functions(mode: i64) -> [(&'static str, &'static str); 2] {
     let (pitch, throttle, roll, yaw) = ("forward, back", "up, down", "left, right", "turn");
     match mode {
         1 => [(pitch, yaw), (throttle, roll)],
@@ -83,7 +83,7 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
     let left = 0.04;
     let half = 0.42 * pen.width;
     pen.text((left, 0.08), TextAlign::Left, TITLE, HudColor::White, "Check the controller");
-    let mut y = pen.lines((left, 0.165), half, TEXT, HudColor::Yellow, &controls.standing());
+    let mut y = pen.lines((left, 0.165), half, TEXT, HudColor::Yellow, &controls.status_line());
     if let Some(prompt) = &controls.wizard {
         y = pen.lines((left, y + 0.02), half, 1.1 * TEXT, HudColor::White, prompt) + 0.02;
     }
@@ -92,7 +92,7 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
     let x = left + half + 0.08;
     let room = pen.width - x - 0.02;
     let size = (0.5 * (room - 0.1)).min(0.36);
-    for (k, (up, across)) in duties(controls.mode).into_iter().enumerate() {
+    for (k, (up, across)) in stick_functions(controls.mode).into_iter().enumerate() {
         let name = if k == 0 { "left stick" } else { "right stick" };
         let (right, way) = (controls.sticks[2 * k + 1], controls.sticks[2 * k]);
         stick(pen, (x + (size + 0.1) * k as f64, 0.22), size, (right, way), [name, up, across]);
@@ -138,17 +138,17 @@ fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64,
 
 /// Draws each raw axis as a bar with its range and value.
 fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, (f64, f64))]) {
-    const MOST: usize = 7;
-    const HIGH: f64 = 0.024;
+    const MAX_AXES: usize = 7;
+    const BAR_HEIGHT: f64 = 0.024;
     let (from, full) = (x + 0.16, width - 0.18);
     let at = |value: f64| from + full * (0.5 + 0.5 * value.clamp(-1.0, 1.0));
-    for (k, (axis, value, (low, high))) in all.iter().take(MOST).enumerate() {
+    for (k, (axis, value, (low, high))) in all.iter().take(MAX_AXES).enumerate() {
         let y = y + 0.042 * k as f64;
         // On Linux, the upper half of the number is the event type; users know only the lower half, counted from 0.
-        pen.text((x, y + 0.5 * HIGH), TextAlign::Left, SMALL, HudColor::Grey, format!("axis {}", axis & 0xffff));
-        pen.panel((from, y), (full, HIGH), HudColor::Card);
-        pen.fill(&[(at(*low), y), (at(*high), y), (at(*high), y + HIGH), (at(*low), y + HIGH)], HudColor::Focus);
-        pen.panel((at(*value) - 0.004, y - 0.004), (0.008, HIGH + 0.008), HudColor::Yellow);
+        pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL, HudColor::Grey, format!("axis {}", axis & 0xffff));
+        pen.panel((from, y), (full, BAR_HEIGHT), HudColor::Card);
+        pen.fill(&[(at(*low), y), (at(*high), y), (at(*high), y + BAR_HEIGHT), (at(*low), y + BAR_HEIGHT)], HudColor::Focus);
+        pen.panel((at(*value) - 0.004, y - 0.004), (0.008, BAR_HEIGHT + 0.008), HudColor::Yellow);
     }
     if all.is_empty() {
         pen.text((x, y), TextAlign::Left, SMALL, HudColor::Grey, "No axis moved yet.");
@@ -158,7 +158,7 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
 /// Draws the key bindings in two columns, each with the key and its function. Shrinks the text to fit.
 fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) {
     const COLUMNS: usize = 2;
-    const KEY: f64 = 0.17;
+    const KEY_COLUMN_WIDTH: f64 = 0.17;
     let lines: Vec<&str> = text.lines().collect();
     let rows = lines.len().div_ceil(COLUMNS).max(1);
     let step = (1.3 * SMALL).min((0.985 - y) / rows as f64);
@@ -167,6 +167,6 @@ fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) {
         let place = (x + 0.5 * width * (k / rows) as f64, y + step * ((k % rows) as f64 + 0.5));
         let (key, duty) = line.split_once(' ').unwrap_or((line, ""));
         pen.text(place, TextAlign::Left, height, HudColor::Yellow, key);
-        pen.text((place.0 + KEY, place.1), TextAlign::Left, height, HudColor::White, duty.trim().replace('_', " "));
+        pen.text((place.0 + KEY_COLUMN_WIDTH, place.1), TextAlign::Left, height, HudColor::White, duty.trim().replace('_', " "));
     }
 }

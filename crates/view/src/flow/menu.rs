@@ -1,12 +1,12 @@
 //! Menu rows for choosing, typing and starting actions, with keys or clicks.
 
 use super::KeyPress;
-use super::sheet::{PageWriter, SMALL, TEXT, width_of};
+use super::sheet::{PageWriter, SMALL, TEXT, text_width};
 use crate::hud::{HudColor, TextAlign};
 
 /// Height of a row, and distance between rows.
-const HIGH: f64 = 0.06;
-pub const STEP: f64 = 0.07;
+const ROW_HEIGHT: f64 = 0.06;
+pub const ROW_SPACING: f64 = 0.07;
 
 /// Action of a menu row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,15 +18,15 @@ pub enum MenuAction {
     /// Select practice or assessment.
     Purpose,
     /// Continue to the controller check.
-    Check,
+    CheckController,
     /// Open the tutorial.
-    Learn,
+    OpenTutorial,
     /// Toggle sound.
     Sound,
     /// Quit.
     Quit,
     /// Search for a controller.
-    Look,
+    FindController,
     /// Calibrate the controller.
     Calibrate,
     /// Select the stick mode.
@@ -38,7 +38,7 @@ pub enum MenuAction {
     /// Start the flight.
     Fly,
     /// Return to the running flight.
-    Stay,
+    KeepFlying,
     /// Return to the previous page.
     Back,
     /// Go to the next page.
@@ -56,13 +56,13 @@ pub enum MenuAction {
     /// End the session.
     End,
     /// Fly the same job again.
-    Again,
+    FlyAgain,
     /// Choose another job.
-    Other,
+    ChooseOther,
     /// Open the report.
     Report,
     /// Open the questionnaire.
-    Questions,
+    OpenQuestionnaire,
 }
 
 /// Interaction of a menu row.
@@ -80,7 +80,7 @@ pub enum RowKind {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MenuRow {
     /// Action of the row.
-    pub deed: MenuAction,
+    pub action: MenuAction,
     /// Interaction of the row.
     pub kind: RowKind,
     /// Label.
@@ -91,55 +91,55 @@ pub struct MenuRow {
 
 impl MenuRow {
     /// Creates a button.
-    pub fn button(deed: MenuAction, label: impl Into<String>) -> Self {
-        Self { deed, kind: RowKind::Button, label: label.into(), value: String::new() }
+    pub fn button(action: MenuAction, label: impl Into<String>) -> Self {
+        Self { action, kind: RowKind::Button, label: label.into(), value: String::new() }
     }
 
     /// Creates a row with a choice of values.
-    pub fn choice(deed: MenuAction, label: &str, value: impl Into<String>) -> Self {
-        Self { deed, kind: RowKind::Choice, label: label.to_owned(), value: value.into() }
+    pub fn choice(action: MenuAction, label: &str, value: impl Into<String>) -> Self {
+        Self { action, kind: RowKind::Choice, label: label.to_owned(), value: value.into() }
     }
 
     /// Creates a row with a text value.
-    pub fn typed_row(deed: MenuAction, label: &str, value: impl Into<String>) -> Self {
-        Self { kind: RowKind::Typed, ..Self::choice(deed, label, value) }
+    pub fn typed_row(action: MenuAction, label: &str, value: impl Into<String>) -> Self {
+        Self { kind: RowKind::Typed, ..Self::choice(action, label, value) }
     }
 }
 
 /// Draws the rows below one another and returns the y position below the last.
 pub fn draw(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
     for (k, row) in rows.iter().enumerate() {
-        one(pen, (x, y + STEP * k as f64), width, row, (k, k == focus));
+        draw_row(pen, (x, y + ROW_SPACING * k as f64), width, row, (k, k == focus));
     }
-    y + STEP * rows.len() as f64
+    y + ROW_SPACING * rows.len() as f64
 }
 
-fn one(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, lit): (usize, bool)) {
-    let middle = y + 0.5 * HIGH;
-    pen.panel((x, y), (width, HIGH), if lit { HudColor::Focus } else { HudColor::Card });
-    pen.spot((x, y), (width, HIGH), KeyPress::Row(k));
+fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, lit): (usize, bool)) {
+    let middle = y + 0.5 * ROW_HEIGHT;
+    pen.panel((x, y), (width, ROW_HEIGHT), if lit { HudColor::Focus } else { HudColor::Card });
+    pen.spot((x, y), (width, ROW_HEIGHT), KeyPress::Row(k));
     if lit {
         // A bar at the edge marks the focus in addition to the color.
-        pen.panel((x - 0.014, y), (0.008, HIGH), HudColor::White);
+        pen.panel((x - 0.014, y), (0.008, ROW_HEIGHT), HudColor::White);
     }
     let label = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Grey };
     pen.text((x + 0.02, middle), TextAlign::Left, TEXT, label, row.label.clone());
     if row.kind == RowKind::Button {
         return;
     }
-    let (from, to) = (x + VALUE * width, x + width);
+    let (from, to) = (x + VALUE_START * width, x + width);
     let words = if row.kind == RowKind::Typed && lit { format!("{}_", row.value) } else { row.value.clone() };
-    let room = to - from - 2.0 * ARROW;
-    let height = TEXT.min(TEXT * room / width_of(&words, TEXT).max(1e-9)).max(0.6 * SMALL);
+    let room = to - from - 2.0 * ARROW_WIDTH;
+    let height = TEXT.min(TEXT * room / text_width(&words, TEXT).max(1e-9)).max(0.6 * SMALL);
     pen.text((0.5 * (from + to), middle), TextAlign::Middle, height, HudColor::White, words);
-    for (edge, way, on) in [(from, -1.0, false), (to - ARROW, 1.0, true)] {
-        let tip = edge + 0.5 * ARROW + way * 0.011;
-        let base = edge + 0.5 * ARROW - way * 0.011;
+    for (edge, way, on) in [(from, -1.0, false), (to - ARROW_WIDTH, 1.0, true)] {
+        let tip = edge + 0.5 * ARROW_WIDTH + way * 0.011;
+        let base = edge + 0.5 * ARROW_WIDTH - way * 0.011;
         pen.fill(&[(tip, middle), (base, middle - 0.014), (base, middle + 0.014)], HudColor::White);
-        pen.spot((edge, y), (ARROW, HIGH), KeyPress::Step(k, on));
+        pen.spot((edge, y), (ARROW_WIDTH, ROW_HEIGHT), KeyPress::Step(k, on));
     }
 }
 
 /// Start of the value as a fraction of the row's width, and width of its arrows.
-const VALUE: f64 = 0.3;
-const ARROW: f64 = 0.06;
+const VALUE_START: f64 = 0.3;
+const ARROW_WIDTH: f64 = 0.06;

@@ -145,7 +145,7 @@ impl WindowFlow {
     }
 
     fn send(&mut self, message: FromWindow) {
-        self.out.push_back(WindowRequest::Tell(message));
+        self.out.push_back(WindowRequest::Send(message));
     }
 
     /// Updates the controller's state. When the wizard ends, returns to the controller page.
@@ -188,7 +188,7 @@ impl WindowFlow {
                 self.notice = None;
                 self.restart_requested = false;
                 self.flying = Some(flying.clone());
-                self.out.push_back(WindowRequest::Fly(Box::new(flying)));
+                self.out.push_back(WindowRequest::ShowFlight(Box::new(flying)));
                 self.show_page(Page::Flight);
             }
             ToWindow::Paused { on: true } if self.page == Page::Flight => {
@@ -208,7 +208,7 @@ impl WindowFlow {
                 if let Some(flown) = self.flying.take().filter(|flown| flown.choice.purpose == Purpose::Practice) {
                     self.tutorial_done.insert(flown.choice.trainee);
                 }
-                self.out.push_back(WindowRequest::Land);
+                self.out.push_back(WindowRequest::LeaveFlight);
                 self.show_page(Page::Over);
             }
         }
@@ -243,7 +243,7 @@ impl WindowFlow {
     pub fn click(&mut self, place: ScreenPoint, aspect: f64) -> bool {
         // The last item drawn is on top.
         let spots = self.sheet(aspect).spots;
-        let Some(spot) = spots.iter().rev().find(|spot| spot.holds(place)) else { return false };
+        let Some(spot) = spots.iter().rev().find(|spot| spot.contains(place)) else { return false };
         if self.page == Page::Flight {
             self.pause();
         } else {

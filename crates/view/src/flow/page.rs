@@ -31,7 +31,7 @@ pub enum KeyPress {
     /// Delete the last character.
     Backspace,
     /// A character was typed.
-    Sign(char),
+    Char(char),
     /// A row was clicked.
     Row(usize),
     /// An arrow next to a row's value was clicked: `false` selects the previous value, `true` the next.
@@ -67,13 +67,13 @@ pub enum Page {
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindowRequest {
     /// Send this message to `train`.
-    Tell(FromWindow),
+    Send(FromWindow),
     /// Connect to this flight and show it.
-    Fly(Box<FlightStarted>),
+    ShowFlight(Box<FlightStarted>),
     /// Disconnect from the flight.
-    Land,
+    LeaveFlight,
     /// Search for a controller.
-    Look,
+    FindController,
     /// Start the calibration.
     Calibrate,
     /// Confirm the current wizard step.
@@ -81,7 +81,7 @@ pub enum WindowRequest {
     /// Cancel the wizard.
     Cancel,
     /// Apply and save this change to the controller profile.
-    Tune(ProfileChange),
+    ChangeProfile(ProfileChange),
     /// Open an address in a browser.
     Open(String),
     /// Turn sound on or off.

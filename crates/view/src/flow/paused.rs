@@ -2,14 +2,14 @@
 
 use super::menu::{self, MenuRow};
 use super::pipe::Purpose;
-use super::sheet::{PageLayout, PageWriter, SMALL, TITLE, width_of};
+use super::sheet::{PageLayout, PageWriter, SMALL, TITLE, text_width};
 use super::{KeyPress, WindowFlow};
 use crate::hud::{HudColor, TextAlign};
 
 /// Title and text of the pause page.
-pub const STANDS: [&str; 2] = ["Paused", "The clock is stopped."];
+pub const PAUSE_TEXT: [&str; 2] = ["Paused", "The clock is stopped."];
 /// Title and text of the end confirmation.
-pub const GOES_ON: [&str; 2] = ["End the assessment?", "The clock runs. Tasks not flown count as not attempted."];
+pub const END_TEXT: [&str; 2] = ["End the assessment?", "The clock runs. Tasks not flown count as not attempted."];
 
 /// Draws the page over the flight, which stays visible.
 pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], focus: usize) -> PageLayout {
@@ -33,7 +33,7 @@ pub fn button(flow: &WindowFlow, mut pen: PageWriter) -> PageLayout {
             Purpose::Practice => flow.names.fill("Pause ({pause})"),
             Purpose::Assessment => flow.names.fill("End ({pause})"),
         };
-        let (width, height) = (width_of(&words, SMALL) + 0.03, 0.045);
+        let (width, height) = (text_width(&words, SMALL) + 0.03, 0.045);
         let middle = pen.across(across);
         let (x, y) = (middle - 0.5 * width, down - 0.5 * height);
         pen.panel((x, y), (width, height), HudColor::Shade);

@@ -177,9 +177,9 @@ pub fn line<T: Serialize>(message: &T) -> String {
 /// Returns a description of the problem, with the start of the line.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
     /// Maximum number of characters of the line in an error message.
-    const SHOWN: usize = 120;
+    const MAX_SHOWN_CHARS: usize = 120;
     serde_json::from_str(line).map_err(|error| {
-        let shown: String = line.chars().take(SHOWN).collect();
+        let shown: String = line.chars().take(MAX_SHOWN_CHARS).collect();
         format!("'{shown}' is not a valid message between train and its window: {error}")
     })
 }
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_message_survives_its_line() {
+    fn exact_messages_survive_serialization() {
         let score = Some(FinalScore { raw: -9.0, pct: 91.0 });
         let offers = FlightOptions {
             trainees: vec![TraineeSummary { name: "anna".into(), sessions: 3, practices: 2 }],
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_bad_line_is_named() {
+    fn exact_invalid_line_is_reported() {
         for bad in ["", "pause", r#"{"is":"dance"}"#, r#"{"is":"chosen","trainee":"a"}"#, "\u{0}\u{7f}"] {
             let told = read::<FromWindow>(bad).expect_err(bad);
             assert!(told.contains("not a valid message"), "{told}");

@@ -5,11 +5,11 @@ use super::pipe::{FlightOptions, FlightSummary, FromWindow, Purpose};
 use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
 
 /// Maximum length of a pseudonym.
-const NAME_MAX: usize = 32;
-const READY: &str = "Starting simulator ...";
+const MAX_NAME_LENGTH: usize = 32;
+const STARTING_TEXT: &str = "Starting simulator ...";
 /// Step sizes of dead band and expo.
-const FINE: f64 = 0.01;
-const COARSE: f64 = 0.1;
+const DEAD_BAND_STEP: f64 = 0.01;
+const EXPO_STEP: f64 = 0.1;
 
 impl WindowFlow {
     /// Handles a key press or click.
@@ -30,8 +30,8 @@ impl WindowFlow {
             KeyPress::Backspace if kind == Some(RowKind::Typed) => {
                 self.choice.trainee.pop();
             }
-            KeyPress::Sign(sign) if kind == Some(RowKind::Typed) => self.type_character(sign),
-            KeyPress::Backspace | KeyPress::Sign(_) => {}
+            KeyPress::Char(sign) if kind == Some(RowKind::Typed) => self.type_character(sign),
+            KeyPress::Backspace | KeyPress::Char(_) => {}
             KeyPress::Row(row) if row < rows.len() => {
                 self.focus = row;
                 if rows[row].kind == RowKind::Button {
@@ -50,8 +50,8 @@ impl WindowFlow {
         let fits = sign.is_ascii_alphanumeric() || (!self.choice.trainee.is_empty() && (sign == '-' || sign == '_'));
         if !fits {
             self.notice = Some("Use letters, digits, '-' and '_'; start with a letter or digit.".into());
-        } else if self.choice.trainee.len() >= NAME_MAX {
-            self.notice = Some(format!("At most {NAME_MAX} characters."));
+        } else if self.choice.trainee.len() >= MAX_NAME_LENGTH {
+            self.notice = Some(format!("At most {MAX_NAME_LENGTH} characters."));
         } else {
             self.choice.trainee.push(sign);
         }
@@ -61,7 +61,7 @@ impl WindowFlow {
         let Some(row) = rows.get(self.focus) else { return };
         let way = if on { 1.0 } else { -1.0 };
         let ControllerStatus { mode, dead_band, expo, .. } = self.controls;
-        match row.deed {
+        match row.action {
             MenuAction::Trainee => self.next_trainee(on),
             MenuAction::Scenario => self.next_scenario(on),
             MenuAction::Purpose => {
@@ -72,24 +72,24 @@ impl WindowFlow {
             }
             MenuAction::Mode => {
                 let mode = (mode - 1 + if on { 1 } else { 3 }) % 4 + 1;
-                self.out.push_back(WindowRequest::Tune(ProfileChange::Mode(mode)));
+                self.out.push_back(WindowRequest::ChangeProfile(ProfileChange::Mode(mode)));
             }
             MenuAction::DeadBand => {
-                let dead_band = (dead_band + FINE * way).clamp(0.0, 0.5);
-                self.out.push_back(WindowRequest::Tune(ProfileChange::DeadBand(dead_band)));
+                let dead_band = (dead_band + DEAD_BAND_STEP * way).clamp(0.0, 0.5);
+                self.out.push_back(WindowRequest::ChangeProfile(ProfileChange::DeadBand(dead_band)));
             }
             MenuAction::Expo => {
-                let expo = (expo + COARSE * way).clamp(0.0, 1.0);
-                self.out.push_back(WindowRequest::Tune(ProfileChange::Expo(expo)));
+                let expo = (expo + EXPO_STEP * way).clamp(0.0, 1.0);
+                self.out.push_back(WindowRequest::ChangeProfile(ProfileChange::Expo(expo)));
             }
-            MenuAction::Check
-            | MenuAction::Learn
+            MenuAction::CheckController
+            | MenuAction::OpenTutorial
             | MenuAction::Sound
             | MenuAction::Quit
-            | MenuAction::Look
+            | MenuAction::FindController
             | MenuAction::Calibrate
             | MenuAction::Fly
-            | MenuAction::Stay
+            | MenuAction::KeepFlying
             | MenuAction::Back
             | MenuAction::Next
             | MenuAction::Skip
@@ -98,17 +98,17 @@ impl WindowFlow {
             | MenuAction::Resume
             | MenuAction::Restart
             | MenuAction::End
-            | MenuAction::Again
-            | MenuAction::Other
+            | MenuAction::FlyAgain
+            | MenuAction::ChooseOther
             | MenuAction::Report
-            | MenuAction::Questions => {}
+            | MenuAction::OpenQuestionnaire => {}
         }
     }
 
     fn next_trainee(&mut self, on: bool) {
         let Some(offers) = &self.offers else { return };
         let names: Vec<&str> = offers.trainees.iter().map(|person| person.name.as_str()).collect();
-        if let Some(name) = neighbour(&names, &self.choice.trainee, on) {
+        if let Some(name) = adjacent_name(&names, &self.choice.trainee, on) {
             self.choice.trainee = name.to_owned();
         }
     }
@@ -116,7 +116,7 @@ impl WindowFlow {
     fn next_scenario(&mut self, on: bool) {
         let Some(offers) = &self.offers else { return };
         let names: Vec<&str> = offers.scenarios.iter().map(|job| job.name.as_str()).collect();
-        if let Some(name) = neighbour(&names, &self.choice.scenario, on) {
+        if let Some(name) = adjacent_name(&names, &self.choice.scenario, on) {
             self.choice.scenario = name.to_owned();
         }
     }
@@ -129,7 +129,7 @@ impl WindowFlow {
 
     fn activate(&mut self, rows: &[MenuRow]) {
         let Some(row) = rows.get(self.focus) else { return };
-        match row.deed {
+        match row.action {
             MenuAction::Trainee
             | MenuAction::Scenario
             | MenuAction::Purpose
@@ -138,11 +138,13 @@ impl WindowFlow {
             | MenuAction::Expo => {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
-            MenuAction::Check if self.choice.trainee.is_empty() => self.notice = Some("Enter a pseudonym first.".into()),
-            MenuAction::Check => self.show_page(Page::Controls),
-            MenuAction::Learn => self.show_page(Page::Tutorial(0, false)),
+            MenuAction::CheckController if self.choice.trainee.is_empty() => {
+                self.notice = Some("Enter a pseudonym first.".into())
+            }
+            MenuAction::CheckController => self.show_page(Page::Controls),
+            MenuAction::OpenTutorial => self.show_page(Page::Tutorial(0, false)),
             MenuAction::Sound => self.toggle_sound(),
-            MenuAction::Look => self.out.push_back(WindowRequest::Look),
+            MenuAction::FindController => self.out.push_back(WindowRequest::FindController),
             MenuAction::Calibrate => self.out.push_back(WindowRequest::Calibrate),
             MenuAction::Fly if self.choice.purpose == Purpose::Practice && self.needs_tutorial() => {
                 self.show_page(Page::Tutorial(0, true))
@@ -153,23 +155,23 @@ impl WindowFlow {
             MenuAction::Skip => self.finish_tutorial(),
             MenuAction::Confirm => self.out.push_back(WindowRequest::Confirm),
             MenuAction::Cancel => self.out.push_back(WindowRequest::Cancel),
-            MenuAction::Stay => self.show_page(Page::Flight),
+            MenuAction::KeepFlying => self.show_page(Page::Flight),
             MenuAction::Resume => self.send(FromWindow::Resume),
             MenuAction::Restart => {
-                self.send_and_wait(READY);
+                self.send_and_wait(STARTING_TEXT);
                 self.send(FromWindow::Restart);
             }
             MenuAction::End => {
                 self.send_and_wait("Scoring flight ...");
                 self.send(FromWindow::End);
             }
-            MenuAction::Again => {
-                self.send_and_wait(READY);
+            MenuAction::FlyAgain => {
+                self.send_and_wait(STARTING_TEXT);
                 self.send(FromWindow::Again);
             }
-            MenuAction::Other => self.show_page(Page::Start),
+            MenuAction::ChooseOther => self.show_page(Page::Start),
             MenuAction::Report => self.open(|ended| ended.report.clone()),
-            MenuAction::Questions => self.open(|ended| Some(ended.questionnaire.clone())),
+            MenuAction::OpenQuestionnaire => self.open(|ended| Some(ended.questionnaire.clone())),
             MenuAction::Quit => {
                 self.send(FromWindow::Quit);
                 self.out.push_back(WindowRequest::Close);
@@ -179,7 +181,7 @@ impl WindowFlow {
 
     /// Disconnects from the flight and waits for the simulator.
     fn send_and_wait(&mut self, awaited: &'static str) {
-        self.out.push_back(WindowRequest::Land);
+        self.out.push_back(WindowRequest::LeaveFlight);
         self.wait(awaited);
     }
 
@@ -190,7 +192,7 @@ impl WindowFlow {
 
     fn choose(&mut self) {
         self.send(FromWindow::Chosen(self.choice.clone()));
-        self.wait(READY);
+        self.wait(STARTING_TEXT);
     }
 
     fn turn_tutorial_page(&mut self) {
@@ -240,7 +242,7 @@ impl WindowFlow {
 }
 
 /// Returns the next or previous name, wrapping around; returns the first name if `name` is not in the list.
-fn neighbour<'a>(names: &[&'a str], name: &str, on: bool) -> Option<&'a str> {
+fn adjacent_name<'a>(names: &[&'a str], name: &str, on: bool) -> Option<&'a str> {
     let count = names.len();
     let at = names.iter().position(|known| *known == name);
     let next = match (at, on) {

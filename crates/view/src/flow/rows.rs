@@ -25,7 +25,7 @@ impl WindowFlow {
             ],
             Page::Leaving => {
                 vec![
-                    MenuRow::button(MenuAction::Stay, "Keep flying (Esc)"),
+                    MenuRow::button(MenuAction::KeepFlying, "Keep flying (Esc)"),
                     MenuRow::button(MenuAction::End, "End and score flight"),
                 ]
             }
@@ -40,8 +40,8 @@ impl WindowFlow {
             MenuRow::typed_row(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
             MenuRow::choice(MenuAction::Scenario, "Job", title),
             MenuRow::choice(MenuAction::Purpose, "Purpose", self.choice.purpose.word()),
-            MenuRow::button(MenuAction::Check, "Next: check controller"),
-            MenuRow::button(MenuAction::Learn, "Read the tutorial"),
+            MenuRow::button(MenuAction::CheckController, "Next: check controller"),
+            MenuRow::button(MenuAction::OpenTutorial, "Read the tutorial"),
             MenuRow::button(MenuAction::Sound, if self.sound { "Sound: on" } else { "Sound: off" }),
             MenuRow::button(MenuAction::Quit, "Quit"),
         ]
@@ -54,7 +54,7 @@ impl WindowFlow {
             rows.push(MenuRow::button(MenuAction::Calibrate, if controls.calibrated { "Calibrate again" } else { "Calibrate" }));
             rows.push(MenuRow::choice(MenuAction::Mode, "Stick mode", controls.mode.to_string()));
         } else {
-            rows.push(MenuRow::button(MenuAction::Look, "Search for controller"));
+            rows.push(MenuRow::button(MenuAction::FindController, "Search for controller"));
         }
         if controls.is_connected() && controls.calibrated {
             rows.push(MenuRow::choice(MenuAction::DeadBand, "Dead band", format!("{:.0} %", 100.0 * controls.dead_band)));

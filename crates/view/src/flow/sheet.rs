@@ -12,11 +12,11 @@ pub const TEXT: f64 = 0.038;
 /// Font size of secondary text.
 pub const SMALL: f64 = 0.032;
 /// Line spacing in multiples of the font size.
-pub const LINE: f64 = 1.35;
+pub const LINE_SPACING: f64 = 1.35;
 /// Mean character width as a fraction of the font size (egui's Ubuntu Light, lowercase; slightly wide to prevent overflow).
-const SIGN: f64 = 0.48;
+const CHAR_WIDTH: f64 = 0.48;
 /// Maximum width of a page; keeps lines readable on wide windows.
-pub const WIDEST: f64 = 2.3;
+pub const MAX_PAGE_WIDTH: f64 = 2.3;
 
 /// A clickable area.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +32,7 @@ pub struct ClickArea {
 impl ClickArea {
     /// Checks whether the area contains a point.
     #[must_use]
-    pub fn holds(&self, place: ScreenPoint) -> bool {
+    pub fn contains(&self, place: ScreenPoint) -> bool {
         (self.from.x..=self.to.x).contains(&place.x) && (self.from.y..=self.to.y).contains(&place.y)
     }
 }
@@ -73,7 +73,7 @@ impl PageWriter {
     /// Creates an empty page for a window with this aspect ratio (width over height).
     #[must_use]
     pub fn new(aspect: f64) -> Self {
-        let width = aspect.min(WIDEST);
+        let width = aspect.min(MAX_PAGE_WIDTH);
         Self { sheet: PageLayout::default(), aspect, left: 0.5 * (aspect - width), width }
     }
 
@@ -89,54 +89,54 @@ impl PageWriter {
     }
 
     /// Adds a rectangle.
-    pub fn panel(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), colour: HudColor) {
+    pub fn panel(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), color: HudColor) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
-        self.sheet.items.push(DrawItem::Panel { from, to, colour });
+        self.sheet.items.push(DrawItem::Panel { from, to, color });
     }
 
     /// Fills the whole window with one color.
-    pub fn ground(&mut self, colour: HudColor) {
-        self.sheet.items.push(DrawItem::Fill { points: vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], colour });
+    pub fn ground(&mut self, color: HudColor) {
+        self.sheet.items.push(DrawItem::Fill { points: vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], color });
     }
 
     /// Adds a line of text.
-    pub fn text(&mut self, (x, y): (f64, f64), side: TextAlign, height: f64, colour: HudColor, words: impl Into<String>) {
+    pub fn text(&mut self, (x, y): (f64, f64), side: TextAlign, height: f64, color: HudColor, words: impl Into<String>) {
         let place = self.place(x, y);
-        self.sheet.items.push(DrawItem::Text { place, side, height, colour, words: words.into() });
+        self.sheet.items.push(DrawItem::Text { place, side, height, color, words: words.into() });
     }
 
     /// Wraps text to a width, adds it, and returns the y position of the next line.
-    pub fn lines(&mut self, (x, y): (f64, f64), width: f64, height: f64, colour: HudColor, words: &str) -> f64 {
+    pub fn lines(&mut self, (x, y): (f64, f64), width: f64, height: f64, color: HudColor, words: &str) -> f64 {
         let mut y = y;
-        for line in wrapped(words, width, height) {
-            self.text((x, y), TextAlign::Left, height, colour, line);
-            y += LINE * height;
+        for line in wrap_text(words, width, height) {
+            self.text((x, y), TextAlign::Left, height, color, line);
+            y += LINE_SPACING * height;
         }
         y
     }
 
     /// Adds a polyline.
-    pub fn line(&mut self, points: &[(f64, f64)], width: f64, colour: HudColor) {
+    pub fn line(&mut self, points: &[(f64, f64)], width: f64, color: HudColor) {
         let points = points.iter().map(|(x, y)| self.place(*x, *y)).collect();
-        self.sheet.items.push(DrawItem::Line { points, width, colour });
+        self.sheet.items.push(DrawItem::Line { points, width, color });
     }
 
     /// Adds a filled convex polygon.
-    pub fn fill(&mut self, points: &[(f64, f64)], colour: HudColor) {
+    pub fn fill(&mut self, points: &[(f64, f64)], color: HudColor) {
         let points = points.iter().map(|(x, y)| self.place(*x, *y)).collect();
-        self.sheet.items.push(DrawItem::Fill { points, colour });
+        self.sheet.items.push(DrawItem::Fill { points, color });
     }
 
     /// Adds an arrow.
-    pub fn arrow(&mut self, from: (f64, f64), to: (f64, f64), colour: HudColor) {
-        const HEAD: f64 = 0.022;
+    pub fn arrow(&mut self, from: (f64, f64), to: (f64, f64), color: HudColor) {
+        const HEAD_LENGTH: f64 = 0.022;
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let long = (dx * dx + dy * dy).sqrt().max(1e-9);
         let (ux, uy) = (dx / long, dy / long);
-        let neck = (to.0 - HEAD * ux, to.1 - HEAD * uy);
-        self.line(&[from, neck], 0.006, colour);
-        let wing = |side: f64| (neck.0 - side * 0.5 * HEAD * uy, neck.1 + side * 0.5 * HEAD * ux);
-        self.fill(&[to, wing(1.0), wing(-1.0)], colour);
+        let neck = (to.0 - HEAD_LENGTH * ux, to.1 - HEAD_LENGTH * uy);
+        self.line(&[from, neck], 0.006, color);
+        let wing = |side: f64| (neck.0 - side * 0.5 * HEAD_LENGTH * uy, neck.1 + side * 0.5 * HEAD_LENGTH * ux);
+        self.fill(&[to, wing(1.0), wing(-1.0)], color);
     }
 
     /// Adds a picture.
@@ -160,14 +160,14 @@ impl PageWriter {
 
 /// Returns the approximate width of a text, as a fraction of the window's height.
 #[must_use]
-pub fn width_of(words: &str, height: f64) -> f64 {
-    SIGN * height * words.chars().count() as f64
+pub fn text_width(words: &str, height: f64) -> f64 {
+    CHAR_WIDTH * height * words.chars().count() as f64
 }
 
 /// Wraps text at spaces and keeps its line breaks. Splits words that are wider than a line, such as addresses.
 #[must_use]
-pub fn wrapped(words: &str, width: f64, height: f64) -> Vec<String> {
-    let most = ((width / (SIGN * height)).floor() as usize).max(8);
+pub fn wrap_text(words: &str, width: f64, height: f64) -> Vec<String> {
+    let most = ((width / (CHAR_WIDTH * height)).floor() as usize).max(8);
     let mut lines = Vec::new();
     for paragraph in words.lines() {
         let mut line = String::new();
@@ -195,11 +195,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn prop_broken_lines_hold_all_words_and_fit() {
+    fn prop_wrapped_lines_fit_and_keep_all_words() {
         let text = "The drone keeps its place when you let go of the sticks.\n\nfile:///a/very/long/address/that/has/no/blank/in/it/at/all.html";
         for width in [0.4, 0.7, 1.5] {
-            let lines = wrapped(text, width, TEXT);
-            let most = (width / (SIGN * TEXT)).floor() as usize;
+            let lines = wrap_text(text, width, TEXT);
+            let most = (width / (CHAR_WIDTH * TEXT)).floor() as usize;
             assert!(lines.iter().all(|line| line.chars().count() <= most), "{lines:?}");
             let solid = |s: &str| s.chars().filter(|c| !c.is_whitespace()).collect::<String>();
             assert_eq!(solid(&lines.concat()), solid(text));
@@ -207,14 +207,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_page_stands_in_the_middle_of_a_wide_window() {
-        for (aspect, left) in [(4.0, 0.5 * (4.0 - WIDEST) / 4.0), (1.5, 0.0)] {
+    fn exact_page_is_centered_in_a_wide_window() {
+        for (aspect, left) in [(4.0, 0.5 * (4.0 - MAX_PAGE_WIDTH) / 4.0), (1.5, 0.0)] {
             let mut pen = PageWriter::new(aspect);
             let width = pen.width;
-            pen.spot((0.0, 0.1), (width, 0.2), KeyPress::Sign('x'));
+            pen.spot((0.0, 0.1), (width, 0.2), KeyPress::Char('x'));
             let spot = pen.done().spots.remove(0);
             assert!((spot.from.x - left).abs() < 1e-12 && (spot.to.x - (1.0 - left)).abs() < 1e-12, "{spot:?}");
-            assert!(spot.holds(at(0.5, 0.2)) && !spot.holds(at(0.5, 0.35)));
+            assert!(spot.contains(at(0.5, 0.2)) && !spot.contains(at(0.5, 0.35)));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Start page, where the user chooses trainee, job and purpose, and the waiting page.
 
 use super::pipe::Purpose;
-use super::sheet::{LINE, PageLayout, PageWriter, SMALL, TEXT, TITLE, wrapped};
+use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL, TEXT, TITLE, wrap_text};
 use super::{Page, WindowFlow, controls, menu, paused, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
 
@@ -14,8 +14,8 @@ impl WindowFlow {
         let mut pen = PageWriter::new(aspect);
         match self.page {
             Page::Flight => return paused::button(self, pen),
-            Page::Paused => return paused::page(pen, &paused::STANDS, &rows, self.focus),
-            Page::Leaving => return paused::page(pen, &paused::GOES_ON, &rows, self.focus),
+            Page::Paused => return paused::page(pen, &paused::PAUSE_TEXT, &rows, self.focus),
+            Page::Leaving => return paused::page(pen, &paused::END_TEXT, &rows, self.focus),
             Page::Opening
             | Page::Start
             | Page::Controls
@@ -33,7 +33,7 @@ impl WindowFlow {
             Page::Opening | Page::Flight | Page::Paused | Page::Leaving => waiting(&mut pen, "Spandrel"),
         }
         if let Some(words) = &self.notice {
-            choice_explanation(&mut pen, words);
+            draw_notice(&mut pen, words);
         }
         pen.done()
     }
@@ -80,14 +80,14 @@ impl WindowFlow {
 }
 
 /// Draws a notice along the bottom of the page, over its content.
-fn choice_explanation(pen: &mut PageWriter, words: &str) {
+fn draw_notice(pen: &mut PageWriter, words: &str) {
     let (width, margin) = (pen.width, 0.04);
-    let lines = wrapped(words, width - 2.0 * margin, TEXT);
-    let high = LINE * TEXT * lines.len() as f64 + 0.025;
+    let lines = wrap_text(words, width - 2.0 * margin, TEXT);
+    let high = LINE_SPACING * TEXT * lines.len() as f64 + 0.025;
     let top = (0.985 - high).max(0.0);
     pen.panel((0.0, top), (width, high), HudColor::Card);
     for (k, line) in lines.into_iter().enumerate() {
-        let y = top + 0.0125 + LINE * TEXT * (k as f64 + 0.5);
+        let y = top + 0.0125 + LINE_SPACING * TEXT * (k as f64 + 0.5);
         if y < 0.985 {
             pen.text((0.5 * width, y), TextAlign::Middle, TEXT, HudColor::Yellow, line);
         }

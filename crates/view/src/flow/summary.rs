@@ -2,7 +2,7 @@
 
 use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::{FlightSummary, SCORES};
-use super::sheet::{PageWriter, SMALL, TEXT, TITLE, width_of};
+use super::sheet::{PageWriter, SMALL, TEXT, TITLE, text_width};
 use crate::hud::{HudColor, TextAlign};
 
 /// Checks whether a browser can open the address.
@@ -17,10 +17,10 @@ pub fn rows(ended: Option<&FlightSummary>) -> Vec<MenuRow> {
         rows.push(MenuRow::button(MenuAction::Report, "Open report"));
     }
     if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {
-        rows.push(MenuRow::button(MenuAction::Questions, "Open questionnaire"));
+        rows.push(MenuRow::button(MenuAction::OpenQuestionnaire, "Open questionnaire"));
     }
-    rows.push(MenuRow::button(MenuAction::Again, "Fly again"));
-    rows.push(MenuRow::button(MenuAction::Other, "Choose another job"));
+    rows.push(MenuRow::button(MenuAction::FlyAgain, "Fly again"));
+    rows.push(MenuRow::button(MenuAction::ChooseOther, "Choose another job"));
     rows.push(MenuRow::button(MenuAction::Quit, "Quit"));
     rows
 }
@@ -34,7 +34,7 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
         _ => ("The flight is over", ended.why.clone()),
     };
     // Shrinks the headline to fit on one line; its length depends on the job.
-    let height = TITLE.min((pen.width - 2.0 * left) / width_of(title, 1.0));
+    let height = TITLE.min((pen.width - 2.0 * left) / text_width(title, 1.0));
     pen.text((left, 0.08), TextAlign::Left, height, HudColor::White, title);
     pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL, HudColor::Grey, &note);
     for (k, (name, score)) in SCORES.iter().zip(&ended.scores).enumerate() {

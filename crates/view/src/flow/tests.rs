@@ -60,7 +60,7 @@ fn started() -> WindowFlow {
     flow
 }
 
-fn orders(flow: &mut WindowFlow) -> Vec<WindowRequest> {
+fn pending_requests(flow: &mut WindowFlow) -> Vec<WindowRequest> {
     std::iter::from_fn(|| flow.poll()).collect()
 }
 
@@ -71,12 +71,12 @@ fn press(flow: &mut WindowFlow, all: &[KeyPress]) {
 fn in_flight(purpose: Purpose) -> WindowFlow {
     let mut flow = started();
     flow.handle_message(flying(&FlightChoice { purpose, ..flow.choice().clone() }));
-    orders(&mut flow);
+    pending_requests(&mut flow);
     flow
 }
 
 #[test]
-fn exact_keys_alone_lead_from_the_choice_to_the_flight_and_on() {
+fn exact_keys_navigate_from_selection_through_flight_to_scores() {
     let mut flow = started();
     assert_eq!(flow.page(), Page::Start);
     press(&mut flow, &[KeyPress::Down, KeyPress::Left, KeyPress::Enter, KeyPress::Enter, KeyPress::Enter]);
@@ -84,37 +84,39 @@ fn exact_keys_alone_lead_from_the_choice_to_the_flight_and_on() {
     press(&mut flow, &[KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting, "anna has flown before: no tutorial");
     let wanted = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
-    assert_eq!(orders(&mut flow), [WindowRequest::Tell(FromWindow::Chosen(wanted.clone()))]);
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted.clone()))]);
     flow.handle_message(flying(&wanted));
     assert_eq!(flow.page(), Page::Flight);
-    assert!(matches!(orders(&mut flow).as_slice(), [WindowRequest::Fly(flying)] if flying.choice == wanted));
+    assert!(matches!(pending_requests(&mut flow).as_slice(), [WindowRequest::ShowFlight(flying)] if flying.choice == wanted));
     flow.handle_message(ToWindow::Ended(ended()));
-    assert_eq!((flow.page(), orders(&mut flow)), (Page::Over, vec![WindowRequest::Land]));
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Over, vec![WindowRequest::LeaveFlight]));
     press(&mut flow, &[KeyPress::Enter, KeyPress::Down, KeyPress::Enter, KeyPress::Down, KeyPress::Enter]);
-    let told = orders(&mut flow);
+    let told = pending_requests(&mut flow);
     assert!(matches!(&told[0], WindowRequest::Open(address) if address.starts_with("file:")), "{told:?}");
     assert!(matches!(&told[1], WindowRequest::Open(address) if address.ends_with("/questions")), "{told:?}");
-    assert_eq!(told[2..], [WindowRequest::Land, WindowRequest::Tell(FromWindow::Again)]);
+    assert_eq!(told[2..], [WindowRequest::LeaveFlight, WindowRequest::Send(FromWindow::Again)]);
 }
 
 #[test]
-fn exact_a_new_trainee_reads_the_tutorial_first_and_may_skip_it() {
+fn exact_new_trainee_gets_the_tutorial_and_may_skip_it() {
     let mut flow = started();
     press(&mut flow, &[KeyPress::Backspace; 4]);
-    "n3w".chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
+    "n3w".chars().for_each(|sign| flow.press(KeyPress::Char(sign)));
     press(&mut flow, &[KeyPress::Enter, KeyPress::Enter, KeyPress::Enter, KeyPress::Enter]);
     assert_eq!((flow.page(), flow.choice().trainee.as_str()), (Page::Controls, "n3w"));
     press(&mut flow, &[KeyPress::Enter, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Tutorial(1, true));
     press(&mut flow, &[KeyPress::Escape, KeyPress::Up, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting, "the last row skips");
-    assert!(matches!(orders(&mut flow).as_slice(), [WindowRequest::Tell(FromWindow::Chosen(choice))] if choice.trainee == "n3w"));
+    assert!(
+        matches!(pending_requests(&mut flow).as_slice(), [WindowRequest::Send(FromWindow::Chosen(choice))] if choice.trainee == "n3w")
+    );
     flow.handle_message(ToWindow::Refused { words: "the port is taken".into() });
     assert_eq!((flow.page(), flow.notice()), (Page::Start, Some("the port is taken")));
     // Opens the tutorial again from the start page and reads it to the end.
     press(&mut flow, &[KeyPress::Row(4)]);
     (0..6).for_each(|_| flow.press(KeyPress::Enter));
-    assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Start, 0));
+    assert_eq!((flow.page(), pending_requests(&mut flow).len()), (Page::Start, 0));
 }
 
 fn choose_practice(flow: &mut WindowFlow) {
@@ -124,14 +126,14 @@ fn choose_practice(flow: &mut WindowFlow) {
 }
 
 #[test]
-fn exact_every_trainee_reads_the_tutorial_before_the_first_practice() {
+fn exact_tutorial_precedes_every_trainees_first_practice() {
     let mut flow = in_flight(Purpose::Assessment);
     flow.handle_message(ToWindow::Ended(ended()));
     // Goes from the start page to the flight: name, controller check, flight.
     let named = |flow: &mut WindowFlow, name: &str| {
         flow.press(KeyPress::Row(0));
         press(flow, &[KeyPress::Backspace; 32]);
-        name.chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
+        name.chars().for_each(|sign| flow.press(KeyPress::Char(sign)));
         press(flow, &[KeyPress::Row(3), KeyPress::Enter]);
         flow.page()
     };
@@ -149,12 +151,12 @@ fn exact_every_trainee_reads_the_tutorial_before_the_first_practice() {
 }
 
 #[test]
-fn exact_a_key_that_flies_does_nothing_on_a_page_that_comes_under_it() {
+fn exact_flight_keys_have_no_effect_on_a_page_that_opens() {
     let mut flow = in_flight(Purpose::Practice);
     flow.handle_message(ToWindow::Ended(ended()));
-    orders(&mut flow);
+    pending_requests(&mut flow);
     press(&mut flow, &[KeyPress::Left, KeyPress::Right, KeyPress::Down, KeyPress::Right, KeyPress::Up]);
-    assert_eq!((flow.page(), orders(&mut flow).len()), (Page::Over, 0));
+    assert_eq!((flow.page(), pending_requests(&mut flow).len()), (Page::Over, 0));
     let mut flow = started();
     assert!(!flow.is_key_test());
     press(&mut flow, &[KeyPress::Row(3), KeyPress::Right, KeyPress::Left]);
@@ -165,14 +167,14 @@ fn exact_a_key_that_flies_does_nothing_on_a_page_that_comes_under_it() {
 }
 
 #[test]
-fn exact_a_controller_that_was_unplugged_is_reported_and_may_be_looked_for() {
+fn exact_unplugged_controller_is_reported_and_can_be_searched_for() {
     let mut flow = started();
     press(&mut flow, &[KeyPress::Row(3)]);
     let there = ControllerStatus { device: Some("Pad".into()), calibrated: true, ..ControllerStatus::default() };
     let lost = ControllerStatus { lost: true, keys: "w climbs".into(), ..there.clone() };
-    let deeds = |flow: &WindowFlow| flow.rows().into_iter().map(|row| row.deed).collect::<Vec<_>>();
+    let deeds = |flow: &WindowFlow| flow.rows().into_iter().map(|row| row.action).collect::<Vec<_>>();
     flow.update_controls(there);
-    assert!(words(&flow).contains("Pad, calibrated") && !deeds(&flow).contains(&MenuAction::Look));
+    assert!(words(&flow).contains("Pad, calibrated") && !deeds(&flow).contains(&MenuAction::FindController));
     press(&mut flow, &[KeyPress::Up]);
     flow.update_controls(lost);
     assert!(flow.focus < flow.rows().len(), "the focus must stay on a row");
@@ -181,12 +183,12 @@ fn exact_a_controller_that_was_unplugged_is_reported_and_may_be_looked_for() {
         told.contains("Pad not connected: using keyboard") && !told.contains("calibrated") && told.contains("climbs"),
         "{told}"
     );
-    assert_eq!(deeds(&flow), [MenuAction::Fly, MenuAction::Look, MenuAction::Back]);
+    assert_eq!(deeds(&flow), [MenuAction::Fly, MenuAction::FindController, MenuAction::Back]);
     assert!(flow.is_key_test(), "without a controller, this page tests the flight keys");
 }
 
 #[test]
-fn regress_a_flight_that_ended_before_its_pause_leaves_no_restart_request() {
+fn regress_flight_end_clears_the_restart_request() {
     let mut flow = in_flight(Purpose::Practice);
     flow.restart();
     flow.handle_message(ToWindow::Ended(ended()));
@@ -200,7 +202,7 @@ fn regress_a_flight_that_ended_before_its_pause_leaves_no_restart_request() {
 }
 
 #[test]
-fn exact_pages_name_the_keys_as_they_are_set_and_what_is_waited_for() {
+fn exact_pages_show_bound_keys_and_the_awaited_operation() {
     let (mut flight, mut seen) = (in_flight(Purpose::Practice), String::new());
     for (name, flow) in every_page() {
         assert!(!words(&flow).contains('{'), "{name}: {}", words(&flow));
@@ -216,40 +218,40 @@ fn exact_pages_name_the_keys_as_they_are_set_and_what_is_waited_for() {
 }
 
 #[test]
-fn exact_names_stay_harmless_and_wrong_signs_are_reported() {
+fn exact_names_accept_only_valid_characters() {
     let mut flow = started();
     press(&mut flow, &[KeyPress::Backspace; 9]);
     for sign in "-_ /é.".chars() {
-        flow.press(KeyPress::Sign(sign));
+        flow.press(KeyPress::Char(sign));
         assert!(flow.notice().is_some() && flow.choice().trainee.is_empty(), "{sign}");
     }
     press(&mut flow, &[KeyPress::Row(3)]);
     assert_eq!(flow.page(), Page::Start, "a flight requires a name");
-    "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
+    "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Char(sign)));
     assert!(flow.choice().trainee.is_empty(), "typed characters go to the focused row");
     flow.press(KeyPress::Row(0));
-    "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Sign(sign)));
+    "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Char(sign)));
     assert_eq!(flow.choice().trainee.len(), 32);
 }
 
 #[test]
-fn exact_pause_and_restart_are_for_practice_alone() {
+fn exact_pause_and_restart_require_practice() {
     let mut flow = in_flight(Purpose::Practice);
     flow.pause();
-    assert_eq!(orders(&mut flow), [WindowRequest::Tell(FromWindow::Pause)]);
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Pause)]);
     assert!(!flow.is_paused(), "the simulator must confirm the pause");
     flow.handle_message(ToWindow::Paused { on: true });
     assert!(flow.is_paused());
     flow.press(KeyPress::Escape);
-    assert_eq!(orders(&mut flow), [WindowRequest::Tell(FromWindow::Resume)]);
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Resume)]);
     flow.handle_message(ToWindow::Paused { on: false });
     assert_eq!(flow.page(), Page::Flight);
     flow.restart();
     flow.handle_message(ToWindow::Paused { on: true });
     flow.press(KeyPress::Enter);
     assert_eq!(
-        orders(&mut flow),
-        [WindowRequest::Tell(FromWindow::Pause), WindowRequest::Land, WindowRequest::Tell(FromWindow::Restart)],
+        pending_requests(&mut flow),
+        [WindowRequest::Send(FromWindow::Pause), WindowRequest::LeaveFlight, WindowRequest::Send(FromWindow::Restart)],
         "a restart must be confirmed in the focused row"
     );
     assert_eq!(flow.page(), Page::Waiting);
@@ -264,21 +266,21 @@ fn exact_pause_and_restart_are_for_practice_alone() {
     assert_eq!(flow.page(), Page::Flight);
     flow.pause();
     flow.press(KeyPress::Enter);
-    assert_eq!((flow.page(), orders(&mut flow)), (Page::Flight, vec![]), "the first row must continue the flight");
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Flight, vec![]), "the first row must continue the flight");
     let mut given_up = flow.clone();
     given_up.pause();
     press(&mut given_up, &[KeyPress::Down, KeyPress::Enter]);
-    assert_eq!(orders(&mut given_up), [WindowRequest::Land, WindowRequest::Tell(FromWindow::End)]);
+    assert_eq!(pending_requests(&mut given_up), [WindowRequest::LeaveFlight, WindowRequest::Send(FromWindow::End)]);
     assert_eq!(given_up.page(), Page::Waiting);
     flow.pause();
     flow.handle_message(ToWindow::Ended(ended()));
     flow.pause();
     flow.restart();
-    assert_eq!(orders(&mut flow), [WindowRequest::Land], "pause and restart have no effect after the end");
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::LeaveFlight], "pause and restart have no effect after the end");
 }
 
 #[test]
-fn exact_the_profile_changes_by_steps_within_its_range() {
+fn exact_profile_changes_in_steps_within_its_range() {
     let mut flow = started();
     press(&mut flow, &[KeyPress::Row(3)]);
     flow.update_controls(ControllerStatus {
@@ -290,14 +292,14 @@ fn exact_the_profile_changes_by_steps_within_its_range() {
         ..ControllerStatus::default()
     });
     press(&mut flow, &[KeyPress::Row(2), KeyPress::Right, KeyPress::Row(3), KeyPress::Right, KeyPress::Row(4), KeyPress::Left]);
-    let told = orders(&mut flow);
-    assert_eq!(told[0], WindowRequest::Tune(ProfileChange::Mode(1)), "mode 4 wraps around to 1");
-    assert_eq!(told[1], WindowRequest::Tune(ProfileChange::DeadBand(0.5)), "the dead band is at most 0.5");
-    assert_eq!(told[2], WindowRequest::Tune(ProfileChange::Expo(0.0)));
+    let told = pending_requests(&mut flow);
+    assert_eq!(told[0], WindowRequest::ChangeProfile(ProfileChange::Mode(1)), "mode 4 wraps around to 1");
+    assert_eq!(told[1], WindowRequest::ChangeProfile(ProfileChange::DeadBand(0.5)), "the dead band is at most 0.5");
+    assert_eq!(told[2], WindowRequest::ChangeProfile(ProfileChange::Expo(0.0)));
     flow.update_controls(ControllerStatus { wizard: Some("Let go.".into()), ..flow.controls.clone() });
     assert_eq!(flow.page(), Page::Calibrating);
     press(&mut flow, &[KeyPress::Enter, KeyPress::Escape]);
-    assert_eq!(orders(&mut flow), [WindowRequest::Confirm, WindowRequest::Cancel]);
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Confirm, WindowRequest::Cancel]);
     flow.update_controls(ControllerStatus { wizard: None, ..flow.controls.clone() });
     assert_eq!(flow.page(), Page::Controls);
 }
@@ -346,7 +348,7 @@ fn every_page() -> Vec<(String, WindowFlow)> {
 }
 
 #[test]
-fn prop_everything_stays_in_windows_of_any_shape_and_every_picture_is_there() {
+fn prop_pages_fit_windows_of_any_aspect_ratio() {
     for aspect in [4.0 / 3.0, 16.0 / 9.0, 1600.0 / 560.0, 1280.0 / 360.0] {
         for (name, flow) in every_page() {
             let sheet = flow.sheet(aspect);
@@ -376,7 +378,7 @@ fn words(flow: &WindowFlow) -> String {
 }
 
 #[test]
-fn regress_the_first_page_and_the_last() {
+fn regress_start_and_result_pages() {
     let (start, end) = (include_str!("snapshots/start.txt"), include_str!("snapshots/over.txt"));
     let mut over = in_flight(Purpose::Practice);
     over.handle_message(ToWindow::Ended(ended()));

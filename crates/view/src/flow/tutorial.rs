@@ -2,8 +2,8 @@
 //! and the HUD as drawn in flight.
 
 use super::KeyNames;
-use super::menu::{self, MenuRow, STEP};
-use super::sheet::{PageWriter, SMALL, TITLE, width_of};
+use super::menu::{self, MenuRow, ROW_SPACING};
+use super::sheet::{PageWriter, SMALL, TITLE, text_width};
 use crate::hud::{DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, TextAlign, layout};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
@@ -22,13 +22,13 @@ pub const PICTURES: [(&str, &[u8]); 9] = [
 ];
 
 /// Aspect ratio of the large pictures.
-const WIDE: f64 = 16.0 / 9.0;
+const PICTURE_ASPECT: f64 = 16.0 / 9.0;
 
 /// A page: title, function that draws the box on the left, and text on the right; `{binding}` is replaced by a key
 /// name.
 type TutorialPage = (&'static str, fn(&mut PageWriter, PictureFrame, &KeyNames), &'static str);
 
-const LEAVES: [TutorialPage; PAGES] = [
+const TUTORIAL_PAGES: [TutorialPage; PAGES] = [
     (
         "the job",
         job,
@@ -93,20 +93,20 @@ impl PictureFrame {
 }
 
 pub fn page(pen: &mut PageWriter, page: usize, rows: &[MenuRow], focus: usize, names: &KeyNames) {
-    let Some((title, picture, words)) = LEAVES.get(page) else { return };
+    let Some((title, picture, words)) = TUTORIAL_PAGES.get(page) else { return };
     let left = 0.04;
     pen.text((left, 0.07), TextAlign::Left, TITLE, HudColor::White, format!("Tutorial {} of {PAGES}: {title}", page + 1));
-    let width = (0.60 * pen.width).min(0.70 * WIDE);
-    picture(pen, PictureFrame { x: left, y: 0.15, width, height: width / WIDE }, names);
+    let width = (0.60 * pen.width).min(0.70 * PICTURE_ASPECT);
+    picture(pen, PictureFrame { x: left, y: 0.15, width, height: width / PICTURE_ASPECT }, names);
     let x = left + width + 0.06;
     let room = pen.width - x - 0.03;
     pen.lines((x, 0.17), room, if room < 0.6 { 0.92 * SMALL } else { SMALL }, HudColor::White, &names.fill(words));
-    menu::draw(pen, (x, 0.97 - STEP * rows.len() as f64), room, rows, focus);
+    menu::draw(pen, (x, 0.97 - ROW_SPACING * rows.len() as f64), room, rows, focus);
 }
 
 /// Draws a label with an arrow; both positions are fractions of the frame.
 fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64), to: (f64, f64)) {
-    let half = 0.5 * width_of(words, SMALL) + 0.012;
+    let half = 0.5 * text_width(words, SMALL) + 0.012;
     let (x, y) = frame.at(from.0, from.1);
     let (tx, ty) = frame.at(to.0, to.1);
     // The arrow starts at the side of the label that faces its target.
@@ -129,7 +129,7 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     let other = frame.part((0.5, 0.0), (0.5, 0.5));
     pen.picture("inspector", half.at(0.0, 0.0), (half.width, half.height));
     pen.picture("camera", other.at(0.0, 0.0), (other.width, other.height));
-    inset(pen, &layout(&example(0), WIDE), other);
+    inset(pen, &layout(&example(0), PICTURE_ASPECT), other);
     pen.line(&[other.at(0.0, 0.0), other.at(0.0, 1.0)], 0.004, HudColor::Black);
     label(pen, half, "where the drone is", (0.42, 1.15), (0.50, 0.56));
     label(pen, other, "the camera's view", (0.40, 1.15), (0.5, 0.75));
@@ -147,7 +147,7 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
 
 fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
-    inset(pen, &layout(&example(0), WIDE), frame);
+    inset(pen, &layout(&example(0), PICTURE_ASPECT), frame);
     for (words, from, to) in [
         ("speed and its limit", (0.20, 0.30), (0.08, 0.135)),
         ("mode, satellites, link", (0.50, 0.20), (0.50, 0.075)),
@@ -163,7 +163,7 @@ fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
 fn warnings(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
     let display = Hud { hit: Some("pier".into()), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(0b11_1100) };
-    inset(pen, &layout(&display, WIDE), frame);
+    inset(pen, &layout(&display, PICTURE_ASPECT), frame);
     label(pen, frame, "warnings", (0.62, 0.68), (0.36, 0.80));
     label(pen, frame, "low battery", (0.62, 0.22), (0.86, 0.085));
 }
@@ -222,7 +222,7 @@ fn example(cues: i32) -> Hud {
         home_m: 118.0,
         mode: "Position".into(),
         gnss: Some(GnssStatus { fixed: true, satellites: 17 }),
-        silent_s: 0.0,
+        telemetry_age_s: 0.0,
         gimbal_rad: 0.1,
         zoom: 1.0,
         lamp: false,
@@ -243,16 +243,16 @@ fn inset(pen: &mut PageWriter, items: &[DrawItem], frame: PictureFrame) {
     let place = |p: &ScreenPoint| frame.at(p.x, p.y);
     for item in items {
         match item {
-            DrawItem::Panel { from, to, colour } => {
+            DrawItem::Panel { from, to, color } => {
                 let (from, to) = (place(from), place(to));
-                pen.panel(from, (to.0 - from.0, to.1 - from.1), *colour);
+                pen.panel(from, (to.0 - from.0, to.1 - from.1), *color);
             }
-            DrawItem::Text { place: at, side, height, colour, words } => {
-                pen.text(place(at), *side, height * frame.height, *colour, words.clone());
+            DrawItem::Text { place: at, side, height, color, words } => {
+                pen.text(place(at), *side, height * frame.height, *color, words.clone());
             }
-            DrawItem::Fill { points, colour } => pen.fill(&points.iter().map(place).collect::<Vec<_>>(), *colour),
-            DrawItem::Line { points, width, colour } => {
-                pen.line(&points.iter().map(place).collect::<Vec<_>>(), width * frame.height, *colour);
+            DrawItem::Fill { points, color } => pen.fill(&points.iter().map(place).collect::<Vec<_>>(), *color),
+            DrawItem::Line { points, width, color } => {
+                pen.line(&points.iter().map(place).collect::<Vec<_>>(), width * frame.height, *color);
             }
         }
     }

@@ -73,7 +73,7 @@ impl Gpu {
     /// # Errors
     /// If a side exceeds the device's maximum.
     pub fn check_size(&self, size_px: (u32, u32)) -> Result<(), GpuError> {
-        fits(size_px, self.device.limits().max_texture_dimension_2d)
+        check_texture_size(size_px, self.device.limits().max_texture_dimension_2d)
     }
 
     fn request(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>, software: bool) -> Result<Self, GpuError> {
@@ -90,28 +90,28 @@ impl Gpu {
         let descriptor = wgpu::DeviceDescriptor { label: Some("spandrel"), required_limits: limits, ..Default::default() };
         let (device, queue) =
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|e| GpuError::NoDevice(e.to_string()))?;
-        let fault = watch(&device);
+        let fault = record_errors(&device);
         let info = adapter.get_info();
         Ok(Self { fault, device, queue, name: info.name, software: info.device_type == wgpu::DeviceType::Cpu, adapter })
     }
 }
 
-fn fits((width, height): (u32, u32), longest: u32) -> Result<(), GpuError> {
+fn check_texture_size((width, height): (u32, u32), longest: u32) -> Result<(), GpuError> {
     if width.max(height) > longest { Err(GpuError::TooLarge(width, height, longest)) } else { Ok(()) }
 }
 
 /// Records errors that occur outside of any call (an uncaptured error, a removed or hung GPU) and would otherwise cause
 /// a panic.
-fn watch(device: &wgpu::Device) -> Arc<OnceLock<String>> {
+fn record_errors(device: &wgpu::Device) -> Arc<OnceLock<String>> {
     let fault = Arc::new(OnceLock::new());
     // Only the first error counts; later ones are consequences of it.
-    let keeps = fault.clone();
-    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| drop(keeps.set(error.to_string()))));
-    let keeps = fault.clone();
+    let recorder = fault.clone();
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| drop(recorder.set(error.to_string()))));
+    let recorder = fault.clone();
     device.set_device_lost_callback(move |why, words| {
         // Dropping a device is not an error.
         if why != wgpu::DeviceLostReason::Destroyed {
-            drop(keeps.set(format!("device lost: {words}")));
+            drop(recorder.set(format!("device lost: {words}")));
         }
     });
     fault
@@ -122,16 +122,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_picture_too_large_is_refused_with_its_size_and_the_limit() {
-        assert_eq!(fits((8192, 16), 8192), Ok(()));
+    fn exact_too_large_picture_is_rejected_with_size_and_limit() {
+        assert_eq!(check_texture_size((8192, 16), 8192), Ok(()));
         for (width, height) in [(8193, 16), (16, 8193)] {
-            let told = fits((width, height), 8192).expect_err("too large").to_string();
+            let told = check_texture_size((width, height), 8192).expect_err("too large").to_string();
             assert!(told.contains(&format!("{width} x {height} px")) && told.contains("at most 8192 px"), "{told}");
         }
     }
 
     #[test]
-    fn regress_a_device_that_fails_is_reported_and_no_panic() {
+    fn regress_device_failure_is_reported_without_a_panic() {
         let Ok(gpu) = Gpu::open_software() else {
             println!("skipped: no software Vulkan driver (Debian and Ubuntu: apt-get install mesa-vulkan-drivers)");
             return;

@@ -1,11 +1,11 @@
 //! GPU rendering: uploads a scene, draws shots, and reads pictures back. The rest of the crate does not use a GPU.
 
 mod device;
+mod lru_cache;
 mod overlay;
 mod pass;
 mod picture;
 mod pipelines;
-mod recent;
 mod renderer;
 mod targets;
 mod uniforms;

@@ -1,7 +1,7 @@
 //! Head-up display drawn over a rendered picture.
 
 use super::device::Gpu;
-use super::pipelines::PICTURE;
+use super::pipelines::PICTURE_FORMAT;
 use crate::flow::{PICTURES, PageLayout};
 use crate::hud::{DrawItem, ScreenPoint, TextAlign};
 use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
@@ -23,7 +23,7 @@ impl Overlay {
     /// Creates an overlay for picture textures.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
-        let renderer = egui_wgpu::Renderer::new(&gpu.device, PICTURE, egui_wgpu::RendererOptions::default());
+        let renderer = egui_wgpu::Renderer::new(&gpu.device, PICTURE_FORMAT, egui_wgpu::RendererOptions::default());
         Self { context: egui::Context::default(), renderer }
     }
 
@@ -75,11 +75,11 @@ impl Overlay {
 pub struct PageTextures(BTreeMap<&'static str, egui::TextureHandle>);
 
 impl PageTextures {
-    /// Returns a picture by name, decoding it on first use; returns `None` if it cannot be decoded.
+    /// Returns a picture by name, decoding it on first use; returns `None` if it cannot be decode_jpeg.
     fn of(&mut self, context: &egui::Context, name: &'static str) -> Option<egui::TextureId> {
         if !self.0.contains_key(name) {
             let (_, bytes) = PICTURES.iter().find(|known| known.0 == name)?;
-            let texture = context.load_texture(name, decoded(bytes)?, egui::TextureOptions::LINEAR);
+            let texture = context.load_texture(name, decode_jpeg(bytes)?, egui::TextureOptions::LINEAR);
             self.0.insert(name, texture);
         }
         self.0.get(name).map(egui::TextureHandle::id)
@@ -87,7 +87,7 @@ impl PageTextures {
 }
 
 /// Decodes a JPEG into an egui image.
-fn decoded(bytes: &[u8]) -> Option<egui::ColorImage> {
+fn decode_jpeg(bytes: &[u8]) -> Option<egui::ColorImage> {
     let mut decoder = zune_jpeg::JpegDecoder::new(zune_jpeg::zune_core::bytestream::ZCursor::new(bytes));
     let pixels = decoder.decode().ok()?;
     let (width, height) = decoder.dimensions()?;
@@ -114,34 +114,34 @@ pub fn paint_sheet(painter: &egui::Painter, sheet: &PageLayout, rect: Rect, pict
 /// Paints items over the picture in a rectangle.
 pub fn paint(painter: &egui::Painter, items: &[DrawItem], rect: Rect) {
     for item in items {
-        paint_one(painter, item, rect);
+        paint_item(painter, item, rect);
     }
 }
 
-fn paint_one(painter: &egui::Painter, item: &DrawItem, rect: Rect) {
+fn paint_item(painter: &egui::Painter, item: &DrawItem, rect: Rect) {
     let size = rect.size();
     let px = |p: &ScreenPoint| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
-    let colour = |c: crate::hud::HudColor| {
+    let color = |c: crate::hud::HudColor| {
         let [r, g, b, a] = c.rgba();
         Color32::from_rgba_unmultiplied(r, g, b, a)
     };
     match item {
-        DrawItem::Panel { from, to, colour: fill } => {
-            painter.add(Shape::rect_filled(Rect::from_min_max(px(from), px(to)), 0.012 * size.y, colour(*fill)));
+        DrawItem::Panel { from, to, color: fill } => {
+            painter.add(Shape::rect_filled(Rect::from_min_max(px(from), px(to)), 0.012 * size.y, color(*fill)));
         }
-        DrawItem::Text { place, side, height, colour: ink, words } => {
+        DrawItem::Text { place, side, height, color: ink, words } => {
             let align = match side {
                 TextAlign::Left => Align2::LEFT_CENTER,
                 TextAlign::Middle => Align2::CENTER_CENTER,
                 TextAlign::Right => Align2::RIGHT_CENTER,
             };
-            painter.text(px(place), align, words, FontId::proportional(*height as f32 * size.y), colour(*ink));
+            painter.text(px(place), align, words, FontId::proportional(*height as f32 * size.y), color(*ink));
         }
-        DrawItem::Fill { points, colour: fill } => {
-            painter.add(Shape::convex_polygon(points.iter().map(px).collect(), colour(*fill), Stroke::NONE));
+        DrawItem::Fill { points, color: fill } => {
+            painter.add(Shape::convex_polygon(points.iter().map(px).collect(), color(*fill), Stroke::NONE));
         }
-        DrawItem::Line { points, width, colour: ink } => {
-            let stroke = Stroke::new((*width as f32 * size.y).max(1.0), colour(*ink));
+        DrawItem::Line { points, width, color: ink } => {
+            let stroke = Stroke::new((*width as f32 * size.y).max(1.0), color(*ink));
             painter.add(Shape::line(points.iter().map(px).collect(), stroke));
         }
     }
@@ -152,11 +152,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_picture_of_the_tutorial_can_be_decoded() {
+    fn exact_tutorial_pictures_can_be_decoded() {
         for (name, bytes) in PICTURES {
-            let picture = decoded(bytes).unwrap_or_else(|| panic!("{name}"));
+            let picture = decode_jpeg(bytes).unwrap_or_else(|| panic!("{name}"));
             assert!(picture.width() >= 400 && picture.height() >= 150, "{name}: {:?}", picture.size);
         }
-        assert!(decoded(b"no picture").is_none());
+        assert!(decode_jpeg(b"no picture").is_none());
     }
 }

@@ -1,7 +1,7 @@
 //! Recording of render passes.
 
 use super::device::Gpu;
-use crate::looks::MaterialGroup;
+use crate::material_groups::MaterialGroup;
 use crate::mesh::Mesh;
 use crate::scene::Instance;
 use std::ops::Range;
@@ -12,7 +12,7 @@ pub struct GpuMesh {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     count: u32,
-    runs: Vec<(MaterialGroup, Range<u32>)>,
+    group_ranges: Vec<(MaterialGroup, Range<u32>)>,
 }
 
 /// Instances of a mesh.
@@ -32,12 +32,12 @@ impl GpuMesh {
         if mesh.indices.is_empty() {
             return None;
         }
-        let (indices, runs) = sorted(mesh);
+        let (indices, group_ranges) = sorted_by_group(mesh);
         Some(Self {
             vertices: upload(gpu, bytemuck::cast_slice(&mesh.vertices), wgpu::BufferUsages::VERTEX),
             indices: upload(gpu, bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
             count: indices.len() as u32,
-            runs,
+            group_ranges,
         })
     }
 
@@ -47,7 +47,7 @@ impl GpuMesh {
     }
 
     /// Draws the mesh once, without instances.
-    pub fn draw_alone(&self, pass: &mut wgpu::RenderPass) {
+    pub fn draw_without_instances(&self, pass: &mut wgpu::RenderPass) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..self.count, 0, 0..1);
@@ -59,8 +59,8 @@ impl GpuMesh {
     }
 
     /// Draws the triangles of one material group and returns their number per instance, or `None` if there are none.
-    pub fn draw_look(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances, look: MaterialGroup) -> Option<u32> {
-        let (_, run) = self.runs.iter().find(|run| run.0 == look)?;
+    pub fn draw_group(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances, look: MaterialGroup) -> Option<u32> {
+        let (_, run) = self.group_ranges.iter().find(|run| run.0 == look)?;
         self.draw_range(pass, copies, run.clone());
         Some(run.len() as u32 / 3)
     }
@@ -74,20 +74,20 @@ impl GpuMesh {
 }
 
 /// Sorts triangles by material group and returns the index range of each group.
-fn sorted(mesh: &Mesh) -> (Vec<u32>, Vec<(MaterialGroup, Range<u32>)>) {
+fn sorted_by_group(mesh: &Mesh) -> (Vec<u32>, Vec<(MaterialGroup, Range<u32>)>) {
     let look = |corner: u32| {
         mesh.vertices.get(corner as usize).map_or(MaterialGroup::Simple, |vertex| MaterialGroup::of(vertex.material))
     };
     let mut indices: Vec<u32> = Vec::with_capacity(mesh.indices.len());
-    let mut runs = Vec::new();
+    let mut group_ranges = Vec::new();
     for of in MaterialGroup::ALL {
         let from = indices.len() as u32;
         indices.extend(mesh.indices.chunks_exact(3).filter(|corners| look(corners[0]) == of).flatten());
         if indices.len() as u32 > from {
-            runs.push((of, from..indices.len() as u32));
+            group_ranges.push((of, from..indices.len() as u32));
         }
     }
-    (indices, runs)
+    (indices, group_ranges)
 }
 
 impl MeshInstances {
@@ -108,19 +108,19 @@ impl MeshInstances {
 /// Begins a pass with a cleared color target and a depth buffer cleared to infinity.
 pub fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
-    colour: &wgpu::TextureView,
+    color: &wgpu::TextureView,
     resolved: Option<&wgpu::TextureView>,
     depth: Option<&wgpu::TextureView>,
 ) -> wgpu::RenderPass<'a> {
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: None,
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: colour,
+            view: color,
             depth_slice: None,
             resolve_target: resolved,
             ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
         })],
-        depth_stencil_attachment: depth.map(cleared),
+        depth_stencil_attachment: depth.map(cleared_depth),
         timestamp_writes: None,
         occlusion_query_set: None,
         multiview_mask: None,
@@ -132,14 +132,14 @@ pub fn begin_depth<'a>(encoder: &'a mut wgpu::CommandEncoder, depth: &wgpu::Text
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: None,
         color_attachments: &[],
-        depth_stencil_attachment: Some(cleared(depth)),
+        depth_stencil_attachment: Some(cleared_depth(depth)),
         timestamp_writes: None,
         occlusion_query_set: None,
         multiview_mask: None,
     })
 }
 
-fn cleared(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+fn cleared_depth(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     wgpu::RenderPassDepthStencilAttachment {
         view,
         depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),

@@ -1,16 +1,16 @@
 //! Upload and readback of pictures.
 
 use super::device::{Gpu, GpuError};
-use super::pipelines::PICTURE;
+use super::pipelines::PICTURE_FORMAT;
 use crate::picture::Picture;
 
 /// Row alignment of texture copies, bytes.
-const ROW: u32 = 256;
+const ROW_ALIGNMENT: u32 = 256;
 
 /// Creates a picture texture that can be rendered to or filled, read back, and shown in a window.
 pub fn picture_texture(gpu: &Gpu, size_px: (u32, u32)) -> wgpu::Texture {
     use wgpu::TextureUsages as Use;
-    colour_texture(gpu, size_px, (PICTURE, Use::COPY_SRC | Use::COPY_DST | Use::TEXTURE_BINDING))
+    color_texture(gpu, size_px, (PICTURE_FORMAT, Use::COPY_SRC | Use::COPY_DST | Use::TEXTURE_BINDING))
 }
 
 /// Uploads a picture of the same size into a texture.
@@ -20,7 +20,7 @@ pub fn fill(gpu: &Gpu, texture: &wgpu::Texture, picture: &Picture) {
 }
 
 /// Creates a color render target with additional usages.
-pub fn colour_texture(
+pub fn color_texture(
     gpu: &Gpu,
     (width, height): (u32, u32),
     (format, also): (wgpu::TextureFormat, wgpu::TextureUsages),
@@ -49,7 +49,7 @@ pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
 /// Reads the pixels of a texture back, `pixel` bytes each.
 pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<u8>, GpuError> {
     let (width, height) = (texture.width(), texture.height());
-    let row = (pixel * width).div_ceil(ROW) * ROW;
+    let row = (pixel * width).div_ceil(ROW_ALIGNMENT) * ROW_ALIGNMENT;
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read"),
         size: u64::from(row) * u64::from(height),
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn regress_what_failed_meanwhile_is_reported_instead_of_a_black_picture() {
+    fn regress_device_failure_is_reported_instead_of_a_black_picture() {
         let Ok(gpu) = Gpu::open_software() else {
             println!("skipped: no software Vulkan driver (Debian and Ubuntu: apt-get install mesa-vulkan-drivers)");
             return;

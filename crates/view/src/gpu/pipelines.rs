@@ -3,7 +3,7 @@
 mod labels;
 
 use super::device::Gpu;
-use crate::looks::MaterialGroup;
+use crate::material_groups::MaterialGroup;
 use crate::mesh::Vertex;
 use crate::quality::Quality;
 use crate::scene::{DefectPatch, Instance};
@@ -14,11 +14,11 @@ use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm
 pub use labels::LabelPipelines;
 
 /// Format of radiance targets.
-pub const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+pub const RADIANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Depth format: 1 at the near plane, 0 at infinity.
-pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Format of rendered pictures; the shader encodes sRGB.
-pub const PICTURE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// One pipeline per material group.
 pub type MaterialPipelines = Vec<(MaterialGroup, wgpu::RenderPipeline)>;
@@ -44,7 +44,7 @@ pub struct Pipelines {
     /// Reflected solids, without and with the lamp.
     pub surfaces_mirrored: [MaterialPipelines; 2],
     /// Translucent surfaces.
-    pub sheer: wgpu::RenderPipeline,
+    pub translucent: wgpu::RenderPipeline,
     /// Defects, by AASHTO code.
     pub defects: Vec<(u32, wgpu::RenderPipeline)>,
     /// Lake, without and with the lamp.
@@ -63,7 +63,7 @@ const fn attribute(shader_location: u32, offset: u64, format: wgpu::VertexFormat
     wgpu::VertexAttribute { format, offset, shader_location }
 }
 
-const CORNER: &[wgpu::VertexAttribute] = &[
+const VERTEX_ATTRIBUTES: &[wgpu::VertexAttribute] = &[
     attribute(0, 0, Float32x3),
     attribute(1, 12, Float32x3),
     attribute(2, 24, Float32x2),
@@ -72,14 +72,14 @@ const CORNER: &[wgpu::VertexAttribute] = &[
     attribute(5, 44, Unorm8x4),
     attribute(9, 48, Float32),
 ];
-const COPY: &[wgpu::VertexAttribute] = &[
+const INSTANCE_ATTRIBUTES: &[wgpu::VertexAttribute] = &[
     attribute(6, 0, Float32x4),
     attribute(7, 16, Float32x4),
     attribute(8, 32, Float32x4),
     attribute(10, 48, Float32x4),
     attribute(11, 64, Float32x4),
 ];
-const PATCH: &[wgpu::VertexAttribute] = &[
+const PATCH_ATTRIBUTES: &[wgpu::VertexAttribute] = &[
     attribute(0, 0, Float32x4),
     attribute(1, 16, Float32x4),
     attribute(2, 32, Float32x4),
@@ -92,7 +92,7 @@ fn corners() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout {
         array_stride: size_of::<Vertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: CORNER,
+        attributes: VERTEX_ATTRIBUTES,
     }
 }
 
@@ -100,7 +100,7 @@ fn copies() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout {
         array_stride: size_of::<Instance>() as u64,
         step_mode: wgpu::VertexStepMode::Instance,
-        attributes: COPY,
+        attributes: INSTANCE_ATTRIBUTES,
     }
 }
 
@@ -108,7 +108,7 @@ fn patches() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout {
         array_stride: size_of::<DefectPatch>() as u64,
         step_mode: wgpu::VertexStepMode::Instance,
-        attributes: PATCH,
+        attributes: PATCH_ATTRIBUTES,
     }
 }
 
@@ -133,7 +133,7 @@ struct PipelineKey<'a> {
     constants: &'a [(&'a str, f64)],
 }
 
-fn build(gpu: &Gpu, kind: &PipelineKey) -> wgpu::RenderPipeline {
+fn build_pipeline(gpu: &Gpu, kind: &PipelineKey) -> wgpu::RenderPipeline {
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: None,
         bind_group_layouts: kind.layouts,
@@ -152,7 +152,7 @@ fn build(gpu: &Gpu, kind: &PipelineKey) -> wgpu::RenderPipeline {
         },
         primitive: wgpu::PrimitiveState { cull_mode: kind.cull, front_face: kind.front, ..Default::default() },
         depth_stencil: kind.depth.map(|(write, compare)| wgpu::DepthStencilState {
-            format: DEPTH,
+            format: DEPTH_FORMAT,
             depth_write_enabled: Some(write),
             depth_compare: Some(compare),
             stencil: wgpu::StencilState::default(),
@@ -187,7 +187,7 @@ fn layout(gpu: &Gpu, entries: &[(wgpu::ShaderStages, wgpu::BindingType)]) -> wgp
 const UNIFORM: wgpu::BindingType =
     wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
 
-fn seen(sample_type: wgpu::TextureSampleType, array: bool, multisampled: bool) -> wgpu::BindingType {
+fn texture_binding(sample_type: wgpu::TextureSampleType, array: bool, multisampled: bool) -> wgpu::BindingType {
     let view_dimension = if array { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 };
     wgpu::BindingType::Texture { sample_type, view_dimension, multisampled }
 }
@@ -209,10 +209,10 @@ impl BindLayouts {
     fn new(gpu: &Gpu, quality: &Quality) -> Self {
         use wgpu::{BindingType::Sampler, SamplerBindingType, ShaderStages, TextureSampleType};
         let (both, fragment) = (ShaderStages::VERTEX_FRAGMENT, ShaderStages::FRAGMENT);
-        let filtered = seen(TextureSampleType::Float { filterable: true }, false, false);
+        let filtered = texture_binding(TextureSampleType::Float { filterable: true }, false, false);
         let smooth = Sampler(SamplerBindingType::Filtering);
-        let maps = seen(TextureSampleType::Depth, true, false);
-        let depth = seen(TextureSampleType::Depth, false, quality.samples > 1);
+        let maps = texture_binding(TextureSampleType::Depth, true, false);
+        let depth = texture_binding(TextureSampleType::Depth, false, quality.samples > 1);
         let compare = Sampler(SamplerBindingType::Comparison);
         let globals = [
             (both, UNIFORM),
@@ -246,7 +246,7 @@ fn sampler(gpu: &Gpu, address: wgpu::AddressMode, compare: Option<wgpu::CompareF
 }
 
 /// Returns the override constants of a preset (common.wgsl).
-fn costs(quality: &Quality) -> [(&'static str, f64); 5] {
+fn preset_constants(quality: &Quality) -> [(&'static str, f64); 5] {
     [
         ("CASCADES", f64::from(quality.cascades)),
         ("TAPS", f64::from(quality.shadow_taps)),
@@ -257,18 +257,18 @@ fn costs(quality: &Quality) -> [(&'static str, f64); 5] {
 }
 
 /// Builds a pipeline with additional override constants.
-fn special(gpu: &Gpu, kind: &PipelineKey, more: &[(&str, f64)]) -> wgpu::RenderPipeline {
+fn build_with_constants(gpu: &Gpu, kind: &PipelineKey, more: &[(&str, f64)]) -> wgpu::RenderPipeline {
     let constants = [kind.constants, more].concat();
-    build(gpu, &PipelineKey { constants: &constants, ..*kind })
+    build_pipeline(gpu, &PipelineKey { constants: &constants, ..*kind })
 }
 
 /// Builds one pipeline per material group, without and with the lamp.
 fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: f64) -> [MaterialPipelines; 2] {
     by_lamp(quality, |lamp| {
         let of = |look: MaterialGroup| {
-            let glossy = f64::from(u8::from(look.shines()));
+            let glossy = f64::from(u8::from(look.has_specular()));
             let own = [("LOOK", f64::from(look as u32)), ("GLOSSY", glossy), ("MIRRORED", mirrored), lamp];
-            (look, special(gpu, kind, &own))
+            (look, build_with_constants(gpu, kind, &own))
         };
         MaterialGroup::ALL.into_iter().map(of).collect()
     })
@@ -282,12 +282,12 @@ fn by_lamp<T: Clone>(quality: &Quality, of: impl Fn((&'static str, f64)) -> T) -
 }
 
 /// Vertex and fragment entry points of most modules.
-const ENTRIES: (&str, &str) = ("vs", "fs");
+const ENTRY_POINTS: (&str, &str) = ("vs", "fs");
 /// Entry points of the shader `lean`.
-const LEAN: (&str, &str) = ("vs_lean", "fs_lean");
+const LEAN_ENTRY_POINTS: (&str, &str) = ("vs_lean", "fs_lean");
 
 /// Reversed depth: nearer fragments have greater depth, and equal depth overwrites.
-const NEARER: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
+const DEPTH_COMPARE: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
 
 /// Returns the key of a pipeline that turns radiance into a picture with one triangle that covers it.
 fn film<'a>(
@@ -295,7 +295,17 @@ fn film<'a>(
     (module, layouts): (&'a wgpu::ShaderModule, &'a [Option<&'a wgpu::BindGroupLayout>]),
     constants: &'a [(&'a str, f64)],
 ) -> PipelineKey<'a> {
-    PipelineKey { module, layouts, buffers: &[], target: Some(PICTURE), depth: None, cull: None, samples: 1, constants, ..*solid }
+    PipelineKey {
+        module,
+        layouts,
+        buffers: &[],
+        target: Some(PICTURE_FORMAT),
+        depth: None,
+        cull: None,
+        samples: 1,
+        constants,
+        ..*solid
+    }
 }
 
 impl Pipelines {
@@ -303,36 +313,37 @@ impl Pipelines {
     pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
         let layouts = BindLayouts::new(gpu, quality);
         let [surface, sky, defect, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
-        let develop = module(gpu, if quality.samples > 1 { shaders::DEVELOP_SAMPLED } else { "develop" });
+        let develop = module(gpu, if quality.samples > 1 { shaders::DEVELOP_MULTISAMPLED } else { "develop" });
         let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
         let globals = [Some(&layouts.globals)];
         let (solid_buffers, patch_buffers, water_buffers) =
             ([Some(corners()), Some(copies())], [Some(patches())], [Some(corners())]);
         let (lake_layouts, map_layouts, develop_layouts) =
             ([Some(&layouts.globals), Some(&layouts.water)], [Some(&layouts.map)], [Some(&layouts.develop)]);
-        let costs = costs(quality);
+        let preset_constants = preset_constants(quality);
         let solid = PipelineKey {
             module: &surface,
-            entries: ENTRIES,
+            entries: ENTRY_POINTS,
             layouts: &globals,
             buffers: &solid_buffers,
-            target: Some(LIGHT),
+            target: Some(RADIANCE_FORMAT),
             blend: None,
             writes: wgpu::ColorWrites::ALL,
-            depth: Some((true, NEARER)),
+            depth: Some((true, DEPTH_COMPARE)),
             bias: 0,
             cull: Some(wgpu::Face::Back),
             front,
             samples: quality.samples,
-            constants: &costs,
+            constants: &preset_constants,
         };
-        let shown = Some((false, NEARER));
+        let shown = Some((false, DEPTH_COMPARE));
         let lean = module(gpu, "lean");
-        let shaded = if quality.lean { PipelineKey { module: &lean, entries: LEAN, ..solid } } else { solid };
+        let shaded = if quality.lean { PipelineKey { module: &lean, entries: LEAN_ENTRY_POINTS, ..solid } } else { solid };
         let mirrored = PipelineKey { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };
         let back = PipelineKey { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
-        let see_through = [costs.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
-        let sheer = PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
+        let see_through = [preset_constants.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
+        let translucent =
+            PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
         // Biased toward the camera, so that defects appear in front of the faces that they are on.
         let flat =
             PipelineKey { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
@@ -354,16 +365,19 @@ impl Pipelines {
         Self {
             surfaces: surfaces(gpu, &shaded, quality, 0.0),
             surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
-            sheer: build(gpu, &sheer),
-            defects: defect_codes::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect(),
-            water: by_lamp(quality, |lamp| special(gpu, &lake, &[lamp])),
-            sky_mirrored: build(gpu, &PipelineKey { samples: 1, ..back }),
-            sky: build(gpu, &back),
-            shadow: build(gpu, &dark),
-            develop: [0.0, 1.0].map(|sensor| special(gpu, &film, &[("SENSOR", sensor)])),
+            translucent: build_pipeline(gpu, &translucent),
+            defects: defect_codes::ALL
+                .iter()
+                .map(|code| (*code, build_with_constants(gpu, &flat, &[("KIND", f64::from(*code))])))
+                .collect(),
+            water: by_lamp(quality, |lamp| build_with_constants(gpu, &lake, &[lamp])),
+            sky_mirrored: build_pipeline(gpu, &PipelineKey { samples: 1, ..back }),
+            sky: build_pipeline(gpu, &back),
+            shadow: build_pipeline(gpu, &dark),
+            develop: [0.0, 1.0].map(|sensor| build_with_constants(gpu, &film, &[("SENSOR", sensor)])),
             smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),
             tiled: sampler(gpu, wgpu::AddressMode::Repeat, None, quality.smooth_noise),
-            compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(NEARER), false),
+            compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(DEPTH_COMPARE), false),
             globals_layout: layouts.globals,
             water_layout: layouts.water,
             develop_layout: layouts.develop,

@@ -6,9 +6,9 @@ mod readback;
 mod static_cells;
 
 use super::device::Gpu;
+use super::lru_cache::LruCache;
 use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, upload};
-use super::pipelines::{DEPTH, LabelPipelines, MaterialPipelines, Pipelines};
-use super::recent::LruCache;
+use super::pipelines::{DEPTH_FORMAT, LabelPipelines, MaterialPipelines, Pipelines};
 use super::targets::{RenderTargets, noise_texture, tile_texture};
 use super::uniforms::{DevelopUniforms, Globals, MAPS, ShadowMaps};
 use crate::cells::{self, CellBounds, Frustum};
@@ -23,7 +23,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use static_cells::{StaticCell, fixed};
 
 /// Cosine of a quarter of a degree; when the sun has moved farther, the whole-site shadow map is redrawn.
-const SUN_MOVED: f64 = 0.999_990_5;
+const MIN_SUN_COSINE: f64 = 0.999_990_5;
 
 /// Draw statistics of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -51,7 +51,7 @@ pub struct Renderer {
     fixed: Vec<StaticCell>,
     models: Vec<Option<GpuMesh>>,
     /// Distance from each model's origin to its farthest vertex, m.
-    reaches_m: Vec<f64>,
+    model_radii_m: Vec<f64>,
     water: Vec<(GpuMesh, CellBounds)>,
     patches: Vec<(u32, wgpu::Buffer, u32)>,
     bounds_m: (Vec3<Enu>, f64),
@@ -61,7 +61,7 @@ pub struct Renderer {
     bound: wgpu::BindGroup,
     bound_mirrored: wgpu::BindGroup,
     maps: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
-    site_map_sun: Option<Vec3<Enu>>,
+    site_map_sun_direction: Option<Vec3<Enu>>,
     targets: LruCache<(u32, u32), RenderTargets>,
     counts: DrawCounts,
 }
@@ -106,8 +106,8 @@ impl Renderer {
         Self {
             fixed: fixed(gpu, scene),
             models: scene.models.iter().map(|mesh| GpuMesh::new(gpu, mesh)).collect(),
-            reaches_m: scene.models.iter().map(cells::reach_m).collect(),
-            water: cells::cut(&scene.water, false)
+            model_radii_m: scene.models.iter().map(cells::reach_m).collect(),
+            water: cells::split_into_cells(&scene.water, false)
                 .iter()
                 .filter_map(|cell| Some((GpuMesh::new(gpu, cell)?, CellBounds::of(cell))))
                 .collect(),
@@ -119,7 +119,7 @@ impl Renderer {
             maps: layers.map(|k| layer(gpu, &pipelines, &maps_texture, k)).collect(),
             globals,
             globals_mirrored,
-            site_map_sun: None,
+            site_map_sun_direction: None,
             targets: LruCache::new(),
             counts: DrawCounts::default(),
             labels: None,
@@ -157,7 +157,7 @@ impl Renderer {
         let moving = if casts {
             self.moving(gpu, &shot.moving)
         } else {
-            self.moving(gpu, &view.is_in_view(&shot.moving, &self.reaches_m))
+            self.moving(gpu, &view.visible_objects(&shot.moving, &self.model_radii_m))
         };
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw_maps(gpu, &mut encoder, shot, (&sun_maps, lamp_map.as_ref()), &moving);
@@ -169,7 +169,7 @@ impl Renderer {
             let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &view);
             self.counts = self.counts.and(mirrored);
         }
-        let lit = self.draw_light(&mut encoder, &targets, &moving, &view);
+        let lit = self.draw_scene(&mut encoder, &targets, &moving, &view);
         self.counts = self.counts.and(lit);
         let develop = DevelopUniforms::new(shot, &self.quality);
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
@@ -201,7 +201,7 @@ impl Renderer {
     ) {
         // A single whole-site map contains only static objects and is reused while the sun does not move.
         let whole = self.quality.cascades <= 1;
-        let kept = whole && self.site_map_sun.is_some_and(|was| was.dot(shot.sky.sun) > SUN_MOVED);
+        let kept = whole && self.site_map_sun_direction.is_some_and(|was| was.dot(shot.sky.sun) > MIN_SUN_COSINE);
         for (k, map) in sun.iter().chain(lamp).enumerate() {
             let of_sun = k < sun.len();
             if of_sun && (kept || shot.sky.direct_lux <= 0.0) {
@@ -213,7 +213,7 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.shadow);
             pass.set_bind_group(0, group, &[]);
             let lit = Frustum::of(&map.projection);
-            for fixed in self.fixed.iter().filter(|fixed| fixed.casts && lit.may_show_cell(&fixed.bounds)) {
+            for fixed in self.fixed.iter().filter(|fixed| fixed.casts && lit.cell_may_be_visible(&fixed.bounds)) {
                 count(&mut self.counts, fixed.solid.triangles(), &fixed.copies);
                 fixed.solid.draw(&mut pass, &fixed.copies);
             }
@@ -225,7 +225,7 @@ impl Renderer {
             }
         }
         if whole && shot.sky.direct_lux > 0.0 {
-            self.site_map_sun = if kept { self.site_map_sun } else { Some(shot.sky.sun) };
+            self.site_map_sun_direction = if kept { self.site_map_sun_direction } else { Some(shot.sky.sun) };
         }
     }
 
@@ -263,16 +263,16 @@ impl Renderer {
         counts: &mut DrawCounts,
     ) {
         let shows = |fixed: &&StaticCell| {
-            shown.may_show_cell(&fixed.bounds) && fixed.visible_range.shows(in_lake, fixed.bounds.ball.from_m(eye_m))
+            shown.cell_may_be_visible(&fixed.bounds) && fixed.visible_range.shows(in_lake, fixed.bounds.ball.distance_to_m(eye_m))
         };
         let mut still: Vec<&StaticCell> = self.fixed.iter().filter(shows).collect();
         // Draws front to back, so that hidden surfaces are not shaded.
-        still.sort_by(|a, b| a.bounds.ball.from_m(eye_m).total_cmp(&b.bounds.ball.from_m(eye_m)));
+        still.sort_by(|a, b| a.bounds.ball.distance_to_m(eye_m).total_cmp(&b.bounds.ball.distance_to_m(eye_m)));
         for (look, pipeline) in pipelines {
             pass.set_pipeline(pipeline);
             let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
             for (solid, copies) in solids(&self.models, moving).chain(still) {
-                if let Some(triangles) = solid.draw_look(pass, copies, *look) {
+                if let Some(triangles) = solid.draw_group(pass, copies, *look) {
                     count(counts, triangles, copies);
                 }
             }
@@ -293,7 +293,7 @@ impl Renderer {
         counts
     }
 
-    fn draw_light(
+    fn draw_scene(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         targets: &RenderTargets,
@@ -309,8 +309,8 @@ impl Renderer {
         counts = counts.and(patches);
         pass.set_pipeline(&self.pipelines.water[view.lamp]);
         pass.set_bind_group(1, &targets.water, &[]);
-        for (water, _) in self.water.iter().filter(|(_, bounds)| view.lake && shown.may_show_cell(bounds)) {
-            water.draw_alone(&mut pass);
+        for (water, _) in self.water.iter().filter(|(_, bounds)| view.lake && shown.cell_may_be_visible(bounds)) {
+            water.draw_without_instances(&mut pass);
             counts.draws += 1;
             counts.triangles += u64::from(water.triangles());
         }
@@ -318,7 +318,7 @@ impl Renderer {
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
         counts.draws += 1;
-        pass.set_pipeline(&self.pipelines.sheer);
+        pass.set_pipeline(&self.pipelines.translucent);
         for (model, copies) in moving.iter().filter(|(model, _)| *model == MoverModel::Disc) {
             let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
             count(&mut counts, solid.triangles(), copies);
@@ -335,7 +335,7 @@ fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
         let buffer = (!same.is_empty()).then(|| upload(gpu, bytemuck::cast_slice(&same), wgpu::BufferUsages::VERTEX))?;
         Some((*kind, buffer, same.len() as u32))
     };
-    defect_codes::KINDS.iter().filter_map(of).collect()
+    defect_codes::ALL.iter().filter_map(of).collect()
 }
 
 /// Returns the moving objects that are opaque.
@@ -365,7 +365,7 @@ fn maps_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: DEPTH,
+        format: DEPTH_FORMAT,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     })

@@ -1,7 +1,7 @@
 //! Render targets for one picture size.
 
 use super::device::Gpu;
-use super::pipelines::{DEPTH, LIGHT, Pipelines};
+use super::pipelines::{DEPTH_FORMAT, Pipelines, RADIANCE_FORMAT};
 use crate::quality::Quality;
 
 /// Render targets and their bind groups.
@@ -42,13 +42,13 @@ pub fn texture(gpu: &Gpu, size: (u32, u32), format: wgpu::TextureFormat, samples
 impl RenderTargets {
     /// Creates the targets for a picture size.
     pub fn new(gpu: &Gpu, pipelines: &Pipelines, quality: &Quality, size: (u32, u32)) -> Self {
-        let light = texture(gpu, size, LIGHT, quality.samples);
-        let resolved = (quality.samples > 1).then(|| texture(gpu, size, LIGHT, 1));
-        let depth = texture(gpu, size, DEPTH, quality.samples);
+        let light = texture(gpu, size, RADIANCE_FORMAT, quality.samples);
+        let resolved = (quality.samples > 1).then(|| texture(gpu, size, RADIANCE_FORMAT, 1));
+        let depth = texture(gpu, size, DEPTH_FORMAT, quality.samples);
         let part = |px: u32| ((f64::from(px) * quality.reflection) as u32).max(1);
         let small = if quality.reflection > 0.0 { (part(size.0), part(size.1)) } else { (1, 1) };
-        let mirror = texture(gpu, small, LIGHT, 1);
-        let mirror_depth = texture(gpu, small, DEPTH, 1);
+        let mirror = texture(gpu, small, RADIANCE_FORMAT, 1);
+        let mirror_depth = texture(gpu, small, DEPTH_FORMAT, 1);
         let develop_data = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("develop"),
             size: size_of::<super::uniforms::DevelopUniforms>() as u64,

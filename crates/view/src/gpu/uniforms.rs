@@ -44,12 +44,12 @@ pub struct DevelopUniforms {
     size: [f32; 4],
 }
 
-fn four(v: Vec3<Enu>, last: f64) -> [f32; 4] {
+fn with_w(v: Vec3<Enu>, last: f64) -> [f32; 4] {
     let [x, y, z] = v.array();
     [x as f32, y as f32, z as f32, last as f32]
 }
 
-fn colour(rgb: [f64; 3], last: f64) -> [f32; 4] {
+fn color_with_w(rgb: [f64; 3], last: f64) -> [f32; 4] {
     [rgb[0] as f32, rgb[1] as f32, rgb[2] as f32, last as f32]
 }
 
@@ -75,7 +75,7 @@ impl Globals {
         let wind = math::hypot(shot.wind_m_s.0, shot.wind_m_s.1);
         let towards = if wind > 1e-6 { (shot.wind_m_s.0 / wind, shot.wind_m_s.1 / wind) } else { (1.0, 0.0) };
         let (lamp, lamp_dir) = shot.beam.map_or(([0.0; 4], [0.0; 4]), |beam| {
-            (four(beam.position_m, math::cos(beam.half_rad)), four(beam.forward, beam.candela))
+            (with_w(beam.position_m, math::cos(beam.half_rad)), with_w(beam.forward, beam.candela))
         });
         let mut shadow_proj = [Matrix::mirror(0.0).columns(); MAPS];
         let mut texel = [0.0; 4];
@@ -88,13 +88,13 @@ impl Globals {
         let (width, height) = shot.size_px;
         Self {
             view_proj: projection.columns(),
-            eye: four(eye, shot.time_s),
-            right: four(flip(shot.eye.right * half_w), 0.0),
-            up: four(flip(shot.eye.up() * half_h), 0.0),
-            forward: four(flip(shot.eye.forward), pixel_rad),
-            sun: four(sky.sun, sky.direct_lux),
-            sun_rgb: colour(sky.sun_rgb, sky.cloud),
-            sky_rgb: colour(sky.sky_rgb, sky.sky_lux),
+            eye: with_w(eye, shot.time_s),
+            right: with_w(flip(shot.eye.right * half_w), 0.0),
+            up: with_w(flip(shot.eye.up() * half_h), 0.0),
+            forward: with_w(flip(shot.eye.forward), pixel_rad),
+            sun: with_w(sky.sun, sky.direct_lux),
+            sun_rgb: color_with_w(sky.sun_rgb, sky.cloud),
+            sky_rgb: color_with_w(sky.sky_rgb, sky.sky_lux),
             scene: [sky.scale as f32, water_m as f32, HAZE_PER_M as f32, 0.0],
             lamp,
             lamp_dir,

@@ -7,16 +7,16 @@ use super::state::Hud;
 use super::{DrawItem, HudColor, TextAlign};
 
 /// Width and height of the panel.
-pub const WIDE: f64 = 0.27;
-const HIGH: f64 = 0.075;
+pub const PANEL_WIDTH: f64 = 0.27;
+const PANEL_HEIGHT: f64 = 0.075;
 /// Blink rate, Hz (noticeable, and well below rates that can trigger seizures).
-const FLASH_HZ: f64 = 2.0;
+const BLINK_HZ: f64 = 2.0;
 
 /// Appearance of a battery level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChargeStyle {
     /// Color of all elements.
-    pub colour: HudColor,
+    pub color: HudColor,
     /// Icon shape.
     pub shape: IconShape,
     /// Whether a blinking element is currently off.
@@ -24,40 +24,40 @@ pub struct ChargeStyle {
 }
 
 /// Returns the appearance for a battery level in %.
-pub fn charge(hud: &Hud, pct: f64) -> ChargeStyle {
-    let (colour, shape) = if pct >= hud.green_pct {
+pub fn charge_style(hud: &Hud, pct: f64) -> ChargeStyle {
+    let (color, shape) = if pct >= hud.green_pct {
         (HudColor::Green, IconShape::Disc)
     } else if pct >= hud.yellow_pct {
         (HudColor::Yellow, IconShape::Triangle)
     } else {
         (HudColor::Red, IconShape::Octagon)
     };
-    let dark = colour == HudColor::Red && (hud.time_s * FLASH_HZ).rem_euclid(1.0) >= 0.5;
-    ChargeStyle { colour, shape, dark }
+    let dark = color == HudColor::Red && (hud.time_s * BLINK_HZ).rem_euclid(1.0) >= 0.5;
+    ChargeStyle { color, shape, dark }
 }
 
 pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let right = pane.width - EDGE;
-    let (from, y) = (right - WIDE, EDGE + 0.5 * HIGH);
+    let (from, y) = (right - PANEL_WIDTH, EDGE + 0.5 * PANEL_HEIGHT);
     let words_at = (right - 0.016, y);
-    let mut items = vec![pane.panel((from, EDGE), (right, EDGE + HIGH))];
+    let mut items = vec![pane.panel((from, EDGE), (right, EDGE + PANEL_HEIGHT))];
     let Some(pct) = hud.battery_pct else {
         let place = (words_at.0, EDGE + 0.037);
         items.push(pane.text(place, TextAlign::Right, MIDDLE, HudColor::Grey, "no battery data"));
         return items;
     };
-    let ChargeStyle { colour, shape, dark } = charge(hud, pct);
+    let ChargeStyle { color, shape, dark } = charge_style(hud, pct);
     if !dark {
-        items.extend(pane.symbol(shape, (from + 0.03, y), 0.036, colour));
+        items.extend(pane.symbol(shape, (from + 0.03, y), 0.036, color));
     }
     let filled = (!dark).then_some((pct / 100.0).clamp(0.0, 1.0));
-    items.extend(battery_outline(pane, (from + 0.062, y), filled, colour));
-    items.push(pane.text(words_at, TextAlign::Right, MIDDLE, colour, format!("{pct:.0} %")));
+    items.extend(battery_symbol(pane, (from + 0.062, y), filled, color));
+    items.push(pane.text(words_at, TextAlign::Right, MIDDLE, color, format!("{pct:.0} %")));
     items
 }
 
 /// Returns the outline of a battery with its left edge at this position, filled to a fraction.
-fn battery_outline(pane: Pane, (low, y): (f64, f64), filled: Option<f64>, colour: HudColor) -> Vec<DrawItem> {
+fn battery_symbol(pane: Pane, (low, y): (f64, f64), filled: Option<f64>, color: HudColor) -> Vec<DrawItem> {
     let (high, half, inset) = (low + 0.08, 0.017, 0.004);
     let box_of =
         |(left, right): (f64, f64), half: f64| [(left, y - half), (right, y - half), (right, y + half), (left, y + half)];
@@ -68,7 +68,7 @@ fn battery_outline(pane: Pane, (low, y): (f64, f64), filled: Option<f64>, colour
     if let Some(share) = filled {
         let left = low + inset;
         let end = left + (high - low - 2.0 * inset) * share;
-        items.push(pane.fill(&box_of((left, end), half - inset), colour));
+        items.push(pane.fill(&box_of((left, end), half - inset), color));
     }
     items
 }

@@ -17,7 +17,7 @@ pub enum IconShape {
 }
 
 /// Returns an icon with a dark outline; `size` is a fraction of the picture's height.
-pub fn symbol(shape: IconShape, middle: ScreenPoint, size: f64, aspect: f64, colour: HudColor) -> Vec<DrawItem> {
+pub fn symbol(shape: IconShape, middle: ScreenPoint, size: f64, aspect: f64, color: HudColor) -> Vec<DrawItem> {
     let ring = |count: u32, turn: f64, radius: f64| -> Vec<ScreenPoint> {
         (0..count)
             .map(|k| {
@@ -32,5 +32,5 @@ pub fn symbol(shape: IconShape, middle: ScreenPoint, size: f64, aspect: f64, col
         IconShape::Diamond => ring(4, 0.0, 0.55 * size * grown),
         IconShape::Octagon => ring(8, math::PI / 8.0, 0.52 * size * grown),
     };
-    vec![DrawItem::Fill { points: outline(1.18), colour: HudColor::Black }, DrawItem::Fill { points: outline(1.0), colour }]
+    vec![DrawItem::Fill { points: outline(1.18), color: HudColor::Black }, DrawItem::Fill { points: outline(1.0), color }]
 }

@@ -6,7 +6,7 @@ use super::map::map;
 use super::messages::messages;
 use super::metrics::{EDGE, SMALL};
 use super::pane::Pane;
-use super::small_view::brief;
+use super::small_view::essential_items;
 use super::speed::speed;
 use super::state::Hud;
 use super::status::status;
@@ -14,19 +14,19 @@ use super::{DrawItem, HudColor, TextAlign};
 
 /// Smallest font size that is legible in flight, px (estimate: capitals of 6.5 px; in a picture 360 px high, the font
 /// size is 9.7 px).
-const LEAST_PX: f64 = 9.5;
+const MIN_FONT_PX: f64 = 9.5;
 /// Fraction of the picture around its center in which a defect counts.
-const CENTRAL: f64 = 0.8;
+const CENTRAL_FRACTION: f64 = 0.8;
 
 /// Returns all HUD items for a picture with this aspect ratio (width over height).
 #[must_use]
 pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     let pane = Pane::of(aspect);
-    let mut items = frame(hud, pane);
+    let mut items = crosshair(hud, pane);
     items.extend(speed(hud, pane));
     items.extend(battery(hud, pane));
     items.extend(status(hud, pane));
-    items.extend(numbers(hud, pane));
+    items.extend(readouts(hud, pane));
     items.extend(messages(hud, pane));
     items.extend(map(hud, pane));
     items
@@ -37,17 +37,17 @@ pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
 #[must_use]
 pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
     let size_px = (width.max(1.0), height.max(1.0));
-    if SMALL * Pane::unit(size_px) >= LEAST_PX { layout(hud, size_px.0 / size_px.1) } else { brief(hud, size_px) }
+    if SMALL * Pane::unit(size_px) >= MIN_FONT_PX { layout(hud, size_px.0 / size_px.1) } else { essential_items(hud, size_px) }
 }
 
 /// Returns the crosshair and the marks of the area in which a defect counts; they are drawn below all other items.
-fn frame(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
+fn crosshair(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let mut items = Vec::new();
-    let (low, high, arm) = (0.5 - 0.5 * CENTRAL, 0.5 + 0.5 * CENTRAL, 0.035);
-    let colour = if hud.shutter { HudColor::Yellow } else { HudColor::Grey };
+    let (low, high, arm) = (0.5 - 0.5 * CENTRAL_FRACTION, 0.5 + 0.5 * CENTRAL_FRACTION, 0.035);
+    let color = if hud.shutter { HudColor::Yellow } else { HudColor::Grey };
     for (x, right) in [(low * pane.width, arm), (high * pane.width, -arm)] {
         for (y, down) in [(low * pane.height, arm), (high * pane.height, -arm)] {
-            items.push(pane.line(&[(x + right, y), (x, y), (x, y + down)], 0.003, colour));
+            items.push(pane.line(&[(x + right, y), (x, y), (x, y + down)], 0.003, color));
         }
     }
     let (x, y, cross) = (0.5 * pane.width, 0.5 * pane.height, 0.018);
@@ -57,7 +57,7 @@ fn frame(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
 }
 
 /// Returns the values below the battery: height, distance from home, gimbal, time, lamp, pictures.
-fn numbers(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
+fn readouts(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let (right, top) = (pane.width - EDGE, EDGE + 0.085);
     let left = hud.left_s.max(0.0);
     let mut lines = vec![
@@ -79,8 +79,8 @@ fn numbers(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
         let y = top + 0.006 + step * (k as f64 + 0.5);
         let lit = name == "lamp" && hud.lamp;
         items.push(pane.text((from + 0.012, y), TextAlign::Left, SMALL, HudColor::Grey, name));
-        let colour = if lit { HudColor::Yellow } else { HudColor::White };
-        items.push(pane.text((right - 0.012, y), TextAlign::Right, SMALL, colour, value));
+        let color = if lit { HudColor::Yellow } else { HudColor::White };
+        items.push(pane.text((right - 0.012, y), TextAlign::Right, SMALL, color, value));
     }
     items
 }

@@ -7,21 +7,21 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
 /// Half the side length of the map.
-const HALF: f64 = 0.135;
+const HALF_SIZE: f64 = 0.135;
 /// Distance of the map's center from the right and bottom edges.
 const FROM_EDGE: f64 = 0.16;
 /// Font size, height and width of a label.
-const TYPE: f64 = 0.022;
-const HIGH: f64 = 0.02;
-const WIDE: f64 = 0.018;
+const FONT_SIZE: f64 = 0.022;
+const LABEL_HEIGHT: f64 = 0.02;
+const LABEL_WIDTH: f64 = 0.018;
 /// Margin factor around the displayed content.
-const ROOM: f64 = 1.12;
+const MARGIN_FACTOR: f64 = 1.12;
 /// Minimum distance shown from the center, m.
-const LEAST_M: f64 = 20.0;
+const MIN_RANGE_M: f64 = 20.0;
 
 /// Returns the left edge of the map, or `None` if it is hidden.
 pub fn left(hud: &Hud, pane: Pane) -> Option<f64> {
-    (!hud.tracks.is_empty()).then_some(pane.width - FROM_EDGE - HALF)
+    (!hud.tracks.is_empty()).then_some(pane.width - FROM_EDGE - HALF_SIZE)
 }
 
 /// Returns the items of the map.
@@ -31,22 +31,22 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     }
     let (x, y) = (pane.width - FROM_EDGE, pane.height - FROM_EDGE);
     let place = scale(hud, (x, y));
-    let mut items = vec![pane.panel((x - HALF, y - HALF), (x + HALF, y + HALF))];
+    let mut items = vec![pane.panel((x - HALF_SIZE, y - HALF_SIZE), (x + HALF_SIZE, y + HALF_SIZE))];
     let mut labels: Vec<(f64, f64)> = Vec::new();
     for track in &hud.tracks {
         let mut points: Vec<(f64, f64)> = track.path_m.iter().step_by(3).map(|p| place(*p)).collect();
         points.extend(track.path_m.last().filter(|_| !track.closed).or(track.path_m.first()).map(|p| place(*p)));
         let start = points[0];
         items.push(pane.line(&points, 0.004, HudColor::Blue));
-        let label = beside(&labels, (start.0, start.1 - 0.014), x + HALF - 0.5 * WIDE);
-        items.push(pane.text(label, TextAlign::Middle, TYPE, HudColor::Grey, format!("{}", track.id)));
+        let label = free_label_position(&labels, (start.0, start.1 - 0.014), x + HALF_SIZE - 0.5 * LABEL_WIDTH);
+        items.push(pane.text(label, TextAlign::Middle, FONT_SIZE, HudColor::Grey, format!("{}", track.id)));
         labels.push(label);
     }
     let (pad, side) = (place(hud.pad_m), 0.007);
     let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
     items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
     items.push(pane.fill(&arrow(place(hud.position_m), hud.heading_rad), HudColor::Yellow));
-    items.push(pane.text((x, y - HALF + 0.016), TextAlign::Middle, TYPE, HudColor::Grey, "N"));
+    items.push(pane.text((x, y - HALF_SIZE + 0.016), TextAlign::Middle, FONT_SIZE, HudColor::Grey, "N"));
     items
 }
 
@@ -61,16 +61,17 @@ fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
         }
     }
     let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-    let reach = (0.5 * (high[0] - low[0]).max(high[1] - low[1]) * ROOM).max(LEAST_M);
-    let share = move |metres: f64, k: usize| (metres - middle[k]) / reach * HALF * 0.94;
+    let reach = (0.5 * (high[0] - low[0]).max(high[1] - low[1]) * MARGIN_FACTOR).max(MIN_RANGE_M);
+    let share = move |metres: f64, k: usize| (metres - middle[k]) / reach * HALF_SIZE * 0.94;
     move |p| (x + share(p.east(), 0), y - share(p.north(), 1))
 }
 
 /// Returns a label position that does not overlap other labels: `place`, or a position to its right, or to its left at
 /// the edge of the map.
-fn beside(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f64) {
+fn free_label_position(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f64) {
     let covered = |here: (f64, f64)| {
-        let covers = |there: &(f64, f64)| (there.0 - here.0).abs() < WIDE - 1e-9 && (there.1 - here.1).abs() < HIGH;
+        let covers =
+            |there: &(f64, f64)| (there.0 - here.0).abs() < LABEL_WIDTH - 1e-9 && (there.1 - here.1).abs() < LABEL_HEIGHT;
         labels.iter().any(covers)
     };
     let walk = |step: f64| {
@@ -80,8 +81,8 @@ fn beside(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f6
         }
         here
     };
-    let right = walk(WIDE);
-    if right.0 <= right_most { right } else { walk(-WIDE) }
+    let right = walk(LABEL_WIDTH);
+    if right.0 <= right_most { right } else { walk(-LABEL_WIDTH) }
 }
 
 /// Returns an arrowhead that points along the heading.
@@ -95,15 +96,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_labels_of_paths_that_begin_at_one_place_stand_beside_each_other() {
+    fn exact_labels_of_paths_with_the_same_start_do_not_overlap() {
         let mut labels = Vec::new();
         for _ in 0..3 {
-            labels.push(beside(&labels, (0.9, 0.8), 1.0));
+            labels.push(free_label_position(&labels, (0.9, 0.8), 1.0));
         }
         let gaps: Vec<f64> = labels.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
-        assert!(gaps.iter().all(|gap| (gap - WIDE).abs() < 1e-9), "{gaps:?}");
-        assert_eq!(beside(&labels, (0.9, 0.7), 1.0), (0.9, 0.7), "a free position must be kept");
-        let inside = beside(&labels, (0.9, 0.8), 0.95);
-        assert!((inside.0 - (0.9 - WIDE)).abs() < 1e-9, "at the edge of the map, the label must move left: {inside:?}");
+        assert!(gaps.iter().all(|gap| (gap - LABEL_WIDTH).abs() < 1e-9), "{gaps:?}");
+        assert_eq!(free_label_position(&labels, (0.9, 0.7), 1.0), (0.9, 0.7), "a free position must be kept");
+        let inside = free_label_position(&labels, (0.9, 0.8), 0.95);
+        assert!((inside.0 - (0.9 - LABEL_WIDTH)).abs() < 1e-9, "at the edge of the map, the label must move left: {inside:?}");
     }
 }

@@ -1,17 +1,17 @@
 //! Marker for the drone's position in the inspector's view.
 
 use super::super::camera::PinholeCamera;
-use super::text_metrics::width_of;
+use super::text_metrics::text_width;
 use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
 /// Minimum half side of the bracket, as a fraction of the picture's height.
-const LEAST: f64 = 0.022;
+const MIN_HALF_SIZE: f64 = 0.022;
 /// Font size, as a fraction of the picture's height.
-const TYPE: f64 = 0.026;
+const FONT_SIZE: f64 = 0.026;
 /// Half side of the bracket around the drone's center, m.
-const ROOM_M: f64 = 0.6;
+const BRACKET_HALF_SIZE_M: f64 = 0.6;
 
 /// Returns a bracket around the drone with its distance, gray and dashed if an object hides the drone. Returns nothing
 /// if the drone is outside the picture.
@@ -24,7 +24,7 @@ pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool
     }
     let middle = at(0.5 + 0.5 * x, 0.5 - 0.5 * y);
     let distance_m = (drone_m - eye.position_m).norm();
-    let half = LEAST.max(0.5 * ROOM_M / (math::tan(0.5 * eye.hfov_rad) * clip[3]) * aspect);
+    let half = MIN_HALF_SIZE.max(0.5 * BRACKET_HALF_SIZE_M / (math::tan(0.5 * eye.hfov_rad) * clip[3]) * aspect);
     let corner = |right: f64, down: f64| -> Vec<Vec<ScreenPoint>> {
         let place = |a: f64, b: f64| at(middle.x + right * a * half / aspect, middle.y + down * b * half);
         let dash = |a: (f64, f64), b: (f64, f64)| vec![place(a.0, a.1), place(b.0, b.1)];
@@ -38,19 +38,19 @@ pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool
         }
         vec![vec![place(0.5, 1.0), place(1.0, 1.0), place(1.0, 0.5)]]
     };
-    let colour = if hidden { HudColor::Grey } else { HudColor::White };
+    let color = if hidden { HudColor::Grey } else { HudColor::White };
     let mut items: Vec<DrawItem> = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
         .into_iter()
         .flat_map(|(right, down)| corner(right, down))
-        .map(|points| DrawItem::Line { points, width: 0.003, colour })
+        .map(|points| DrawItem::Line { points, width: 0.003, color })
         .collect();
     let words = format!("{distance_m:.0} m{}", if hidden { ", hidden" } else { "" });
     let place = at(middle.x, (middle.y + half + 0.022).min(0.98));
     // The background keeps the text legible against a bright sky.
-    let ground = (0.5 * (width_of(&words, TYPE) + 0.4 * TYPE) / aspect, 0.6 * TYPE);
+    let ground = (0.5 * (text_width(&words, FONT_SIZE) + 0.4 * FONT_SIZE) / aspect, 0.6 * FONT_SIZE);
     let side = |sign: f64| at(place.x + sign * ground.0, place.y + sign * ground.1);
-    items.push(DrawItem::Panel { from: side(-1.0), to: side(1.0), colour: HudColor::Shade });
-    items.push(DrawItem::Text { place, side: TextAlign::Middle, height: TYPE, colour, words });
+    items.push(DrawItem::Panel { from: side(-1.0), to: side(1.0), color: HudColor::Shade });
+    items.push(DrawItem::Text { place, side: TextAlign::Middle, height: FONT_SIZE, color, words });
     items
 }
 
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_bracket_lies_around_the_drone_and_nowhere_behind() {
+    fn exact_bracket_surrounds_the_drone_only_in_front_of_the_camera() {
         let eye = PinholeCamera::at(Vec3::zero(), Vec3::new(0.0, 100.0, 0.0), 1.0, 1.5);
         let items = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), false);
         let words = items.iter().find_map(|item| match item {
@@ -71,7 +71,7 @@ mod tests {
         assert!(marker(&eye, 1.5, Vec3::new(0.0, -80.0, 0.0), false).is_empty());
         let hidden = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), true);
         let told =
-            |item: &DrawItem| matches!(item, DrawItem::Text { words, colour: HudColor::Grey, .. } if words == "80 m, hidden");
+            |item: &DrawItem| matches!(item, DrawItem::Text { words, color: HudColor::Grey, .. } if words == "80 m, hidden");
         assert!(hidden.len() > items.len() && hidden.iter().any(told), "the marker must be dashed and labeled");
     }
 }

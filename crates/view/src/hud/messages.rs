@@ -4,21 +4,21 @@ use super::icons::IconShape;
 use super::metrics::{EDGE, GAP, M_S_PER_MPH, MIDDLE};
 use super::pane::Pane;
 use super::state::Hud;
-use super::text_metrics::{width_of, wrapped};
+use super::text_metrics::{text_width, wrap_text};
 use super::{DrawItem, HudColor, TextAlign, map};
 use spandrel_mavlink::contract::cue;
 
 /// Mean width of a capital letter.
-const SIGN: f64 = 0.0205;
+const CAPITAL_WIDTH: f64 = 0.0205;
 /// Left padding of a message, which contains its icon.
 const INDENT: f64 = 0.07;
 /// Right padding of a message.
 const MARGIN: f64 = 0.015;
 /// Height of a single-line message, and height of each additional line.
-const HIGH: f64 = 0.06;
-const STEP: f64 = 0.045;
+const MESSAGE_HEIGHT: f64 = 0.06;
+const LINE_HEIGHT: f64 = 0.045;
 /// Maximum number of lines; pilots cannot read longer texts in flight.
-const LINES: usize = 2;
+const MAX_LINES: usize = 2;
 
 /// An active cue.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,11 +26,11 @@ pub struct ActiveCue {
     /// Icon shape.
     pub shape: IconShape,
     /// Color.
-    pub colour: HudColor,
+    pub color: HudColor,
     /// Text.
     pub text: &'static str,
     /// Additional detail.
-    pub more: Option<String>,
+    pub detail: Option<String>,
 }
 
 /// Returns the active cues, the most serious first.
@@ -43,11 +43,11 @@ pub fn warnings(hud: &Hud) -> Vec<ActiveCue> {
         (cue::OFF_PATH, IconShape::Disc, HudColor::Blue, "OFF THE PATH", None),
     ];
     let on = all.into_iter().filter(|(bit, ..)| hud.cues & bit != 0);
-    on.map(|(_, shape, colour, words, more)| ActiveCue { shape, colour, text: words, more }).collect()
+    on.map(|(_, shape, color, words, detail)| ActiveCue { shape, color, text: words, detail }).collect()
 }
 
 fn width(words: &str) -> f64 {
-    (SIGN * words.chars().count() as f64).max(width_of(words, MIDDLE))
+    (CAPITAL_WIDTH * words.chars().count() as f64).max(text_width(words, MIDDLE))
 }
 
 pub fn messages(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
@@ -55,16 +55,16 @@ pub fn messages(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let room = right - EDGE - INDENT - MARGIN;
     let mut bottom = pane.height - EDGE;
     let mut items = Vec::new();
-    for ActiveCue { shape, colour, text: words, more } in warnings(hud) {
-        let words = more.map_or_else(|| words.to_owned(), |more| format!("{words}: {more}"));
-        let lines = wrapped(&words, LINES, |line| width(line) <= room);
-        let top = bottom - HIGH - STEP * (lines.len() - 1) as f64;
+    for ActiveCue { shape, color, text: words, detail } in warnings(hud) {
+        let words = detail.map_or_else(|| words.to_owned(), |detail| format!("{words}: {detail}"));
+        let lines = wrap_text(&words, MAX_LINES, |line| width(line) <= room);
+        let top = bottom - MESSAGE_HEIGHT - LINE_HEIGHT * (lines.len() - 1) as f64;
         let wide = INDENT + lines.iter().map(|line| width(line)).fold(0.0, f64::max) + MARGIN;
         items.push(pane.panel((EDGE, top), (EDGE + wide, bottom)));
-        items.extend(pane.symbol(shape, (EDGE + 0.5 * INDENT, 0.5 * (top + bottom)), 0.04, colour));
+        items.extend(pane.symbol(shape, (EDGE + 0.5 * INDENT, 0.5 * (top + bottom)), 0.04, color));
         for (k, line) in lines.into_iter().enumerate() {
-            let y = top + 0.5 * HIGH + STEP * k as f64;
-            items.push(pane.text((EDGE + INDENT, y), TextAlign::Left, MIDDLE, colour, line));
+            let y = top + 0.5 * MESSAGE_HEIGHT + LINE_HEIGHT * k as f64;
+            items.push(pane.text((EDGE + INDENT, y), TextAlign::Left, MIDDLE, color, line));
         }
         bottom = top - GAP;
     }

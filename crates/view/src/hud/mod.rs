@@ -23,7 +23,7 @@ mod text_metrics;
 pub use layout::{layout, layout_px};
 pub use marker::marker;
 pub use state::{GnssStatus, Hud, MapPath};
-pub use status::SILENT_S;
+pub use status::LINK_TIMEOUT_S;
 
 /// A position in the picture, as fractions of its width and height.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,7 +112,7 @@ pub enum DrawItem {
         /// Lower right corner.
         to: ScreenPoint,
         /// Fill color.
-        colour: HudColor,
+        color: HudColor,
     },
     /// A line of text, vertically centered on its position.
     Text {
@@ -123,7 +123,7 @@ pub enum DrawItem {
         /// Font size.
         height: f64,
         /// Color.
-        colour: HudColor,
+        color: HudColor,
         /// Text.
         words: String,
     },
@@ -132,7 +132,7 @@ pub enum DrawItem {
         /// Corners.
         points: Vec<ScreenPoint>,
         /// Fill color.
-        colour: HudColor,
+        color: HudColor,
     },
     /// A polyline.
     Line {
@@ -141,6 +141,6 @@ pub enum DrawItem {
         /// Stroke width.
         width: f64,
         /// Color.
-        colour: HudColor,
+        color: HudColor,
     },
 }

@@ -1,7 +1,7 @@
 //! Tests that HUD items do not overlap, in pictures of any aspect ratio and size.
 
 use super::tests::{ALL_CUES, hud};
-use super::text_metrics::width_of;
+use super::text_metrics::text_width;
 use super::*;
 use crate::arrange::{ViewKind, ViewLayout};
 use spandrel_model::frames::Vec3;
@@ -10,7 +10,7 @@ use spandrel_model::frames::Vec3;
 type PictureRect = [f64; 4];
 
 /// Tolerance for rounding errors.
-const NOTHING: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-9;
 
 /// A block of the HUD: its background and contents.
 #[derive(Debug)]
@@ -25,8 +25,8 @@ fn around(points: &[ScreenPoint], aspect: f64) -> PictureRect {
     [of(f64::min, |p| p.x) * aspect, of(f64::min, |p| p.y), of(f64::max, |p| p.x) * aspect, of(f64::max, |p| p.y)]
 }
 
-fn written(place: ScreenPoint, side: TextAlign, height: f64, words: &str, aspect: f64) -> PictureRect {
-    let wide = width_of(words, height);
+fn text_rect(place: ScreenPoint, side: TextAlign, height: f64, words: &str, aspect: f64) -> PictureRect {
+    let wide = text_width(words, height);
     let left = place.x * aspect
         - match side {
             TextAlign::Left => 0.0,
@@ -50,7 +50,7 @@ fn blocks(items: Vec<DrawItem>, aspect: f64) -> Vec<DisplayBlock> {
         };
         match item {
             DrawItem::Text { place, side, height, words, .. } => {
-                block.texts.push((written(place, side, height, &words, aspect), words));
+                block.texts.push((text_rect(place, side, height, &words, aspect), words));
             }
             DrawItem::Fill { points, .. } | DrawItem::Line { points, .. } => block.shapes.push(around(&points, aspect)),
             DrawItem::Panel { .. } => {}
@@ -59,15 +59,15 @@ fn blocks(items: Vec<DrawItem>, aspect: f64) -> Vec<DisplayBlock> {
     found
 }
 
-fn apart(a: &PictureRect, b: &PictureRect) -> bool {
-    a[2] <= b[0] + NOTHING || b[2] <= a[0] + NOTHING || a[3] <= b[1] + NOTHING || b[3] <= a[1] + NOTHING
+fn are_separate(a: &PictureRect, b: &PictureRect) -> bool {
+    a[2] <= b[0] + TOLERANCE || b[2] <= a[0] + TOLERANCE || a[3] <= b[1] + TOLERANCE || b[3] <= a[1] + TOLERANCE
 }
 
-fn holds(outer: &PictureRect, inner: &PictureRect) -> bool {
-    outer[0] <= inner[0] + NOTHING
-        && outer[1] <= inner[1] + NOTHING
-        && inner[2] <= outer[2] + NOTHING
-        && inner[3] <= outer[3] + NOTHING
+fn contains(outer: &PictureRect, inner: &PictureRect) -> bool {
+    outer[0] <= inner[0] + TOLERANCE
+        && outer[1] <= inner[1] + TOLERANCE
+        && inner[2] <= outer[2] + TOLERANCE
+        && inner[3] <= outer[3] + TOLERANCE
 }
 
 /// Converts a rectangle of a camera picture to fractions of a window with this aspect ratio.
@@ -86,21 +86,21 @@ fn is_map(block: &DisplayBlock) -> bool {
 
 fn check_block(block: &DisplayBlock, what: &str) {
     for shape in &block.shapes {
-        assert!(holds(&block.ground, shape), "{what}: a shape at {shape:?} leaves {:?}", block.ground);
+        assert!(contains(&block.ground, shape), "{what}: a shape at {shape:?} leaves {:?}", block.ground);
     }
     if is_map(block) {
         return;
     }
     for (k, (place, words)) in block.texts.iter().enumerate() {
-        assert!(holds(&block.ground, place), "{what}: '{words}' at {place:?} leaves {:?}", block.ground);
+        assert!(contains(&block.ground, place), "{what}: '{words}' at {place:?} leaves {:?}", block.ground);
         for (other, over) in &block.texts[..k] {
-            assert!(apart(place, other), "{what}: '{words}' overlaps '{over}'");
+            assert!(are_separate(place, other), "{what}: '{words}' overlaps '{over}'");
         }
-        assert!(block.shapes.iter().all(|shape| apart(place, shape)), "{what}: '{words}' overlaps a shape");
+        assert!(block.shapes.iter().all(|shape| are_separate(place, shape)), "{what}: '{words}' overlaps a shape");
     }
     for (k, one) in block.shapes.iter().enumerate() {
         // One shape may contain another, as a battery outline contains its level.
-        let fine = |other: &PictureRect| apart(one, other) || holds(one, other) || holds(other, one);
+        let fine = |other: &PictureRect| are_separate(one, other) || contains(one, other) || contains(other, one);
         assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block overlap");
     }
 }
@@ -109,9 +109,9 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
     let found = blocks(items, aspect);
     for (k, block) in found.iter().enumerate() {
         check_block(block, what);
-        assert!(holds(&[0.0, 0.0, aspect, 1.0], &block.ground), "{what}: {block:?} extends beyond the picture");
+        assert!(contains(&[0.0, 0.0, aspect, 1.0], &block.ground), "{what}: {block:?} extends beyond the picture");
         for other in &found[..k] {
-            assert!(apart(&block.ground, &other.ground), "{what}: {block:?} overlaps {other:?}");
+            assert!(are_separate(&block.ground, &other.ground), "{what}: {block:?} overlaps {other:?}");
         }
     }
 }
@@ -129,7 +129,7 @@ fn states() -> Vec<(&'static str, Hud)> {
         home_m: 4321.0,
         mode: "mode 4294967295".into(),
         gnss: dark(99),
-        silent_s: 86_400.0,
+        telemetry_age_s: 86_400.0,
         gimbal_rad: -1.55,
         zoom: 10.0,
         left_s: 5_999.0,
@@ -140,11 +140,11 @@ fn states() -> Vec<(&'static str, Hud)> {
     };
     let shown = [
         ("calm", hud()),
-        ("link lost", Hud { silent_s: 12.0, ..hud() }),
+        ("link lost", Hud { telemetry_age_s: 12.0, ..hud() }),
         ("GNSS lost", Hud { gnss: dark(14), ..hud() }),
         ("GNSS unknown", Hud { gnss: None, ..hud() }),
-        ("no link, no GNSS", Hud { silent_s: 12.0, gnss: dark(4), mode: "Stabilized".into(), ..hud() }),
-        ("no link for long", Hud { silent_s: 86_400.0, gnss: dark(99), mode: "mode 4294967295".into(), ..hud() }),
+        ("no link, no GNSS", Hud { telemetry_age_s: 12.0, gnss: dark(4), mode: "Stabilized".into(), ..hud() }),
+        ("no link for long", Hud { telemetry_age_s: 86_400.0, gnss: dark(99), mode: "mode 4294967295".into(), ..hud() }),
         ("no battery", Hud { battery_pct: None, ..hud() }),
         ("red", Hud { battery_pct: Some(9.0), time_s: 0.1, ..hud() }),
         ("red and away", Hud { battery_pct: Some(9.0), time_s: 0.3, ..hud() }),
@@ -160,7 +160,7 @@ fn states() -> Vec<(&'static str, Hud)> {
 }
 
 #[test]
-fn prop_nothing_lies_over_anything_else_in_pictures_of_any_shape() {
+fn prop_items_do_not_overlap_at_any_aspect_ratio() {
     let steps = (0..=38).map(|k| 0.7 + 0.05 * f64::from(k));
     for aspect in steps.chain([4.0 / 3.0, 16.0 / 9.0]) {
         for (name, state) in states() {
@@ -170,7 +170,7 @@ fn prop_nothing_lies_over_anything_else_in_pictures_of_any_shape() {
 }
 
 #[test]
-fn prop_nothing_lies_over_anything_else_in_pictures_of_any_size() {
+fn prop_items_do_not_overlap_at_any_size() {
     for aspect in [0.7, 1.0, 4.0 / 3.0, 16.0 / 9.0, 2.6] {
         for height_px in [40.0, 81.0, 108.0, 162.0, 216.0, 324.0, 350.0, 360.0, 700.0] {
             for (name, state) in states() {
@@ -182,15 +182,15 @@ fn prop_nothing_lies_over_anything_else_in_pictures_of_any_size() {
 }
 
 #[test]
-fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
+fn prop_status_text_does_not_cover_the_hud() {
     // Six lines of the window's font with their background. They end above the center of the picture, which the pilot
     // uses for aiming.
-    const WORDS: f64 = 0.2;
+    const TEXT_HEIGHT: f64 = 0.2;
     let words = ViewLayout::Camera.words();
     let [_, eyes] = ViewLayout::Camera.places();
-    assert!(words.hang);
-    assert!(words.left_aligned >= eyes.left + eyes.width && words.edge + WORDS < 0.48, "{words:?}");
-    let room = [words.left_aligned, words.edge, words.left_aligned + words.width, words.edge + WORDS];
+    assert!(words.extends_down);
+    assert!(words.left_edge >= eyes.left + eyes.width && words.edge + TEXT_HEIGHT < 0.48, "{words:?}");
+    let room = [words.left_edge, words.edge, words.left_edge + words.width, words.edge + TEXT_HEIGHT];
     for (name, state) in states() {
         for window in [1.0, 4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
             for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
@@ -198,7 +198,7 @@ fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
                 // warnings stay visible.
                 let counts = |block: &DisplayBlock| window > 1.0 || block.ground[1] > 0.5;
                 for block in blocks(layout(&state, lens), lens).into_iter().filter(counts) {
-                    let covered = !apart(&in_window(&block.ground, lens, window), &room);
+                    let covered = !are_separate(&in_window(&block.ground, lens, window), &room);
                     assert!(!covered, "{name}: {block:?} is covered by the status text, lens {lens}, window {window}");
                 }
             }
@@ -207,7 +207,7 @@ fn prop_the_windows_own_words_cover_nothing_of_the_large_cameras_display() {
 }
 
 #[test]
-fn prop_the_small_view_hides_nothing_of_the_large_cameras_display() {
+fn prop_inset_view_does_not_cover_the_hud() {
     let all = Hud { cues: ALL_CUES, hit: Some("suspension bridge, tower leg".into()), zoom: 2.0, ..hud() };
     let [_, eyes] = ViewLayout::Camera.places();
     assert_eq!(eyes.which, ViewKind::Inspector);
@@ -215,7 +215,7 @@ fn prop_the_small_view_hides_nothing_of_the_large_cameras_display() {
     for window in [4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
         for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
             for block in blocks(layout(&all, lens), lens) {
-                let covered = !apart(&in_window(&block.ground, lens, window), &small);
+                let covered = !are_separate(&in_window(&block.ground, lens, window), &small);
                 assert!(!covered, "{block:?} is covered by the inset view, lens {lens}, window {window}");
             }
         }

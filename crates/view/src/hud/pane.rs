@@ -40,27 +40,27 @@ impl Pane {
 
     /// Returns the background of a block from its upper left to its lower right corner.
     pub fn panel(self, from: (f64, f64), to: (f64, f64)) -> DrawItem {
-        DrawItem::Panel { from: self.at(from), to: self.at(to), colour: HudColor::Shade }
+        DrawItem::Panel { from: self.at(from), to: self.at(to), color: HudColor::Shade }
     }
 
     /// Returns a line of text.
-    pub fn text(self, place: (f64, f64), side: TextAlign, size: f64, colour: HudColor, words: impl Into<String>) -> DrawItem {
-        DrawItem::Text { place: self.at(place), side, height: self.share(size), colour, words: words.into() }
+    pub fn text(self, place: (f64, f64), side: TextAlign, size: f64, color: HudColor, words: impl Into<String>) -> DrawItem {
+        DrawItem::Text { place: self.at(place), side, height: self.share(size), color, words: words.into() }
     }
 
     /// Returns a filled convex polygon.
-    pub fn fill(self, points: &[(f64, f64)], colour: HudColor) -> DrawItem {
-        DrawItem::Fill { points: self.all(points), colour }
+    pub fn fill(self, points: &[(f64, f64)], color: HudColor) -> DrawItem {
+        DrawItem::Fill { points: self.all(points), color }
     }
 
     /// Returns a polyline.
-    pub fn line(self, points: &[(f64, f64)], width: f64, colour: HudColor) -> DrawItem {
-        DrawItem::Line { points: self.all(points), width: self.share(width), colour }
+    pub fn line(self, points: &[(f64, f64)], width: f64, color: HudColor) -> DrawItem {
+        DrawItem::Line { points: self.all(points), width: self.share(width), color }
     }
 
     /// Returns an icon with a dark outline.
-    pub fn symbol(self, shape: IconShape, middle: (f64, f64), size: f64, colour: HudColor) -> Vec<DrawItem> {
-        icons::symbol(shape, self.at(middle), self.share(size), self.width / self.height, colour)
+    pub fn symbol(self, shape: IconShape, middle: (f64, f64), size: f64, color: HudColor) -> Vec<DrawItem> {
+        icons::symbol(shape, self.at(middle), self.share(size), self.width / self.height, color)
     }
 
     fn all(self, points: &[(f64, f64)]) -> Vec<ScreenPoint> {

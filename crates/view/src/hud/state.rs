@@ -59,7 +59,7 @@ pub struct Hud {
     /// Satellite navigation status.
     pub gnss: Option<GnssStatus>,
     /// Age of the latest telemetry, s.
-    pub silent_s: f64,
+    pub telemetry_age_s: f64,
     /// Gimbal pitch, rad, up positive.
     pub gimbal_rad: f64,
     /// Zoom factor, 1 at the wide end.

@@ -6,12 +6,12 @@ use super::state::{GnssStatus, Hud};
 use super::{DrawItem, HudColor, TextAlign, battery};
 
 /// Telemetry age from which the link counts as lost, s.
-pub const SILENT_S: f64 = 1.5;
+pub const LINK_TIMEOUT_S: f64 = 1.5;
 /// Character width: 1.5 times the font's mean, of which the excess provides the panel's padding.
-const SIGN: f64 = 0.017;
+const CHAR_WIDTH: f64 = 0.017;
 /// Height of the panel with one line, and of each additional line.
-const HIGH: f64 = 0.048;
-const STEP: f64 = 0.037;
+const PANEL_HEIGHT: f64 = 0.048;
+const LINE_HEIGHT: f64 = 0.037;
 
 fn satellites(gnss: GnssStatus) -> String {
     match (gnss.fixed, gnss.known()) {
@@ -23,11 +23,11 @@ fn satellites(gnss: GnssStatus) -> String {
 }
 
 fn is_lost(hud: &Hud) -> bool {
-    hud.silent_s > SILENT_S
+    hud.telemetry_age_s > LINK_TIMEOUT_S
 }
 
 fn link(hud: &Hud) -> String {
-    if is_lost(hud) { format!("LINK LOST {:.0} s", hud.silent_s) } else { "link ok".into() }
+    if is_lost(hud) { format!("LINK LOST {:.0} s", hud.telemetry_age_s) } else { "link ok".into() }
 }
 
 /// Returns the active alarm as a short line. While the link is lost, the satellite status is unknown, so only the link
@@ -39,16 +39,22 @@ pub fn alarm(hud: &Hud) -> Option<String> {
 pub fn status(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let place = format!("{}   {}", hud.mode, hud.gnss.map_or_else(|| "GNSS ?".to_owned(), satellites));
     // Available width between speed and battery; the battery panel is the wider of the two.
-    let room = pane.width - 2.0 * (EDGE + battery::WIDE + GAP);
-    let width = |words: &str| SIGN * words.chars().count() as f64;
+    let room = pane.width - 2.0 * (EDGE + battery::PANEL_WIDTH + GAP);
+    let width = |words: &str| CHAR_WIDTH * words.chars().count() as f64;
     let whole = format!("{place}   {}", link(hud));
     let lines = if width(&whole) <= room { vec![whole] } else { vec![place, link(hud)] };
     let half = 0.5 * lines.iter().map(|line| width(line)).fold(0.0, f64::max);
-    let (middle, bottom) = (0.5 * pane.width, EDGE + HIGH + STEP * (lines.len() - 1) as f64);
-    let colour = if alarm(hud).is_some() { HudColor::Orange } else { HudColor::White };
+    let (middle, bottom) = (0.5 * pane.width, EDGE + PANEL_HEIGHT + LINE_HEIGHT * (lines.len() - 1) as f64);
+    let color = if alarm(hud).is_some() { HudColor::Orange } else { HudColor::White };
     let mut items = vec![pane.panel((middle - half, EDGE), (middle + half, bottom))];
     for (k, line) in lines.into_iter().enumerate() {
-        items.push(pane.text((middle, EDGE + 0.5 * HIGH + STEP * k as f64), TextAlign::Middle, SMALL, colour, line));
+        items.push(pane.text(
+            (middle, EDGE + 0.5 * PANEL_HEIGHT + LINE_HEIGHT * k as f64),
+            TextAlign::Middle,
+            SMALL,
+            color,
+            line,
+        ));
     }
     items
 }

@@ -22,7 +22,7 @@ pub(super) fn hud() -> Hud {
         home_m: 118.0,
         mode: "Position".into(),
         gnss: Some(GnssStatus { fixed: true, satellites: 14 }),
-        silent_s: 0.02,
+        telemetry_age_s: 0.02,
         gimbal_rad: 0.35,
         zoom: 1.0,
         lamp: false,
@@ -39,26 +39,26 @@ pub(super) fn hud() -> Hud {
 
 fn texts(hud: &Hud) -> Vec<(ScreenPoint, HudColor, String)> {
     let of = |item| match item {
-        DrawItem::Text { place, colour, words, .. } => Some((place, colour, words)),
+        DrawItem::Text { place, color, words, .. } => Some((place, color, words)),
         DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
     };
     layout(hud, WIDE).into_iter().filter_map(of).collect()
 }
 
 fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
-    texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, colour, _)| (place, colour))
+    texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, color, _)| (place, color))
 }
 
 /// Returns every text of the HUD with its position in percent of the picture and its color.
 fn snapshot(hud: &Hud) -> String {
-    let line = |(place, colour, words): (ScreenPoint, HudColor, String)| {
-        format!("{:3.0} {:3.0} {colour:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)
+    let line = |(place, color, words): (ScreenPoint, HudColor, String)| {
+        format!("{:3.0} {:3.0} {color:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)
     };
     texts(hud).into_iter().map(line).collect()
 }
 
 #[test]
-fn regress_the_display_in_calm_flight() {
+fn regress_hud_in_normal_flight() {
     let expected = "  2   6 White: 3.2 m/s\n  2  11 Grey: 7 mph, limit 10\n 98   6 Green: 76 %\n 50   5 White: Position   GNSS 14   link ok\n \
                     87  13 Grey: height\n 98  13 White: 21.4 m\n 87  17 Grey: home\n 98  17 White: 118 m\n 87  21 Grey: gimbal\n \
                     98  21 White: +20°\n 87  25 Grey: time left\n 98  25 White: 20:34\n 87  28 Grey: lamp\n 98  28 White: off\n \
@@ -67,7 +67,7 @@ fn regress_the_display_in_calm_flight() {
 }
 
 #[test]
-fn exact_places_are_those_of_the_assessment() {
+fn exact_item_positions_match_the_assessment_rules() {
     let all = Hud { cues: ALL_CUES, hit: Some("bridge".into()), ..hud() };
     let speed = find(&all, "3.2 m/s").unwrap().0;
     assert!(speed.x < 0.3 && speed.y < 0.2, "speed is upper left");
@@ -81,7 +81,7 @@ fn exact_places_are_those_of_the_assessment() {
 }
 
 #[test]
-fn exact_the_battery_changes_at_70_and_30_and_flashes_when_red() {
+fn exact_battery_color_changes_at_70_and_30_and_red_blinks() {
     let at = |pct: f64, time_s: f64| Hud { battery_pct: Some(pct), time_s, ..hud() };
     assert_eq!(find(&at(70.0, 0.0), "70 %").unwrap().1, HudColor::Green);
     assert_eq!(find(&at(69.9, 0.0), "70 %").unwrap().1, HudColor::Yellow);
@@ -94,15 +94,15 @@ fn exact_the_battery_changes_at_70_and_30_and_flashes_when_red() {
 }
 
 #[test]
-fn exact_a_lost_link_and_a_lost_fix_are_reported() {
-    let lost = Hud { silent_s: 3.0, ..hud() };
+fn exact_lost_link_and_lost_fix_are_shown() {
+    let lost = Hud { telemetry_age_s: 3.0, ..hud() };
     assert_eq!(find(&lost, "LINK LOST 3 s").unwrap().1, HudColor::Orange);
     let dark = Hud { gnss: Some(GnssStatus { fixed: false, satellites: 4 }), ..hud() };
     assert_eq!(find(&dark, "GNSS lost (4)").unwrap().1, HudColor::Orange);
 }
 
 #[test]
-fn prop_everything_stays_in_pictures_of_any_shape() {
+fn prop_items_stay_inside_at_any_aspect_ratio() {
     let states = [hud(), Hud { cues: ALL_CUES, hit: Some("pedestrian 3".into()), zoom: 2.0, ..hud() }];
     for aspect in [4.0 / 3.0, WIDE, 21.0 / 9.0] {
         for state in &states {
@@ -121,7 +121,7 @@ fn prop_everything_stays_in_pictures_of_any_shape() {
 }
 
 #[test]
-fn exact_shapes_differ_where_colours_do() {
+fn exact_icon_shapes_differ_like_their_colors() {
     let corners = |pct: f64| {
         layout(&Hud { battery_pct: Some(pct), tracks: vec![], ..hud() }, WIDE).into_iter().find_map(|item| match item {
             DrawItem::Fill { points, .. } => Some(points.len()),
@@ -132,14 +132,14 @@ fn exact_shapes_differ_where_colours_do() {
 }
 
 /// Returns the texts and colors of a state that differ from those of a normal flight.
-fn news(hud: &Hud) -> Vec<String> {
-    let said = |hud: &Hud| texts(hud).into_iter().map(|(_, colour, words)| format!("{colour:?}: {words}")).collect::<Vec<_>>();
+fn changed_texts(hud: &Hud) -> Vec<String> {
+    let said = |hud: &Hud| texts(hud).into_iter().map(|(_, color, words)| format!("{color:?}: {words}")).collect::<Vec<_>>();
     let calm = said(&self::hud());
     said(hud).into_iter().filter(|line| !calm.contains(line)).collect()
 }
 
 #[test]
-fn exact_words_of_every_state_that_is_not_calm() {
+fn exact_texts_of_every_abnormal_state() {
     let gnss = |fixed, satellites| Hud { gnss: Some(GnssStatus { fixed, satellites }), ..hud() };
     let warned = |cues| Hud { cues, ..hud() };
     let crash = "Red: CRASH: bridge member arch/rib-left/07";
@@ -163,17 +163,17 @@ fn exact_words_of_every_state_that_is_not_calm() {
         (gnss(false, 4), &["Orange: Position   GNSS lost (4)   link ok"]),
         (gnss(false, 255), &["Orange: Position   GNSS lost   link ok"]),
         (Hud { gnss: None, ..hud() }, &["White: Position   GNSS ?   link ok"]),
-        (Hud { silent_s: 12.3, ..hud() }, &["Orange: Position   GNSS 14   LINK LOST 12 s"]),
-        (Hud { silent_s: 12.3, ..gnss(false, 4) }, &["Orange: Position   GNSS lost (4)   LINK LOST 12 s"]),
+        (Hud { telemetry_age_s: 12.3, ..hud() }, &["Orange: Position   GNSS 14   LINK LOST 12 s"]),
+        (Hud { telemetry_age_s: 12.3, ..gnss(false, 4) }, &["Orange: Position   GNSS lost (4)   LINK LOST 12 s"]),
         (Hud { zoom: 2.0, lamp: true, ..hud() }, &["Yellow: on", "Grey: zoom", "White: 2.0 x"]),
     ];
     for (state, words) in states {
-        assert_eq!(news(&state), words, "{state:?}");
+        assert_eq!(changed_texts(&state), words, "{state:?}");
     }
 }
 
 #[test]
-fn exact_a_small_picture_shows_speed_battery_and_what_is_wrong() {
+fn exact_small_picture_shows_speed_battery_and_warnings() {
     let words = |hud: &Hud, size_px| {
         let of = |item| match item {
             DrawItem::Text { height, words, .. } => Some((height, words)),
@@ -185,7 +185,7 @@ fn exact_a_small_picture_shows_speed_battery_and_what_is_wrong() {
     for (width, height) in [(640.0, 360.0), (480.0, 360.0), (1280.0, 720.0)] {
         assert_eq!(layout_px(&hud(), (width, height)), layout(&hud(), width / height), "{width} x {height}");
     }
-    let wrong = Hud { cues: ALL_CUES, silent_s: 4.0, battery_pct: Some(17.0), ..hud() };
+    let wrong = Hud { cues: ALL_CUES, telemetry_age_s: 4.0, battery_pct: Some(17.0), ..hud() };
     for size_px in [(432.0, 324.0), (288.0, 216.0), (192.0, 144.0)] {
         let calm = words(&hud(), size_px);
         assert_eq!(calm.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>(), ["3.2 m/s", "76 %"]);

@@ -16,12 +16,12 @@ fn glyph_width(sign: char) -> f64 {
 }
 
 /// Returns the width of a line of text in the unit of the font size.
-pub fn width_of(words: &str, height: f64) -> f64 {
+pub fn text_width(words: &str, height: f64) -> f64 {
     height * words.chars().map(glyph_width).sum::<f64>()
 }
 
 /// Truncates a text until it fits and appends an ellipsis.
-pub fn cut(words: &str, fits: impl Fn(&str) -> bool) -> String {
+pub fn truncate_text(words: &str, fits: impl Fn(&str) -> bool) -> String {
     let mut kept = words.to_owned();
     let mut shown = kept.clone();
     while !fits(&shown) && kept.pop().is_some() {
@@ -31,7 +31,7 @@ pub fn cut(words: &str, fits: impl Fn(&str) -> bool) -> String {
 }
 
 /// Wraps a text at spaces into at most `most` lines that satisfy `fits`, and truncates lines that are too long.
-pub fn wrapped(words: &str, most: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
+pub fn wrap_text(words: &str, most: usize, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split(' ') {
         let full = lines.len() >= most;
@@ -43,7 +43,7 @@ pub fn wrapped(words: &str, most: usize, fits: impl Fn(&str) -> bool) -> Vec<Str
             _ => lines.push(word.to_owned()),
         }
     }
-    lines.iter().map(|line| cut(line, &fits)).collect()
+    lines.iter().map(|line| truncate_text(line, &fits)).collect()
 }
 
 #[cfg(test)]
@@ -51,18 +51,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_words_break_at_spaces_and_what_is_left_over_is_cut_off() {
+    fn exact_text_wraps_at_spaces_and_is_truncated() {
         let ten = |line: &str| line.chars().count() <= 10;
-        assert_eq!(wrapped("a pier", 2, ten), ["a pier"]);
-        assert_eq!(wrapped("bridge member 7", 2, ten), ["bridge", "member 7"]);
-        assert_eq!(wrapped("bridge member arch/rib-left/07", 2, ten), ["bridge", "member ar…"]);
-        assert_eq!(wrapped("incomprehensible", 2, ten), ["incompreh…"]);
-        assert_eq!(wrapped("", 2, ten), [""]);
-        assert_eq!(cut("nothing fits", |_| false), "…");
+        assert_eq!(wrap_text("a pier", 2, ten), ["a pier"]);
+        assert_eq!(wrap_text("bridge member 7", 2, ten), ["bridge", "member 7"]);
+        assert_eq!(wrap_text("bridge member arch/rib-left/07", 2, ten), ["bridge", "member ar…"]);
+        assert_eq!(wrap_text("incomprehensible", 2, ten), ["incompreh…"]);
+        assert_eq!(wrap_text("", 2, ten), [""]);
+        assert_eq!(truncate_text("nothing fits", |_| false), "…");
     }
 
     #[test]
-    fn exact_lengths_are_those_of_the_font_and_a_little_more() {
+    fn exact_estimated_widths_slightly_exceed_the_font_widths() {
         // Sums of the font's advance widths, as fractions of the font size.
         for (words, em) in [
             ("OFF THE PATH", 6.54),
@@ -75,7 +75,7 @@ mod tests {
             ("100 %", 2.75),
             ("time left", 3.83),
         ] {
-            let found = width_of(words, 1.0);
+            let found = text_width(words, 1.0);
             assert!(found >= em && found < 1.2 * em, "{words}: {found} for {em}");
         }
     }

@@ -7,15 +7,15 @@ use std::collections::VecDeque;
 
 /// Delay of the picture behind the latest telemetry, s of wall time (three samples at 50 Hz; estimate: hides the usual
 /// jitter of a local network and is much shorter than human reaction time).
-pub const BEHIND_S: f64 = 0.06;
+pub const PLAYBACK_DELAY_S: f64 = 0.06;
 /// Period of wall time over which the speed of the vehicle's clock is measured.
-const MEASURED_OVER: SimTime = SimTime::from_ms(1_000);
+const SPEED_WINDOW: SimTime = SimTime::from_ms(1_000);
 /// Playback error above which the playback time jumps to the target, s of wall time.
 const JUMP_S: f64 = 0.5;
 /// Time constant with which smaller errors are corrected, s.
 const SETTLE_S: f64 = 0.25;
 /// Time without telemetry after which the picture stops at the latest sample, s; shorter gaps count as jitter.
-const PATIENCE_S: f64 = 0.1;
+const JITTER_LIMIT_S: f64 = 0.1;
 
 /// Playback position.
 #[derive(Debug, Clone, Default)]
@@ -31,7 +31,7 @@ impl Playhead {
             return;
         }
         self.arrivals.push_back((wall, newest));
-        while self.arrivals.front().is_some_and(|(first, _)| wall.saturating_sub(*first) > MEASURED_OVER)
+        while self.arrivals.front().is_some_and(|(first, _)| wall.saturating_sub(*first) > SPEED_WINDOW)
             && self.arrivals.len() > 2
         {
             self.arrivals.pop_front();
@@ -45,7 +45,7 @@ impl Playhead {
 
     /// Returns the speed of the vehicle's clock relative to wall time, or 1 until it has been measured.
     #[must_use]
-    pub fn pace(&self) -> f64 {
+    pub fn speed_factor(&self) -> f64 {
         match (self.arrivals.front(), self.arrivals.back()) {
             (Some(first), Some(last)) if (last.0 - first.0).s() > 0.2 => (last.1 - first.1).s() / (last.0 - first.0).s(),
             _ => 1.0,
@@ -55,16 +55,16 @@ impl Playhead {
     /// Advances to a wall time and returns the time to show, or `None` before the first sample.
     pub fn advance(&mut self, wall: SimTime) -> Option<SimTime> {
         let (arrived, newest) = *self.arrivals.back()?;
-        let pace = self.pace();
-        let since_s = (wall - arrived).s().clamp(0.0, PATIENCE_S);
-        let target_s = (newest.s() + pace * (since_s - BEHIND_S)).max(0.0);
+        let speed_factor = self.speed_factor();
+        let since_s = (wall - arrived).s().clamp(0.0, JITTER_LIMIT_S);
+        let target_s = (newest.s() + speed_factor * (since_s - PLAYBACK_DELAY_S)).max(0.0);
         let shown_s = match self.shown_at {
             None => target_s,
             Some((before, shown)) => {
                 let step_s = (wall - before).s().max(0.0);
-                let even_s = shown.s() + pace * step_s;
+                let even_s = shown.s() + speed_factor * step_s;
                 let error_s = target_s - even_s;
-                if error_s.abs() > JUMP_S * pace.max(1.0) {
+                if error_s.abs() > JUMP_S * speed_factor.max(1.0) {
                     target_s
                 } else {
                     // Playback never steps back, because reversed motion is conspicuous.
@@ -83,13 +83,13 @@ mod tests {
     use super::*;
 
     /// Returns the times shown, s, for pictures every 1/60 s with a clock of this speed whose samples (50 Hz) arrive in bursts.
-    fn shown(pace: f64, burst: u32) -> Vec<f64> {
+    fn shown(speed_factor: f64, burst: u32) -> Vec<f64> {
         let mut head = Playhead::default();
         let mut out = Vec::new();
         let mut sample = 0;
         for picture in 0..600 {
             let wall_s = f64::from(picture) / 60.0;
-            while f64::from(sample + burst) * 0.02 <= wall_s * pace {
+            while f64::from(sample + burst) * 0.02 <= wall_s * speed_factor {
                 sample += burst;
                 head.handle_sample_time(SimTime::from_s(wall_s), SimTime::from_s(f64::from(sample) * 0.02));
             }
@@ -101,24 +101,30 @@ mod tests {
     }
 
     #[test]
-    fn exact_bursts_are_shown_evenly_at_any_pace() {
-        for (pace, burst) in [(0.5, 1), (1.0, 3), (4.0, 3)] {
-            let all = shown(pace, burst);
+    fn exact_bursts_play_evenly_at_any_speed() {
+        for (speed_factor, burst) in [(0.5, 1), (1.0, 3), (4.0, 3)] {
+            let all = shown(speed_factor, burst);
             let settled = &all[120..];
             for pair in settled.windows(2) {
                 let step = pair[1] - pair[0];
                 // With bursts of 60 ms and pictures every 17 ms, steps without smoothing would be 0 or 3.6 times the
                 // nominal step.
-                assert!(step > 0.8 * pace / 60.0 && step < 1.2 * pace / 60.0, "pace {pace}: a step of {step} s");
+                assert!(
+                    step > 0.8 * speed_factor / 60.0 && step < 1.2 * speed_factor / 60.0,
+                    "speed_factor {speed_factor}: a step of {step} s"
+                );
             }
             let end = settled[settled.len() - 1];
-            let newest = pace * 599.0 / 60.0;
-            assert!(newest - end < 0.1 * pace.max(1.0) && newest - end > 0.0, "pace {pace}: {end} of {newest}");
+            let newest = speed_factor * 599.0 / 60.0;
+            assert!(
+                newest - end < 0.1 * speed_factor.max(1.0) && newest - end > 0.0,
+                "speed_factor {speed_factor}: {end} of {newest}"
+            );
         }
     }
 
     #[test]
-    fn exact_silence_stops_the_picture_and_a_gap_is_jumped() {
+    fn exact_playback_stops_without_data_and_skips_a_gap() {
         let mut head = Playhead::default();
         assert_eq!(head.advance(SimTime::ZERO), None);
         for k in 0..50 {
@@ -129,6 +135,6 @@ mod tests {
         assert_eq!(stopped, Some(SimTime::from_ms(980)), "playback must stop at the latest sample");
         head.handle_sample_time(SimTime::from_ms(10_000), SimTime::from_ms(10_000));
         let after = head.advance(SimTime::from_ms(10_000)).map(SimTime::s);
-        assert!(after.is_some_and(|s| (s - (10.0 - BEHIND_S)).abs() < 0.01), "{after:?}");
+        assert!(after.is_some_and(|s| (s - (10.0 - PLAYBACK_DELAY_S)).abs() < 0.01), "{after:?}");
     }
 }

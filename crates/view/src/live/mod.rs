@@ -17,8 +17,8 @@ use super::stage::{HudInputs, LIFT_OFF_M, SceneMoment};
 use clock::Playhead;
 use estimate::EstimatedPose;
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
-use spandrel_mavlink::contract::continuity::RESTART_AFTER;
-use spandrel_mavlink::contract::continuity::RESTART_CONFIRM;
+use spandrel_mavlink::contract::continuity::RESTART_CONFIRM_COUNT;
+use spandrel_mavlink::contract::continuity::RESTART_THRESHOLD;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavCmd, MavMessage};
 use spandrel_mavlink::station;
@@ -36,23 +36,23 @@ pub const SYSTEM: u8 = 253;
 /// MAV_COMP_ID_ONBOARD_COMPUTER2: distinct from the monitor.
 const COMPONENT: u8 = 192;
 const AUTOPILOT: u8 = 1;
-const HEARTBEAT_EVERY: SimTime = SimTime::from_ms(1_000);
+const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
 /// Time without ground truth after which the vehicle counts as a real one and this client requests its estimates.
-const NO_TRUTH_AFTER: SimTime = SimTime::from_ms(3_000);
+const TRUTH_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 /// Interval at which requests are repeated, in case one is lost.
-const ASK_EVERY: SimTime = SimTime::from_ms(5_000);
+const REQUEST_INTERVAL: SimTime = SimTime::from_ms(5_000);
 /// Messages used instead of ground truth and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
-const INSTEAD: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
+const ESTIMATE_STREAMS: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
 /// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of a tenth of a second between sound and
 /// picture is noticeable).
-const ROTORS: (u32, f32) = (36, 20.0);
+const ROTOR_STREAM: (u32, f32) = (36, 20.0);
 /// FLIGHT_INFORMATION, which contains the takeoff time, for viewers that connect during a flight.
-const FLIGHT: u32 = 264;
+const FLIGHT_INFORMATION_ID: u32 = 264;
 /// Pulse widths of idle and full outputs, µs (SERVO_OUTPUT_RAW).
 const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
 /// Time without a picture after which a video stream counts as ended; a hidden window renders no pictures.
-const VIDEO_LASTS: SimTime = SimTime::from_ms(3_000);
+const VIDEO_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 
 /// State of a live flight.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ pub struct LiveFlight {
     next_truth_request: Option<SimTime>,
     system: Option<u8>,
     /// Wall time of the first message from the vehicle.
-    first_heard: Option<SimTime>,
+    first_message_at: Option<SimTime>,
     seed: Option<u64>,
     scenario_crc: Option<u32>,
     /// Wall time of the next request for rotor outputs; `None` if they are not needed.
@@ -74,7 +74,7 @@ pub struct LiveFlight {
     truth_requested: bool,
     estimate: EstimatedPose,
     time_reversals: usize,
-    last_heard: Option<SimTime>,
+    last_sample_at: Option<SimTime>,
     playhead: Playhead,
     state: SimulatorRun,
     /// Video stream status and wall time of its last picture.
@@ -94,7 +94,7 @@ struct SimulatorRun {
     lift_off: Option<SimTime>,
     /// Wall time of the next request for the takeoff time, if the vehicle was already flying when its first position
     /// arrived.
-    since_when: Option<SimTime>,
+    next_takeoff_request: Option<SimTime>,
     pictures: BTreeSet<(i32, Option<SimTime>)>,
     last_picture: Option<SimTime>,
     closures: BridgeClosures,
@@ -124,14 +124,14 @@ impl LiveFlight {
             next_heartbeat: SimTime::ZERO,
             next_truth_request: None,
             system: None,
-            first_heard: None,
+            first_message_at: None,
             seed: None,
             scenario_crc: None,
             next_rotors: None,
             truth_requested: false,
             estimate: EstimatedPose::default(),
             time_reversals: 0,
-            last_heard: None,
+            last_sample_at: None,
             playhead: Playhead::default(),
             state: SimulatorRun::default(),
             video: None,
@@ -159,14 +159,14 @@ impl LiveFlight {
     /// Checks whether the poses are the vehicle's own estimate, because no ground truth is available.
     #[must_use]
     pub fn is_estimated(&self) -> bool {
-        self.last_heard.is_some() && !self.truth_requested
+        self.last_sample_at.is_some() && !self.truth_requested
     }
 
     /// Checks whether no ground truth arrived although it was requested. Such a vehicle is not the simulator and sends
     /// no seed.
     #[must_use]
-    pub fn lacks_truth(&self, wall: SimTime) -> bool {
-        !self.truth_requested && self.first_heard.is_some_and(|met| wall >= met + NO_TRUTH_AFTER + NO_TRUTH_AFTER)
+    pub fn has_no_truth(&self, wall: SimTime) -> bool {
+        !self.truth_requested && self.first_message_at.is_some_and(|met| wall >= met + TRUTH_TIMEOUT + TRUTH_TIMEOUT)
     }
 
     /// Returns the flight mode, satellites, cues and texts.
@@ -186,8 +186,8 @@ impl LiveFlight {
         let beats = matches!(frame.message, Some(MavMessage::HEARTBEAT(_))) && frame.component_id == AUTOPILOT;
         if self.system.is_none() && (beats || sample::truth_time(&frame.bytes).is_some()) {
             self.system = Some(frame.system_id);
-            self.first_heard = Some(wall);
-            self.next_truth_request = Some(wall + NO_TRUTH_AFTER);
+            self.first_message_at = Some(wall);
+            self.next_truth_request = Some(wall + TRUTH_TIMEOUT);
         }
         if self.system != Some(frame.system_id) {
             return;
@@ -197,17 +197,17 @@ impl LiveFlight {
             self.state.feed.handle_frame(frame, now);
         }
         if let Some(MavMessage::SERVO_OUTPUT_RAW(servos)) = &frame.message {
-            self.next_rotors = self.next_rotors.map(|_| wall + ASK_EVERY);
+            self.next_rotors = self.next_rotors.map(|_| wall + REQUEST_INTERVAL);
             let pulses = [servos.servo1_raw, servos.servo2_raw, servos.servo3_raw, servos.servo4_raw].map(f64::from);
             let turn = pulses.iter().any(|pulse| *pulse >= PULSE_US.0);
             self.state.outputs =
                 turn.then(|| pulses.map(|pulse| ((pulse - PULSE_US.0) / (PULSE_US.1 - PULSE_US.0)).clamp(0.0, 1.0)));
         }
-        if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.since_when)
+        if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.next_takeoff_request)
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
         {
             // The field holds the time since boot despite its name (MAVLink common).
-            (self.state.lift_off, self.state.since_when) = (Some(SimTime::from_us(took_off_us)), None);
+            (self.state.lift_off, self.state.next_takeoff_request) = (Some(SimTime::from_us(took_off_us)), None);
         }
         if !self.truth_requested
             && let Some(truth) = frame.message.as_ref().and_then(|message| self.estimate.take(message, &self.plane))
@@ -236,19 +236,19 @@ impl LiveFlight {
     fn handle_value(&mut self, value: SampleValue, own_time: Option<SimTime>) {
         let now = self.state.trace.newest().unwrap_or_default();
         let state = &mut self.state;
-        let time = own_time.filter(|own| *own <= now + RESTART_AFTER).unwrap_or(now);
+        let time = own_time.filter(|own| *own <= now + RESTART_THRESHOLD).unwrap_or(now);
         match value {
             SampleValue::GimbalPitch(pitch_rad) => state.trace.push_gimbal(time, pitch_rad),
             SampleValue::Light(on) => state.lamp = on,
             SampleValue::Battery(pct) => state.battery_pct = Some(pct),
             SampleValue::FieldOfView(rad) => state.trace.push_lens(time, rad),
-            SampleValue::Beat { armed, .. } => state.armed = armed,
+            SampleValue::Heartbeat { armed, .. } => state.armed = armed,
             SampleValue::Snapshot(number) => {
                 if state.pictures.insert((number, own_time)) {
                     state.last_picture = Some(own_time.unwrap_or(now));
                 }
             }
-            SampleValue::Traffic(code) => state.closures.apply_codes(code),
+            SampleValue::Traffic(code) => state.closures.apply_code(code),
             SampleValue::Seed(seed) => self.handle_seed(seed),
             SampleValue::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
             SampleValue::Sticks(_)
@@ -261,9 +261,9 @@ impl LiveFlight {
     }
 
     fn handle_truth(&mut self, truth: Truth, wall: SimTime) {
-        if self.state.trace.newest().is_some_and(|newest| truth.time + RESTART_AFTER < newest) {
+        if self.state.trace.newest().is_some_and(|newest| truth.time + RESTART_THRESHOLD < newest) {
             self.time_reversals += 1;
-            if self.time_reversals < RESTART_CONFIRM {
+            if self.time_reversals < RESTART_CONFIRM_COUNT {
                 return;
             }
             self.restart();
@@ -271,11 +271,11 @@ impl LiveFlight {
             (self.seed, self.scenario_crc) = (None, None);
         }
         self.time_reversals = 0;
-        self.last_heard = Some(wall);
+        self.last_sample_at = Some(wall);
         self.playhead.handle_sample_time(wall, truth.time);
         if self.state.lift_off.is_none() && truth.motion.position_m.up() - self.pad_up_m > LIFT_OFF_M {
             self.state.lift_off = Some(truth.time);
-            self.state.since_when = self.state.trace.newest().is_none().then_some(wall);
+            self.state.next_takeoff_request = self.state.trace.newest().is_none().then_some(wall);
         }
         self.state.trace.push(truth);
     }
@@ -313,10 +313,10 @@ impl LiveFlight {
     /// vehicle without ground truth.
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if wall >= self.next_heartbeat {
-            self.next_heartbeat = wall + HEARTBEAT_EVERY;
+            self.next_heartbeat = wall + HEARTBEAT_INTERVAL;
             self.send(&station::companion_heartbeat());
             match self.video {
-                Some((_, last)) if wall.saturating_sub(last) > VIDEO_LASTS => self.end_video(),
+                Some((_, last)) if wall.saturating_sub(last) > VIDEO_TIMEOUT => self.end_video(),
                 Some((video, _)) => self.send(&video.status(true)),
                 None => {}
             }
@@ -324,20 +324,20 @@ impl LiveFlight {
         if let (Some(system), Some(due)) = (self.system, self.next_rotors)
             && wall >= due
         {
-            self.next_rotors = Some(wall + ASK_EVERY);
-            self.send(&message_interval_request(system, ROTORS));
+            self.next_rotors = Some(wall + REQUEST_INTERVAL);
+            self.send(&message_interval_request(system, ROTOR_STREAM));
         }
-        if let (Some(system), Some(due)) = (self.system, self.state.since_when)
+        if let (Some(system), Some(due)) = (self.system, self.state.next_takeoff_request)
             && wall >= due
         {
-            self.state.since_when = Some(wall + ASK_EVERY);
-            self.send(&message_request(system, FLIGHT));
+            self.state.next_takeoff_request = Some(wall + REQUEST_INTERVAL);
+            self.send(&message_request(system, FLIGHT_INFORMATION_ID));
         }
         if let (Some(system), false, Some(due)) = (self.system, self.truth_requested, self.next_truth_request)
             && wall >= due
         {
-            self.next_truth_request = Some(wall + ASK_EVERY);
-            for wanted in INSTEAD {
+            self.next_truth_request = Some(wall + REQUEST_INTERVAL);
+            for wanted in ESTIMATE_STREAMS {
                 self.send(&message_interval_request(system, wanted));
             }
         }
@@ -378,17 +378,17 @@ impl LiveFlight {
             at,
             drone: DronePose { pose: motion.pose(), spinning: state.armed },
             velocity_m_s: motion.velocity_m_s,
-            camera: CameraPose::on(&vehicle.camera, motion.pose(), gimbal_rad, state.lamp),
+            camera: CameraPose::on_aircraft(&vehicle.camera, motion.pose(), gimbal_rad, state.lamp),
             lens,
             turn: state.trace.turn_at(at),
         };
         let told = HudInputs {
             battery_pct: state.battery_pct,
             lift_off: state.lift_off,
-            silent_s: self.last_heard.map_or(0.0, |heard| (wall - heard).s().max(0.0)),
+            telemetry_age_s: self.last_sample_at.map_or(0.0, |heard| (wall - heard).s().max(0.0)),
             pictures: state.pictures.len(),
             last_picture: state.last_picture,
-            flash_s: wall.s(),
+            blink_time_s: wall.s(),
         };
         Some(LiveMoment { moment, hud: told, closures: state.closures.clone() })
     }

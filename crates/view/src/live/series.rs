@@ -4,9 +4,9 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Age relative to the latest sample beyond which samples are discarded.
-pub(super) const KEPT: SimTime = SimTime::from_ms(3_000);
+pub(super) const HISTORY_DURATION: SimTime = SimTime::from_ms(3_000);
 /// Maximum gap between samples for interpolation.
-pub(super) const GAP: SimTime = SimTime::from_ms(1_000);
+pub(super) const MAX_INTERPOLATION_GAP: SimTime = SimTime::from_ms(1_000);
 
 /// Recent samples in time order.
 #[derive(Debug, Clone, Default)]
@@ -20,7 +20,8 @@ impl TimeSeries {
         let after = self.points.partition_point(|known| known.0 <= time);
         self.points.insert(after, (time, value));
         let newest = self.points.back().map_or(SimTime::ZERO, |last| last.0);
-        while self.points.len() > 2 && self.points.front().is_some_and(|first| newest.saturating_sub(first.0) > KEPT) {
+        while self.points.len() > 2 && self.points.front().is_some_and(|first| newest.saturating_sub(first.0) > HISTORY_DURATION)
+        {
             self.points.pop_front();
         }
     }
@@ -29,7 +30,7 @@ impl TimeSeries {
     #[must_use]
     pub fn at(&self, time: SimTime) -> Option<f64> {
         if let Some((before, next)) = self.around(time) {
-            return Some(before.1 + (next.1 - before.1) * share(before.0, next.0, time));
+            return Some(before.1 + (next.1 - before.1) * time_fraction(before.0, next.0, time));
         }
         let after = self.points.partition_point(|known| known.0 <= time);
         self.points.get(after.saturating_sub(1)).map(|point| point.1)
@@ -46,12 +47,12 @@ impl TimeSeries {
         let after = self.points.partition_point(|known| known.0 <= time);
         let before = *self.points.get(after.checked_sub(1)?)?;
         let next = *self.points.get(after)?;
-        (next.0 - before.0 <= GAP).then_some((before, next))
+        (next.0 - before.0 <= MAX_INTERPOLATION_GAP).then_some((before, next))
     }
 }
 
 /// Returns the fraction of `at` between two times, 0 to 1.
-pub(super) fn share(from: SimTime, to: SimTime, at: SimTime) -> f64 {
+pub(super) fn time_fraction(from: SimTime, to: SimTime, at: SimTime) -> f64 {
     (at - from).s() / (to - from).s().max(1e-9)
 }
 
@@ -62,7 +63,7 @@ mod tests {
     const ROUNDING: f64 = 1e-12;
 
     #[test]
-    fn exact_between_tellings_it_goes_evenly_and_beyond_them_it_is_held() {
+    fn exact_value_is_interpolated_between_samples_and_held_outside() {
         let mut series = TimeSeries::default();
         assert_eq!(series.at(SimTime::ZERO), None);
         for (ms, value) in [(100, 1.0), (500, 1.6), (300, 1.2), (2_000, 9.0)] {

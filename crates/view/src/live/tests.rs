@@ -22,7 +22,7 @@ impl FakeVehicle {
         Self { vehicle: Encoder::new(1, 1), live: LiveFlight::new(&scenario), aircraft }
     }
 
-    fn say(&mut self, message: &MavMessage, wall_ms: i64) {
+    fn send(&mut self, message: &MavMessage, wall_ms: i64) {
         let bytes = self.vehicle.encode(message);
         self.live.handle_datagram(&bytes, SimTime::from_ms(wall_ms));
     }
@@ -40,7 +40,7 @@ impl FakeVehicle {
             vy: 100,
             ..Default::default()
         };
-        self.say(&MavMessage::HIL_STATE_QUATERNION(truth), wall_ms);
+        self.send(&MavMessage::HIL_STATE_QUATERNION(truth), wall_ms);
     }
 
     fn now(&mut self, wall_ms: i64) -> Option<LiveMoment> {
@@ -49,17 +49,17 @@ impl FakeVehicle {
 }
 
 /// Telemetry rounds positions to about a centimeter (degE7).
-const WIRE_M: f64 = 0.02;
+const POSITION_ROUNDING_M: f64 = 0.02;
 
 #[test]
-fn exact_the_moment_lies_between_samples_and_reports_what_was_received() {
+fn exact_moment_is_between_samples_with_the_received_values() {
     let mut wire = FakeVehicle::new();
     assert!(wire.now(0).is_none());
     for k in 0..100 {
         wire.truth(5_000 + 20 * k, 20 * k, 0.02 * k as f64);
         wire.now(20 * k);
     }
-    wire.say(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_980);
+    wire.send(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_980);
     let picture = CAMERA_IMAGE_CAPTURED_DATA {
         time_boot_ms: 6_900,
         image_index: 1,
@@ -67,26 +67,29 @@ fn exact_the_moment_lies_between_samples_and_reports_what_was_received() {
         ..Default::default()
     };
     // A retransmission refers to the same picture.
-    wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture.clone()), 1_980);
-    wire.say(&MavMessage::CAMERA_IMAGE_CAPTURED(picture), 1_980);
+    wire.send(&MavMessage::CAMERA_IMAGE_CAPTURED(picture.clone()), 1_980);
+    wire.send(&MavMessage::CAMERA_IMAGE_CAPTURED(picture), 1_980);
     let beat = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, custom_mode: 3 << 16, ..Default::default() };
-    wire.say(&MavMessage::HEARTBEAT(beat), 1_980);
+    wire.send(&MavMessage::HEARTBEAT(beat), 1_980);
     let now = wire.now(1_990).expect("a moment must be available");
     let behind_s = 6.98 + 0.01 - now.moment.at.s();
-    assert!((behind_s - clock::BEHIND_S).abs() < 0.005, "{behind_s} s behind");
-    assert!((now.moment.drone.pose.position_m.east() - (now.moment.at.s() - 5.0)).abs() < WIRE_M);
+    assert!((behind_s - clock::PLAYBACK_DELAY_S).abs() < 0.005, "{behind_s} s behind");
+    assert!((now.moment.drone.pose.position_m.east() - (now.moment.at.s() - 5.0)).abs() < POSITION_ROUNDING_M);
     assert!(now.moment.camera.lamp_on && now.moment.drone.spinning);
     assert_eq!((now.hud.pictures, now.hud.last_picture), (1, Some(SimTime::from_ms(6_900))));
     assert_eq!(now.hud.lift_off, Some(SimTime::from_ms(5_000)));
     assert_eq!(wire.live.feed().mode(), "Position");
     let later = wire.now(4_980).expect("a moment must be available");
-    assert!((later.hud.silent_s - 3.0).abs() < 1e-9, "the age of the telemetry must increase");
+    assert!((later.hud.telemetry_age_s - 3.0).abs() < 1e-9, "the age of the telemetry must increase");
     assert_eq!(later.moment.at, SimTime::from_ms(6_980));
-    assert!((later.hud.flash_s - now.hud.flash_s - 2.99).abs() < 1e-9, "blinking must continue while the picture is frozen");
+    assert!(
+        (later.hud.blink_time_s - now.hud.blink_time_s - 2.99).abs() < 1e-9,
+        "blinking must continue while the picture is frozen"
+    );
 }
 
 #[test]
-fn exact_a_restarted_simulator_starts_over_and_strangers_are_not_drawn() {
+fn exact_restart_resets_the_state_and_other_systems_are_ignored() {
     let mut wire = FakeVehicle::new();
     for k in 0..50 {
         wire.truth(60_000 + 20 * k, 20 * k, 5.0);
@@ -99,15 +102,15 @@ fn exact_a_restarted_simulator_starts_over_and_strangers_are_not_drawn() {
         wire.truth(20 * k, 1_000 + 20 * k, -5.0);
     }
     let now = wire.now(1_400).expect("a moment must be available");
-    assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.pose.position_m.east() + 5.0).abs() < WIRE_M);
+    assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.pose.position_m.east() + 5.0).abs() < POSITION_ROUNDING_M);
     assert!(!now.moment.camera.lamp_on);
 }
 
 #[test]
-fn exact_a_restarted_simulator_is_believed_when_it_reports_another_seed() {
+fn exact_another_seed_starts_a_new_session() {
     let mut wire = FakeVehicle::new();
     let say_seed = |wire: &mut FakeVehicle, value: i32, wall_ms: i64| {
-        wire.say(
+        wire.send(
             &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { name: "seed".into(), value, ..Default::default() }),
             wall_ms,
         );
@@ -123,20 +126,20 @@ fn exact_a_restarted_simulator_is_believed_when_it_reports_another_seed() {
     assert_eq!(wire.live.seed(), Some(8));
     assert!(wire.now(1_400).is_some(), "the new seed must not cause another restart");
     // The next session starts before the clock has gone back far enough, so that only the seed identifies it.
-    wire.say(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_420);
+    wire.send(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_420);
     say_seed(&mut wire, 9, 1_440);
     assert_eq!((wire.live.seed(), wire.now(1_440)), (Some(9), None));
     wire.truth(100, 1_460, 3.0);
     let now = wire.now(1_460).expect("a moment must be available");
-    assert!(!now.moment.camera.lamp_on && (now.moment.drone.pose.position_m.east() - 3.0).abs() < WIRE_M);
+    assert!(!now.moment.camera.lamp_on && (now.moment.drone.pose.position_m.east() - 3.0).abs() < POSITION_ROUNDING_M);
     say_seed(&mut wire, 9, 1_480);
     assert!(wire.now(1_480).is_some(), "a repeated seed must not restart the session");
 }
 
 #[test]
-fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
+fn exact_vehicle_without_truth_is_shown_by_its_estimate() {
     let mut wire = FakeVehicle::new();
-    wire.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()), 0);
+    wire.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()), 0);
     let said = |wire: &mut FakeVehicle, ms: i64| {
         wire.live.handle_timeout(SimTime::from_ms(ms));
         let mut decoder = Decoder::new();
@@ -144,8 +147,8 @@ fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
         let asks = |message: &MavMessage| matches!(message, MavMessage::COMMAND_LONG(c) if c.command == MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL);
         bytes.iter().flat_map(|b| decoder.datagram(b)).filter(|f| f.message.as_ref().is_some_and(asks)).count()
     };
-    assert_eq!((said(&mut wire, 100), said(&mut wire, 3_100)), (0, INSTEAD.len()));
-    wire.say(&MavMessage::ATTITUDE(ATTITUDE_DATA { yaw: 1.0, ..Default::default() }), 3_200);
+    assert_eq!((said(&mut wire, 100), said(&mut wire, 3_100)), (0, ESTIMATE_STREAMS.len()));
+    wire.send(&MavMessage::ATTITUDE(ATTITUDE_DATA { yaw: 1.0, ..Default::default() }), 3_200);
     let origin = wire.live.plane.origin();
     for k in 0..20 {
         let place = GLOBAL_POSITION_INT_DATA {
@@ -155,25 +158,25 @@ fn exact_a_vehicle_without_truth_is_asked_and_drawn_by_its_estimate() {
             alt: ((origin.altitude_m + 30.0) * 1e3) as i32,
             ..Default::default()
         };
-        wire.say(&MavMessage::GLOBAL_POSITION_INT(place), 3_200 + 20 * i64::from(k));
+        wire.send(&MavMessage::GLOBAL_POSITION_INT(place), 3_200 + 20 * i64::from(k));
     }
     let now = wire.now(3_600).expect("a moment must be available");
-    assert!((now.moment.drone.pose.position_m.up() - 30.0).abs() < WIRE_M && wire.live.is_estimated());
+    assert!((now.moment.drone.pose.position_m.up() - 30.0).abs() < POSITION_ROUNDING_M && wire.live.is_estimated());
     assert!((now.moment.drone.pose.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
     // Ground truth replaces the estimate once it arrives, and requests stop.
     for k in 0..10 {
         wire.truth(1_000 + 20 * k, 4_000 + 20 * k, 3.0);
     }
     let now = wire.now(4_200).expect("a moment must be available");
-    assert!((now.moment.drone.pose.position_m.east() - 3.0).abs() < WIRE_M && !wire.live.is_estimated());
+    assert!((now.moment.drone.pose.position_m.east() - 3.0).abs() < POSITION_ROUNDING_M && !wire.live.is_estimated());
     assert_eq!(said(&mut wire, 20_000), 0);
 }
 
 #[test]
-fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
+fn exact_rotor_outputs_are_requested_only_for_sound() {
     let mut wire = FakeVehicle::new();
     let armed = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, ..Default::default() };
-    wire.say(&MavMessage::HEARTBEAT(armed), 0);
+    wire.send(&MavMessage::HEARTBEAT(armed), 0);
     let asked = |wire: &mut FakeVehicle, ms: i64| {
         wire.live.handle_timeout(SimTime::from_ms(ms));
         let bytes: Vec<u8> = std::iter::from_fn(|| wire.live.poll_transmit()).flatten().collect();
@@ -186,7 +189,7 @@ fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
         asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300),
         "requests must repeat until outputs arrive"
     );
-    let mut say = |pulse: u16, wall_ms: i64| {
+    let mut send = |pulse: u16, wall_ms: i64| {
         let servos = SERVO_OUTPUT_RAW_DATA {
             servo1_raw: pulse,
             servo2_raw: 1_500,
@@ -194,9 +197,9 @@ fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
             servo4_raw: 2_100,
             ..Default::default()
         };
-        wire.say(&MavMessage::SERVO_OUTPUT_RAW(servos), wall_ms);
+        wire.send(&MavMessage::SERVO_OUTPUT_RAW(servos), wall_ms);
     };
-    say(1_000, 6_000);
+    send(1_000, 6_000);
     let rotor = wire.aircraft.rotor;
     let half = 0.5 * (rotor.idle_speed_rad_s + rotor.max_speed_rad_s);
     let idle = rotor.idle_speed_rad_s;
@@ -205,7 +208,7 @@ fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
         [idle, half, idle, rotor.max_speed_rad_s],
         "outputs must be clamped to their range"
     );
-    wire.say(
+    wire.send(
         &MavMessage::HEARTBEAT(HEARTBEAT_DATA { base_mode: MavModeFlag::empty(), mavlink_version: 3, ..Default::default() }),
         6_100,
     );
@@ -213,18 +216,18 @@ fn exact_rotors_are_requested_where_they_are_heard_and_turn_by_their_outputs() {
 }
 
 #[test]
-fn exact_the_seed_and_the_scenario_are_received() {
+fn exact_seed_and_scenario_checksum_are_received() {
     let mut wire = FakeVehicle::new();
     wire.truth(20, 0, 0.0);
     for (name, value) in [("seed", 7), ("scn_crc", -2)] {
         let named = NAMED_VALUE_INT_DATA { name: name.into(), value, ..Default::default() };
-        wire.say(&MavMessage::NAMED_VALUE_INT(named), 10);
+        wire.send(&MavMessage::NAMED_VALUE_INT(named), 10);
     }
     assert_eq!((wire.live.seed(), wire.live.scenario_crc()), (Some(7), Some(u32::MAX - 1)));
 }
 
 #[test]
-fn exact_a_late_listener_requests_the_flight_time() {
+fn exact_late_viewer_requests_the_takeoff_time() {
     let mut wire = FakeVehicle::new();
     wire.truth(300_000, 0, 0.0);
     wire.truth(300_020, 20, 0.0);
@@ -238,21 +241,21 @@ fn exact_a_late_listener_requests_the_flight_time() {
     let asked = std::iter::from_fn(|| wire.live.poll_transmit()).any(|bytes| {
         decoder.datagram(&bytes).iter().any(|frame| match &frame.message {
             Some(MavMessage::COMMAND_LONG(said)) => {
-                said.command == MavCmd::MAV_CMD_REQUEST_MESSAGE && said.param1 == FLIGHT as f32
+                said.command == MavCmd::MAV_CMD_REQUEST_MESSAGE && said.param1 == FLIGHT_INFORMATION_ID as f32
             }
             _ => false,
         })
     });
     assert!(asked);
     let flight = FLIGHT_INFORMATION_DATA { takeoff_time_utc: 12_500_000, ..Default::default() };
-    wire.say(&MavMessage::FLIGHT_INFORMATION(flight.clone()), 40);
+    wire.send(&MavMessage::FLIGHT_INFORMATION(flight.clone()), 40);
     assert_eq!(wire.now(40).unwrap().hud.lift_off, Some(SimTime::from_ms(12_500)));
-    wire.say(&MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { takeoff_time_utc: 99_000_000, ..flight }), 60);
+    wire.send(&MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA { takeoff_time_utc: 99_000_000, ..flight }), 60);
     assert_eq!(wire.now(60).unwrap().hud.lift_off, Some(SimTime::from_ms(12_500)), "the takeoff time must not change");
 }
 
 #[test]
-fn exact_a_stream_is_reported_while_pictures_go_out_and_its_end_once() {
+fn exact_stream_status_is_sent_while_running_and_once_at_its_end() {
     let mut wire = FakeVehicle::new();
     let video = VideoStatus { width_px: 640, height_px: 360, rate_hz: 20.0, bits_s: 1_000_000 };
     let mut decoder = Decoder::new();

@@ -1,6 +1,6 @@
 //! Recent motion of the aircraft, with interpolation between samples.
 
-use super::series::{GAP, KEPT, TimeSeries, share};
+use super::series::{HISTORY_DURATION, MAX_INTERPOLATION_GAP, TimeSeries, time_fraction};
 use crate::stage::CameraTurnRate;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_model::frames::Enu;
@@ -10,9 +10,9 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the general delay
-/// ([`BEHIND_S`](super::clock::BEHIND_S)), it leaves time for the next sample to arrive, including 20 ms of jitter
+/// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it leaves time for the next sample to arrive, including 20 ms of jitter
 /// (estimate).
-const LENS_BEHIND: SimTime = SimTime::from_ms(160);
+const LENS_DELAY: SimTime = SimTime::from_ms(160);
 
 /// Recent samples in time order.
 #[derive(Debug, Clone, Default)]
@@ -31,7 +31,7 @@ impl MotionHistory {
         }
         self.truths.insert(after, truth);
         let newest = self.newest().unwrap_or_default();
-        while self.truths.front().is_some_and(|first| newest.saturating_sub(first.time) > KEPT) {
+        while self.truths.front().is_some_and(|first| newest.saturating_sub(first.time) > HISTORY_DURATION) {
             self.truths.pop_front();
         }
     }
@@ -64,7 +64,7 @@ impl MotionHistory {
             let after = self.truths.partition_point(|truth| truth.time <= time);
             return self.truths.get(after.saturating_sub(1)).map(|truth| truth.motion);
         };
-        let t = share(before.time, next.time, time);
+        let t = time_fraction(before.time, next.time, time);
         Some(before.motion.lerp(&next.motion, t))
     }
 
@@ -78,7 +78,7 @@ impl MotionHistory {
     /// samples.
     #[must_use]
     pub fn lens_at(&self, time: SimTime) -> Option<f64> {
-        self.lens.at(time.saturating_sub(LENS_BEHIND))
+        self.lens.at(time.saturating_sub(LENS_DELAY))
     }
 
     /// Returns the horizontal field of view at a time of a fully recorded flight, rad; `None` without samples.
@@ -101,13 +101,13 @@ impl MotionHistory {
     fn around(&self, time: SimTime) -> Option<(&Truth, &Truth)> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
         let before = self.truths.get(after.checked_sub(1)?)?;
-        self.truths.get(after).filter(|next| continues(before, next)).map(|next| (before, next))
+        self.truths.get(after).filter(|next| is_continuous(before, next)).map(|next| (before, next))
     }
 }
 
-fn continues(before: &Truth, next: &Truth) -> bool {
+fn is_continuous(before: &Truth, next: &Truth) -> bool {
     let span = next.time - before.time;
-    span <= GAP && !before.jumps_to(next)
+    span <= MAX_INTERPOLATION_GAP && !before.jumps_to(next)
 }
 
 #[cfg(test)]
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_between_samples_everything_goes_evenly() {
+    fn exact_motion_is_interpolated_between_samples() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.at(SimTime::ZERO), None);
         // The second sample arrives late and is duplicated.
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_camera_turns_as_fast_as_its_samples_lie_apart() {
+    fn exact_turn_rate_follows_from_the_samples() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.turn_at(SimTime::ZERO), CameraTurnRate::default());
         // The heading crosses south, where it wraps around.
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_zoom_goes_evenly_although_it_is_reported_five_times_a_second() {
+    fn exact_zoom_is_smooth_although_sent_at_5_hz() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.lens_at(SimTime::ZERO), None);
         let (mut shown, from_ms) = (Vec::new(), 2_000);
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_respawned_or_silent_it_does_not_glide() {
+    fn exact_respawns_and_gaps_are_not_interpolated() {
         let mut trace = MotionHistory::default();
         trace.push(truth(0, 0.0, 0.0));
         trace.push(truth(20, 50.0, 0.0));

@@ -6,8 +6,8 @@ use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
 
 /// Highest and lowest quality (libjpeg's scale to 100): above the highest, no difference is visible; below the lowest, cracks
 /// disappear.
-const BEST: u8 = 92;
-const COARSEST: u8 = 20;
+const MAX_QUALITY: u8 = 92;
+const MIN_QUALITY: u8 = 20;
 /// Identifier of an XMP packet in an APP1 segment (XMP specification, part 3).
 const XMP: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
 
@@ -17,15 +17,15 @@ pub type PhotoTags<'a> = (&'a [u8], &'a str);
 /// Encodes the picture at the highest quality for which the file has at most `most` bytes. Finds the quality by
 /// bisection.
 pub fn encode(picture: &Picture, tags: Option<PhotoTags<'_>>, most: usize) -> Result<Vec<u8>, PhotoError> {
-    let best = with_quality(picture, tags, BEST)?;
+    let best = encode_with_quality(picture, tags, MAX_QUALITY)?;
     if best.len() <= most {
         return Ok(best);
     }
-    let mut fits = with_quality(picture, tags, COARSEST)?;
-    let (mut low, mut high) = (COARSEST, BEST);
+    let mut fits = encode_with_quality(picture, tags, MIN_QUALITY)?;
+    let (mut low, mut high) = (MIN_QUALITY, MAX_QUALITY);
     while fits.len() <= most && high - low > 1 {
         let middle = low + (high - low) / 2;
-        let tried = with_quality(picture, tags, middle)?;
+        let tried = encode_with_quality(picture, tags, middle)?;
         if tried.len() <= most {
             (low, fits) = (middle, tried);
         } else {
@@ -35,7 +35,7 @@ pub fn encode(picture: &Picture, tags: Option<PhotoTags<'_>>, most: usize) -> Re
     Ok(fits)
 }
 
-fn with_quality(picture: &Picture, tags: Option<PhotoTags<'_>>, quality: u8) -> Result<Vec<u8>, PhotoError> {
+fn encode_with_quality(picture: &Picture, tags: Option<PhotoTags<'_>>, quality: u8) -> Result<Vec<u8>, PhotoError> {
     let refused = |error: jpeg_encoder::EncodingError| PhotoError::Refused(error.to_string());
     let side = |px: u32| u16::try_from(px).map_err(|_| PhotoError::Refused(format!("{px} px is too large")));
     let (width, height) = (side(picture.width)?, side(picture.height)?);

@@ -22,9 +22,9 @@ pub fn direction_deg(pose: &CameraPose) -> (f64, f64) {
 }
 
 /// Maximum width of a copy, px: the largest that a report shows.
-const COPY_WIDEST_PX: u32 = 1280;
+const MAX_COPY_WIDTH_PX: u32 = 1280;
 /// Minimum width of a copy, px; narrower copies would not show defects.
-const COPY_NARROWEST_PX: u32 = 320;
+const MIN_COPY_WIDTH_PX: u32 = 320;
 
 /// Encodes the photo without visible loss, regardless of size.
 ///
@@ -41,13 +41,13 @@ pub fn jpeg(picture: &Picture, about: &PhotoInfo) -> Result<Vec<u8>, PhotoError>
 /// # Errors
 /// If it exceeds the limits of JPEG.
 pub fn copy(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
-    let mut small = picture.narrowed(COPY_WIDEST_PX);
+    let mut small = picture.scaled_to_width(MAX_COPY_WIDTH_PX);
     loop {
         let file = plain(&small, most)?;
-        if file.len() <= most || small.width / 2 < COPY_NARROWEST_PX {
+        if file.len() <= most || small.width / 2 < MIN_COPY_WIDTH_PX {
             return Ok(file);
         }
-        small = small.narrowed(small.width / 2);
+        small = small.scaled_to_width(small.width / 2);
     }
 }
 

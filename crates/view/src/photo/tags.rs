@@ -3,7 +3,7 @@
 use super::info::{PhotoError, PhotoInfo};
 use exif::experimental::Writer;
 use exif::{Field, In, Rational, Tag, Value};
-use spandrel_model::vehicle::SENSOR_MM;
+use spandrel_model::vehicle::SENSOR_WIDTH_MM;
 use std::io::Cursor;
 
 /// Width of a 35 mm film frame, mm.
@@ -33,7 +33,7 @@ fn rational(value: f64, parts: u32) -> Rational {
     Rational { num: (value * f64::from(parts)).round().clamp(0.0, f64::from(u32::MAX)) as u32, denom: parts }
 }
 
-fn one(value: f64, parts: u32) -> Value {
+fn rational_value(value: f64, parts: u32) -> Value {
     Value::Rational(vec![rational(value, parts)])
 }
 
@@ -53,15 +53,15 @@ fn camera(about: &PhotoInfo, (width, height): (u32, u32)) -> Vec<(Tag, Value)> {
         (Tag::ExifVersion, Value::Undefined(b"0232".to_vec(), 0)),
         (Tag::PixelXDimension, Value::Long(vec![width])),
         (Tag::PixelYDimension, Value::Long(vec![height])),
-        (Tag::FocalLength, one(focal_mm, 1000)),
-        (Tag::FocalLengthIn35mmFilm, Value::Short(vec![(focal_mm * FILM_MM / SENSOR_MM).round() as u16])),
+        (Tag::FocalLength, rational_value(focal_mm, 1000)),
+        (Tag::FocalLengthIn35mmFilm, Value::Short(vec![(focal_mm * FILM_MM / SENSOR_WIDTH_MM).round() as u16])),
         // Pixels of this picture per centimeter of the sensor; bundle adjustment needs only this and the focal length. EXIF
         // defines only inches and centimeters; millimeters (4) are TIFF/EP, which not every program reads.
-        (Tag::FocalPlaneXResolution, one(10.0 * f64::from(width) / SENSOR_MM, 1000)),
-        (Tag::FocalPlaneYResolution, one(10.0 * f64::from(width) / SENSOR_MM, 1000)),
+        (Tag::FocalPlaneXResolution, rational_value(10.0 * f64::from(width) / SENSOR_WIDTH_MM, 1000)),
+        (Tag::FocalPlaneYResolution, rational_value(10.0 * f64::from(width) / SENSOR_WIDTH_MM, 1000)),
         (Tag::FocalPlaneResolutionUnit, Value::Short(vec![3])),
-        (Tag::FNumber, one(lens.f_number, 100)),
-        (Tag::ExposureTime, one(about.exposure_s, 1_000_000)),
+        (Tag::FNumber, rational_value(lens.f_number, 100)),
+        (Tag::ExposureTime, rational_value(about.exposure_s, 1_000_000)),
         (Tag::PhotographicSensitivity, Value::Short(vec![about.iso.round().clamp(1.0, 65_535.0) as u16])),
         (Tag::Flash, Value::Short(vec![0])),
     ]
@@ -83,13 +83,13 @@ fn place(about: &PhotoInfo) -> Vec<(Tag, Value)> {
         (Tag::GPSLongitudeRef, text(east)),
         (Tag::GPSLongitude, degrees(place.longitude_deg)),
         (Tag::GPSAltitudeRef, Value::Byte(vec![below])),
-        (Tag::GPSAltitude, one(place.altitude_m.abs(), 1000)),
+        (Tag::GPSAltitude, rational_value(place.altitude_m.abs(), 1000)),
         (Tag::GPSTimeStamp, Value::Rational(clock)),
         (Tag::GPSDateStamp, text(&about.taken_utc.0)),
         (Tag::GPSMapDatum, text("WGS-84")),
         (Tag::GPSImgDirectionRef, text("T")),
         // Rounds to hundredths below a full turn: 0 to 359.99.
-        (Tag::GPSImgDirection, one((about.yaw_deg * 100.0).round().rem_euclid(36_000.0) / 100.0, 100)),
+        (Tag::GPSImgDirection, rational_value((about.yaw_deg * 100.0).round().rem_euclid(36_000.0) / 100.0, 100)),
     ]
 }
 

@@ -36,7 +36,7 @@ fn noise(width: u32, height: u32) -> Picture {
 }
 
 #[test]
-fn exact_exif_reports_place_lens_and_direction() {
+fn exact_exif_contains_position_lens_and_direction() {
     let file = jpeg(&noise(64, 48), &about()).unwrap();
     let read = exif::Reader::new().read_from_container(&mut std::io::Cursor::new(&file)).unwrap();
     let value = |tag| read.get_field(tag, In::PRIMARY).map(|field| field.display_value().to_string()).unwrap_or_default();
@@ -62,14 +62,18 @@ fn exact_exif_reports_place_lens_and_direction() {
 }
 
 #[test]
-fn exact_a_heading_is_reported_straight_up_and_down_too() {
+fn exact_heading_is_defined_for_vertical_views() {
     use spandrel_model::frames::Rotation;
     let camera = spandrel_model::site::defects::REFERENCE_CAMERA;
     for yaw_deg in [0.5_f64, 45.0, 135.0, 180.0, 271.5, 359.0] {
         for pitch_deg in [-90.0_f64, -30.0, 0.0, 89.0, 90.0] {
             let attitude = Rotation::from_euler(0.1, -0.05, yaw_deg.to_radians());
-            let pose =
-                CameraPose::on(&camera, Pose { position_m: Vec3::zero(), ned_from_frd: attitude }, pitch_deg.to_radians(), false);
+            let pose = CameraPose::on_aircraft(
+                &camera,
+                Pose { position_m: Vec3::zero(), ned_from_frd: attitude },
+                pitch_deg.to_radians(),
+                false,
+            );
             let (yaw, pitch) = direction_deg(&pose);
             // The arcsine is steep at its ends, where rounding errors of 1e-16 become 1e-6 degrees.
             assert!((yaw - yaw_deg).abs() < 1e-9 && (pitch - pitch_deg).abs() < 1e-5, "{yaw_deg} {pitch_deg}: {yaw} {pitch}");
@@ -78,7 +82,7 @@ fn exact_a_heading_is_reported_straight_up_and_down_too() {
 }
 
 #[test]
-fn exact_the_ground_sampling_distance_is_that_of_the_drawn_picture() {
+fn exact_ground_sampling_distance_matches_the_rendered_size() {
     // Ninety degrees at a distance of 4 m: 8 m across 4000 px or 1000 px.
     let close = |width, mm: f64| (about().gsd_mm(width).unwrap() - mm).abs() < 1e-9;
     assert!(close(4000, 2.0) && close(1000, 8.0));
@@ -89,7 +93,7 @@ fn exact_the_ground_sampling_distance_is_that_of_the_drawn_picture() {
 }
 
 #[test]
-fn exact_a_file_is_as_good_as_fits() {
+fn exact_quality_is_the_highest_that_fits() {
     let picture = noise(400, 300);
     let free = plain(&picture, usize::MAX).unwrap();
     let most = free.len() / 2;
@@ -99,7 +103,7 @@ fn exact_a_file_is_as_good_as_fits() {
 }
 
 #[test]
-fn exact_a_copy_is_as_wide_as_fits_and_a_photograph_is_not_made_coarser() {
+fn exact_copies_shrink_to_fit_and_photos_keep_their_size() {
     let picture = noise(1600, 1200);
     let size = |file: &[u8]| {
         let image = image::load_from_memory(file).unwrap();

@@ -2,19 +2,19 @@
 //! for the score is also dark in the picture.
 
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::site::light::spread;
+use spandrel_model::site::light::ray_bundle;
 use spandrel_model::site::{QueryTime, RayHit, Site};
 
 /// Distance of samples from the edges of their face, m, so that adjoining members do not darken them.
 pub const INSET_M: f64 = 0.25;
 /// Distance below which another solid above a sample means that the sample is inside or below that solid, m.
-const BURIED_M: f64 = 0.04;
+const COVERED_DISTANCE_M: f64 = 0.04;
 /// Height of the probe above the surface, m.
 const PROBE_M: f64 = 0.05;
 
 /// Height above a face of the point that is tested for being inside another member, m (members in contact leave no gap
 /// of this width).
-const OVER_M: f64 = 0.005;
+const INSIDE_TEST_HEIGHT_M: f64 = 0.005;
 
 /// Computes indirect light at points of a site.
 pub struct LightBaker<'a> {
@@ -26,32 +26,32 @@ pub struct LightBaker<'a> {
 impl<'a> LightBaker<'a> {
     /// Creates a baker with this number of rays per point.
     pub fn new(site: &'a Site, sun: Vec3<Enu>, rays: usize) -> Self {
-        Self { site, sun, rays: spread(rays) }
+        Self { site, sun, rays: ray_bundle(rays) }
     }
 
     /// Returns the fractions of sky and sun illuminance that reach a surface indirectly.
     pub fn at(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> [f32; 2] {
         let cast = |o: Vec3<Enu>, d: Vec3<Enu>, max_m: f64| -> Option<RayHit> { self.site.geometry().ray(o, d, max_m) };
-        let (sky, sun) = self.site.light().indirect_shares(position_m, normal, self.sun, &self.rays, &cast);
+        let (sky, sun) = self.site.light().indirect_fractions(position_m, normal, self.sun, &self.rays, &cast);
         [sky as f32, sun as f32]
     }
 
     /// Returns the same fractions for a point on a member's face, or `None` if another member covers the point.
     pub fn on_member(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> Option<[f32; 2]> {
         let near = self.site.geometry().nearest_member(position_m + normal * PROBE_M, PROBE_M);
-        let buried = near.is_some_and(|n| n.distance_m < BURIED_M);
+        let buried = near.is_some_and(|n| n.distance_m < COVERED_DISTANCE_M);
         (!buried).then(|| self.at(position_m, normal))
     }
 
     /// Checks whether the point just above a face is inside another member and therefore not visible.
     pub fn is_inside(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> bool {
-        let near = self.site.geometry().nearest_member(position_m + normal * OVER_M, OVER_M);
+        let near = self.site.geometry().nearest_member(position_m + normal * INSIDE_TEST_HEIGHT_M, INSIDE_TEST_HEIGHT_M);
         near.is_some_and(|n| n.distance_m < 0.0)
     }
 }
 
 /// Fills gaps in a sample grid with the mean of their neighbors.
-pub fn filled(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> {
+pub fn fill_gaps(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> {
     let mut known = samples.to_vec();
     let rows = samples.len() / columns.max(1);
     for _ in 0..columns.max(rows) {
@@ -103,11 +103,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_gaps_take_the_mean_of_their_neighbours() {
+    fn exact_gaps_get_the_mean_of_their_neighbors() {
         let a = Some([1.0, 0.0]);
         let b = Some([3.0, 2.0]);
-        let filled = filled(&[a, None, b, a, None, b], 3);
-        assert_eq!(filled[1], [2.0, 1.0]);
-        assert_eq!(super::filled(&[None, None], 2), [[0.0, 0.0]; 2]);
+        let fill_gaps = fill_gaps(&[a, None, b, a, None, b], 3);
+        assert_eq!(fill_gaps[1], [2.0, 1.0]);
+        assert_eq!(super::fill_gaps(&[None, None], 2), [[0.0, 0.0]; 2]);
     }
 }

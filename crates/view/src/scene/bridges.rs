@@ -2,7 +2,7 @@
 
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::super::quality::Quality;
-use super::bake::{INSET_M, LightBaker, filled};
+use super::bake::{INSET_M, LightBaker, fill_gaps};
 use super::item::{SceneItem, VisibleRange};
 use spandrel_model::elements::{Element, ElementGroup, ElementMaterial};
 use spandrel_model::frames::{Enu, Vec3};
@@ -10,29 +10,29 @@ use spandrel_model::scenario::bridges::Member;
 use spandrel_model::scenario::{Bridge, Scenario};
 
 /// Paint of the main steelwork, linear (a weathered green, as on many old suspension bridges; estimate).
-pub(super) const COAT: [u8; 3] = [38, 68, 56];
+pub(super) const STEEL_PAINT: [u8; 3] = [38, 68, 56];
 /// Paint of railings.
-const RAIL: [u8; 3] = [58, 76, 74];
+const RAILING_PAINT: [u8; 3] = [58, 76, 74];
 /// Bearings: bare, greased steel.
 const BEARING: [u8; 3] = [38, 34, 30];
 /// Galvanized wire.
 const WIRE: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
 /// Width below which a face has constant light across it, m.
-const NARROW_M: f64 = 0.8;
+const NARROW_FACE_M: f64 = 0.8;
 /// Tolerance of the fractions of sky and sun light for presets that save triangles (a hundredth of the open-air value
 /// is not visible; rays of a lean preset have more noise).
-const LIGHT_OFF: f32 = 0.03;
+const LIGHT_TOLERANCE: f32 = 0.03;
 /// Same tolerance for slender members.
-const LIGHT_OFF_SLIM: f32 = 0.12;
+const SLENDER_LIGHT_TOLERANCE: f32 = 0.12;
 
 /// Material and paint of an element.
-pub(super) fn matter(element: Element) -> (Material, [u8; 3]) {
+pub(super) fn material_and_paint(element: Element) -> (Material, [u8; 3]) {
     match (element.group(), element.material()) {
         (ElementGroup::Cable, _) => (Material::Cable, WIRE),
         (ElementGroup::Bearing, _) => (Material::Steel, BEARING),
-        (ElementGroup::Railing, ElementMaterial::Steel) => (Material::Steel, RAIL),
-        (_, ElementMaterial::Steel) => (Material::Steel, COAT),
+        (ElementGroup::Railing, ElementMaterial::Steel) => (Material::Steel, RAILING_PAINT),
+        (_, ElementMaterial::Steel) => (Material::Steel, STEEL_PAINT),
         _ => (Material::Concrete, WHITE),
     }
 }
@@ -47,31 +47,33 @@ struct TextureAxes {
 
 /// Spacing of the probes that test whether a face is covered, and distance of the probes from the edges, m (estimate:
 /// smaller gaps are not visible).
-const PROBED_M: (f64, f64) = (0.5, 0.02);
+const COVER_PROBE_M: (f64, f64) = (0.5, 0.02);
 /// Minimum number of probe steps, so that the center is always probed.
-const STEPS_MIN: f64 = 2.0;
+const MIN_PROBE_STEPS: f64 = 2.0;
 /// Minimum vertical component of the normal of an upward face; the lake's reflection never shows such faces from above.
-const LEVEL: f64 = 0.999;
+const MIN_UPWARD_COMPONENT: f64 = 0.999;
 
 /// Hangers and railings, which are not visible in the small reflection of a distant bridge.
-const SLIM: [Element; 3] = [Element::Hanger, Element::MetalRailing, Element::RcRailing];
+const SLENDER_ELEMENTS: [Element; 3] = [Element::Hanger, Element::MetalRailing, Element::RcRailing];
 
 /// Function that returns the tolerance of the light between the corners of a face, by element and normal; `None` omits
 /// the face.
 type LightTolerance<'a> = &'a dyn Fn(Element, Vec3<Enu>) -> Option<f32>;
 /// Tolerance that keeps every sample.
-const WHOLE: f32 = f32::NEG_INFINITY;
+const KEEP_ALL_SAMPLES: f32 = f32::NEG_INFINITY;
 
 /// Builds all members. Presets that save triangles use simpler meshes for the lake's reflection.
 pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<SceneItem> {
     if !quality.sparse {
-        let [mesh] = meshes(scenario, bake, quality, [&|_, _| Some(WHOLE)]);
+        let [mesh] = meshes(scenario, bake, quality, [&|_, _| Some(KEEP_ALL_SAMPLES)]);
         return vec![SceneItem::here("bridges", mesh, true)];
     }
-    let is_slim = |element: Element| SLIM.contains(&element);
-    let straight = |element: Element, _| Some(if is_slim(element) { LIGHT_OFF_SLIM } else { LIGHT_OFF });
+    let is_slender = |element: Element| SLENDER_ELEMENTS.contains(&element);
+    let straight = |element: Element, _| Some(if is_slender(element) { SLENDER_LIGHT_TOLERANCE } else { LIGHT_TOLERANCE });
     // For the lake's reflection, light is sampled only at the corners of faces.
-    let in_lake = |element: Element, normal: Vec3<Enu>| (!is_slim(element) && normal.up() < LEVEL).then_some(f32::INFINITY);
+    let in_lake = |element: Element, normal: Vec3<Enu>| {
+        (!is_slender(element) && normal.up() < MIN_UPWARD_COMPONENT).then_some(f32::INFINITY)
+    };
     let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
     let (straight, in_lake) =
         (SceneItem::here("bridges", straight, true), SceneItem::here("bridges in the lake", in_lake, false));
@@ -96,7 +98,7 @@ fn meshes<const N: usize>(scenario: &Scenario, bake: &LightBaker, quality: &Qual
 fn axes(bridge: &Bridge) -> TextureAxes {
     let placement = bridge.placement();
     TextureAxes {
-        origin_m: bridge.centre_m,
+        origin_m: bridge.center_m,
         along: placement.direction([1.0, 0.0, 0.0]),
         left: placement.direction([0.0, 1.0, 0.0]),
         half_deck_m: 0.5 * bridge.deck_width_m(),
@@ -110,7 +112,7 @@ fn add(
     bake: &LightBaker,
     (light_cell_m, thinned): (f64, &[LightTolerance]),
 ) {
-    let (material, tint) = matter(member.element);
+    let (material, tint) = material_and_paint(member.element);
     for face in &member.solid.faces {
         let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
         let normal = normal(&corners);
@@ -159,12 +161,12 @@ fn middle(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
 fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &LightBaker) -> bool {
     let Ok(quad) = <[Vec3<Enu>; 4]>::try_from(corners).map(Quad) else {
         let middle = middle(corners);
-        let near = |corner: &Vec3<Enu>| corner.lerp(middle, (PROBED_M.1 / (*corner - middle).norm()).min(1.0));
+        let near = |corner: &Vec3<Enu>| corner.lerp(middle, (COVER_PROBE_M.1 / (*corner - middle).norm()).min(1.0));
         return bake.is_inside(middle, normal) && corners.iter().all(|corner| bake.is_inside(near(corner), normal));
     };
     let shares = |length: f64| {
-        let steps = (length / PROBED_M.0).ceil().max(STEPS_MIN);
-        let edge = (PROBED_M.1 / length).min(0.5);
+        let steps = (length / COVER_PROBE_M.0).ceil().max(MIN_PROBE_STEPS);
+        let edge = (COVER_PROBE_M.1 / length).min(0.5);
         (0..=steps as u32).map(move |k| (f64::from(k) / steps).clamp(edge, 1.0 - edge))
     };
     let (along, across) = quad.lengths_m();
@@ -237,15 +239,15 @@ fn quad_face<'a>(
     // Samples are inset from the edges; a narrow face needs only one sample across.
     let inside = |k: usize, n: usize, length: f64| {
         let margin = (INSET_M / length).min(0.25);
-        if length < NARROW_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
+        if length < NARROW_FACE_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
     };
     let (columns, rows) = (nu + 1, nv + 1);
     let mut samples: Vec<Option<[f32; 2]>> = Vec::with_capacity(columns * rows);
     for row in 0..rows {
         for column in 0..columns {
-            let same = if column > 0 && lengths.0 < NARROW_M {
+            let same = if column > 0 && lengths.0 < NARROW_FACE_M {
                 Some(samples.len() - 1)
-            } else if row > 0 && lengths.1 < NARROW_M {
+            } else if row > 0 && lengths.1 < NARROW_FACE_M {
                 Some(samples.len() - columns)
             } else {
                 None
@@ -257,7 +259,7 @@ fn quad_face<'a>(
             samples.push(sample);
         }
     }
-    let light = filled(&samples, columns);
+    let light = fill_gaps(&samples, columns);
     let light_at = |row: usize, column: usize| light[row * columns + column];
     for (mesh, off) in wanted {
         let kept_rows = kept(rows, off, &|row| (0..columns).map(|column| light_at(row, column)).collect());
@@ -268,7 +270,7 @@ fn quad_face<'a>(
                 let p = quad.at(column as f64 / nu as f64, row as f64 / nv as f64);
                 let mut vertex = corner(p, look, axes, light_at(row, column));
                 if look.smooth {
-                    vertex.normal = single(rounded(member, p, look.normal));
+                    vertex.normal = single(round_bar_normal(member, p, look.normal));
                 }
                 mesh.vertices.push(vertex);
             }
@@ -307,7 +309,7 @@ fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<us
 }
 
 /// Returns the vertex normal of a round bar: the mean of the adjacent sides.
-fn rounded(member: &Member, p: Vec3<Enu>, own: Vec3<Enu>) -> Vec3<Enu> {
+fn round_bar_normal(member: &Member, p: Vec3<Enu>, own: Vec3<Enu>) -> Vec3<Enu> {
     let solid = &member.solid;
     let meets = |face: &&Vec<u32>| face.len() == 4 && face.iter().any(|k| (solid.vertices_m[*k as usize] - p).norm() < 1e-6);
     let sides = solid.faces.iter().filter(meets);
@@ -321,7 +323,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn regress_only_what_is_covered_is_left_out() {
+    fn regress_only_covered_faces_are_omitted() {
         let text = include_str!("../../../../scenarios/two-bridges.toml");
         let scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("none".into())).unwrap();
         let site = spandrel_model::site::Site::build(&scenario, 7);
@@ -353,8 +355,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_lines_of_samples_are_left_out_where_light_runs_straight() {
-        let of = |values: &[f32]| kept(values.len(), LIGHT_OFF, &|k| vec![[values[k], 0.0], [0.5, 1.0 - values[k]]]);
+    fn exact_sample_lines_with_linear_light_are_omitted() {
+        let of = |values: &[f32]| kept(values.len(), LIGHT_TOLERANCE, &|k| vec![[values[k], 0.0], [0.5, 1.0 - values[k]]]);
         assert_eq!(of(&[0.1, 0.2, 0.3, 0.4, 0.5]), [0, 4]);
         assert_eq!(of(&[0.1, 0.1, 0.1, 0.9, 0.9, 0.9]), [0, 2, 3, 5]);
         assert_eq!(of(&[0.3, 0.31, 0.3]), [0, 2], "differences below the tolerance are ignored");

@@ -10,9 +10,9 @@ use spandrel_model::site::Site;
 /// Number of rays for the light on a patch, the same as in the scoring.
 const RAYS: usize = 64;
 /// Margin around a line for leakage stains, m (the face extends at least this far, `site::defects`).
-const SEEP_M: f64 = 0.03;
+const LEAKAGE_MARGIN_M: f64 = 0.03;
 /// Size factor of an area that leaves space for its ragged edge.
-const RAGGED: f64 = 1.06;
+const EDGE_FACTOR: f64 = 1.06;
 
 /// Instance data of a defect for the shader `defect`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,8 +41,8 @@ pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
 
 /// Returns the code with which a defect is drawn. Resolved files may contain kinds that no seed generates. Because
 /// scored defects must be visible, these look like a crack or exposed aggregate.
-fn look(defect: &PlacedDefect) -> u32 {
-    match (defect_codes::KINDS.contains(&defect.kind), defect.line) {
+fn drawn_kind(defect: &PlacedDefect) -> u32 {
+    match (defect_codes::ALL.contains(&defect.kind), defect.line) {
         (true, _) => defect.kind,
         (false, true) => defect_codes::CRACK,
         (false, false) => defect_codes::ABRASION,
@@ -58,15 +58,15 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
     };
     let across = defect.normal.cross(defect.along);
     let half = if defect.line {
-        (0.5 * defect.length_m + SEEP_M, 0.5 * defect.width_m + SEEP_M)
+        (0.5 * defect.length_m + LEAKAGE_MARGIN_M, 0.5 * defect.width_m + LEAKAGE_MARGIN_M)
     } else {
-        (0.5 * RAGGED * defect.length_m, 0.5 * RAGGED * defect.width_m)
+        (0.5 * EDGE_FACTOR * defect.length_m, 0.5 * EDGE_FACTOR * defect.width_m)
     };
-    let [r, g, b] = bridges::matter(defect.element).1.map(|c| f32::from(c) / 255.0);
+    let [r, g, b] = bridges::material_and_paint(defect.element).1.map(|c| f32::from(c) / 255.0);
     // Pseudorandom number that differs between defects and is constant for each of them.
     let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
     DefectPatch {
-        centre: four(defect.position_m, f64::from(look(defect))),
+        centre: four(defect.position_m, f64::from(drawn_kind(defect))),
         normal: four(defect.normal, own),
         along: four(defect.along, defect.length_m),
         size: [defect.width_m as f32, f32::from(defect.condition_state), -defect.along.up() as f32, -across.up() as f32],
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     /// Returns a crack that runs straight down.
-    fn streak() -> PlacedDefect {
+    fn vertical_crack() -> PlacedDefect {
         PlacedDefect {
             id: 3,
             element: spandrel_model::elements::Element::RcArch,
@@ -97,8 +97,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_line_has_room_to_seep_and_an_area_room_for_its_edge() {
-        let defect = streak();
+    fn exact_patches_include_leakage_and_edge_margins() {
+        let defect = vertical_crack();
         let line = patch(&defect, [0.2, 0.1]);
         assert_eq!(line.light[2..], [0.53, 0.031]);
         assert_eq!((line.centre[3], line.size[2]), (1130.0, 1.0), "the crack must run straight down");
@@ -107,8 +107,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_no_seed_places_is_drawn_all_the_same() {
-        let decay = PlacedDefect { kind: 1140, line: false, ..streak() };
+    fn exact_unsupported_kinds_are_drawn_as_crack_or_abrasion() {
+        let decay = PlacedDefect { kind: 1140, line: false, ..vertical_crack() };
         assert_eq!(patch(&decay, [0.2, 0.1]).centre[3], 1190.0);
         assert_eq!(patch(&PlacedDefect { line: true, ..decay }, [0.2, 0.1]).centre[3], 1130.0);
     }

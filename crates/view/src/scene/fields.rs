@@ -7,20 +7,20 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
 /// Largest square drawn as two triangles, cells.
-const LARGEST: usize = 8;
+const MAX_SQUARE_CELLS: usize = 8;
 /// Maximum angular error of the ground as seen from people and aircraft, rad: four pixels of a view 640 px and 84 degrees wide,
 /// on rolling hills.
-const ANGLE_RAD: f64 = 0.012;
+const MAX_ANGULAR_ERROR_RAD: f64 = 0.012;
 /// Minimum and maximum tolerance of the height, m (estimates: the thickness of grass, and a barely noticeable step).
-const OFF_M: (f64, f64) = (0.15, 3.0);
+const HEIGHT_TOLERANCE_M: (f64, f64) = (0.15, 3.0);
 /// Near the shore, a small height error moves the waterline far. Factor on the tolerance there, and height above and
 /// below the water to which it applies, m.
-const SHORE: (f64, f64) = (0.4, 1.0);
+const SHORE_TOLERANCE: (f64, f64) = (0.4, 1.0);
 /// Depth beyond which the lake bed is not visible, m (in the shader `water`, 99 % of the light is lost on the way down
 /// and back).
-pub const UNSEEN_M: f64 = 5.0;
+pub const INVISIBLE_DEPTH_M: f64 = 5.0;
 /// Distance from a bridge within which the light varies between cells, m, and maximum square size there, cells.
-const LIT: (f64, usize) = (30.0, 2);
+const BRIDGE_DETAIL: (f64, usize) = (30.0, 2);
 
 /// Returns all triangles of the ground.
 pub fn all(site: &Site) -> Vec<[u32; 3]> {
@@ -34,8 +34,8 @@ pub fn sparse(scenario: &Scenario, site: &Site, rough: f64) -> Vec<[u32; 3]> {
     if side * side != points.len() {
         return triangles;
     }
-    let field = GroundField { scenario, site, points: &points, side, eyes_m: eyes(scenario), rough };
-    sparse::triangles(side, LARGEST, &|square| field.flat(square))
+    let field = GroundField { scenario, site, points: &points, side, viewpoints_m: viewpoints_m(scenario), rough };
+    sparse::triangles(side, MAX_SQUARE_CELLS, &|square| field.is_flat(square))
 }
 
 /// Returns the triangles that are not deeper than `under_m` below the lake's surface.
@@ -46,7 +46,7 @@ pub fn shallow(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]], under_m
 }
 
 /// Returns the positions of people and aircraft, from which the ground is seen.
-fn eyes(scenario: &Scenario) -> Vec<Vec3<Enu>> {
+fn viewpoints_m(scenario: &Scenario) -> Vec<Vec3<Enu>> {
     let team = &scenario.ground_team;
     let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().step_by(4).copied());
     paths.chain([team.pad_m, team.truck_m, team.inspector_m]).collect()
@@ -57,28 +57,30 @@ struct GroundField<'a> {
     site: &'a Site,
     points: &'a [Vec3<Enu>],
     side: usize,
-    eyes_m: Vec<Vec3<Enu>>,
+    viewpoints_m: Vec<Vec3<Enu>>,
     rough: f64,
 }
 
 impl GroundField<'_> {
     /// Checks whether a square may be drawn from its corners only.
-    fn flat(&self, square: &GridSquare) -> bool {
+    fn is_flat(&self, square: &GridSquare) -> bool {
         let corners = square.corners(self.side).map(|k| self.points[k]);
         let middle = corners[0].lerp(corners[2], 0.5);
         let half_m = 0.5 * (corners[2] - corners[0]).horizontal_norm();
-        if square.size > LIT.1 && self.site.geometry().nearest_member(middle, LIT.0 + half_m).is_some() {
+        if square.size > BRIDGE_DETAIL.1 && self.site.geometry().nearest_member(middle, BRIDGE_DETAIL.0 + half_m).is_some() {
             return false;
         }
         let over_water_m = |p: &Vec3<Enu>| p.up() - self.scenario.terrain.water_level_m;
-        if self.inside(square).all(|p| over_water_m(&p) < -UNSEEN_M) {
+        if self.inside(square).all(|p| over_water_m(&p) < -INVISIBLE_DEPTH_M) {
             return true;
         }
         let from_m = |eye: &Vec3<Enu>| math::hypot(eye.east() - middle.east(), eye.north() - middle.north()) - half_m;
-        let nearest_m = self.eyes_m.iter().map(from_m).fold(f64::INFINITY, f64::min);
-        let shore = self.inside(square).any(|p| over_water_m(&p).abs() < SHORE.1);
-        let allowed_m = self.rough * (ANGLE_RAD * nearest_m).clamp(OFF_M.0, OFF_M.1) * if shore { SHORE.0 } else { 1.0 };
-        self.inside(square).all(|p| (p.up() - between(&corners, p)).abs() <= allowed_m)
+        let nearest_m = self.viewpoints_m.iter().map(from_m).fold(f64::INFINITY, f64::min);
+        let shore = self.inside(square).any(|p| over_water_m(&p).abs() < SHORE_TOLERANCE.1);
+        let tolerance_m = self.rough
+            * (MAX_ANGULAR_ERROR_RAD * nearest_m).clamp(HEIGHT_TOLERANCE_M.0, HEIGHT_TOLERANCE_M.1)
+            * if shore { SHORE_TOLERANCE.0 } else { 1.0 };
+        self.inside(square).all(|p| (p.up() - surface_height_m(&corners, p)).abs() <= tolerance_m)
     }
 
     /// Returns all grid points in a square.
@@ -89,7 +91,7 @@ impl GroundField<'_> {
 }
 
 /// Returns the height at a point of the two triangles that a square is drawn with, m.
-fn between([sw, se, ne, nw]: &[Vec3<Enu>; 4], p: Vec3<Enu>) -> f64 {
+fn surface_height_m([sw, se, ne, nw]: &[Vec3<Enu>; 4], p: Vec3<Enu>) -> f64 {
     let (x, y) = ((p.east() - sw.east()) / (ne.east() - sw.east()), (p.north() - sw.north()) / (ne.north() - sw.north()));
     if x >= y {
         sw.up() + x * (se.up() - sw.up()) + y * (ne.up() - se.up())

@@ -8,23 +8,23 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
 /// Distance from a member within which light on the ground is baked, m.
-const SHADED_M: f64 = 30.0;
+const BAKED_LIGHT_RANGE_M: f64 = 30.0;
 /// Radii of the mountain rings, as fractions of the field's half side. The mountains are visual only; no job extends
 /// there.
-const RINGS: [f64; 15] = [0.98, 1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
+const MOUNTAIN_RINGS: [f64; 15] = [0.98, 1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
 /// Vertices on each side of a ring.
-const SIDE: usize = 48;
+const RIM_SIDE_VERTICES: usize = 48;
 /// Depth below the ground at which the mountains start inside the rim, m. The rim has fewer vertices than the ground,
 /// so that gaps would be visible otherwise.
-const UNDER_M: f64 = 8.0;
+const RIM_OVERLAP_M: f64 = 8.0;
 /// Height of the mountains above the rim, m (estimate: a lake in a pre-alpine valley).
-const PEAKS_M: f64 = 620.0;
+const PEAK_HEIGHT_M: f64 = 620.0;
 /// Height of the rim above the water from which it counts as land, m.
-const SHORE_M: f64 = 45.0;
+const LAND_HEIGHT_M: f64 = 45.0;
 /// Extent of the lake, m.
-const LAKE_M: f64 = 9_000.0;
+const LAKE_EXTENT_M: f64 = 9_000.0;
 /// Depth from which the lake bed is not visible, m.
-const DEEP_M: f64 = 30.0;
+const OPAQUE_DEPTH_M: f64 = 30.0;
 
 fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m: f64) -> Vertex {
     Vertex {
@@ -41,20 +41,20 @@ fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m:
 /// Builds the ground mesh, which is also the collision geometry, from the selected triangles.
 pub fn mesh(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 3]]) -> Mesh {
     let (points, triangles) = site.geometry().terrain.ground.triangles();
-    let normals = smooth(&points, &triangles);
+    let normals = vertex_normals(&points, &triangles);
     let vertex = |k: u32| {
         let (p, n) = (&points[k as usize], &normals[k as usize]);
-        let near = site.geometry().nearest_member(*p, SHADED_M).is_some();
+        let near = site.geometry().nearest_member(*p, BAKED_LIGHT_RANGE_M).is_some();
         // On an open slope, light comes from the sky above the slope and, to a small part, from the ground.
         let open = [0.5 + 0.5 * n.up() as f32, 0.02];
         let light = if near { bake.at(*p + *n * 0.3, *n) } else { open };
         ground_vertex(*p, *n, light, p.up() - scenario.terrain.water_level_m)
     };
-    of_corners(points.len(), shown.iter().copied(), vertex)
+    mesh_of_triangles(points.len(), shown.iter().copied(), vertex)
 }
 
 /// Builds a mesh of triangles, creating each vertex on first use.
-fn of_corners(corners: usize, triangles: impl Iterator<Item = [u32; 3]>, vertex: impl Fn(u32) -> Vertex) -> Mesh {
+fn mesh_of_triangles(corners: usize, triangles: impl Iterator<Item = [u32; 3]>, vertex: impl Fn(u32) -> Vertex) -> Mesh {
     let mut mesh = Mesh::default();
     let mut placed: Vec<Option<u32>> = vec![None; corners];
     for k in triangles.flatten() {
@@ -68,7 +68,7 @@ fn of_corners(corners: usize, triangles: impl Iterator<Item = [u32; 3]>, vertex:
     mesh
 }
 
-fn smooth(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
+fn vertex_normals(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
     let mut sums = vec![Vec3::zero(); points.len()];
     for [a, b, c] in triangles {
         let at = |k: &u32| points[*k as usize];
@@ -86,10 +86,10 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     let half = 0.5 * scenario.terrain.size_m;
     let water = scenario.terrain.water_level_m;
     let every = if coarse { 2 } else { 1 };
-    let around = 4 * SIDE / every;
-    let last = RINGS.len() - 1;
+    let around = 4 * RIM_SIDE_VERTICES / every;
+    let last = MOUNTAIN_RINGS.len() - 1;
     let rings: Vec<(usize, f64)> =
-        RINGS.into_iter().enumerate().filter(|(ring, _)| !coarse || ring % 2 == 1 || [0, last].contains(ring)).collect();
+        MOUNTAIN_RINGS.into_iter().enumerate().filter(|(ring, _)| !coarse || ring % 2 == 1 || [0, last].contains(ring)).collect();
     let mut points = Vec::with_capacity(rings.len() * around);
     for (ring, share) in &rings {
         for k in 0..around {
@@ -98,7 +98,7 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
             let rim_up = site.geometry().terrain.ground.ground(x * edge, y * edge).0;
             let (east, north) = (x * half * share, y * half * share);
             let up = match ring {
-                0 => rim_up - UNDER_M,
+                0 => rim_up - RIM_OVERLAP_M,
                 1 => rim_up,
                 _ => slope_up_m(rim_up - water, *share, east, north) + water,
             };
@@ -114,7 +114,7 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
             triangles.push([i(ring, k), i(ring + 1, k + 1), i(ring, k + 1)]);
         }
     }
-    let normals = smooth(&points, &triangles);
+    let normals = vertex_normals(&points, &triangles);
     let vertices =
         points.iter().zip(&normals).map(|(p, n)| ground_vertex(*p, *n, [0.6 + 0.4 * n.up() as f32, 0.02], p.up() - water));
     Mesh { vertices: vertices.collect(), indices: triangles.into_iter().flatten().collect() }
@@ -122,8 +122,8 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
 
 /// Returns the point `k` on the square's rim, in -1..1, counterclockwise from the southwest.
 fn rim(k: usize) -> (f64, f64) {
-    let t = 2.0 * (k % SIDE) as f64 / SIDE as f64 - 1.0;
-    match k / SIDE {
+    let t = 2.0 * (k % RIM_SIDE_VERTICES) as f64 / RIM_SIDE_VERTICES as f64 - 1.0;
+    match k / RIM_SIDE_VERTICES {
         0 => (t, -1.0),
         1 => (1.0, t),
         2 => (-t, 1.0),
@@ -139,13 +139,13 @@ fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
         + 0.20 * math::sin(east / 233.0 + 2.0) * math::sin(north / 271.0 + math::cos(east / 350.0));
     // Blends between lake and land along the rim to avoid a vertical wall.
     let wet = {
-        let t = ((SHORE_M - rim_up_m) / SHORE_M).clamp(0.0, 1.0);
+        let t = ((LAND_HEIGHT_M - rim_up_m) / LAND_HEIGHT_M).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     };
     let beyond = (share - math::lerp(1.0, 2.2, wet)).max(0.0) / 2.4;
     // The slope starts gently and steepens, like the end of a valley.
     let climb = 1.0 - math::exp(-beyond * beyond / (0.3 + beyond));
-    let far = PEAKS_M * climb * (0.35 + 0.9 * ridges);
+    let far = PEAK_HEIGHT_M * climb * (0.35 + 0.9 * ridges);
     rim_up_m * (1.0 - 0.4 * climb * (1.0 - wet)) + far
 }
 
@@ -157,22 +157,22 @@ pub fn water(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32;
     let vertex = |k: u32| {
         let p = points[k as usize];
         let at = Vec3::new(p.east(), p.north(), level);
-        let near = site.geometry().nearest_member(at, SHADED_M).is_some();
+        let near = site.geometry().nearest_member(at, BAKED_LIGHT_RANGE_M).is_some();
         let light = if near { bake.at(at, Vec3::new(0.0, 0.0, 1.0)) } else { [1.0, 0.0] };
         water_vertex(at, light, level - p.up())
     };
-    let mut mesh = of_corners(points.len(), shown.iter().filter(|t| t.iter().any(wet)).copied(), vertex);
+    let mut mesh = mesh_of_triangles(points.len(), shown.iter().filter(|t| t.iter().any(wet)).copied(), vertex);
     let half = 0.5 * scenario.terrain.size_m;
     let frame = [
-        (-LAKE_M, -LAKE_M, LAKE_M, -half),
-        (-LAKE_M, half, LAKE_M, LAKE_M),
-        (-LAKE_M, -half, -half, half),
-        (half, -half, LAKE_M, half),
+        (-LAKE_EXTENT_M, -LAKE_EXTENT_M, LAKE_EXTENT_M, -half),
+        (-LAKE_EXTENT_M, half, LAKE_EXTENT_M, LAKE_EXTENT_M),
+        (-LAKE_EXTENT_M, -half, -half, half),
+        (half, -half, LAKE_EXTENT_M, half),
     ];
     for (west, south, east, north) in frame {
         let first = mesh.vertices.len() as u32;
         for (x, y) in [(west, south), (east, south), (east, north), (west, north)] {
-            mesh.vertices.push(water_vertex(Vec3::new(x, y, level), [1.0, 0.0], DEEP_M));
+            mesh.vertices.push(water_vertex(Vec3::new(x, y, level), [1.0, 0.0], OPAQUE_DEPTH_M));
         }
         mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|k| first + k));
     }

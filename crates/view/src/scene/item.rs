@@ -71,7 +71,7 @@ pub struct SceneItem {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisibleRange {
     /// Distances in the direct view, m.
-    pub straight_m: [f64; 2],
+    pub direct_m: [f64; 2],
     /// Distances in the lake's reflection, m.
     pub in_lake_m: [f64; 2],
 }
@@ -82,11 +82,11 @@ impl VisibleRange {
     /// No distance.
     pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
     /// Visible in the direct view and in the lake at any distance.
-    pub const EVERYWHERE: Self = Self { straight_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
+    pub const EVERYWHERE: Self = Self { direct_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
     /// Visible only in the direct view.
     pub const STRAIGHT: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
     /// Visible only in the lake, for simplified substitutes.
-    pub const IN_LAKE: Self = Self { straight_m: Self::NEVER, ..Self::EVERYWHERE };
+    pub const IN_LAKE: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
 
     /// Returns the range below this distance, m.
     #[must_use]
@@ -103,7 +103,7 @@ impl VisibleRange {
     /// Checks whether the object is drawn at a distance, directly or in the lake.
     #[must_use]
     pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
-        let [begins, ends] = if in_lake { self.in_lake_m } else { self.straight_m };
+        let [begins, ends] = if in_lake { self.in_lake_m } else { self.direct_m };
         begins <= from_m && from_m < ends
     }
 }

@@ -75,10 +75,10 @@ pub struct Scene {
 }
 
 /// Factor on the ground's error tolerance in the lake's reflection, which is blurred by waves and has fewer pixels.
-const IN_LAKE: f64 = 4.0;
+const LAKE_TOLERANCE_FACTOR: f64 = 4.0;
 /// Displayed propeller speed, rad/s: slow enough that propellers do not appear to stand still on a screen (telemetry
 /// does not include the actual speed).
-const SHOWN_SPIN_RAD_S: f64 = 43.0;
+const DISPLAYED_ROTOR_SPEED_RAD_S: f64 = 43.0;
 
 impl Scene {
     /// Builds the scene of a site for the light at one time.
@@ -91,7 +91,7 @@ impl Scene {
         let ground = |triangles: &[[u32; 3]], under_m: f64| {
             ground::mesh(scenario, site, &bake, &fields::shallow(scenario, site, triangles, under_m))
         };
-        let bottom_m = if quality.sparse { fields::UNSEEN_M } else { f64::INFINITY };
+        let bottom_m = if quality.sparse { fields::INVISIBLE_DEPTH_M } else { f64::INFINITY };
         let mut parts = bridges::parts(scenario, &bake, quality);
         let ground_at = parts.len();
         parts.extend([
@@ -104,7 +104,7 @@ impl Scene {
             parts[ground_at].visible_range = VisibleRange::STRAIGHT;
             parts[ground_at + 1].visible_range = VisibleRange::STRAIGHT;
             parts.push(SceneItem { backdrop: true, visible_range: VisibleRange::IN_LAKE, ..coarse });
-            let rough = ground(&fields::sparse(scenario, site, IN_LAKE), 0.0);
+            let rough = ground(&fields::sparse(scenario, site, LAKE_TOLERANCE_FACTOR), 0.0);
             parts.push(SceneItem { visible_range: VisibleRange::IN_LAKE, ..SceneItem::here("ground in the lake", rough, false) });
         }
         parts.extend(plants::parts(scenario, site, quality));
@@ -143,7 +143,7 @@ impl Scene {
     ) -> Vec<(MoverModel, Instance)> {
         let mut all = Vec::new();
         for (k, mover) in site.traffic().movers().iter().enumerate() {
-            let Some(placed) = site.traffic().place(mover, at) else { continue };
+            let Some(placed) = site.traffic().placement(mover, at) else { continue };
             let model = match mover.kind {
                 MoverKind::Car => MoverModel::Car,
                 MoverKind::Truck => MoverModel::Truck,
@@ -151,7 +151,7 @@ impl Scene {
             };
             all.push((
                 model,
-                place_on_ground(placed.position_m, placed.forward, OPEN).with_material(props::colour(mover.kind, k)),
+                place_on_ground(placed.position_m, placed.forward, OPEN_AIR_LIGHT).with_material(props::color(mover.kind, k)),
             ));
         }
         let team = &scenario.ground_team;
@@ -161,11 +161,11 @@ impl Scene {
         };
         all.push((
             MoverModel::Truck,
-            place_on_ground(team.truck_m, facing(team.truck_heading_deg), OPEN).with_material(props::CREW_TRUCK),
+            place_on_ground(team.truck_m, facing(team.truck_heading_deg), OPEN_AIR_LIGHT).with_material(props::CREW_TRUCK),
         ));
         all.push((
             MoverModel::Person,
-            place_on_ground(team.inspector_m, facing(team.pad_heading_deg), OPEN).with_material(props::VEST),
+            place_on_ground(team.inspector_m, facing(team.pad_heading_deg), OPEN_AIR_LIGHT).with_material(props::VEST),
         ));
         if let Some(drone) = drone {
             self.aircraft(site, drone, at, &mut all);
@@ -180,7 +180,7 @@ impl Scene {
         out.push((MoverModel::Drone, Instance::placed(drone.pose.position_m, axes, around)));
         for (hub_m, spin) in &self.rotors {
             let hub = drone.pose.position_m + axis(*hub_m);
-            let angle = if drone.spinning { -spin * SHOWN_SPIN_RAD_S * at.s() } else { 0.6 };
+            let angle = if drone.spinning { -spin * DISPLAYED_ROTOR_SPEED_RAD_S * at.s() } else { 0.6 };
             let (s, c) = math::sin_cos(angle);
             let turned = [axes[0] * c + axes[1] * s, axes[1] * c - axes[0] * s, axes[2]];
             out.push((MoverModel::Propeller, Instance::placed(hub, turned, around)));
@@ -192,7 +192,7 @@ impl Scene {
 }
 
 /// Indirect light in the open: the whole sky from above, half of the ground's reflected light from below (estimate).
-const OPEN: [f32; 4] = [0.95, 0.02, 0.22, 0.10];
+const OPEN_AIR_LIGHT: [f32; 4] = [0.95, 0.02, 0.22, 0.10];
 
 /// Returns an instance of a mesh (x forward, y left, z up) that is on the ground.
 fn place_on_ground(feet_m: Vec3<Enu>, forward: Vec3<Enu>, around: [f32; 4]) -> Instance {

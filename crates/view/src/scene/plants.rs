@@ -10,27 +10,27 @@ use spandrel_model::scenario::{Scenario, TerrainSource};
 use spandrel_model::site::Site;
 
 /// Clearance from every member, m (a tree crown plus space for flying around a bridge).
-const CLEAR_BRIDGE_M: f64 = 14.0;
+const BRIDGE_CLEARANCE_M: f64 = 14.0;
 /// Clearance from every point of a task path, m.
-const CLEAR_PATH_M: f64 = 16.0;
+const PATH_CLEARANCE_M: f64 = 16.0;
 /// Clearance from the pad, m.
-const CLEAR_PAD_M: f64 = 26.0;
+const PAD_CLEARANCE_M: f64 = 26.0;
 /// Minimum height of trees above the water, m.
-const DRY_M: f64 = 2.2;
+const MIN_TREE_HEIGHT_ABOVE_WATER_M: f64 = 2.2;
 /// Minimum vertical component of the ground normal for trees.
-const STEEP: f64 = 0.72;
+const MIN_NORMAL_UP: f64 = 0.72;
 /// Maximum distance of trees in the lake's reflection for presets that save triangles, m (a tree covers three pixels at
 /// that distance).
-const MIRRORED_M: f64 = 160.0;
+const MAX_REFLECTED_TREE_DISTANCE_M: f64 = 160.0;
 /// Maximum distance of boulders, m: the largest cover three pixels of a view 640 px and 84 degrees wide, most cover
 /// only one.
-const BOULDERS_M: f64 = 150.0;
+const MAX_BOULDER_DISTANCE_M: f64 = 150.0;
 /// Distance from which trees have fewer branches, m: the tallest are 25 pixels high there. Both variants are drawn
 /// within the overlap.
-const FAR_M: f64 = 220.0;
-const OVERLAP_M: f64 = 5.0;
+const FAR_TREE_DISTANCE_M: f64 = 220.0;
+const LOD_OVERLAP_M: f64 = 5.0;
 /// Size of groves of trees, m.
-const GROVE_M: f64 = 55.0;
+const GROVE_SIZE_M: f64 = 55.0;
 
 const NEEDLES: SurfaceFinish = SurfaceFinish::new(Material::Foliage, [17, 30, 15]);
 const BARK: SurfaceFinish = SurfaceFinish::new(Material::Bark, [42, 30, 22]);
@@ -51,12 +51,12 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
         }
         let (east, north) = (stream.range(-half, half), stream.range(-half, half));
         let (size, turn, kind) = (stream.range(6.0, 15.0), stream.range(0.0, math::TAU), stream.uniform());
-        if stream.uniform() > grove(east, north) {
+        if stream.uniform() > tree_density(east, north) {
             continue;
         }
-        let Some(foot) = room(scenario, site, east, north, DRY_M) else { continue };
+        let Some(foot) = free_ground_point(scenario, site, east, north, MIN_TREE_HEIGHT_ABOVE_WATER_M) else { continue };
         let list = if kind < 0.5 { &mut tall } else { &mut slim };
-        list.push(grown(foot, size, turn));
+        list.push(plant_instance(foot, size, turn));
     }
     for _ in 0..20 * quality.trees {
         if rocks.len() >= quality.trees / 2 {
@@ -68,31 +68,36 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
         if !(-0.5..2.5).contains(&shore) {
             continue;
         }
-        let Some(foot) = room(scenario, site, east, north, -0.5) else { continue };
-        rocks.push(grown(foot, size, turn));
+        let Some(foot) = free_ground_point(scenario, site, east, north, -0.5) else { continue };
+        rocks.push(plant_instance(foot, size, turn));
     }
     let on_shore = if quality.sparse {
-        VisibleRange { straight_m: VisibleRange::within(BOULDERS_M), ..VisibleRange::STRAIGHT }
+        VisibleRange { direct_m: VisibleRange::within(MAX_BOULDER_DISTANCE_M), ..VisibleRange::STRAIGHT }
     } else {
         VisibleRange::EVERYWHERE
     };
-    let (spruce, fir) = (conifer(0.21, 5, quality.boughs), conifer(0.15, 6, quality.boughs));
+    let (spruce, fir) = (conifer(0.21, 5, quality.branches_per_whorl), conifer(0.15, 6, quality.branches_per_whorl));
     let copies =
         |name, mesh, instances, seen| SceneItem { name, mesh, instances, casts: true, visible_range: seen, backdrop: false };
-    let boulders = copies("boulders", boulder(quality.boughs), rocks, on_shore);
+    let boulders = copies("boulders", boulder(quality.branches_per_whorl), rocks, on_shore);
     if quality.sparse {
         // Software renderers process instances one by one, so a merged mesh is faster.
         let wood = |spruce: &Mesh, fir: &Mesh| {
-            let mut wood = stamped(spruce, &tall);
-            wood.append(&stamped(fir, &slim));
+            let mut wood = merge_instances(spruce, &tall);
+            wood.append(&merge_instances(fir, &slim));
             wood
         };
-        let near =
-            VisibleRange { straight_m: VisibleRange::within(FAR_M + OVERLAP_M), in_lake_m: VisibleRange::within(MIRRORED_M) };
-        let far = VisibleRange { straight_m: VisibleRange::beyond(FAR_M), ..VisibleRange::STRAIGHT };
+        let near = VisibleRange {
+            direct_m: VisibleRange::within(FAR_TREE_DISTANCE_M + LOD_OVERLAP_M),
+            in_lake_m: VisibleRange::within(MAX_REFLECTED_TREE_DISTANCE_M),
+        };
+        let far = VisibleRange { direct_m: VisibleRange::beyond(FAR_TREE_DISTANCE_M), ..VisibleRange::STRAIGHT };
         return vec![
             SceneItem { visible_range: near, ..SceneItem::here("trees", wood(&spruce, &fir), true) },
-            SceneItem { visible_range: far, ..SceneItem::here("trees far away", wood(&distant(0.21), &distant(0.15)), false) },
+            SceneItem {
+                visible_range: far,
+                ..SceneItem::here("trees far away", wood(&distant_conifer(0.21), &distant_conifer(0.15)), false)
+            },
             boulders,
         ];
     }
@@ -100,47 +105,48 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
 }
 
 /// Returns the tree density at a point, 0 to 1: groves and clearings.
-fn grove(east: f64, north: f64) -> f64 {
-    let wave = math::sin(east / GROVE_M + 1.3 * math::sin(north / (1.4 * GROVE_M))) * math::cos(north / GROVE_M - 0.5);
+fn tree_density(east: f64, north: f64) -> f64 {
+    let wave =
+        math::sin(east / GROVE_SIZE_M + 1.3 * math::sin(north / (1.4 * GROVE_SIZE_M))) * math::cos(north / GROVE_SIZE_M - 0.5);
     (0.25 + 0.75 * wave).clamp(0.03, 1.0)
 }
 
 /// Returns the ground point if there is enough clearance for a plant.
-fn room(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
+fn free_ground_point(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
     let (up, normal) = site.geometry().terrain.ground.ground(east, north);
     let at = Vec3::new(east, north, up);
-    let fits = up - scenario.terrain.water_level_m >= over_water_m && normal.up() >= STEEP;
+    let fits = up - scenario.terrain.water_level_m >= over_water_m && normal.up() >= MIN_NORMAL_UP;
     let clear = |p: &Vec3<Enu>, room_m: f64| math::hypot(p.east() - east, p.north() - north) >= room_m;
     let team = &scenario.ground_team;
-    let from_team = clear(&team.pad_m, CLEAR_PAD_M) && clear(&team.truck_m, 12.0) && clear(&team.inspector_m, 12.0);
-    let from_paths = || scenario.tasks.iter().flat_map(|t| t.path_m.iter().step_by(4)).all(|p| clear(p, CLEAR_PATH_M));
+    let from_team = clear(&team.pad_m, PAD_CLEARANCE_M) && clear(&team.truck_m, 12.0) && clear(&team.inspector_m, 12.0);
+    let from_paths = || scenario.tasks.iter().flat_map(|t| t.path_m.iter().step_by(4)).all(|p| clear(p, PATH_CLEARANCE_M));
     let from_bridges = || {
         let lifted = Vec3::new(east, north, up + 5.0);
-        site.geometry().nearest_member(lifted, CLEAR_BRIDGE_M).is_none() && !roofed(scenario, at)
+        site.geometry().nearest_member(lifted, BRIDGE_CLEARANCE_M).is_none() && !is_near_deck(scenario, at)
     };
     (fits && from_team && from_paths() && from_bridges()).then_some(at)
 }
 
 /// Checks whether a point is below or next to a deck or approach.
-fn roofed(scenario: &Scenario, at: Vec3<Enu>) -> bool {
+fn is_near_deck(scenario: &Scenario, at: Vec3<Enu>) -> bool {
     scenario.bridges.iter().any(|bridge| {
         let [x, y, _] = bridge.placement().local(at);
         y.abs() < 0.5 * bridge.deck_width_m() + 9.0 && x.abs() < 0.5 * bridge.deck_length_m() + 90.0
     })
 }
 
-fn grown(foot: Vec3<Enu>, size: f64, turn: f64) -> Instance {
+fn plant_instance(foot: Vec3<Enu>, size: f64, turn: f64) -> Instance {
     let (s, c) = math::sin_cos(turn);
     let axes = [Vec3::new(c, s, 0.0) * size, Vec3::new(-s, c, 0.0) * size, Vec3::new(0.0, 0.0, size)];
     Instance::placed(foot, axes, [0.8, 0.02, 0.25, 0.06])
 }
 
 /// Builds a conifer of height 1: whorls of drooping branches with a ragged edge.
-fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
+fn conifer(radius: f64, whorls: u32, branches_per_whorl: u32) -> Mesh {
     // With fewer branches per whorl, there are also fewer whorls.
-    let whorls = if boughs < 8 { whorls - 2 } else { whorls };
+    let whorls = if branches_per_whorl < 8 { whorls - 2 } else { whorls };
     let mut mesh = Mesh::default();
-    if boughs < 8 {
+    if branches_per_whorl < 8 {
         trunk(&mut mesh);
     } else {
         mesh.round((Vec3::new(0.0, 0.0, -0.05), 0.018), (Vec3::new(0.0, 0.0, 0.3), 0.012), 5, BARK);
@@ -151,28 +157,30 @@ fn conifer(radius: f64, whorls: u32, boughs: u32) -> Mesh {
         let high = (low + 0.34 * (1.0 - 0.45 * share)).min(1.0);
         let wide = radius * (1.0 - 0.82 * share);
         let rim = |k: u32| {
-            let (s, c) = math::sin_cos(math::TAU * (f64::from(k % boughs) + 0.37 * f64::from(whorl)) / f64::from(boughs));
+            let (s, c) = math::sin_cos(
+                math::TAU * (f64::from(k % branches_per_whorl) + 0.37 * f64::from(whorl)) / f64::from(branches_per_whorl),
+            );
             // Branches alternate between long and short.
-            let (ragged, droop) = if (k % boughs).is_multiple_of(2) { (1.0, -0.035) } else { (0.68, 0.01) };
+            let (ragged, droop) = if (k % branches_per_whorl).is_multiple_of(2) { (1.0, -0.035) } else { (0.68, 0.01) };
             Vec3::new(wide * ragged * c, wide * ragged * s, low + droop)
         };
         let top = Vec3::new(0.0, 0.0, high);
-        if boughs < 8 {
-            cone(&mut mesh, &(0..boughs).map(rim).collect::<Vec<_>>(), top);
+        if branches_per_whorl < 8 {
+            cone(&mut mesh, &(0..branches_per_whorl).map(rim).collect::<Vec<_>>(), top);
             continue;
         }
         let hollow = Vec3::new(0.0, 0.0, low + 0.05);
-        for k in 0..boughs {
+        for k in 0..branches_per_whorl {
             mesh.polygon(&[rim(k), rim(k + 1), top], NEEDLES);
             mesh.polygon(&[rim(k + 1), rim(k), hollow], NEEDLES);
         }
     }
-    soften(&mut mesh);
+    soften_normals(&mut mesh);
     mesh
 }
 
 /// Builds a distant conifer of height 1: two whorls of four branches.
-fn distant(radius: f64) -> Mesh {
+fn distant_conifer(radius: f64) -> Mesh {
     const WHORLS: [(f64, f64, f64); 2] = [(0.08, 0.62, 1.0), (0.40, 1.0, 0.62)];
     let mut mesh = Mesh::default();
     for (low, high, share) in WHORLS {
@@ -182,7 +190,7 @@ fn distant(radius: f64) -> Mesh {
         };
         cone(&mut mesh, &(0..4).map(rim).collect::<Vec<_>>(), Vec3::new(0.0, 0.0, high));
     }
-    soften(&mut mesh);
+    soften_normals(&mut mesh);
     mesh
 }
 
@@ -214,7 +222,7 @@ fn trunk(mesh: &mut Mesh) {
 }
 
 /// Merges all instances into one mesh, including their light.
-fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
+fn merge_instances(mesh: &Mesh, copies: &[Instance]) -> Mesh {
     let mut all = Mesh::default();
     for copy in copies {
         let first = all.vertices.len() as u32;
@@ -225,7 +233,7 @@ fn stamped(mesh: &Mesh, copies: &[Instance]) -> Mesh {
 }
 
 /// Imitates the light scattering of needles: tilts normals outward and up and darkens the inside.
-fn soften(mesh: &mut Mesh) {
+fn soften_normals(mesh: &mut Mesh) {
     for v in &mut mesh.vertices {
         let [x, y, z] = v.position.map(f64::from);
         let out = Vec3::<Enu>::new(x, y, 0.12 + 0.1 * z);
@@ -238,6 +246,6 @@ fn soften(mesh: &mut Mesh) {
 
 fn boulder(sides: u32) -> Mesh {
     let mut mesh = Mesh::default();
-    mesh.ball_of((sides.min(8), sides + 1), Vec3::new(0.0, 0.0, 0.15), [0.62, 0.5, 0.42], 0.35, STONE);
+    mesh.ball_with_detail((sides.min(8), sides + 1), Vec3::new(0.0, 0.0, 0.15), [0.62, 0.5, 0.42], 0.35, STONE);
     mesh
 }

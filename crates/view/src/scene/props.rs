@@ -6,7 +6,7 @@ use spandrel_model::site::movers::MoverKind;
 
 const PAINT: SurfaceFinish = SurfaceFinish::new(Material::Paint, [120, 120, 120]);
 const GLASS: SurfaceFinish = SurfaceFinish::new(Material::Glass, [6, 8, 10]);
-const TYRE: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [6, 6, 6]);
+const TIRE: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [6, 6, 6]);
 const RIM: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [90, 90, 92]);
 const DARK: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [12, 12, 13]);
 const LAMP: SurfaceFinish = SurfaceFinish::new(Material::Glass, [200, 200, 190]);
@@ -39,7 +39,7 @@ pub const VEST: [f32; 3] = [0.85, 0.28, 0.01];
 pub const CREW_TRUCK: [f32; 3] = [0.75, 0.48, 0.03];
 
 /// Returns the color of the k-th mover.
-pub fn colour(kind: MoverKind, k: usize) -> [f32; 3] {
+pub fn color(kind: MoverKind, k: usize) -> [f32; 3] {
     let pick = k.wrapping_mul(7) + 3;
     match kind {
         MoverKind::Car => CARS[pick % CARS.len()],
@@ -81,7 +81,7 @@ fn p(x: f64, y: f64, z: f64) -> Vec3<Enu> {
 
 fn wheel(mesh: &mut Mesh, x: f64, y: f64, (radius, width): (f64, f64), rounds: RoundDetail) {
     let side = y.signum();
-    mesh.round((p(x, y - side * width, radius), radius), (p(x, y, radius), radius), rounds.sides(14), TYRE);
+    mesh.round((p(x, y - side * width, radius), radius), (p(x, y, radius), radius), rounds.sides(14), TIRE);
     mesh.round((p(x, y, radius), 0.62 * radius), (p(x, y + side * 0.015, radius), 0.55 * radius), rounds.sides(12), RIM);
 }
 
@@ -155,12 +155,12 @@ pub fn person(rounds: RoundDetail) -> Mesh {
     for y in [0.225, -0.225] {
         mesh.round((p(0.04, y * 1.02, 0.82), 0.035), (p(0.0, y * 0.96, 1.12), 0.045), rounds.sides(7), PAINT);
         mesh.round((p(0.0, y * 0.96, 1.12), 0.045), (p(0.0, y * 0.88, 1.42), 0.055), rounds.sides(7), PAINT);
-        mesh.ball_of(rounds.ball(), p(0.05, y * 1.03, 0.78), [0.04, 0.03, 0.05], 0.0, SKIN);
+        mesh.ball_with_detail(rounds.ball(), p(0.05, y * 1.03, 0.78), [0.04, 0.03, 0.05], 0.0, SKIN);
     }
     mesh.block([-0.11, -0.17, 0.84], [0.11, 0.17, 1.46], [0.02, 0.02, -0.03], PAINT);
     mesh.round((p(0.0, 0.0, 1.44), 0.055), (p(0.0, 0.0, 1.54), 0.05), rounds.sides(8), SKIN);
-    mesh.ball_of(rounds.ball(), p(0.01, 0.0, 1.62), [0.095, 0.08, 0.115], 0.0, SKIN);
-    mesh.ball_of(rounds.ball(), p(-0.015, 0.0, 1.665), [0.098, 0.086, 0.085], 0.0, HAIR);
+    mesh.ball_with_detail(rounds.ball(), p(0.01, 0.0, 1.62), [0.095, 0.08, 0.115], 0.0, SKIN);
+    mesh.ball_with_detail(rounds.ball(), p(-0.015, 0.0, 1.665), [0.098, 0.086, 0.085], 0.0, HAIR);
     mesh
 }
 
@@ -169,10 +169,10 @@ mod tests {
     use super::*;
 
     /// Tolerance for rendered parts outside the collision shape, m.
-    const SLACK_M: f64 = 0.03;
+    const TOLERANCE_M: f64 = 0.03;
 
     #[test]
-    fn exact_what_is_drawn_lies_within_what_collides() {
+    fn exact_meshes_fit_inside_their_collision_boxes() {
         for (mesh, kind, half_width, height) in [
             (car(RoundDetail::Fine), MoverKind::Car, 0.9, 1.5),
             (truck(RoundDetail::Fine), MoverKind::Truck, 1.25, 3.5),
@@ -182,8 +182,8 @@ mod tests {
             let half_length = kind.half_length_m();
             for v in &mesh.vertices {
                 let [x, y, z] = v.position.map(f64::from);
-                assert!(x.abs() <= half_length + SLACK_M && y.abs() <= half_width + SLACK_M, "{kind:?} {:?}", v.position);
-                assert!((-SLACK_M..=height + SLACK_M).contains(&z), "{kind:?} {:?}", v.position);
+                assert!(x.abs() <= half_length + TOLERANCE_M && y.abs() <= half_width + TOLERANCE_M, "{kind:?} {:?}", v.position);
+                assert!((-TOLERANCE_M..=height + TOLERANCE_M).contains(&z), "{kind:?} {:?}", v.position);
             }
         }
     }

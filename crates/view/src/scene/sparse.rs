@@ -26,7 +26,7 @@ impl GridSquare {
     }
 
     /// Returns the grid vertices on the boundary, counterclockwise from the southwest.
-    fn rim(&self, side: usize) -> impl Iterator<Item = usize> {
+    fn boundary(&self, side: usize) -> impl Iterator<Item = usize> {
         let [sw, se, ne, nw] = self.corners(side);
         let along = move |k: usize| [sw + k, se + k * side, ne - k, nw - k * side];
         let size = self.size;
@@ -57,12 +57,12 @@ pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> boo
 
 /// Returns the triangles of a square: two, or a fan around its center if smaller neighbors have vertices on its boundary.
 fn filled(square: &GridSquare, side: usize, used: &[bool]) -> Vec<[u32; 3]> {
-    let rim: Vec<u32> = square.rim(side).filter(|corner| used[*corner]).map(|corner| corner as u32).collect();
-    if let [sw, se, ne, nw] = *rim {
+    let boundary: Vec<u32> = square.boundary(side).filter(|corner| used[*corner]).map(|corner| corner as u32).collect();
+    if let [sw, se, ne, nw] = *boundary {
         return vec![[sw, se, ne], [sw, ne, nw]];
     }
     let middle = ((square.row + square.size / 2) * side + square.column + square.size / 2) as u32;
-    (0..rim.len()).map(|k| [middle, rim[k], rim[(k + 1) % rim.len()]]).collect()
+    (0..boundary.len()).map(|k| [middle, boundary[k], boundary[(k + 1) % boundary.len()]]).collect()
 }
 
 #[cfg(test)]
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_field_is_covered_once() {
+    fn exact_triangles_cover_the_grid_once() {
         const SIDE: usize = 41;
         let twice_area = |[a, b, c]: [u32; 3]| {
             let at = |k: u32| (f64::from(k % SIDE as u32), f64::from(k / SIDE as u32));
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_no_edge_has_a_gap_beside_it() {
+    fn exact_edges_have_no_gaps() {
         const SIDE: usize = 41;
         let mut edges: BTreeMap<(u32, u32), i32> = BTreeMap::new();
         for [a, b, c] in field(SIDE) {
@@ -99,14 +99,14 @@ mod tests {
             }
         }
         // Inside the grid, every edge is used in both directions; only edges on the boundary are used once.
-        let rim = |k: u32| [0, 40].contains(&(k % SIDE as u32)) || [0, 40].contains(&(k / SIDE as u32));
+        let boundary = |k: u32| [0, 40].contains(&(k % SIDE as u32)) || [0, 40].contains(&(k / SIDE as u32));
         for ((a, b), sum) in edges {
-            assert!(sum == 0 || (rim(a) && rim(b)), "edge {a} {b}: {sum}");
+            assert!(sum == 0 || (boundary(a) && boundary(b)), "edge {a} {b}: {sum}");
         }
     }
 
     #[test]
-    fn exact_an_odd_field_is_drawn_by_smaller_squares() {
+    fn exact_odd_grid_uses_smaller_squares() {
         let flat = |side: usize| triangles(side, 8, &|_| true).len();
         assert_eq!((flat(9), flat(13), flat(8), flat(2)), (2, 2 * 9, 2 * 49, 2));
     }

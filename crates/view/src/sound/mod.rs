@@ -5,7 +5,7 @@ mod propellers;
 mod smoothing;
 mod warnings;
 
-pub use smoothing::RATE_HZ;
+pub use smoothing::SAMPLE_RATE_HZ;
 pub use warnings::spoken;
 
 use propellers::Propellers;
@@ -13,8 +13,8 @@ use smoothing::SmoothedValue;
 use warnings::WarningTones;
 
 /// Fraction of full scale available to each source, which prevents clipping.
-const PROPELLERS: f64 = 0.5;
-const WARNINGS: f64 = 0.45;
+const PROPELLER_LEVEL: f64 = 0.5;
+const WARNING_LEVEL: f64 = 0.45;
 
 /// Sound settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,7 +77,7 @@ impl FlightSound {
             let loud = volume.follow(if heard.silent { 0.0 } else { settings.volume.clamp(0.0, 1.0) });
             let rotors: &[f64] = if settings.propellers { &heard.rotors_rad_s } else { &[] };
             let cues = if settings.warnings { heard.cues } else { 0 };
-            let mixed = PROPELLERS * propellers.next(rotors, heard.distance_m) + WARNINGS * warnings.next(cues);
+            let mixed = PROPELLER_LEVEL * propellers.next(rotors, heard.distance_m) + WARNING_LEVEL * warnings.next(cues);
             *sample = (loud * mixed) as f32;
         }
     }

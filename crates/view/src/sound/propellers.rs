@@ -1,6 +1,6 @@
 //! Propeller sound: the blade-pass frequency of each rotor and its harmonics.
 
-use super::smoothing::{RATE_HZ, SmoothedValue};
+use super::smoothing::{SAMPLE_RATE_HZ, SmoothedValue};
 use spandrel_model::math;
 
 /// Blades per propeller. TASBID's aircraft, a DJI Phantom 2, has two-bladed propellers of 9.4 inches, as do most
@@ -9,23 +9,23 @@ pub const BLADES: f64 = 2.0;
 /// Number of harmonics, and level of each harmonic relative to the previous one (estimate: 6 dB, as with small
 /// propellers from the second harmonic on).
 const HARMONICS: u32 = 6;
-const FALL: f64 = 0.5;
+const HARMONIC_DECAY: f64 = 0.5;
 /// Maximum number of rotors that are modeled separately.
-const MOST: usize = 8;
+const MAX_ROTORS: usize = 8;
 /// Rotor speed at full level, rad/s. The level grows with the square of the speed, like thrust (estimate: climb of a
 /// small quadrotor).
-const FULL_RAD_S: f64 = 1_100.0;
+const FULL_LEVEL_RAD_S: f64 = 1_100.0;
 /// Distance up to which the level is constant, m. Beyond it, the level decreases with distance, as for a point source
 /// in the open. A drone at 120 m remains audible on typical speakers (estimate).
-const NEAR_M: f64 = 15.0;
+const FULL_LEVEL_DISTANCE_M: f64 = 15.0;
 
 /// Rotor speed below which there is no sound, rad/s.
-const STANDS_RAD_S: f64 = 1e-3;
+const MIN_SPEED_RAD_S: f64 = 1e-3;
 
 /// Oscillators of the rotors.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Propellers {
-    rotors: [RotorOscillator; MOST],
+    rotors: [RotorOscillator; MAX_ROTORS],
     level: SmoothedValue,
     count: SmoothedValue,
 }
@@ -40,9 +40,9 @@ struct RotorOscillator {
 impl Propellers {
     /// Returns the next sample, in [-1, 1], for these rotor speeds (rad/s) and distance (m).
     pub fn next(&mut self, rotors_rad_s: &[f64], distance_m: f64) -> f64 {
-        let far = self.level.follow((NEAR_M / distance_m.max(NEAR_M)).clamp(0.0, 1.0));
+        let far = self.level.follow((FULL_LEVEL_DISTANCE_M / distance_m.max(FULL_LEVEL_DISTANCE_M)).clamp(0.0, 1.0));
         // Normalizes by the number of rotors, but at least four, so that a single rotor sounds quieter.
-        let count = self.count.follow(rotors_rad_s.len().min(MOST) as f64).max(4.0);
+        let count = self.count.follow(rotors_rad_s.len().min(MAX_ROTORS) as f64).max(4.0);
         let mut sum = 0.0;
         for (k, rotor) in self.rotors.iter_mut().enumerate() {
             sum += rotor.next(rotors_rad_s.get(k).copied().unwrap_or(0.0));
@@ -53,18 +53,18 @@ impl Propellers {
 
 impl RotorOscillator {
     fn next(&mut self, rad_s: f64) -> f64 {
-        let wanted = if rad_s.is_finite() { rad_s.clamp(0.0, 2.0 * FULL_RAD_S) } else { 0.0 };
+        let wanted = if rad_s.is_finite() { rad_s.clamp(0.0, 2.0 * FULL_LEVEL_RAD_S) } else { 0.0 };
         let speed = self.speed.follow(wanted);
-        if wanted == 0.0 && speed < STANDS_RAD_S {
+        if wanted == 0.0 && speed < MIN_SPEED_RAD_S {
             return 0.0;
         }
-        self.phase = (self.phase + BLADES * speed / math::TAU / f64::from(RATE_HZ)).rem_euclid(1.0);
-        let level = (speed / FULL_RAD_S).min(1.0);
+        self.phase = (self.phase + BLADES * speed / math::TAU / f64::from(SAMPLE_RATE_HZ)).rem_euclid(1.0);
+        let level = (speed / FULL_LEVEL_RAD_S).min(1.0);
         let (mut sum, mut share, mut whole) = (0.0, 1.0, 0.0);
         for k in 1..=HARMONICS {
             sum += share * math::sin(math::TAU * self.phase * f64::from(k));
             whole += share;
-            share *= FALL;
+            share *= HARMONIC_DECAY;
         }
         level * level * sum / whole
     }

@@ -1,7 +1,7 @@
 //! The sample rate, and levels that change without clicks.
 
 /// Sample rate, Hz: more than twice the highest harmonic.
-pub const RATE_HZ: u32 = 24_000;
+pub const SAMPLE_RATE_HZ: u32 = 24_000;
 /// Time constant of level changes, s (estimate: faster than a motor, slow enough to prevent clicks).
 const SLEW_S: f64 = 0.02;
 
@@ -12,7 +12,7 @@ pub(super) struct SmoothedValue(f64);
 impl SmoothedValue {
     /// Advances by one sample and returns the new value.
     pub(super) fn follow(&mut self, target: f64) -> f64 {
-        self.0 += (target - self.0) / (SLEW_S * f64::from(RATE_HZ));
+        self.0 += (target - self.0) / (SLEW_S * f64::from(SAMPLE_RATE_HZ));
         self.0
     }
 }

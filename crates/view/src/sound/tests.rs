@@ -1,26 +1,26 @@
 //! Tests of frequencies, levels, silence, and absence of clicks.
 
 use super::propellers::BLADES;
-use super::{FlightSound, RATE_HZ, SoundInputs, SoundSettings, spoken};
+use super::{FlightSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings, spoken};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 
-fn heard(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
+fn sound_inputs(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
     SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, silent: false }
 }
 
 /// Returns `seconds` of sound, recorded after one second in which the levels settle.
-fn played(sound: &mut FlightSound, heard: SoundInputs, seconds: f64) -> Vec<f64> {
-    sound.set(heard);
-    let mut out = vec![0.0_f32; RATE_HZ as usize + (seconds * f64::from(RATE_HZ)) as usize];
+fn render_sound(sound: &mut FlightSound, sound_inputs: SoundInputs, seconds: f64) -> Vec<f64> {
+    sound.set(sound_inputs);
+    let mut out = vec![0.0_f32; SAMPLE_RATE_HZ as usize + (seconds * f64::from(SAMPLE_RATE_HZ)) as usize];
     sound.fill(&mut out);
-    out[RATE_HZ as usize..].iter().map(|sample| f64::from(*sample)).collect()
+    out[SAMPLE_RATE_HZ as usize..].iter().map(|sample| f64::from(*sample)).collect()
 }
 
 /// Returns the amplitude at one frequency (a bin of the discrete Fourier transform).
 fn amplitude(samples: &[f64], hz: f64) -> f64 {
-    let step = math::TAU * hz / f64::from(RATE_HZ);
+    let step = math::TAU * hz / f64::from(SAMPLE_RATE_HZ);
     let (mut re, mut im) = (0.0, 0.0);
     for (k, sample) in samples.iter().enumerate() {
         let (s, c) = math::sin_cos(step * k as f64);
@@ -34,10 +34,10 @@ fn only(propellers: bool, warnings: bool) -> SoundSettings {
 }
 
 #[test]
-fn exact_the_blades_frequency_and_its_harmonics_are_heard_and_nothing_between() {
+fn exact_propeller_sound_consists_of_blade_harmonics() {
     // 120 revolutions per second: two blades pass 240 times per second.
     let rad_s = 120.0 * math::TAU;
-    let samples = played(&mut FlightSound::new(only(true, true)), heard(rad_s, 1.0, 0), 1.0);
+    let samples = render_sound(&mut FlightSound::new(only(true, true)), sound_inputs(rad_s, 1.0, 0), 1.0);
     let first = amplitude(&samples, BLADES * 120.0);
     assert!(first > 0.05, "{first}");
     for (k, share) in [(2.0, 0.5), (3.0, 0.25)] {
@@ -50,9 +50,9 @@ fn exact_the_blades_frequency_and_its_harmonics_are_heard_and_nothing_between() 
 }
 
 #[test]
-fn exact_the_level_grows_with_the_square_of_speed_and_falls_with_distance() {
+fn exact_level_depends_on_speed_squared_and_distance() {
     let level = |turns: f64, distance_m: f64| {
-        let samples = played(&mut FlightSound::new(only(true, true)), heard(turns * math::TAU, distance_m, 0), 1.0);
+        let samples = render_sound(&mut FlightSound::new(only(true, true)), sound_inputs(turns * math::TAU, distance_m, 0), 1.0);
         amplitude(&samples, BLADES * turns)
     };
     let near = level(80.0, 1.0);
@@ -62,16 +62,16 @@ fn exact_the_level_grows_with_the_square_of_speed_and_falls_with_distance() {
 }
 
 #[test]
-fn exact_each_warning_has_a_pitch_of_its_own_and_the_most_severe_is_heard() {
+fn exact_only_the_most_severe_warning_sounds_at_its_pitch() {
     let pitches = [220.0, 1_050.0, 700.0, 440.0, 330.0];
     let cues = [cue::CRASH, cue::TOO_CLOSE, cue::SPEEDING, cue::OFF_PATH, cue::BATTERY_RED];
     for (own, cue) in pitches.into_iter().zip(cues) {
-        let samples = played(&mut FlightSound::new(only(true, true)), heard(0.0, 1.0, cue), 6.0);
+        let samples = render_sound(&mut FlightSound::new(only(true, true)), sound_inputs(0.0, 1.0, cue), 6.0);
         let loudest = pitches.into_iter().max_by(|a, b| amplitude(&samples, *a).total_cmp(&amplitude(&samples, *b)));
         assert_eq!(loudest, Some(own), "cue {cue}");
     }
     let all = cues.into_iter().fold(0, |mask, cue| mask | cue);
-    let samples = played(&mut FlightSound::new(only(true, true)), heard(0.0, 1.0, all), 6.0);
+    let samples = render_sound(&mut FlightSound::new(only(true, true)), sound_inputs(0.0, 1.0, all), 6.0);
     assert!(amplitude(&samples, 220.0) > 10.0 * amplitude(&samples, 1_050.0), "a crash must have priority");
     assert_eq!(spoken(0, all), Some("Crash"));
     assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH), Some("Off the path"));
@@ -79,29 +79,32 @@ fn exact_each_warning_has_a_pitch_of_its_own_and_the_most_severe_is_heard() {
 }
 
 #[test]
-fn exact_what_is_off_is_silent() {
-    let flying = heard(700.0, 5.0, cue::SPEEDING);
-    let peak = |settings: SoundSettings, heard: SoundInputs| {
-        played(&mut FlightSound::new(settings), heard, 1.0).into_iter().fold(0.0, |most: f64, sample| most.max(sample.abs()))
+fn exact_disabled_sounds_are_silent() {
+    let flying = sound_inputs(700.0, 5.0, cue::SPEEDING);
+    let peak = |settings: SoundSettings, sound_inputs: SoundInputs| {
+        render_sound(&mut FlightSound::new(settings), sound_inputs, 1.0)
+            .into_iter()
+            .fold(0.0, |most: f64, sample| most.max(sample.abs()))
     };
     // Residual level one second after release: exp(-50).
-    const REST: f64 = 1e-12;
+    const RESIDUAL_LEVEL: f64 = 1e-12;
     assert!(peak(only(true, true), flying.clone()) > 0.1);
-    assert!(peak(only(false, false), flying.clone()) < REST);
-    assert!(peak(only(true, true), SoundInputs { silent: true, ..flying.clone() }) < REST);
-    assert!(peak(SoundSettings { volume: 0.0, ..only(true, true) }, flying) < REST);
-    assert!(peak(only(true, true), heard(0.0, 5.0, 0)) < REST, "stopped propellers must be silent");
+    assert!(peak(only(false, false), flying.clone()) < RESIDUAL_LEVEL);
+    assert!(peak(only(true, true), SoundInputs { silent: true, ..flying.clone() }) < RESIDUAL_LEVEL);
+    assert!(peak(SoundSettings { volume: 0.0, ..only(true, true) }, flying) < RESIDUAL_LEVEL);
+    assert!(peak(only(true, true), sound_inputs(0.0, 5.0, 0)) < RESIDUAL_LEVEL, "stopped propellers must be silent");
 }
 
 #[test]
-fn prop_the_sound_never_clips_or_clicks() {
+fn prop_sound_never_clips_or_clicks() {
     // Steepest possible slope in steady state: every part at full level with all harmonics in phase.
     let top_hz = BLADES * 2.0 * 1_100.0 / math::TAU;
     let harmonics: f64 = (1..=6).map(|k| f64::from(k) * math::pow(0.5, f64::from(k - 1))).sum::<f64>() / 1.968_75;
-    let slope = |amplitude: f64, hz: f64| amplitude * math::TAU * hz / f64::from(RATE_HZ);
+    let slope = |amplitude: f64, hz: f64| amplitude * math::TAU * hz / f64::from(SAMPLE_RATE_HZ);
     // Additional allowance for transitions of tones and levels.
-    const MORE: f64 = 1.1;
-    let steepest = MORE * (slope(0.5 * harmonics, top_hz) + slope(0.45, 1_050.0) + 0.45 / (0.008 * f64::from(RATE_HZ)));
+    const TRANSITION_ALLOWANCE: f64 = 1.1;
+    let steepest = TRANSITION_ALLOWANCE
+        * (slope(0.5 * harmonics, top_hz) + slope(0.45, 1_050.0) + 0.45 / (0.008 * f64::from(SAMPLE_RATE_HZ)));
     assert!(steepest < 0.5, "the limit must be low enough to reveal a click: {steepest}");
     for seed in 0..20 {
         let mut random = RandomStream::new(seed, "sound");

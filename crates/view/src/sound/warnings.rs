@@ -1,11 +1,11 @@
 //! Warning tones, distinguished by pitch and rhythm; only the most serious one sounds.
 
-use super::smoothing::RATE_HZ;
+use super::smoothing::SAMPLE_RATE_HZ;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 
 /// Duration of a tone's attack and release, s: long enough to avoid clicks, short enough for a clear onset.
-const EDGE_S: f64 = 0.008;
+const FADE_S: f64 = 0.008;
 
 /// Tone of a cue: pitch, Hz, and on-time and period, s.
 struct Tone {
@@ -44,7 +44,7 @@ pub struct WarningTones {
 impl WarningTones {
     /// Returns the next sample, in [-1, 1], for these active cues.
     pub fn next(&mut self, cues: i32) -> f64 {
-        let step_s = 1.0 / f64::from(RATE_HZ);
+        let step_s = 1.0 / f64::from(SAMPLE_RATE_HZ);
         let wanted = TONES.iter().position(|tone| cues & tone.cue != 0);
         // A different tone starts after the current one has faded out.
         if wanted != self.tone && self.gate <= 0.0 {
@@ -53,7 +53,7 @@ impl WarningTones {
         let Some(tone) = self.tone.map(|k| &TONES[k]) else { return 0.0 };
         let sounds = wanted == self.tone && self.clock_s.rem_euclid(tone.period_s) < tone.on_s;
         let way = if sounds { 1.0 } else { -1.0 };
-        self.gate = (self.gate + way * step_s / EDGE_S).clamp(0.0, 1.0);
+        self.gate = (self.gate + way * step_s / FADE_S).clamp(0.0, 1.0);
         self.clock_s += step_s;
         self.phase = (self.phase + tone.hz * step_s).rem_euclid(1.0);
         // A raised cosine is smooth at both ends.

@@ -25,7 +25,7 @@ pub struct Mp4Chunk {
 pub struct Mp4Writer {
     muxer: Mp4FileMuxer,
     size_px: (u32, u32),
-    begun: bool,
+    track_started: bool,
     end: u64,
     ticks: u64,
     pictures: u64,
@@ -41,7 +41,7 @@ impl Mp4Writer {
         let muxer = Mp4FileMuxer::new().map_err(|error| VideoError::File(error.to_string()))?;
         let head = muxer.initial_boxes_bytes().to_vec();
         let end = head.len() as u64;
-        let file = Self { muxer, size_px, begun: false, end, ticks: 0, pictures: 0, rate_hz };
+        let file = Self { muxer, size_px, track_started: false, end, ticks: 0, pictures: 0, rate_hz };
         Ok((file, Mp4Chunk { at: 0, bytes: head }))
     }
 
@@ -60,7 +60,7 @@ impl Mp4Writer {
         let until = (self.pictures as f64 / self.rate_hz * f64::from(TICKS_S)).round() as u64;
         let sample = Sample {
             track_kind: TrackKind::Video,
-            sample_entry: (!self.begun).then(|| entry(&encoded.units, self.size_px)).transpose()?,
+            sample_entry: (!self.track_started).then(|| sample_entry(&encoded.units, self.size_px)).transpose()?,
             keyframe: encoded.key,
             timescale: NonZeroU32::new(TICKS_S).unwrap_or(NonZeroU32::MIN),
             duration: (until - self.ticks) as u32,
@@ -69,7 +69,7 @@ impl Mp4Writer {
             data_size: bytes.len(),
         };
         self.muxer.append_sample(&sample).map_err(|error| VideoError::File(error.to_string()))?;
-        (self.begun, self.ticks) = (true, until);
+        (self.track_started, self.ticks) = (true, until);
         let piece = Mp4Chunk { at: self.end, bytes };
         self.end += piece.bytes.len() as u64;
         Ok(piece)
@@ -94,7 +94,7 @@ fn is_parameter(unit: &[u8]) -> bool {
 }
 
 /// Returns the decoder configuration that a player needs before the first picture.
-fn entry(units: &[Vec<u8>], (width, height): (u32, u32)) -> Result<SampleEntry, VideoError> {
+fn sample_entry(units: &[Vec<u8>], (width, height): (u32, u32)) -> Result<SampleEntry, VideoError> {
     let of = |wanted: u8| units.iter().filter(|unit| kind(unit) == wanted).cloned().collect::<Vec<_>>();
     let (sps_list, pps_list) = (of(SPS), of(PPS));
     let Some([_, profile, compatibility, level, ..]) = sps_list.first().map(Vec::as_slice) else {

@@ -4,7 +4,7 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Period of wall time over which the rate is averaged.
-const MEASURED_OVER: SimTime = SimTime::from_ms(2_000);
+const AVERAGING_WINDOW: SimTime = SimTime::from_ms(2_000);
 
 /// Picture rate from the times of recent pictures.
 #[derive(Debug, Clone, Default)]
@@ -14,7 +14,7 @@ impl PictureRate {
     /// Records a picture sent at a wall time.
     pub fn count(&mut self, wall: SimTime) {
         self.0.push_back(wall);
-        while self.0.len() > 2 && self.0.front().is_some_and(|first| wall.saturating_sub(*first) > MEASURED_OVER) {
+        while self.0.len() > 2 && self.0.front().is_some_and(|first| wall.saturating_sub(*first) > AVERAGING_WINDOW) {
             self.0.pop_front();
         }
     }

@@ -7,8 +7,8 @@ pub const PAYLOAD_TYPE: u8 = 96;
 /// RTP clock rate for video, Hz.
 pub const CLOCK_HZ: f64 = 90_000.0;
 /// Maximum packet size, bytes. With IP and UDP headers, it stays below an Ethernet MTU of 1500.
-const MOST: usize = 1_400;
-const HEADER: usize = 12;
+const MAX_PACKET_BYTES: usize = 1_400;
+const HEADER_BYTES: usize = 12;
 /// NAL unit type of a fragment (RFC 6184, 5.8).
 const FU_A: u8 = 28;
 
@@ -18,7 +18,7 @@ pub struct RtpPacketizer {
     sequence: u16,
     source: u32,
     /// Timestamp at the start of the stream.
-    zero: u32,
+    start_timestamp: u32,
 }
 
 impl RtpPacketizer {
@@ -28,12 +28,12 @@ impl RtpPacketizer {
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "rtp");
         let mut bits = || (random.bits() >> 32) as u32;
-        Self { sequence: (bits() >> 16) as u16, source: bits(), zero: bits() }
+        Self { sequence: (bits() >> 16) as u16, source: bits(), start_timestamp: bits() }
     }
 
     /// Returns the packets of a picture taken at `at_s`, s; the last one has the marker bit.
     pub fn picture(&mut self, units: &[Vec<u8>], at_s: f64) -> Vec<Vec<u8>> {
-        let stamp = self.zero.wrapping_add(((at_s * CLOCK_HZ).round() as i64) as u32);
+        let stamp = self.start_timestamp.wrapping_add(((at_s * CLOCK_HZ).round() as i64) as u32);
         let payloads: Vec<Vec<u8>> = units.iter().flat_map(|unit| payloads(unit)).collect();
         let last = payloads.len().saturating_sub(1);
         payloads.into_iter().enumerate().map(|(k, payload)| self.packet(&payload, stamp, k == last)).collect()
@@ -53,10 +53,10 @@ impl RtpPacketizer {
 /// Returns a unit as one payload, or as fragments.
 fn payloads(unit: &[u8]) -> Vec<Vec<u8>> {
     let Some((head, body)) = unit.split_first() else { return Vec::new() };
-    if unit.len() <= MOST - HEADER {
+    if unit.len() <= MAX_PACKET_BYTES - HEADER_BYTES {
         return vec![unit.to_vec()];
     }
-    let pieces = body.chunks(MOST - HEADER - 2);
+    let pieces = body.chunks(MAX_PACKET_BYTES - HEADER_BYTES - 2);
     let count = pieces.len();
     let indicator = (head & 0xE0) | FU_A;
     pieces

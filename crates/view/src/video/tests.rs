@@ -16,7 +16,7 @@ fn encoded(count: u32) -> Vec<EncodedPicture> {
 }
 
 #[test]
-fn val_a_decoder_sees_the_square_where_it_was_drawn() {
+fn val_decoded_pictures_match_the_encoded_ones() {
     use openh264::formats::YUVSource;
     let mut decoder = openh264::decoder::Decoder::new().unwrap();
     let mut seen = 0;
@@ -35,14 +35,14 @@ fn val_a_decoder_sees_the_square_where_it_was_drawn() {
 }
 
 #[test]
-fn exact_every_tenth_picture_can_be_read_by_itself() {
+fn exact_every_tenth_picture_is_a_key_frame() {
     let keys: Vec<usize> = encoded(25).iter().enumerate().filter(|(_, one)| one.key).map(|(k, _)| k).collect();
     assert_eq!(keys, [0, 10, 20]);
     assert!(H264Encoder::new((321, 180), 15.0, 500_000, 10).is_err(), "odd sizes must be rejected");
 }
 
 #[test]
-fn exact_packets_put_together_again_are_the_units() {
+fn exact_reassembled_packets_equal_the_nal_units() {
     let units = vec![vec![0x67, 1, 2], vec![0x65; 5_000], vec![0x41; 1_388], vec![0x41; 1_389]];
     let mut packets = rtp::RtpPacketizer::new(9);
     let number = |packet: &[u8]| u16::from_be_bytes([packet[2], packet[3]]);
@@ -70,7 +70,7 @@ fn exact_packets_put_together_again_are_the_units() {
 }
 
 #[test]
-fn exact_each_stream_has_numbers_of_its_own() {
+fn exact_streams_have_distinct_identifiers() {
     let first = |seed: u64| rtp::RtpPacketizer::new(seed).picture(&[vec![0x41, 1]], 0.0).remove(0);
     assert_eq!(first(1), first(1));
     for field in [2..4, 4..8, 8..12] {
@@ -79,7 +79,7 @@ fn exact_each_stream_has_numbers_of_its_own() {
 }
 
 #[test]
-fn exact_an_mp4_file_holds_every_picture_and_its_time() {
+fn exact_mp4_file_contains_all_pictures_and_times() {
     let pictures = encoded(30);
     let (mut file, head) = Mp4Writer::new((320, 180), 15.0).unwrap();
     let mut bytes = Vec::new();
@@ -105,13 +105,13 @@ fn exact_an_mp4_file_holds_every_picture_and_its_time() {
 }
 
 #[test]
-fn exact_chapters_are_one_line_without_markup() {
+fn exact_chapter_titles_are_escaped_single_lines() {
     let chapter = webvtt::Chapter { from_s: 3725.5, to_s: 3727.25, title: "Picture 3: <crack>\nfound".into() };
     assert_eq!(webvtt::write(&[chapter]), "WEBVTT\n\n1\n01:02:05.500 --> 01:02:07.250\nPicture 3: &lt;crack&gt; found\n");
 }
 
 #[test]
-fn exact_a_rate_is_reported_from_the_second_picture_on_and_forgets_after_two_seconds() {
+fn exact_rate_needs_two_pictures_and_covers_two_seconds() {
     let mut rate = PictureRate::default();
     let mut after = |ms: i64| {
         rate.count(SimTime::from_ms(ms));

@@ -67,19 +67,19 @@ pub fn difference(a: &Picture, b: &Picture) -> Option<Difference> {
 
 /// Compares a picture with the committed one of this name. An error contains the paths of the rendered picture and the
 /// difference. With `SPANDREL_PICTURES=write` in the environment, commits the picture instead; look at it first.
-pub fn held(name: &str, drawn: &Picture) -> Result<Difference, String> {
-    held_at(&committed(name), name, drawn)
+pub fn check_picture(name: &str, drawn: &Picture) -> Result<Difference, String> {
+    check_picture_at(&reference_path(name), name, drawn)
 }
 
 /// Returns the path of a committed picture.
-pub fn committed(name: &str) -> PathBuf {
+pub fn reference_path(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
         .join("crates/view/tests/pictures/committed")
         .join(format!("{name}.jpg"))
 }
 
 /// Same for a picture in another folder.
-pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Difference, String> {
+pub fn check_picture_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Difference, String> {
     if std::env::var("SPANDREL_PICTURES").is_ok_and(|value| value == "write") {
         std::fs::write(committed, jpeg(drawn)).unwrap();
         save(&format!("{name}.png"), drawn);
@@ -93,7 +93,7 @@ pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Differen
         return Ok(found);
     }
     let (drawn_at, difference_at) =
-        (save(&format!("{name}.png"), drawn), save(&format!("{name}-difference.png"), &shown(drawn, &expected)));
+        (save(&format!("{name}.png"), drawn), save(&format!("{name}-difference.png"), &difference_picture(drawn, &expected)));
     Err(format!(
         "{name}: mean {:.2} (at most {MEAN_MAX}), worst tile {:.2} (at most {TILE_MAX}); rendered: {}, difference: {}",
         found.mean,
@@ -104,7 +104,7 @@ pub fn held_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Differen
 }
 
 /// Returns the difference, amplified eight times.
-fn shown(a: &Picture, b: &Picture) -> Picture {
+fn difference_picture(a: &Picture, b: &Picture) -> Picture {
     let rgba = a.rgba.iter().zip(&b.rgba).enumerate();
     let rgba = rgba.map(|(k, (a, b))| if k % 4 == 3 { 255 } else { a.abs_diff(*b).saturating_mul(8) });
     Picture { width: a.width, height: a.height, rgba: rgba.collect() }
@@ -158,7 +158,7 @@ fn sample(square: Option<(u32, u32)>, shift: u32) -> Picture {
 }
 
 #[test]
-fn exact_the_comparison_detects_missing_or_moved_parts_and_tolerates_jpeg() {
+fn exact_comparison_detects_missing_or_moved_parts_and_tolerates_jpeg() {
     let plain = sample(None, 0);
     assert_eq!(difference(&plain, &plain), Some(Difference { mean: 0.0, tile: 0.0 }));
     let spotted = difference(&plain, &sample(Some((60, 40)), 0)).unwrap();

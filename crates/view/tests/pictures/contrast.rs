@@ -14,8 +14,8 @@ use spandrel_view::scene::defects::patch;
 const CROP: (u32, u32) = (160, 200);
 const WIDTH_M: f64 = 0.0025;
 /// Random numbers with which defect.wgsl draws a crack without lime deposits, and one with them.
-const BARE: f32 = 0.05;
-const LIMED: f32 = 0.12;
+const SEED_WITHOUT_LIME: f32 = 0.05;
+const SEED_WITH_LIME: f32 = 0.12;
 
 /// A wall with a long vertical crack, the same wall without it, and a camera in front of it.
 struct Wall {
@@ -26,7 +26,7 @@ struct Wall {
 
 impl Wall {
     fn new() -> Self {
-        Self::of(defect_codes::CRACK, BARE)
+        Self::of(defect_codes::CRACK, SEED_WITHOUT_LIME)
     }
 
     /// Creates a wall; `own` decides whether the crack has lime deposits.
@@ -108,12 +108,12 @@ fn texture(without: &Picture) -> f64 {
 }
 
 #[test]
-fn val_a_crack_is_identified_at_one_pixel_detected_at_half_and_gone_at_a_tenth() {
+fn val_crack_visibility_follows_its_width_in_pixels() {
     // Multiples of the variation of the bare wall. 5 is Rose's limit of visibility (1948); distinguishing a crack from
     // a stain or a formwork line takes more (estimate: four times that).
     const DETECTED: f64 = 5.0;
     const IDENTIFIED: f64 = 20.0;
-    const LOST: f64 = 2.0;
+    const UNDETECTED: f64 = 2.0;
     // A line narrower than a pixel covers a fraction of it, so half the width gives half the contrast, with a smaller
     // deviation than this due to the tone curve.
     const HALF: f64 = 0.5;
@@ -129,7 +129,7 @@ fn val_a_crack_is_identified_at_one_pixel_detected_at_half_and_gone_at_a_tenth()
     }
     assert!(found[1].1 >= IDENTIFIED && found[0].1 >= IDENTIFIED, "one and two pixels: {found:?}");
     assert!(found[2].1 >= DETECTED, "half a pixel: {found:?}");
-    assert!(found[3].1 <= LOST, "a tenth of a pixel: {found:?}");
+    assert!(found[3].1 <= UNDETECTED, "a tenth of a pixel: {found:?}");
     assert!((found[2].0 / found[1].0 - HALF).abs() <= HALF_TOLERANCE, "half a pixel compared with one: {found:?}");
 }
 
@@ -159,12 +159,12 @@ fn prop_contrast_falls_without_steps() {
 
 /// Leakage from a line must fade just as evenly: lime on concrete, rust on steel.
 #[test]
-fn prop_what_seeps_out_of_a_line_falls_without_steps() {
+fn prop_leakage_contrast_falls_without_steps() {
     const STEP: f64 = 0.94;
     // Rounding to 8 bits, different rows of the wall, and ends of the leakage that enter the picture.
     const RISE_MAX: f64 = 0.03;
     const FALL_MAX: f64 = 0.08;
-    for (kind, own) in [(defect_codes::CRACK, LIMED), (defect_codes::FATIGUE, BARE)] {
+    for (kind, own) in [(defect_codes::CRACK, SEED_WITH_LIME), (defect_codes::FATIGUE, SEED_WITHOUT_LIME)] {
         let mut wall = Wall::of(kind, own);
         let mut before: Option<f64> = None;
         let mut share = 4.0;

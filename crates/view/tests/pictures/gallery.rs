@@ -1,6 +1,6 @@
 //! Pictures whose contents must be recognizable to any viewer, compared with committed ones.
 
-use super::compare::{Difference, beside, held, held_at};
+use super::compare::{Difference, beside, check_picture, check_picture_at};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::defect_codes;
 use spandrel_model::elements::Element;
@@ -9,7 +9,7 @@ use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk, sunny};
-use spandrel_view::arrange::fitted_px;
+use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
 use spandrel_view::hud::{self, GnssStatus, Hud, MapPath};
 use spandrel_view::picture::Picture;
@@ -33,31 +33,31 @@ const TUTORIAL_DEG: f64 = 30.0;
 
 /// Collects all problems, so that one run reports on every picture.
 #[derive(Default)]
-struct Wall {
-    wrong: Vec<String>,
+struct Gallery {
+    errors: Vec<String>,
 }
 
-impl Wall {
+impl Gallery {
     fn hang(&mut self, name: &str, picture: &Picture) {
-        self.take(name, held(name, picture));
+        self.record(name, check_picture(name, picture));
     }
 
-    fn take(&mut self, name: &str, compared: Result<Difference, String>) {
+    fn record(&mut self, name: &str, compared: Result<Difference, String>) {
         match compared {
             Ok(found) => println!("{name}: mean {:.2}, worst tile {:.2}", found.mean, found.tile),
-            Err(error) => self.wrong.push(error),
+            Err(error) => self.errors.push(error),
         }
     }
 
-    fn all_hold(self) {
-        assert!(self.wrong.is_empty(), "{}", self.wrong.join("\n"));
+    fn assert_no_errors(self) {
+        assert!(self.errors.is_empty(), "{}", self.errors.join("\n"));
     }
 }
 
 #[test]
-fn regress_bridges_in_summer() {
+fn regress_bridges_in_summer_light() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
-    let mut wall = Wall::default();
+    let mut wall = Gallery::default();
     for (name, from, look, hfov_deg) in [
         ("arch-from-the-shore", at(-62.0, -70.0, 9.0), at(4.0, 0.0, 19.0), 74.0),
         ("suspension-bridge-with-traffic", at(-62.0, 136.0, 20.0), at(0.0, 151.0, 14.0), 64.0),
@@ -67,14 +67,14 @@ fn regress_bridges_in_summer() {
         let picture = studio.draw(&shot);
         wall.hang(name, &picture);
     }
-    wall.all_hold();
+    wall.assert_no_errors();
 }
 
 /// The pad: truck, crew, and the aircraft above it with its propellers turning.
 #[test]
-fn regress_the_crew_and_the_drone_at_the_pad() {
+fn regress_crew_and_drone_at_the_pad() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
-    let mut wall = Wall::default();
+    let mut wall = Gallery::default();
     for (name, from, drone, look, vfov_deg) in [
         ("crew-and-truck", at(-105.0, 71.0, 7.4), at(-110.2, 75.3, 6.6), at(-116.0, 79.0, 6.0), 40.0),
         ("drone-near", at(-111.0, 76.4, 7.0), at(-112.0, 78.0, 6.3), at(-112.0, 78.0, 6.3 - 0.02), 24.0),
@@ -86,16 +86,16 @@ fn regress_the_crew_and_the_drone_at_the_pad() {
         let picture = studio.draw(&shot);
         wall.hang(name, &picture);
     }
-    wall.all_hold();
+    wall.assert_no_errors();
 }
 
 /// Distractors, which may be mistaken for defects: a sealed crack, a web, spray paint. Formwork lines, tie holes,
 /// streaks and droppings are also visible.
 #[test]
-fn regress_distractor() {
+fn regress_distractors() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
     studio.without_defects();
-    let mut wall = Wall::default();
+    let mut wall = Gallery::default();
     let pictures = [
         (at(48.0, 2.6, 28.4), at(50.0, 2.6, 28.4), 64.0),
         (at(-49.0, 2.6, 9.73), at(-50.0, 2.6, 9.73), 44.0),
@@ -106,18 +106,18 @@ fn regress_distractor() {
         studio.draw(&shot)
     });
     wall.hang("false-friends", &beside(&pictures));
-    wall.all_hold();
+    wall.assert_no_errors();
 }
 
 /// Under the arch and in the interlayer at dusk: dark without the lamp, and visibly lit with it.
 #[test]
-fn regress_dark_places_take_the_lamp() {
+fn regress_lamp_lights_dark_places() {
     // Maximum mean luma of the picture's center in the dark, of 255, and minimum factor by which the lamp makes it
     // brighter.
     const DARK_MAX: f64 = 75.0;
-    const LIT_OVER_DARK: f64 = 1.5;
+    const MIN_LAMP_FACTOR: f64 = 1.5;
     let mut studio = Studio::new(dusk(), 7, "medium", SimTime::ZERO);
-    let mut wall = Wall::default();
+    let mut wall = Gallery::default();
     for (name, from, look) in
         [("under-the-arch", at(-12.0, 0.0, 24.2), at(-8.6, 2.3, 27.6)), ("interlayer", at(12.0, 0.3, 30.6), at(8.6, 1.0, 33.2))]
     {
@@ -130,11 +130,11 @@ fn regress_dark_places_take_the_lamp() {
             wall.hang(&format!("{name}-{state}"), &picture);
         }
         println!("{name}: middle of the picture {lumas:.0?} of 255");
-        if lumas[0] > DARK_MAX || lumas[1] < LIT_OVER_DARK * lumas[0] {
-            wall.wrong.push(format!("{name}: lamp off {:.0} (at most {DARK_MAX}), on {:.0}", lumas[0], lumas[1]));
+        if lumas[0] > DARK_MAX || lumas[1] < MIN_LAMP_FACTOR * lumas[0] {
+            wall.errors.push(format!("{name}: lamp off {:.0} (at most {DARK_MAX}), on {:.0}", lumas[0], lumas[1]));
         }
     }
-    wall.all_hold();
+    wall.assert_no_errors();
 }
 
 /// Returns a defect where a line of sight meets a bridge. Its longest extent points down or, otherwise, slightly up to
@@ -161,10 +161,10 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
 
 /// Shows only this defect, in the light at its position.
 fn hang_patch(studio: &mut Studio, defect: &PlacedDefect) {
-    let light = spandrel_model::site::light::spread(64);
+    let light = spandrel_model::site::light::ray_bundle(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
     let sun = studio.site.light().daylight(studio.at).sun;
-    let (sky, bounced) = studio.site.light().indirect_shares(defect.position_m, defect.normal, sun, &light, &cast);
+    let (sky, bounced) = studio.site.light().indirect_fractions(defect.position_m, defect.normal, sun, &light, &cast);
     let patches = [patch(defect, [sky as f32, bounced as f32])];
     let (gpu, renderer) = studio.renderer();
     renderer.set_patches(gpu, &patches);
@@ -192,7 +192,7 @@ fn girder_at() -> (Vec3<Enu>, Vec3<Enu>) {
 fn regress_defects_at_1_3_and_8_m() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
     let (wall_at, girder_at) = (wall_at(), girder_at());
-    let mut wall = Wall::default();
+    let mut wall = Gallery::default();
     for (name, sight, kind, size_m, down) in [
         ("crack", wall_at, defect_codes::CRACK, (0.9, 0.003), true),
         ("spall", wall_at, defect_codes::SPALL, (0.42, 0.30), false),
@@ -211,15 +211,15 @@ fn regress_defects_at_1_3_and_8_m() {
             .map(|(distance_m, hfov_deg)| close_up(&mut studio, &defect, distance_m, hfov_deg, CLOSE));
         wall.hang(&format!("defect-{name}"), &beside(&pictures));
     }
-    wall.all_hold();
+    wall.assert_no_errors();
 }
 
 /// The tutorial compares distances: each row shows one defect through one lens, so that its size decreases with
 /// distance.
 #[test]
-fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
+fn regress_tutorial_shows_defects_at_true_scale() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
-    let mut wall = Wall::default();
+    let mut wall = Gallery::default();
     for (name, sight, kind, size_m, down) in [
         ("crack", wall_at(), defect_codes::CRACK, (0.9, 0.003), true),
         ("spall", wall_at(), defect_codes::SPALL, (0.42, 0.30), false),
@@ -231,9 +231,9 @@ fn regress_the_tutorial_shows_defects_through_one_lens_at_true_scale() {
         let row = [1.0, 3.0, 8.0].map(|distance_m| close_up(&mut studio, &defect, distance_m, TUTORIAL_DEG, TUTORIAL));
         let taught =
             Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("crates/view/src/flow/pictures/{name}.jpg"));
-        wall.take(name, held_at(&taught, &format!("tutorial-{name}"), &beside(&row)));
+        wall.record(name, check_picture_at(&taught, &format!("tutorial-{name}"), &beside(&row)));
     }
-    wall.all_hold();
+    wall.assert_no_errors();
 }
 
 /// Returns the HUD of a normal flight.
@@ -251,7 +251,7 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         home_m: (position_m - studio.scenario.ground_team.pad_m).horizontal_norm(),
         mode: "Position".into(),
         gnss: Some(GnssStatus { fixed: true, satellites: 17 }),
-        silent_s: 0.02,
+        telemetry_age_s: 0.02,
         gimbal_rad: 0.1,
         zoom: 1.0,
         lamp: false,
@@ -268,9 +268,9 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
 
 /// Compares both views side by side in every state of the HUD.
 #[test]
-fn regress_both_views_with_every_state_of_the_display() {
+fn regress_both_views_in_every_hud_state() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
-    let mut wall = Wall::default();
+    let mut wall = Gallery::default();
     let slab = (at(-30.0, -9.0, 33.0), at(-30.0, 0.0, 32.5));
     let below = (at(-22.0, -8.0, 17.0), at(-20.0, 0.0, 24.0));
     let pier = (at(-72.0, 139.0, 3.5), at(-72.0, 150.0, 3.0));
@@ -298,7 +298,7 @@ fn regress_both_views_with_every_state_of_the_display() {
         ("assessment-link-lost", slab, |hud| {
             hud.battery_pct = None;
             hud.gnss = None;
-            hud.silent_s = 3.4;
+            hud.telemetry_age_s = 3.4;
             hud.tracks = Vec::new();
         }),
     ] {
@@ -308,11 +308,11 @@ fn regress_both_views_with_every_state_of_the_display() {
         moment.lens.hfov_rad = 2.0 * math::atan(math::tan(0.5 * moment.lens.hfov_rad) / display.zoom);
         let inspector = studio.stage().inspector(&moment, VIEW);
         let marked = studio.stage().drone_marker(&inspector, &moment);
-        let seen = fitted_px(VIEW, moment.lens.aspect());
+        let seen = largest_even_size_px(VIEW, moment.lens.aspect());
         let camera = studio.stage().camera(&moment, seen);
         let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));
         let views = [studio.draw_with(&inspector, &marked), studio.draw_with(&camera, &shown)];
         wall.hang(&format!("views-{name}"), &beside(&views));
     }
-    wall.all_hold();
+    wall.assert_no_errors();
 }

@@ -9,10 +9,10 @@ use spandrel_testkit::studio::{Studio, at, two_bridges};
 const SIZE: (u32, u32) = (160, 120);
 /// Maximum fraction of pixels whose label may differ from the ray's: edges, where rendering and rays round differently,
 /// and trees, which hide surfaces but do not collide.
-const APART: f64 = 0.03;
+const MIN_DIFFERENCE: f64 = 0.03;
 
 #[test]
-fn val_pixels_are_labelled_as_rays_hit() {
+fn val_pixel_labels_match_ray_hits() {
     let mut studio = Studio::new(two_bridges(), 7, "low", SimTime::ZERO);
     for (from, look) in [
         (at(-30.0, -9.0, 33.0), at(-30.0, 0.0, 32.5)),
@@ -35,12 +35,12 @@ fn val_pixels_are_labelled_as_rays_hit() {
         let bridge = masks.elements.iter().filter(|element| **element != 0).count();
         let all = f64::from(SIZE.0 * SIZE.1);
         assert!(bridge as f64 > 0.2 * all, "the picture must show a bridge: {bridge} pixels");
-        assert!(apart as f64 <= APART * all, "{from:?}: {apart} of {all} pixels");
+        assert!(apart as f64 <= MIN_DIFFERENCE * all, "{from:?}: {apart} of {all} pixels");
     }
 }
 
 #[test]
-fn val_a_defect_before_the_lens_is_labelled_with_its_number_and_in_its_place() {
+fn val_visible_defect_is_labeled_at_its_position() {
     let mut studio = Studio::new(two_bridges(), 7, "low", SimTime::ZERO);
     let mut shown = 0;
     for defect in studio.site.defects().to_vec() {

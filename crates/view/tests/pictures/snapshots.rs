@@ -32,7 +32,7 @@ struct Snapshot {
 
 /// Returns a photo of a defect from a position that an aircraft can reach, aimed so that the defect is somewhere within
 /// the central 80 %.
-fn taken(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect, stream: &mut RandomStream) -> Option<Snapshot> {
+fn snapshot(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect, stream: &mut RandomStream) -> Option<Snapshot> {
     let level = if defect.normal.up().abs() > 0.9 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 0.0, 1.0) };
     let across = level.cross(defect.normal).unit();
     let up = defect.normal.cross(across);
@@ -51,9 +51,9 @@ fn taken(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect, stream: &mut Ran
 }
 
 /// Returns the crop around a defect with and without the defects, exposed like the complete photo.
-fn drawn(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) -> [Picture; 2] {
+fn render_pair(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) -> [Picture; 2] {
     let lens = studio.vehicle.camera;
-    let whole = studio.stage().through(
+    let whole = studio.stage().camera_view_from(
         PinholeCamera::of(&snapshot.pose, &lens),
         Some(&snapshot.pose),
         &lens,
@@ -77,7 +77,7 @@ fn drawn(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) -> [Pi
 
 /// Returns for each pixel of a crop whether it shows the defect, from its position on the defect's plane along and
 /// across, as fractions of the half sizes.
-fn inside(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool> {
+fn defect_mask(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool> {
     let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP.0) / lens.focal_px());
     let towards = camera_aimed_at(snapshot.pose.position_m, defect.position_m, false);
     let eye = PinholeCamera::of(&towards, &Camera { hfov_rad, ..*lens });
@@ -100,13 +100,13 @@ fn inside(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool
 
 /// Visibility of a defect in its region.
 #[derive(Debug, Clone, Copy)]
-struct Shows {
+struct DefectVisibility {
     /// Change caused by the defect relative to the variation of the bare surface (grain and texture), summed as by an
     /// observer who knows the pattern.
     signal_to_noise: f64,
 }
 
-fn shows([with, without]: &[Picture; 2], region: &[bool]) -> Shows {
+fn visibility([with, without]: &[Picture; 2], region: &[bool]) -> DefectVisibility {
     let of = |picture: &Picture| -> Vec<[f64; 3]> {
         let pixels = picture.rgba.chunks(4).zip(region).filter(|(_, inside)| **inside);
         pixels.map(|(p, _)| [f64::from(p[0]), f64::from(p[1]), f64::from(p[2])]).collect()
@@ -118,7 +118,7 @@ fn shows([with, without]: &[Picture; 2], region: &[bool]) -> Shows {
     let variance = without.iter().map(|p| square(p, &mean)).sum::<f64>() / count;
     let changed = with.iter().zip(&without).map(|(p, q)| square(p, q)).sum::<f64>();
     // The minimum noise is one gray level, due to rounding.
-    Shows { signal_to_noise: changed.sqrt() / variance.sqrt().max(1.0) }
+    DefectVisibility { signal_to_noise: changed.sqrt() / variance.sqrt().max(1.0) }
 }
 
 /// Returns a photo of the same point from the other side of the member. The measures must not call the defect visible,
@@ -133,12 +133,13 @@ fn from_behind(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect) -> Option<
 }
 
 #[test]
-fn prop_what_the_measures_call_visible_shows_in_the_picture() {
+fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
     // Rose's limit (1948): a signal five times the noise is reliably visible.
-    const SEEN: f64 = 5.0;
+    const VISIBLE_SNR: f64 = 5.0;
     let mut studio = Studio::new(two_bridges(), 1, "low", SimTime::ZERO);
     let mut stream = RandomStream::new(20, "view.snapshots");
-    let (mut shown, mut behind, mut kinds): (Vec<Shows>, Vec<Shows>, BTreeMap<u32, usize>) = Default::default();
+    let (mut shown, mut behind, mut kinds): (Vec<DefectVisibility>, Vec<DefectVisibility>, BTreeMap<u32, usize>) =
+        Default::default();
     let mut wrong = Vec::new();
     for seed in 1.. {
         if shown.len() >= SHOWN {
@@ -147,12 +148,15 @@ fn prop_what_the_measures_call_visible_shows_in_the_picture() {
         studio.site = Site::build(&studio.scenario, seed);
         for defect in studio.site.defects().to_vec() {
             let tries: Vec<Snapshot> = (0..TRIES)
-                .filter_map(|_| taken(&studio.site, &studio.vehicle, &defect, &mut stream))
+                .filter_map(|_| snapshot(&studio.site, &studio.vehicle, &defect, &mut stream))
                 .filter(|s| s.view.hit)
                 .collect();
             for snapshot in tries.into_iter().chain(from_behind(&studio.site, &studio.vehicle, &defect)) {
-                let found = shows(&drawn(&mut studio, &snapshot, &defect), &inside(&snapshot, &defect, &studio.vehicle.camera));
-                let seen = found.signal_to_noise >= SEEN;
+                let found = visibility(
+                    &render_pair(&mut studio, &snapshot, &defect),
+                    &defect_mask(&snapshot, &defect, &studio.vehicle.camera),
+                );
+                let seen = found.signal_to_noise >= VISIBLE_SNR;
                 if seen != snapshot.view.hit {
                     wrong.push(format!("seed {seed}, defect {}, {}: {found:?}, {:?}", defect.id, defect.kind, snapshot.view));
                 }
@@ -166,14 +170,14 @@ fn prop_what_the_measures_call_visible_shows_in_the_picture() {
         }
     }
     println!("{} photos show a defect according to the measures, by kind {kinds:?}", shown.len());
-    println!("signal to noise: {}; from behind: {}", spread(&shown), spread(&behind));
+    println!("signal to noise: {}; from behind: {}", summary(&shown), summary(&behind));
     assert!(behind.len() >= 30, "too few from behind: {}", behind.len());
     assert!(kinds.len() >= 6, "too few kinds: {kinds:?}");
     assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
 }
 
 /// Returns the minimum, the 10 % quantile, the median and the maximum as text.
-fn spread(all: &[Shows]) -> String {
+fn summary(all: &[DefectVisibility]) -> String {
     let mut values: Vec<f64> = all.iter().map(|shows| shows.signal_to_noise).collect();
     values.sort_by(f64::total_cmp);
     let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share) as usize).copied().unwrap_or(f64::NAN);

@@ -9,11 +9,11 @@ use crate::math;
 /// Distance from the ends of the floorbeams to the deck's edge, m (estimate).
 const BEAM_INSET_M: f64 = 0.4;
 /// Depth of abutments and skewbacks below the intrados at the springings, m (estimate).
-const FOUNDATION_M: f64 = 3.5;
+const FOUNDATION_DEPTH_M: f64 = 3.5;
 /// Length of the skewbacks, m (estimate).
-const SKEWBACK_M: f64 = 3.0;
+const SKEWBACK_LENGTH_M: f64 = 3.0;
 /// Minimum length of a column, m; shorter columns are omitted (estimate).
-const SHORTEST_COLUMN_M: f64 = 0.25;
+const MIN_COLUMN_LENGTH_M: f64 = 0.25;
 
 bridge_dimensions! {
     /// Dimensions of an open-spandrel deck arch. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
@@ -55,7 +55,7 @@ impl Arch {
 
     /// Returns the vertical depth of the rib at x, m: d_c + (d_s - d_c)(2x/L)².
     #[must_use]
-    pub fn depth_m(&self, x: f64) -> f64 {
+    pub fn rib_depth_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         self.crown_depth_m + (self.springing_depth_m - self.crown_depth_m) * u * u
     }
@@ -63,18 +63,18 @@ impl Arch {
     /// Returns the height of the top of the rib at x, m.
     #[must_use]
     pub fn extrados_z_m(&self, x: f64) -> f64 {
-        self.axis_z_m(x) + 0.5 * self.depth_m(x)
+        self.axis_z_m(x) + 0.5 * self.rib_depth_m(x)
     }
 
     /// Returns the height of the underside of the rib at x, m.
     #[must_use]
     pub fn intrados_z_m(&self, x: f64) -> f64 {
-        self.axis_z_m(x) - 0.5 * self.depth_m(x)
+        self.axis_z_m(x) - 0.5 * self.rib_depth_m(x)
     }
 
     /// Returns the curvature coefficient c of the intrados, 1/m: at x, the intrados is c x² below its crown.
     #[must_use]
-    pub fn intrados_bend_per_m(&self) -> f64 {
+    pub fn intrados_curvature_per_m(&self) -> f64 {
         (4.0 * self.rise_m + 2.0 * (self.springing_depth_m - self.crown_depth_m)) / (self.span_m * self.span_m)
     }
 
@@ -109,24 +109,34 @@ impl Arch {
     /// Returns all inconsistent dimensions. If there are none, every member has a positive volume and a support, and the
     /// interlayer is open.
     #[must_use]
-    pub fn misfits(&self) -> Vec<Inconsistency> {
+    pub fn inconsistencies(&self) -> Vec<Inconsistency> {
         let panel_m = self.span_m / self.panels.round();
         let line_m = (self.deck_width_m - 2.0 * BEAM_INSET_M) / self.stringers.round();
         let over_columns_m = self.rib_spacing_m + self.column_m + 2.0 * BEAM_INSET_M;
         let mut m = InconsistencyList::default();
-        m.integer_field("panels", self.panels);
-        m.integer_field("stringers", self.stringers);
-        m.at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
-        m.at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
-        m.at_least("springing_depth_m", self.springing_depth_m, self.crown_depth_m, "no thinner than the crown (crown_depth_m)");
-        m.at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m minus 1 m for the struts");
-        m.at_most("column_m", self.column_m, self.rib_width_m, "no wider than the rib (rib_width_m)");
-        m.at_most("column_m", self.column_m, 0.5 * panel_m, "half a panel (span_m, panels)");
-        m.at_most("floorbeam_width_m", self.floorbeam_width_m, 0.5 * panel_m, "half a panel (span_m, panels)");
-        m.at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
-        m.at_least("deck_width_m", self.deck_width_m, over_columns_m, "wide enough for the columns (rib_spacing_m, column_m)");
-        m.at_most("stringer_width_m", self.stringer_width_m, line_m, "room for all stringers (stringers, deck_width_m)");
-        m.at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
+        m.require_integer("panels", self.panels);
+        m.require_integer("stringers", self.stringers);
+        m.require_at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
+        m.require_at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
+        m.require_at_least(
+            "springing_depth_m",
+            self.springing_depth_m,
+            self.crown_depth_m,
+            "no thinner than the crown (crown_depth_m)",
+        );
+        m.require_at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m minus 1 m for the struts");
+        m.require_at_most("column_m", self.column_m, self.rib_width_m, "no wider than the rib (rib_width_m)");
+        m.require_at_most("column_m", self.column_m, 0.5 * panel_m, "half a panel (span_m, panels)");
+        m.require_at_most("floorbeam_width_m", self.floorbeam_width_m, 0.5 * panel_m, "half a panel (span_m, panels)");
+        m.require_at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
+        m.require_at_least(
+            "deck_width_m",
+            self.deck_width_m,
+            over_columns_m,
+            "wide enough for the columns (rib_spacing_m, column_m)",
+        );
+        m.require_at_most("stringer_width_m", self.stringer_width_m, line_m, "room for all stringers (stringers, deck_width_m)");
+        m.require_at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
         m.0
     }
 
@@ -146,13 +156,13 @@ impl Arch {
                 let profile =
                     [[a, self.intrados_z_m(a)], [c, self.intrados_z_m(c)], [c, self.extrados_z_m(c)], [a, self.extrados_z_m(a)]];
                 let half = 0.5 * self.rib_width_m;
-                b.across(&format!("rib-{side}/{k:02}"), Element::RcArch, &profile, y - half, y + half);
+                b.add_extrusion(&format!("rib-{side}/{k:02}"), Element::RcArch, &profile, y - half, y + half);
             }
         }
         let inner = 0.5 * (self.rib_spacing_m - self.rib_width_m);
         for (k, x) in self.panel_points().into_iter().enumerate().filter(|(k, _)| k % 2 == 1) {
             let z = self.axis_z_m(x);
-            b.block(&format!("strut/{k:02}"), Element::RcArch, [x - 0.35, -inner, z - 0.35], [x + 0.35, inner, z + 0.35]);
+            b.add_box(&format!("strut/{k:02}"), Element::RcArch, [x - 0.35, -inner, z - 0.35], [x + 0.35, inner, z + 0.35]);
         }
     }
 
@@ -163,11 +173,11 @@ impl Arch {
             // The rib slopes under the column, so the column starts where both of its edges are inside the rib.
             let foot = self.rib_top_z_m(x + half).min(self.rib_top_z_m(x - half));
             // Near the crown the floorbeam rests directly on the rib.
-            if top - foot < SHORTEST_COLUMN_M {
+            if top - foot < MIN_COLUMN_LENGTH_M {
                 continue;
             }
             for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
-                b.block(
+                b.add_box(
                     &format!("column-{side}/{k:02}"),
                     Element::RcColumn,
                     [x - half, y - half, foot],
@@ -178,7 +188,7 @@ impl Arch {
             if top - foot > 9.0 {
                 let z = foot + (top - foot) / 3.0;
                 let inner = 0.5 * self.rib_spacing_m - half;
-                b.block(
+                b.add_box(
                     &format!("column-strut/{k:02}"),
                     Element::RcColumn,
                     [x - 0.3, -inner, z - 0.3],
@@ -197,7 +207,7 @@ impl Arch {
         lines.push(0.5 * self.span_m);
         for (k, x) in lines.iter().enumerate() {
             let half = 0.5 * self.floorbeam_width_m;
-            b.block(
+            b.add_box(
                 &format!("floorbeam/{k:02}"),
                 Element::RcFloorBeam,
                 [x - half, -beam_half, self.floorbeam_z_m()],
@@ -209,12 +219,12 @@ impl Arch {
         ends.push(0.5 * self.deck_length_m());
         let count = self.stringers.round() as i32;
         for (k, pair) in ends.windows(2).enumerate() {
-            b.block(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
+            b.add_box(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
             for line in 0..count {
                 let share = (f64::from(line) + 0.5) / f64::from(count) * 2.0 - 1.0;
                 let (y, half) = (share * beam_half, 0.5 * self.stringer_width_m);
                 let name = format!("stringer-{line}/{k:02}");
-                b.block(
+                b.add_box(
                     &name,
                     Element::RcStringer,
                     [pair[0], y - half, soffit - self.stringer_depth_m],
@@ -225,13 +235,13 @@ impl Arch {
     }
 
     fn railings(&self, b: &mut MemberBuilder) {
-        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::RcRailing);
+        add_railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::RcRailing);
     }
 
     /// Returns the height of the underside of abutments and skewbacks, m.
     #[must_use]
-    pub fn foot_z_m(&self) -> f64 {
-        self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_M
+    pub fn foundation_z_m(&self) -> f64 {
+        self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_DEPTH_M
     }
 
     /// Returns the footings of abutments and skewbacks.
@@ -239,12 +249,12 @@ impl Arch {
     pub fn footings(&self) -> Vec<Footing> {
         let (inner, outer) = (0.5 * self.span_m, 0.5 * self.deck_length_m());
         let (half, narrow) = (0.5 * self.deck_width_m, self.skewback_half_m());
-        let at = |low: f64, high: f64, y: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m: self.foot_z_m() };
+        let at = |low: f64, high: f64, y: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m: self.foundation_z_m() };
         vec![
             at(-outer, -inner - 1.0, half),
             at(inner + 1.0, outer, half),
-            at(-inner - SKEWBACK_M, -inner, narrow),
-            at(inner, inner + SKEWBACK_M, narrow),
+            at(-inner - SKEWBACK_LENGTH_M, -inner, narrow),
+            at(inner, inner + SKEWBACK_LENGTH_M, narrow),
         ]
     }
 
@@ -263,24 +273,24 @@ impl Arch {
             ("skewback-end", over_ribs),
         ];
         for ((name, top), Footing { x_m, y_m, up_m }) in names.into_iter().zip(self.footings()) {
-            b.block(name, Element::RcAbutment, [x_m.0, y_m.0, up_m], [x_m.1, y_m.1, top]);
+            b.add_box(name, Element::RcAbutment, [x_m.0, y_m.0, up_m], [x_m.1, y_m.1, top]);
         }
     }
 }
 
 /// Adds railings along both edges of a deck: a post about every 2 m, and three rails.
-pub(super) fn railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: Element) {
-    const POST_M: f64 = 0.15;
+pub(super) fn add_railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: Element) {
+    const POST_WIDTH_M: f64 = 0.15;
     let posts = (length_m / 2.0).floor() as i32;
-    for (side, y) in [("left", edge_y_m - POST_M), ("right", -edge_y_m)] {
+    for (side, y) in [("left", edge_y_m - POST_WIDTH_M), ("right", -edge_y_m)] {
         for k in 0..=posts {
-            let x = (length_m - POST_M) * (f64::from(k) / f64::from(posts) - 0.5) - 0.5 * POST_M;
-            b.block(&format!("post-{side}/{k:03}"), element, [x, y, 0.0], [x + POST_M, y + POST_M, height_m]);
+            let x = (length_m - POST_WIDTH_M) * (f64::from(k) / f64::from(posts) - 0.5) - 0.5 * POST_WIDTH_M;
+            b.add_box(&format!("post-{side}/{k:03}"), element, [x, y, 0.0], [x + POST_WIDTH_M, y + POST_WIDTH_M, height_m]);
         }
         for rail in 1..=3 {
             let z = height_m * f64::from(rail) / 3.0;
             let half = 0.5 * length_m;
-            b.block(&format!("rail-{side}/{rail}"), element, [-half, y + 0.03, z - 0.1], [half, y + 0.12, z]);
+            b.add_box(&format!("rail-{side}/{rail}"), element, [-half, y + 0.03, z - 0.1], [half, y + 0.12, z]);
         }
     }
 }

@@ -32,19 +32,19 @@ pub struct Inconsistency {
 pub(super) struct InconsistencyList(pub(super) Vec<Inconsistency>);
 
 impl InconsistencyList {
-    pub(super) fn integer_field(&mut self, key: &'static str, value: f64) {
+    pub(super) fn require_integer(&mut self, key: &'static str, value: f64) {
         if value.fract() != 0.0 {
             self.0.push(Inconsistency { key, value, allowed: "a whole number".into() });
         }
     }
 
-    pub(super) fn at_least(&mut self, key: &'static str, value: f64, low: f64, why: &str) {
+    pub(super) fn require_at_least(&mut self, key: &'static str, value: f64, low: f64, why: &str) {
         if value < low {
             self.0.push(Inconsistency { key, value, allowed: format!("{why}: at least {low:.2}") });
         }
     }
 
-    pub(super) fn at_most(&mut self, key: &'static str, value: f64, high: f64, why: &str) {
+    pub(super) fn require_at_most(&mut self, key: &'static str, value: f64, high: f64, why: &str) {
         if value > high {
             self.0.push(Inconsistency { key, value, allowed: format!("{why}: at most {high:.2}") });
         }

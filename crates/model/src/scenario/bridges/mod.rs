@@ -23,7 +23,7 @@ pub struct Bridge {
     /// Name of the bridge, used in tasks and exports.
     pub name: String,
     /// Center of the deck's upper surface at midspan, m.
-    pub centre_m: Vec3<Enu>,
+    pub center_m: Vec3<Enu>,
     /// Direction of the bridge's x axis (along the deck), degrees clockwise from north.
     pub heading_deg: f64,
     /// Bridge type and dimensions.
@@ -74,10 +74,10 @@ impl BridgeKind {
 
     /// Returns all inconsistent dimensions. If there are any, the bridge cannot be built.
     #[must_use]
-    pub fn misfits(&self) -> Vec<Inconsistency> {
+    pub fn inconsistencies(&self) -> Vec<Inconsistency> {
         match self {
-            Self::Arch(arch) => arch.misfits(),
-            Self::Suspension(suspension) => suspension.misfits(),
+            Self::Arch(arch) => arch.inconsistencies(),
+            Self::Suspension(suspension) => suspension.inconsistencies(),
         }
     }
 }
@@ -86,7 +86,7 @@ impl Bridge {
     /// Returns the position and heading of the bridge axes.
     #[must_use]
     pub fn placement(&self) -> Placement {
-        Placement::new(self.centre_m, self.heading_deg)
+        Placement::new(self.center_m, self.heading_deg)
     }
 
     /// Returns all members of the bridge.
@@ -164,6 +164,6 @@ impl Bridge {
             (BridgeKind::Arch(_), _) => return Err("for an arch: slab_side, arch_bottom, interlayer".into()),
             (BridgeKind::Suspension(_), _) => return Err("for a suspension bridge: pier_circle".into()),
         };
-        Ok(drawn.placed(&placement))
+        Ok(drawn.to_site(&placement))
     }
 }

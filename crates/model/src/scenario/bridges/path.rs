@@ -46,7 +46,7 @@ pub struct LocalPath {
 impl LocalPath {
     /// Transforms the path to site coordinates.
     #[must_use]
-    pub fn placed(&self, placement: &Placement) -> TaskPath {
+    pub fn to_site(&self, placement: &Placement) -> TaskPath {
         TaskPath {
             path_m: self.points.iter().map(|p| placement.point(*p)).collect(),
             look: self.look.iter().map(|d| placement.direction(*d).unit()).collect(),
@@ -56,7 +56,7 @@ impl LocalPath {
 }
 
 /// Returns values from `a` to `b` in equal steps of at most [`SPACING_M`].
-fn steps(a: f64, b: f64) -> Vec<f64> {
+fn equal_steps(a: f64, b: f64) -> Vec<f64> {
     let n = ((b - a).abs() / SPACING_M).ceil().max(1.0);
     (0..=n as i32).map(|k| a + (b - a) * f64::from(k) / n).collect()
 }
@@ -65,7 +65,7 @@ fn steps(a: f64, b: f64) -> Vec<f64> {
 pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let half = 0.5 * arch.span_m;
     let y = -0.5 * arch.deck_width_m - stand_off_m;
-    let points: Vec<LocalPoint> = steps(-half, half).into_iter().map(|x| [x, y, -0.6]).collect();
+    let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, y, -0.6]).collect();
     LocalPath { look: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
 }
 
@@ -73,7 +73,7 @@ pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
 /// camera looks up and ahead at the arch.
 pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let reach = 0.5 * arch.span_m * 0.78;
-    let bend = arch.intrados_bend_per_m();
+    let bend = arch.intrados_curvature_per_m();
     // The ribs are straight between nodes on the curve, so the path stays farther away by their maximum deviation.
     let step = 0.5 * arch.span_m / arch.panels.round();
     let off = stand_off_m + 0.25 * bend * step * step;
@@ -97,7 +97,7 @@ fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPo
     const PERIOD_POINTS: f64 = 30.0;
     let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
     // The closest point of the arch is not vertically above the path point but farther from the crown.
-    let bend = 2.0 * arch.intrados_bend_per_m();
+    let bend = 2.0 * arch.intrados_curvature_per_m();
     let square = from[0] / (1.0 - off * bend / (1.0 + (bend * from[0]) * (bend * from[0])).sqrt());
     let ahead = (square + 0.3 * off).min(0.5 * arch.span_m);
     [ahead - from[0], 0.5 * arch.rib_spacing_m * side, arch.intrados_z_m(ahead) - from[2]]
@@ -107,7 +107,7 @@ fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPo
 pub(super) fn interlayer(arch: &Arch) -> LocalPath {
     let half = 0.3 * arch.span_m;
     let z = 0.5 * (arch.floorbeam_z_m() + arch.extrados_z_m(0.0));
-    let points: Vec<LocalPoint> = steps(-half, half).into_iter().map(|x| [x, 0.0, z]).collect();
+    let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, 0.0, z]).collect();
     let look = (0..points.len()).map(interlayer_look).collect();
     LocalPath { points, look, closed: false }
 }
@@ -123,7 +123,7 @@ fn interlayer_look(k: usize) -> LocalPoint {
 /// Returns the path of task 4: one loop around the start pier at the stand-off distance from its faces, rounded at the corners
 /// and facing the pier. It is 2 m below the top of the pier, or lower if the stand-off from the girders requires it.
 pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<LocalPath, String> {
-    let centre = [-0.5 * suspension.main_span_m, 0.0];
+    let center = [-0.5 * suspension.main_span_m, 0.0];
     let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
     let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_z_m() - stand_off_m);
     if z < -suspension.pier_top_m - suspension.pier_height_m {
@@ -132,7 +132,7 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<L
     let mut points = Vec::new();
     let mut look = Vec::new();
     let mut add = |x: f64, y: f64, nx: f64, ny: f64| {
-        points.push([centre[0] + x, centre[1] + y, z]);
+        points.push([center[0] + x, center[1] + y, z]);
         look.push([-nx, -ny, 0.0]);
     };
     let corner_steps = (0.5 * math::PI * stand_off_m / SPACING_M).ceil() as i32;
@@ -146,7 +146,7 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<L
         // The line along the face to the next corner, without its ends, which are part of the corners.
         let (nx, ny, _) = corners[(k + 1) % 4];
         let (s, c) = math::sin_cos(from + math::FRAC_PI_2);
-        let along = steps(0.0, (nx - cx).abs().max((ny - cy).abs()));
+        let along = equal_steps(0.0, (nx - cx).abs().max((ny - cy).abs()));
         let last = along.len() - 1;
         for share in along.iter().take(last).skip(1).map(|d| d / along[last]) {
             let (x, y) = (math::lerp(cx, nx, share), math::lerp(cy, ny, share));

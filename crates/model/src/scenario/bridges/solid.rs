@@ -130,13 +130,13 @@ impl MemberBuilder {
     }
 
     /// Adds a box between two opposite corners.
-    pub fn block(&mut self, part: &str, element: Element, low: LocalPoint, high: LocalPoint) {
+    pub fn add_box(&mut self, part: &str, element: Element, low: LocalPoint, high: LocalPoint) {
         let profile = [[low[0], low[2]], [high[0], low[2]], [high[0], high[2]], [low[0], high[2]]];
-        self.across(part, element, &profile, low[1], high[1]);
+        self.add_extrusion(part, element, &profile, low[1], high[1]);
     }
 
     /// Adds a rolled or welded steel beam between two opposite corners. Its two flanges and its web are separate members.
-    pub fn steel_beam(
+    pub fn add_steel_beam(
         &mut self,
         part: &str,
         element: Element,
@@ -152,13 +152,13 @@ impl MemberBuilder {
         let (mut web_low, mut web_high) = (low, high);
         (web_low[side], web_high[side]) = (middle - 0.5 * plates.web_m, middle + 0.5 * plates.web_m);
         (web_low[2], web_high[2]) = (low[2] + plates.flange_m, high[2] - plates.flange_m);
-        self.block(&format!("{part}/top"), element, [low[0], low[1], web_high[2]], high);
-        self.block(&format!("{part}/web"), element, web_low, web_high);
-        self.block(&format!("{part}/bottom"), element, low, [high[0], high[1], web_low[2]]);
+        self.add_box(&format!("{part}/top"), element, [low[0], low[1], web_high[2]], high);
+        self.add_box(&format!("{part}/web"), element, web_low, web_high);
+        self.add_box(&format!("{part}/bottom"), element, low, [high[0], high[1], web_low[2]]);
     }
 
     /// Adds a convex profile in the x-z plane (counterclockwise with x right and z up), extruded from `y_low` to `y_high`.
-    pub fn across(&mut self, part: &str, element: Element, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
+    pub fn add_extrusion(&mut self, part: &str, element: Element, profile: &[[f64; 2]], y_low: f64, y_high: f64) {
         let near = profile.iter().map(|p| [p[0], y_low, p[1]]);
         let far = profile.iter().map(|p| [p[0], y_high, p[1]]);
         let corners: Vec<LocalPoint> = near.chain(far).collect();
@@ -166,14 +166,14 @@ impl MemberBuilder {
     }
 
     /// Adds a regular prism with `sides` faces around the line from `a` to `b`, with its corners at `radius_m`.
-    pub fn rod(&mut self, part: &str, element: Element, a: LocalPoint, b: LocalPoint, radius_m: f64, sides: u32) {
+    pub fn add_rod(&mut self, part: &str, element: Element, a: LocalPoint, b: LocalPoint, radius_m: f64, sides: u32) {
         let axis = unit(sub(b, a));
-        self.cut_rod(part, element, [(a, axis), (b, axis)], radius_m, sides);
+        self.add_mitered_rod(part, element, [(a, axis), (b, axis)], radius_m, sides);
     }
 
     /// Adds rods between consecutive points in a vertical plane along the bridge, mitered so that each one ends where the next
     /// begins. The rods are numbered.
-    pub fn cable(&mut self, part: &str, element: Element, points: &[LocalPoint], radius_m: f64, sides: u32) {
+    pub fn add_cable(&mut self, part: &str, element: Element, points: &[LocalPoint], radius_m: f64, sides: u32) {
         let last = points.len() - 1;
         let cut = |k: usize| {
             let (before, after) = (points[k.saturating_sub(1)], points[(k + 1).min(last)]);
@@ -183,23 +183,23 @@ impl MemberBuilder {
             (points[k], unit([ahead[0] + next[0], ahead[1] + next[1], ahead[2] + next[2]]))
         };
         for k in 0..last {
-            self.cut_rod(&format!("{part}/{k:03}"), element, [cut(k), cut(k + 1)], radius_m, sides);
+            self.add_mitered_rod(&format!("{part}/{k:03}"), element, [cut(k), cut(k + 1)], radius_m, sides);
         }
     }
 
     /// Adds a prism along the line between two points, cut at each end by the plane with the given normal.
-    fn cut_rod(&mut self, part: &str, element: Element, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
+    fn add_mitered_rod(&mut self, part: &str, element: Element, ends: [(LocalPoint, LocalPoint); 2], radius_m: f64, sides: u32) {
         let axis = unit(sub(ends[1].0, ends[0].0));
         // Any direction that is not parallel to the axis works; the bridge's y axis orients cables and hangers alike.
         let helper = if axis[1].abs() > 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let u = unit(cross(helper, axis));
         let v = cross(axis, u);
-        let ring = |(centre, normal): (LocalPoint, LocalPoint)| {
+        let ring = |(center, normal): (LocalPoint, LocalPoint)| {
             (0..sides).map(move |k| {
                 let (s, c) = math::sin_cos(math::TAU * f64::from(k) / f64::from(sides));
                 let out = [0, 1, 2].map(|i| radius_m * (c * u[i] + s * v[i]));
                 let slide = -dot(normal, out) / dot(normal, axis);
-                [0, 1, 2].map(|i| centre[i] + out[i] + slide * axis[i])
+                [0, 1, 2].map(|i| center[i] + out[i] + slide * axis[i])
             })
         };
         // Seen from the first end the ring runs clockwise, which is counterclockwise seen from outside its first face.

@@ -1,30 +1,30 @@
 //! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, deck, railings, anchorages.
 
-use super::arch::railing;
+use super::arch::add_railing;
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
 use super::solid::{BeamDirection, Footing, MemberBuilder, PlateThickness};
 use crate::elements::Element;
 
 /// Half the width of the girders, which are centered on the edges of the deck, m (estimate).
-const GIRDER_OUT_M: f64 = 0.2;
+const GIRDER_HALF_WIDTH_M: f64 = 0.2;
 /// Plate thicknesses of the welded stiffening girders (estimate).
-const GIRDER: PlateThickness = PlateThickness { flange_m: 0.04, web_m: 0.016 };
+const GIRDER_PLATES: PlateThickness = PlateThickness { flange_m: 0.04, web_m: 0.016 };
 /// Plate thicknesses of the floorbeams (estimate).
-const FLOORBEAM: PlateThickness = PlateThickness { flange_m: 0.025, web_m: 0.012 };
+const FLOORBEAM_PLATES: PlateThickness = PlateThickness { flange_m: 0.025, web_m: 0.012 };
 /// Plate thicknesses of the stringers, which are rolled W21 shapes (estimate).
-const STRINGER: PlateThickness = PlateThickness { flange_m: 0.02, web_m: 0.012 };
+const STRINGER_PLATES: PlateThickness = PlateThickness { flange_m: 0.02, web_m: 0.012 };
 /// Gap between girder and tower leg, m (estimate).
 const LEG_GAP_M: f64 = 0.02;
 /// Height of the bearings below the girders, m (estimate).
-const BEARING_M: f64 = 0.2;
+const BEARING_HEIGHT_M: f64 = 0.2;
 /// Depth of the portal struts of the towers, m (estimate).
-const PORTAL_M: f64 = 1.2;
+const PORTAL_DEPTH_M: f64 = 1.2;
 /// Depth of the anchorages below the deck, m (estimate).
-const ANCHORAGE_FOOT_M: f64 = 12.0;
+const ANCHORAGE_DEPTH_M: f64 = 12.0;
 /// Length of the cables inside the anchorage blocks, m (estimate). The blocks are twice as long.
-const GRIP_M: f64 = 1.0;
+const CABLE_EMBEDMENT_M: f64 = 1.0;
 /// Height of the saddle between cable and tower leg, m (estimate).
-const SADDLE_M: f64 = 0.1;
+const SADDLE_HEIGHT_M: f64 = 0.1;
 
 bridge_dimensions! {
     /// Dimensions of a suspension bridge. Bridge axes: x along the deck, y left, z up, origin on the deck at midspan.
@@ -75,7 +75,7 @@ impl Suspension {
     /// the girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
-        0.5 * self.deck_width_m + GIRDER_OUT_M + LEG_GAP_M + 0.5 * self.leg_y_m
+        0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M + LEG_GAP_M + 0.5 * self.leg_y_m
     }
 
     /// Returns the height of the underside of the girders, m.
@@ -117,18 +117,23 @@ impl Suspension {
     /// Returns all inconsistent dimensions. If there are none, the towers rest on their piers and clear the girders, and all
     /// members are connected.
     #[must_use]
-    pub fn misfits(&self) -> Vec<Inconsistency> {
+    pub fn inconsistencies(&self) -> Vec<Inconsistency> {
         let legs_m = 2.0 * self.cable_y_m() + self.leg_y_m;
-        let portal_m = BEARING_M + PORTAL_M - self.girder_z_m();
+        let portal_m = BEARING_HEIGHT_M + PORTAL_DEPTH_M - self.girder_z_m();
         let mut m = InconsistencyList::default();
-        m.at_least("sag_m", self.sag_m, self.main_span_m / 20.0, "not too flat for main_span_m");
-        m.at_most("sag_m", self.sag_m, self.main_span_m / 4.0, "not too steep for main_span_m");
-        m.at_least("cable_clearance_m", self.cable_clearance_m, self.cable_radius_m, "clear of the deck (cable_radius_m)");
-        m.at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
-        m.at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
-        m.at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
-        m.at_least("pier_top_m", self.pier_top_m, portal_m, "below girders and portal (slab_m, girder_depth_m)");
-        m.at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
+        m.require_at_least("sag_m", self.sag_m, self.main_span_m / 20.0, "not too flat for main_span_m");
+        m.require_at_most("sag_m", self.sag_m, self.main_span_m / 4.0, "not too steep for main_span_m");
+        m.require_at_least(
+            "cable_clearance_m",
+            self.cable_clearance_m,
+            self.cable_radius_m,
+            "clear of the deck (cable_radius_m)",
+        );
+        m.require_at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
+        m.require_at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
+        m.require_at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
+        m.require_at_least("pier_top_m", self.pier_top_m, portal_m, "below girders and portal (slab_m, girder_depth_m)");
+        m.require_at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
         m.0
     }
 
@@ -144,13 +149,13 @@ impl Suspension {
         self.towers(b);
         self.cables(b);
         self.floor(b);
-        railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::MetalRailing);
+        add_railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::MetalRailing);
         self.anchorages(b);
     }
 
     /// Returns the height of the top of the tower legs, which is below the cables on both sides of the saddle, m.
     fn leg_top_m(&self) -> f64 {
-        self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_M
+        self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_HEIGHT_M
     }
 
     /// Returns the height at which the cable leaves the saddle, at the faces of the tower legs, m.
@@ -164,21 +169,21 @@ impl Suspension {
         for (name, x) in [("start", -0.5 * self.main_span_m), ("end", 0.5 * self.main_span_m)] {
             let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
             let foot = -self.pier_top_m;
-            b.block(&format!("pier-{name}"), Element::RcPierWall, [x - px, -py, foot - self.pier_height_m], [x + px, py, foot]);
+            b.add_box(&format!("pier-{name}"), Element::RcPierWall, [x - px, -py, foot - self.pier_height_m], [x + px, py, foot]);
             let (lx, ly) = (0.5 * self.leg_x_m, 0.5 * self.leg_y_m);
             for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
-                b.block(&format!("tower-{name}/{side}"), Element::SteelTower, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
+                b.add_box(&format!("tower-{name}/{side}"), Element::SteelTower, [x - lx, y - ly, foot], [x + lx, y + ly, top]);
                 self.saddle(b, &format!("tower-{name}/saddle-{side}"), x, y);
                 // Fixed bearings at one tower, movable bearings at the other.
                 let element = if x < 0.0 { Element::FixedBearing } else { Element::MovableBearing };
                 self.bearing(b, &format!("bearing-{name}/{side}"), element, x, y.signum());
             }
             let inner = self.cable_y_m() - ly;
-            for (part, z) in [("portal-top", top), ("portal-deck", self.girder_z_m() - BEARING_M)] {
-                b.block(
+            for (part, z) in [("portal-top", top), ("portal-deck", self.girder_z_m() - BEARING_HEIGHT_M)] {
+                b.add_box(
                     &format!("tower-{name}/{part}"),
                     Element::SteelTower,
-                    [x - 0.6, -inner, z - PORTAL_M],
+                    [x - 0.6, -inner, z - PORTAL_DEPTH_M],
                     [x + 0.6, inner, z],
                 );
             }
@@ -187,31 +192,31 @@ impl Suspension {
 
     /// Adds a saddle, which fills the space between a tower leg and the axis of the cable.
     fn saddle(&self, b: &mut MemberBuilder, name: &str, x: f64, y: f64) {
-        let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_M);
+        let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_HEIGHT_M);
         let (low, edge, crown) = (self.leg_top_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
         let profile = [[x - reach, low], [x + reach, low], [x + reach, edge], [x, crown], [x - reach, edge]];
-        b.across(name, Element::SteelTower, &profile, y - half, y + half);
+        b.add_extrusion(name, Element::SteelTower, &profile, y - half, y + half);
     }
 
     /// Adds a bearing between a girder and its support.
     fn bearing(&self, b: &mut MemberBuilder, name: &str, element: Element, x: f64, side: f64) {
         let y = side * 0.5 * self.deck_width_m;
         let z = self.girder_z_m();
-        b.block(name, element, [x - 0.3, y - 0.15, z - BEARING_M], [x + 0.3, y + 0.15, z]);
+        b.add_box(name, element, [x - 0.3, y - 0.15, z - BEARING_HEIGHT_M], [x + 0.3, y + 0.15, z]);
     }
 
     fn cables(&self, b: &mut MemberBuilder) {
         let half = 0.5 * self.main_span_m;
-        let grip = self.anchor_x_m() + GRIP_M;
+        let grip = self.anchor_x_m() + CABLE_EMBEDMENT_M;
         let mut xs = vec![-grip, -half];
         xs.extend(self.hangers());
         xs.extend([half, grip]);
         for (side, y) in [("left", self.cable_y_m()), ("right", -self.cable_y_m())] {
             let points: Vec<[f64; 3]> = xs.iter().map(|x| [*x, y, self.cable_z_m(*x)]).collect();
-            b.cable(&format!("cable-{side}"), Element::MainCable, &points, self.cable_radius_m, 8);
+            b.add_cable(&format!("cable-{side}"), Element::MainCable, &points, self.cable_radius_m, 8);
             for (k, x) in self.hangers().into_iter().enumerate() {
                 let foot = [x, y, -self.slab_m];
-                b.rod(
+                b.add_rod(
                     &format!("hanger-{side}/{k:03}"),
                     Element::Hanger,
                     foot,
@@ -227,17 +232,17 @@ impl Suspension {
         let half_width = 0.5 * self.deck_width_m;
         let soffit = -self.slab_m;
         for (k, pair) in self.panel_ends().windows(2).enumerate() {
-            b.block(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
-            for (side, y) in [("left", half_width - GIRDER_OUT_M), ("right", -half_width - GIRDER_OUT_M)] {
+            b.add_box(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
+            for (side, y) in [("left", half_width - GIRDER_HALF_WIDTH_M), ("right", -half_width - GIRDER_HALF_WIDTH_M)] {
                 let name = format!("girder-{side}/{k:02}");
-                let corners = ([pair[0], y, self.girder_z_m()], [pair[1], y + 2.0 * GIRDER_OUT_M, soffit]);
-                b.steel_beam(&name, Element::SteelGirder, corners, BeamDirection::Along, GIRDER);
+                let corners = ([pair[0], y, self.girder_z_m()], [pair[1], y + 2.0 * GIRDER_HALF_WIDTH_M, soffit]);
+                b.add_steel_beam(&name, Element::SteelGirder, corners, BeamDirection::Along, GIRDER_PLATES);
             }
             for (line, y) in [(0, -0.25), (1, 0.25)] {
                 let y = y * self.deck_width_m;
                 let name = format!("stringer-{line}/{k:02}");
                 let corners = ([pair[0], y - 0.12, soffit - 0.5], [pair[1], y + 0.12, soffit]);
-                b.steel_beam(&name, Element::SteelStringer, corners, BeamDirection::Along, STRINGER);
+                b.add_steel_beam(&name, Element::SteelStringer, corners, BeamDirection::Along, STRINGER_PLATES);
             }
         }
         // In the main span the floorbeams extend to the hangers, which support them.
@@ -246,7 +251,7 @@ impl Suspension {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
             let name = format!("floorbeam/{k:02}");
             let corners = ([x - 0.15, -reach, soffit - self.floorbeam_depth_m], [x + 0.15, reach, soffit]);
-            b.steel_beam(&name, Element::SteelFloorBeam, corners, BeamDirection::Across, FLOORBEAM);
+            b.add_steel_beam(&name, Element::SteelFloorBeam, corners, BeamDirection::Across, FLOORBEAM_PLATES);
         }
     }
 
@@ -261,7 +266,7 @@ impl Suspension {
         let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
         let (inner, outer) = (self.anchor_x_m(), self.anchor_x_m() + self.anchorage_m);
         let half = 0.5 * self.main_span_m;
-        let anchor_up_m = -ANCHORAGE_FOOT_M.max(3.0 - self.girder_z_m());
+        let anchor_up_m = -ANCHORAGE_DEPTH_M.max(3.0 - self.girder_z_m());
         let at = |low: f64, high: f64, y: f64, up_m: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m };
         let pier_up_m = -self.pier_top_m - self.pier_height_m;
         vec![
@@ -273,20 +278,20 @@ impl Suspension {
     }
 
     fn anchorages(&self, b: &mut MemberBuilder) {
-        let near = (self.cable_y_m() - self.cable_radius_m - 0.45).max(0.5 * self.deck_width_m + GIRDER_OUT_M);
-        let top = self.girder_z_m() - BEARING_M;
+        let near = (self.cable_y_m() - self.cable_radius_m - 0.45).max(0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M);
+        let top = self.girder_z_m() - BEARING_HEIGHT_M;
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
             let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
-            b.block(&format!("anchorage-{name}"), Element::RcFooting, [low, -far, foot.up_m], [high, far, top]);
+            b.add_box(&format!("anchorage-{name}"), Element::RcFooting, [low, -far, foot.up_m], [high, far, top]);
             // On each side of the deck the cable enters a block. The girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
-                let grip = if low < 0.0 { high - 2.0 * GRIP_M } else { low };
+                let grip = if low < 0.0 { high - 2.0 * CABLE_EMBEDMENT_M } else { low };
                 let block = format!("anchorage-{name}/{side}");
-                b.block(
+                b.add_box(
                     &block,
                     Element::RcFooting,
                     [grip, low_y, top],
-                    [grip + 2.0 * GRIP_M, high_y, self.cable_radius_m + 0.45],
+                    [grip + 2.0 * CABLE_EMBEDMENT_M, high_y, self.cable_radius_m + 0.45],
                 );
                 for (end, x) in [("low", low + 0.5), ("high", high - 0.5)] {
                     self.bearing(b, &format!("bearing-{name}/{side}-{end}"), Element::MovableBearing, x, low_y.signum());

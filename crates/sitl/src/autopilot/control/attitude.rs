@@ -96,7 +96,7 @@ fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Fr
 
 /// Remaining rotation about the body's down axis once the thrust direction is correct, rad.
 fn heading_error(attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, axis: Vec3<Frd>, angle: f64) -> f64 {
-    let tilted = attitude.turned_by(axis * angle);
+    let tilted = attitude.rotated_by(axis * angle);
     let rest: UnitQuaternion<f64> = tilted.inverse().raw() * wanted.raw();
     math::wrap_pi(2.0 * math::atan2(rest.k, rest.w))
 }
@@ -105,25 +105,25 @@ fn heading_error(attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, axis:
 mod tests {
     use super::*;
     use crate::autopilot::testing::vehicle_with;
-    use crate::sensors::tests::perfect;
+    use crate::sensors::tests::error_free_sensors;
 
     #[test]
     fn exact_a_heading_error_asks_for_yaw_alone() {
-        let gains = Gains::new(&vehicle_with(perfect()));
+        let gains = Gains::new(&vehicle_with(error_free_sensors()));
         let rates = wanted_rates(&gains, Rotation::identity(), Rotation::from_euler(0.0, 0.0, 0.1), 0.0);
         assert!((rates - Vec3::new(0.0, 0.0, 0.1 * gains.yaw)).norm() < 1e-12, "{rates:?}");
     }
 
     #[test]
     fn exact_a_roll_error_asks_for_roll_alone() {
-        let gains = Gains::new(&vehicle_with(perfect()));
+        let gains = Gains::new(&vehicle_with(error_free_sensors()));
         let rates = wanted_rates(&gains, Rotation::identity(), Rotation::from_euler(0.1, 0.0, 0.0), 0.0);
         assert!((rates - Vec3::new(0.1 * gains.attitude, 0.0, 0.0)).norm() < 1e-12, "{rates:?}");
     }
 
     #[test]
     fn prop_upside_down_it_rolls_back_at_the_full_rate() {
-        let gains = Gains::new(&vehicle_with(perfect()));
+        let gains = Gains::new(&vehicle_with(error_free_sensors()));
         let rates = wanted_rates(&gains, Rotation::from_euler(math::PI, 0.0, 0.0), Rotation::identity(), 0.0);
         assert!((rates.norm() - gains.rate_max_rad_s).abs() < 1e-9, "{rates:?}");
     }

@@ -162,7 +162,7 @@ impl Mixer {
 mod tests {
     use super::*;
     use crate::autopilot::testing::vehicle_with;
-    use crate::sensors::tests::perfect;
+    use crate::sensors::tests::error_free_sensors;
 
     /// N and N m; rounding of a dozen products.
     const ROUNDING: f64 = 1e-10;
@@ -181,7 +181,7 @@ mod tests {
 
     #[test]
     fn exact_a_modest_demand_is_given_exactly() {
-        let v = vehicle_with(perfect());
+        let v = vehicle_with(error_free_sensors());
         let (low, high) = limits(&v);
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(0.1, -0.2, 0.03), thrust_n: 13.0 };
         let (thrusts, given) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
@@ -194,7 +194,7 @@ mod tests {
 
     #[test]
     fn prop_yaw_gives_way_before_roll_and_pitch() {
-        let v = vehicle_with(perfect());
+        let v = vehicle_with(error_free_sensors());
         let (low, high) = limits(&v);
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(1.0, 0.0, 2.0), thrust_n: 20.0 };
         let (thrusts, given) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn prop_full_thrust_leaves_room_for_roll() {
-        let v = vehicle_with(perfect());
+        let v = vehicle_with(error_free_sensors());
         let (low, high) = limits(&v);
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(0.5, 0.5, 0.0), thrust_n: 1e3 };
         let (thrusts, _) = Mixer::new(&v, 2.0).allocate(&demand, low, high);

@@ -299,6 +299,6 @@ impl Estimator {
 
     /// Rotates the estimated attitude by a small rotation vector in NED.
     fn turn(&mut self, by_rad: Vec3<Ned>) {
-        self.attitude = self.attitude.turned_by(self.attitude.inverse() * by_rad);
+        self.attitude = self.attitude.rotated_by(self.attitude.inverse() * by_rad);
     }
 }

@@ -329,7 +329,7 @@ impl Estimator {
         let dv = gained + Vec3::new(0.0, 0.0, math::GRAVITY_M_S2 * dt_s);
         self.position_m += (self.velocity_m_s + dv * 0.5) * dt_s;
         self.velocity_m_s += dv;
-        self.attitude = self.attitude.turned_by(turn);
+        self.attitude = self.attitude.rotated_by(turn);
         self.rates_rad_s = rates;
         self.acceleration_m_s2 = if dt_s > 0.0 { dv / dt_s } else { Vec3::zero() };
         self.unpropagated_m_s += gained;

@@ -10,7 +10,7 @@ pub enum FenceOutline {
     /// A circle.
     Circle {
         /// Center.
-        centre_m: (f64, f64),
+        center_m: (f64, f64),
         /// Radius, m.
         radius_m: f64,
     },
@@ -21,8 +21,8 @@ impl FenceOutline {
     #[must_use]
     pub fn holds(&self, (n, e): (f64, f64)) -> bool {
         match self {
-            Self::Circle { centre_m, radius_m } => {
-                let (dn, de) = (n - centre_m.0, e - centre_m.1);
+            Self::Circle { center_m, radius_m } => {
+                let (dn, de) = (n - center_m.0, e - center_m.1);
                 dn * dn + de * de <= radius_m * radius_m
             }
             // A ray to the east crosses the outline an odd number of times from inside.
@@ -38,8 +38,8 @@ impl FenceOutline {
     fn crossings(&self, from: (f64, f64), to: (f64, f64)) -> Vec<f64> {
         let path = (to.0 - from.0, to.1 - from.1);
         match self {
-            Self::Circle { centre_m, radius_m } => {
-                let off = (from.0 - centre_m.0, from.1 - centre_m.1);
+            Self::Circle { center_m, radius_m } => {
+                let off = (from.0 - center_m.0, from.1 - center_m.1);
                 let (a, b) = (path.0 * path.0 + path.1 * path.1, off.0 * path.0 + off.1 * path.1);
                 let root = b * b - a * (off.0 * off.0 + off.1 * off.1 - radius_m * radius_m);
                 if a > 0.0 && root > 0.0 { vec![(-b - root.sqrt()) / a, (-b + root.sqrt()) / a] } else { Vec::new() }
@@ -155,14 +155,14 @@ mod tests {
         {
             assert_eq!(notched.holds(place), within, "{place:?}");
         }
-        let circle = FenceOutline::Circle { centre_m: (3.0, 4.0), radius_m: 5.0 };
+        let circle = FenceOutline::Circle { center_m: (3.0, 4.0), radius_m: 5.0 };
         assert!(circle.holds((0.0, 0.0)) && !circle.holds((-0.01, 0.0)));
     }
 
     #[test]
     fn exact_a_way_is_allowed_only_where_all_of_it_is() {
         let zone = |outline, inclusion| FenceZone { outline, inclusion };
-        let circle = |n, radius_m| FenceOutline::Circle { centre_m: (n, 0.0), radius_m };
+        let circle = |n, radius_m| FenceOutline::Circle { center_m: (n, 0.0), radius_m };
         let fence = Fence {
             // Two overlapping zones, a hole in one of them, and a separate third zone.
             zones: vec![
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn exact_flight_is_allowed_in_any_inclusion_and_in_no_exclusion() {
         let zone = |outline, inclusion| FenceZone { outline, inclusion };
-        let circle = |n, radius_m| FenceOutline::Circle { centre_m: (n, 0.0), radius_m };
+        let circle = |n, radius_m| FenceOutline::Circle { center_m: (n, 0.0), radius_m };
         let fence =
             Fence { zones: vec![zone(square(10.0), true), zone(circle(100.0, 5.0), true), zone(circle(0.0, 2.0), false)] };
         for (place, allowed) in [((5.0, 5.0), true), ((0.0, 0.0), false), ((50.0, 0.0), false), ((100.0, 0.0), true)] {

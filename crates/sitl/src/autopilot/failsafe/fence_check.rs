@@ -72,10 +72,10 @@ impl<'a> FenceCheck<'a> {
 
     /// Returns true if a circle leaves the fence.
     #[must_use]
-    pub fn ring_leaves(&self, centre_m: Vec3<Ned>, radius_m: f64) -> bool {
+    pub fn ring_leaves(&self, center_m: Vec3<Ned>, radius_m: f64) -> bool {
         let at = |k: usize| {
             let (s, c) = math::sin_cos(k as f64 * 2.0 * math::PI / RING_SIDES as f64);
-            centre_m + Vec3::new(radius_m * c, radius_m * s, 0.0)
+            center_m + Vec3::new(radius_m * c, radius_m * s, 0.0)
         };
         (0..RING_SIDES).any(|k| self.breach_at(at(k)).is_some() || self.leaves_between(at(k), at(k + 1)))
     }

@@ -48,14 +48,14 @@ impl Navigator {
         if !speed.is_finite() || speed == 0.0 {
             return RequestOutcome::Denied("Orbit speed out of range".into());
         }
-        let (n, e) = request.centre_m.unwrap_or((here.north(), here.east()));
-        let centre_m = Vec3::new(n, e, request.up_m.map_or(here.down(), |up| -up));
-        if self.fence_check(input).ring_leaves(centre_m, radius.abs()) {
+        let (n, e) = request.center_m.unwrap_or((here.north(), here.east()));
+        let center_m = Vec3::new(n, e, request.up_m.map_or(here.down(), |up| -up));
+        if self.fence_check(input).ring_leaves(center_m, radius.abs()) {
             return RequestOutcome::Denied("Circle leaves geofence".into());
         }
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
         let left_rad = if request.arc_rad > 0.0 { request.arc_rad } else { f64::INFINITY };
-        self.orbit = Some(Orbit { centre_m, radius_m: radius.abs(), speed_m_s: signed, yaw, left_rad, trim_m_s: 0.0 });
+        self.orbit = Some(Orbit { center_m, radius_m: radius.abs(), speed_m_s: signed, yaw, left_rad, trim_m_s: 0.0 });
         self.modes.intended = FlightMode::Orbit;
         self.modes.overridden = false;
         self.enter(FlightMode::Orbit, input);
@@ -75,7 +75,7 @@ impl Navigator {
         let rate = input.tuning.circle_rate_rad_s;
         self.request_orbit(
             OrbitRequest {
-                centre_m: Some((rest.north() + radius * c, rest.east() + radius * s)),
+                center_m: Some((rest.north() + radius * c, rest.east() + radius * s)),
                 up_m: Some(-rest.down()),
                 radius_m: Some(radius),
                 speed_m_s: Some(rate * radius),
@@ -104,20 +104,20 @@ impl Navigator {
     }
 
     /// Starts a mission circle at mission speed, with the nose toward its center or the region of interest.
-    pub(super) fn begin_circle(&mut self, centre_m: Vec3<Ned>, radius_m: f64, turns: f64, input: &NavigatorInput) {
+    pub(super) fn begin_circle(&mut self, center_m: Vec3<Ned>, radius_m: f64, turns: f64, input: &NavigatorInput) {
         let speed = self.mission.speed_m_s.unwrap_or(self.cruise_m_s(input)).min(self.max_speed_on(radius_m.abs(), input));
         let speed_m_s = speed * radius_m.signum();
         let left_rad = self.mission.suspended_arc_rad.take().unwrap_or(turns * 2.0 * math::PI);
         self.orbit =
-            Some(Orbit { centre_m, radius_m: radius_m.abs(), speed_m_s, yaw: OrbitYaw::Centre, left_rad, trim_m_s: 0.0 });
-        self.target_m = centre_m;
+            Some(Orbit { center_m, radius_m: radius_m.abs(), speed_m_s, yaw: OrbitYaw::Centre, left_rad, trim_m_s: 0.0 });
+        self.target_m = center_m;
     }
 
     /// Flies the active circle. Returns `None` without one.
     pub(super) fn circle(&mut self, input: &NavigatorInput) -> Option<Setpoint> {
         let mut orbit = self.orbit?;
         let here = input.here();
-        let out = Vec3::<Ned>::new(here.north() - orbit.centre_m.north(), here.east() - orbit.centre_m.east(), 0.0);
+        let out = Vec3::<Ned>::new(here.north() - orbit.center_m.north(), here.east() - orbit.center_m.east(), 0.0);
         let distance = out.norm();
         let away = if distance > 1e-3 { out.unit() } else { Vec3::new(1.0, 0.0, 0.0) };
         let along = Vec3::<Ned>::new(-away.east(), away.north(), 0.0);
@@ -126,7 +126,7 @@ impl Navigator {
         // Far from the circle, the heading of travel is toward it; on the circle, along it.
         let on_it = (1.0 - error.abs() / orbit.radius_m.max(2.0)).clamp(0.0, 1.0);
         let flat = along * (orbit.speed_m_s * on_it) - away * (CLOSE_IN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);
-        let climb = CLOSE_IN_PER_S * (orbit.centre_m.down() - here.down());
+        let climb = CLOSE_IN_PER_S * (orbit.center_m.down() - here.down());
         let velocity_m_s = Vec3::new(flat.north(), flat.east(), climb.clamp(-input.tuning.climb_m_s, input.tuning.descend_m_s));
         match orbit.yaw {
             OrbitYaw::Centre => self.heading.turn_to(self.look_rad(input).or(heading(away * -1.0)), self.modes.active, input),
@@ -135,7 +135,7 @@ impl Navigator {
             OrbitYaw::Stick => self.heading.turn_by_stick(input),
         }
         self.shaper.advance(velocity_m_s, &self.auto_limits(input), input.dt_s);
-        self.report.target_m = Some(orbit.centre_m);
+        self.report.target_m = Some(orbit.center_m);
         self.report.orbit = Some(orbit);
         if error.abs() < 0.3 * orbit.radius_m {
             orbit.trim_m_s = (orbit.trim_m_s + TRIM_PER_S2 * error * input.dt_s).clamp(-TRIM_MAX_M_S, TRIM_MAX_M_S);

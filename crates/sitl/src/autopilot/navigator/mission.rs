@@ -141,7 +141,7 @@ impl Mission {
     fn position_at(&self, index: usize) -> Option<Vec3<Ned>> {
         match self.step_at(index)? {
             MissionStep::Waypoint { position_m, .. } => Some(position_m),
-            MissionStep::Circle { centre_m, .. } => Some(centre_m),
+            MissionStep::Circle { center_m, .. } => Some(center_m),
             MissionStep::Land { position_m } => position_m,
             MissionStep::Takeoff { .. }
             | MissionStep::Return
@@ -240,8 +240,8 @@ impl Mission {
                 MissionStep::Waypoint { position_m: position_m - Vec3::new(0.0, 0.0, rise_m), accept_m, hold_s, yaw_rad }
             }
             MissionStep::Takeoff { up_m } => MissionStep::Takeoff { up_m: up_m.map(|up_m| up_m + rise_m) },
-            MissionStep::Circle { centre_m, radius_m, turns } => {
-                MissionStep::Circle { centre_m: centre_m - Vec3::new(0.0, 0.0, rise_m), radius_m, turns }
+            MissionStep::Circle { center_m, radius_m, turns } => {
+                MissionStep::Circle { center_m: center_m - Vec3::new(0.0, 0.0, rise_m), radius_m, turns }
             }
             MissionStep::Land { position_m: Some(place) } => {
                 MissionStep::Land { position_m: Some(place - Vec3::new(0.0, 0.0, rise_m)) }

@@ -269,7 +269,7 @@ impl Navigator {
                 self.returning.phase = ReturnPhase::Cruise;
             }
             MissionStep::Return => self.begin_return(input),
-            MissionStep::Circle { centre_m, radius_m, turns } => self.begin_circle(centre_m, radius_m, turns, input),
+            MissionStep::Circle { center_m, radius_m, turns } => self.begin_circle(center_m, radius_m, turns, input),
             MissionStep::Turn { yaw_rad, relative, rate_rad_s } => {
                 let from = if relative { input.estimate.attitude.yaw_rad() } else { 0.0 };
                 self.commanded.look_at_m = None;

@@ -46,7 +46,7 @@ pub enum MissionStep {
     /// Circle a point with the nose toward it.
     Circle {
         /// Center relative to the origin, m.
-        centre_m: Vec3<Ned>,
+        center_m: Vec3<Ned>,
         /// Radius, m; negative for counterclockwise from above.
         radius_m: f64,
         /// Number of turns.
@@ -107,7 +107,7 @@ impl MissionStep {
     pub fn position_mut(&mut self) -> Option<&mut Vec3<Ned>> {
         match self {
             Self::Waypoint { position_m, .. } | Self::Land { position_m: Some(position_m) } => Some(position_m),
-            Self::Circle { centre_m, .. } => Some(centre_m),
+            Self::Circle { center_m, .. } => Some(center_m),
             Self::Takeoff { .. }
             | Self::Land { position_m: None }
             | Self::Return

@@ -28,7 +28,7 @@ impl OrbitYaw {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orbit {
     /// Center and height of the circle, m.
-    pub centre_m: Vec3<Ned>,
+    pub center_m: Vec3<Ned>,
     /// Radius, m.
     pub radius_m: f64,
     /// Tangential speed, m/s; clockwise from above is positive.
@@ -45,7 +45,7 @@ pub struct Orbit {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OrbitRequest {
     /// Center, north and east, m; `None` uses the current position.
-    pub centre_m: Option<(f64, f64)>,
+    pub center_m: Option<(f64, f64)>,
     /// Height above the origin, m.
     pub up_m: Option<f64>,
     /// Radius, m; negative for counterclockwise.

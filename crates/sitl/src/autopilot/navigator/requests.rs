@@ -303,10 +303,10 @@ impl Navigator {
             let outside = format!("Mission item {number} outside geofence");
             let to = match step {
                 MissionStep::Waypoint { position_m, .. } | MissionStep::Land { position_m: Some(position_m) } => position_m,
-                MissionStep::Circle { centre_m, radius_m, .. } if fence.ring_leaves(centre_m, radius_m.abs()) => {
+                MissionStep::Circle { center_m, radius_m, .. } if fence.ring_leaves(center_m, radius_m.abs()) => {
                     return Some(outside);
                 }
-                MissionStep::Circle { centre_m, .. } => centre_m,
+                MissionStep::Circle { center_m, .. } => center_m,
                 MissionStep::Takeoff { up_m } => {
                     let over = from.unwrap_or(home);
                     Vec3::new(over.north(), over.east(), -up_m.unwrap_or_else(|| self.default_takeoff_up_m(input)))

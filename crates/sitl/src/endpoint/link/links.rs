@@ -117,7 +117,7 @@ impl Links {
     /// Sends a message from a component on the links on which a peer, given by system and component ID, was seen.
     pub fn send_to(&mut self, component: u8, peer: (u8, u8), message: &impl Encodable) {
         for (id, link) in &mut self.peers {
-            if self.router.note_sender(peer, *id) {
+            if self.router.has_seen(peer, *id) {
                 link.send(component, message);
             }
         }

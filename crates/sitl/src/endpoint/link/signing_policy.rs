@@ -3,7 +3,7 @@
 use super::link_id::LinkKind;
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::router;
-use spandrel_mavlink::signing::{SignatureVerdict, Signing, SigningKey, is_newer};
+use spandrel_mavlink::signing::{SignatureVerdict, Signing, SigningKey, is_accepted};
 
 /// Verifies frames received on all links.
 #[derive(Debug, Clone)]
@@ -68,7 +68,7 @@ impl SigningPolicy {
     /// Decides on a frame. A payload process without a key may broadcast but not send commands.
     pub fn admit(&mut self, frame: &ReceivedFrame, kind: LinkKind) -> FrameAdmission {
         let verdict = self.signing.verify(frame, self.stamp);
-        if is_newer(frame, verdict) || (verdict == SignatureVerdict::Unsigned && self.trusted.contains(&kind)) {
+        if is_accepted(frame, verdict) || (verdict == SignatureVerdict::Unsigned && self.trusted.contains(&kind)) {
             return FrameAdmission::Execute;
         }
         if verdict == SignatureVerdict::Unsigned && kind == LinkKind::Payload && router::target(frame).0 == 0 {

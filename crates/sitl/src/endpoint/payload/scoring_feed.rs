@@ -2,7 +2,7 @@
 //! at rates of their own.
 
 use super::scoring_truth::ScoringTruth;
-use spandrel_mavlink::contract::named::Named;
+use spandrel_mavlink::contract::named_values::Named;
 use spandrel_model::time::{Schedule, SimTime};
 
 /// Schedules of the named values, and the values sent last.

@@ -18,7 +18,7 @@ pub struct ElementSurface {
     /// Surface that can be inspected from the reference paths, m².
     pub inspectable_m2: f64,
     /// Inspectable surface by outcome, m².
-    pub by_fate_m2: BTreeMap<SurfaceOutcome, f64>,
+    pub area_by_outcome_m2: BTreeMap<SurfaceOutcome, f64>,
     /// Area-weighted sums over the best pictures that meet the required pixel size and angle.
     pub(crate) sums: PictureSums,
 }
@@ -60,7 +60,7 @@ impl ElementSurface {
     /// Adds the area of a surface patch with its outcome and best picture.
     pub(super) fn add(&mut self, area_m2: f64, fate: SurfaceOutcome, best: Option<&BestPicture>) {
         self.inspectable_m2 += area_m2;
-        *self.by_fate_m2.entry(fate).or_default() += area_m2;
+        *self.area_by_outcome_m2.entry(fate).or_default() += area_m2;
         let Some(best) = best.filter(|best| best.fate > SurfaceOutcome::TooOblique) else { return };
         self.sums.area_m2 += area_m2;
         self.sums.incidence_rad += area_m2 * best.incidence_rad;
@@ -71,8 +71,8 @@ impl ElementSurface {
 
     fn merge(&mut self, other: &Self) {
         self.inspectable_m2 += other.inspectable_m2;
-        for (fate, area_m2) in &other.by_fate_m2 {
-            *self.by_fate_m2.entry(*fate).or_default() += area_m2;
+        for (fate, area_m2) in &other.area_by_outcome_m2 {
+            *self.area_by_outcome_m2.entry(*fate).or_default() += area_m2;
         }
         let (sums, more) = (&mut self.sums, &other.sums);
         sums.area_m2 += more.area_m2;
@@ -85,13 +85,13 @@ impl ElementSurface {
     /// Returns the area with this outcome, m².
     #[must_use]
     pub fn area_m2(&self, fate: SurfaceOutcome) -> f64 {
-        self.by_fate_m2.get(&fate).copied().unwrap_or_default()
+        self.area_by_outcome_m2.get(&fate).copied().unwrap_or_default()
     }
 
     /// Returns the area with this outcome or a better one, m².
     #[must_use]
     pub fn at_least_m2(&self, fate: SurfaceOutcome) -> f64 {
-        self.by_fate_m2.range(fate..).map(|(_, area_m2)| area_m2).sum()
+        self.area_by_outcome_m2.range(fate..).map(|(_, area_m2)| area_m2).sum()
     }
 
     /// Returns the area photographed at the required pixel size and angle, m².
@@ -102,7 +102,7 @@ impl ElementSurface {
 
     /// Returns the average of the pictures that meet the required pixel size and angle; `None` if there are none.
     #[must_use]
-    pub fn typical(&self) -> Option<AveragePicture> {
+    pub fn average_picture(&self) -> Option<AveragePicture> {
         let PictureSums { area_m2, incidence_rad, gsd_m, blur_px, ln_lux } = self.sums;
         (area_m2 > 0.0).then(|| AveragePicture {
             incidence_rad: incidence_rad / area_m2,

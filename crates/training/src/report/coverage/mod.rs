@@ -19,7 +19,7 @@ use spandrel_model::elements::Element;
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::visibility::{INCIDENCE_MAX_RAD, lamp_lux, needed_lux};
+use spandrel_model::site::visibility::{MAX_INCIDENCE_RAD, lamp_lux, needed_lux};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::measures::attention;
@@ -28,14 +28,14 @@ use std::collections::BTreeMap;
 /// Maximum motion blur, px (one pixel, as published for defect detection).
 pub const BLUR_MAX_PX: f64 = 1.0;
 /// Surface counts as background beyond this multiple of the distance at which a pixel has the required size.
-const BACKGROUND: f64 = 3.0;
+const BACKGROUND_DISTANCE_FACTOR: f64 = 3.0;
 /// Sampling interval at which the camera's view during the flight is evaluated.
-const VIEW_STEP: SimTime = SimTime::from_ms(2_000);
+const VIEW_SAMPLE_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// Size of the cells in which patches with the same orientation share their ambient light, m.
 const LIGHT_CELL_M: f64 = 5.0;
 
 /// A surface patch with the best picture of it.
-struct JudgedPatch {
+struct EvaluatedPatch {
     patch: SurfacePatch,
     in_view: bool,
     best: Option<BestPicture>,
@@ -43,9 +43,9 @@ struct JudgedPatch {
 
 /// Computes the surface coverage of a session.
 #[must_use]
-pub fn covered(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture]) -> SurfaceCoverage {
-    let whole = inspectable(scene).into_iter().map(|patch| JudgedPatch { patch, in_view: false, best: None });
-    let mut pieces: Vec<JudgedPatch> = whole.collect();
+pub fn compute_coverage(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture]) -> SurfaceCoverage {
+    let whole = inspectable(scene).into_iter().map(|patch| EvaluatedPatch { patch, in_view: false, best: None });
+    let mut pieces: Vec<EvaluatedPatch> = whole.collect();
     let mut light = LightCache { scene, cells: BTreeMap::new() };
     for picture in pictures {
         add_picture(&mut pieces, picture, &mut light);
@@ -59,16 +59,16 @@ pub fn covered(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture]) -> Surfa
     SurfaceCoverage { elements }
 }
 
-impl JudgedPatch {
+impl EvaluatedPatch {
     fn fate(&self) -> SurfaceOutcome {
-        let unpictured = if self.in_view { SurfaceOutcome::Unpictured } else { SurfaceOutcome::Unseen };
+        let unpictured = if self.in_view { SurfaceOutcome::NotPhotographed } else { SurfaceOutcome::NeverInView };
         self.best.map_or(unpictured, |best| best.fate)
     }
 }
 
 /// Returns the distance, m, and the cosine of the incidence angle for a patch that is inside the image and faces the camera. Does
 /// not check whether the sight line is clear.
-fn framed(patch: &SurfacePatch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
+fn in_image(patch: &SurfacePatch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
     let to = patch.point_m - pose.position_m;
     let away_m = to.norm();
     let cosine = -to.dot(patch.normal) / away_m.max(f64::MIN_POSITIVE);
@@ -84,15 +84,15 @@ fn framed(patch: &SurfacePatch, pose: &CameraPose, camera: &Camera, farthest_m: 
     inside.then_some((away_m, cosine))
 }
 
-fn add_picture(pieces: &mut [JudgedPatch], picture: &ReviewedPicture, light: &mut LightCache<'_>) {
+fn add_picture(pieces: &mut [EvaluatedPatch], picture: &ReviewedPicture, light: &mut LightCache<'_>) {
     let (pose, camera) = (&picture.pose, &picture.camera);
     let reach = reach_m(camera);
     for piece in pieces {
-        let Some((away_m, cosine)) = framed(&piece.patch, pose, camera, BACKGROUND * reach) else { continue };
+        let Some((away_m, cosine)) = in_image(&piece.patch, pose, camera, BACKGROUND_DISTANCE_FACTOR * reach) else { continue };
         // Best outcome possible for this picture. If an equal or better picture is known, the sight line is not tested.
         let most = if away_m > reach {
             SurfaceOutcome::TooFar
-        } else if cosine < math::cos(INCIDENCE_MAX_RAD) {
+        } else if cosine < math::cos(MAX_INCIDENCE_RAD) {
             SurfaceOutcome::TooOblique
         } else {
             SurfaceOutcome::Shown
@@ -106,7 +106,7 @@ fn add_picture(pieces: &mut [JudgedPatch], picture: &ReviewedPicture, light: &mu
         let mut now = BestPicture { fate: most, incidence_rad, gsd_m, blur_px: 0.0, lux: 0.0 };
         if most == SurfaceOutcome::Shown {
             (now.lux, now.blur_px) = light.with_motion_blur(&piece.patch, picture);
-            now.fate = judged(now.lux, now.blur_px, picture);
+            now.fate = outcome_of_light_and_blur(now.lux, now.blur_px, picture);
         }
         if piece.best.is_none_or(|best| (best.fate, -best.gsd_m) < (now.fate, -now.gsd_m)) {
             piece.best = Some(now);
@@ -115,7 +115,7 @@ fn add_picture(pieces: &mut [JudgedPatch], picture: &ReviewedPicture, light: &mu
 }
 
 /// Returns the outcome of a picture that meets the required pixel size and angle, from its light and blur.
-fn judged(lux: f64, blur_px: f64, picture: &ReviewedPicture) -> SurfaceOutcome {
+fn outcome_of_light_and_blur(lux: f64, blur_px: f64, picture: &ReviewedPicture) -> SurfaceOutcome {
     if lux < needed_lux(&picture.camera) {
         if picture.pose.lamp_on { SurfaceOutcome::DarkLampOn } else { SurfaceOutcome::DarkLampOff }
     } else if blur_px > BLUR_MAX_PX {
@@ -125,15 +125,15 @@ fn judged(lux: f64, blur_px: f64, picture: &ReviewedPicture) -> SurfaceOutcome {
     }
 }
 
-fn add_flight(pieces: &mut [JudgedPatch], scene: &ReviewContext<'_>) {
-    let stride = (VIEW_STEP.s() * scene.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;
-    let steepest = math::cos(INCIDENCE_MAX_RAD);
+fn add_flight(pieces: &mut [EvaluatedPatch], scene: &ReviewContext<'_>) {
+    let stride = (VIEW_SAMPLE_INTERVAL.s() * scene.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;
+    let steepest = math::cos(MAX_INCIDENCE_RAD);
     for frame in scene.frames.iter().step_by(stride) {
         let Some(pose) = attention::pose(scene.flight, frame.time, scene.vehicle) else { continue };
         let camera = attention::camera(scene.flight, frame.time, &scene.vehicle.camera);
         // Patches with a picture already have an outcome.
         for piece in pieces.iter_mut().filter(|piece| !piece.in_view && piece.best.is_none()) {
-            let near = framed(&piece.patch, &pose, &camera, reach_m(&camera));
+            let near = in_image(&piece.patch, &pose, &camera, reach_m(&camera));
             piece.in_view =
                 near.is_some_and(|(_, cosine)| cosine >= steepest) && is_clear(pose.position_m, piece.patch.above_m, scene);
         }

@@ -4,9 +4,9 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SurfaceOutcome {
     /// Never in the camera's view at the required distance and angle.
-    Unseen,
+    NeverInView,
     /// In view but not photographed.
-    Unpictured,
+    NotPhotographed,
     /// Photographed from too far away: the pixel size is too large.
     TooFar,
     /// Photographed at more than 60 degrees from the surface normal.
@@ -30,8 +30,8 @@ impl SurfaceOutcome {
         Self::DarkLampOff,
         Self::TooOblique,
         Self::TooFar,
-        Self::Unpictured,
-        Self::Unseen,
+        Self::NotPhotographed,
+        Self::NeverInView,
     ];
 
     /// Returns the name shown in the report.
@@ -44,8 +44,8 @@ impl SurfaceOutcome {
             Self::DarkLampOff => "too dark, lamp off",
             Self::TooOblique => "too oblique",
             Self::TooFar => "too far",
-            Self::Unpictured => "in view, no picture",
-            Self::Unseen => "never in view",
+            Self::NotPhotographed => "in view, no picture",
+            Self::NeverInView => "never in view",
         }
     }
 
@@ -59,8 +59,8 @@ impl SurfaceOutcome {
             Self::DarkLampOff => "f-dark-off",
             Self::TooOblique => "f-oblique",
             Self::TooFar => "f-far",
-            Self::Unpictured => "f-unpictured",
-            Self::Unseen => "f-unseen",
+            Self::NotPhotographed => "f-unpictured",
+            Self::NeverInView => "f-unseen",
         }
     }
 }

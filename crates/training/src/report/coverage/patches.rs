@@ -6,16 +6,16 @@ use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::bridges::Solid;
-use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
+use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 
 /// Side length of a patch, m.
 const PATCH_M: f64 = 1.0;
 /// Minimum area of a face, m². Smaller faces, such as edges of plates and posts, are skipped.
-const LEAST_FACE_M2: f64 = 0.1;
+const MIN_FACE_M2: f64 = 0.1;
 /// Distance from the surface at which sight lines start, m.
-const LIFT_M: f64 = 0.02;
+const SURFACE_OFFSET_M: f64 = 0.02;
 /// Maximum number of reference points tested per patch, nearest first.
-const TRIES: usize = 8;
+const MAX_POINTS_TESTED: usize = 8;
 
 /// A patch of a member's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,13 +39,13 @@ pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
     let stations: Vec<Vec3<Enu>> = scene.scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied()).collect();
     let mut patches = Vec::new();
     for member in scene.site.members() {
-        let near: Vec<Vec3<Enu>> = near_to(&member.solid, &stations, reach);
+        let near: Vec<Vec3<Enu>> = points_within_reach(&member.solid, &stations, reach);
         if near.is_empty() {
             continue;
         }
-        for (point_m, normal, area_m2) in sampled(&member.solid) {
-            if seen_from(&near, (point_m, normal), reach, scene) {
-                let (element, above_m) = (member.element, point_m + normal * LIFT_M);
+        for (point_m, normal, area_m2) in sample_faces(&member.solid) {
+            if is_visible_from(&near, (point_m, normal), reach, scene) {
+                let (element, above_m) = (member.element, point_m + normal * SURFACE_OFFSET_M);
                 patches.push(SurfacePatch { element, above_m, point_m, normal, area_m2 });
             }
         }
@@ -54,7 +54,7 @@ pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
 }
 
 /// Returns the reference points within reach of a solid's bounding box.
-fn near_to(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> Vec<Vec3<Enu>> {
+fn points_within_reach(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> Vec<Vec3<Enu>> {
     let empty = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let (low, high) =
         solid.vertices_m.iter().map(|v| v.array()).fold(empty, |(low, high), v| {
@@ -65,17 +65,17 @@ fn near_to(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> Vec<Vec3<Enu>
 }
 
 /// Samples a solid's faces and returns the points with their outward normals and areas.
-fn sampled(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
+fn sample_faces(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
     let mut samples = Vec::new();
     for face in &solid.faces {
         let corners: Vec<Vec3<Enu>> = face.iter().filter_map(|k| solid.vertices_m.get(*k as usize).copied()).collect();
         let count = corners.len();
         let twice = (0..count).fold(Vec3::zero(), |sum, k| sum + corners[k].cross(corners[(k + 1) % count]));
         let (area, normal) = (0.5 * twice.norm(), twice.unit());
-        if count < 3 || area < LEAST_FACE_M2 {
+        if count < 3 || area < MIN_FACE_M2 {
             continue;
         }
-        let inside = grid(&corners, normal);
+        let inside = sample_polygon(&corners, normal);
         let each = area / inside.len() as f64;
         samples.extend(inside.into_iter().map(|point| (point, normal, each)));
     }
@@ -83,7 +83,7 @@ fn sampled(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
 }
 
 /// Returns the points of a grid over a convex polygon, [`PATCH_M`] apart, or the center if the polygon is smaller than that.
-fn grid(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
+fn sample_polygon(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
     let u = (corners[1] - corners[0]).unit();
     let v = normal.cross(u);
     let flat: Vec<(f64, f64)> = corners.iter().map(|c| ((*c - corners[0]).dot(u), (*c - corners[0]).dot(v))).collect();
@@ -118,15 +118,20 @@ fn is_inside(flat: &[(f64, f64)], p: (f64, f64)) -> bool {
     })
 }
 
-fn seen_from(stations: &[Vec3<Enu>], (point_m, normal): (Vec3<Enu>, Vec3<Enu>), reach_m: f64, scene: &ReviewContext<'_>) -> bool {
-    let steepest = math::cos(INCIDENCE_MAX_RAD);
+fn is_visible_from(
+    stations: &[Vec3<Enu>],
+    (point_m, normal): (Vec3<Enu>, Vec3<Enu>),
+    reach_m: f64,
+    scene: &ReviewContext<'_>,
+) -> bool {
+    let steepest = math::cos(MAX_INCIDENCE_RAD);
     let mut near: Vec<(f64, Vec3<Enu>)> = stations
         .iter()
         .map(|station| ((*station - point_m).norm(), *station))
         .filter(|(away, station)| *away <= reach_m && (*station - point_m).dot(normal) >= steepest * *away)
         .collect();
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    near.iter().take(TRIES).any(|(_, station)| is_clear(*station, point_m + normal * LIFT_M, scene))
+    near.iter().take(MAX_POINTS_TESTED).any(|(_, station)| is_clear(*station, point_m + normal * SURFACE_OFFSET_M, scene))
 }
 
 #[cfg(test)]
@@ -134,7 +139,7 @@ mod tests {
     use super::*;
 
     /// Returns a box of 4 by 3 by 2 m.
-    fn block() -> Solid {
+    fn box_solid() -> Solid {
         let corner = |k: u32| {
             let pick = |bit: u32, length: f64| if k >> bit & 1 == 1 { length } else { 0.0 };
             Vec3::new(pick(0, 4.0), pick(1, 3.0), pick(2, 2.0))
@@ -145,8 +150,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_patches_of_a_box_add_up_to_its_surface_and_lie_on_it() {
-        let samples = sampled(&block());
+    fn exact_patches_of_a_box_cover_its_surface() {
+        let samples = sample_faces(&box_solid());
         let area: f64 = samples.iter().map(|sample| sample.2).sum();
         assert!((area - 2.0 * (12.0 + 8.0 + 6.0)).abs() < 1e-9, "{area}");
         assert_eq!(samples.len(), 2 * (12 + 8 + 6), "one patch per square meter");
@@ -158,8 +163,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_triangle_keeps_its_area() {
+    fn exact_small_triangle_has_one_sample() {
         let corners = [Vec3::new(0.0, 0.0, 0.0), Vec3::new(0.5, 0.0, 0.0), Vec3::new(0.0, 0.5, 0.0)];
-        assert_eq!(grid(&corners, Vec3::new(0.0, 0.0, 1.0)).len(), 1, "a polygon smaller than a patch has one point");
+        assert_eq!(sample_polygon(&corners, Vec3::new(0.0, 0.0, 1.0)).len(), 1, "a polygon smaller than a patch has one point");
     }
 }

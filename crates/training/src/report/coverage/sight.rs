@@ -2,15 +2,15 @@
 
 use crate::report::context::ReviewContext;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::site::visibility::LINE_WIDTH_MIN_PX;
+use spandrel_model::site::visibility::MIN_LINE_WIDTH_PX;
 use spandrel_model::vehicle::Camera;
 
 /// Crack width that separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
-const CRACK_M: f64 = 0.001_27;
+const CRACK_WIDTH_M: f64 = 0.001_27;
 /// Pixel size on the surface at which that crack covers the half pixel that a hit requires, m.
-pub const REQUIRED_GSD_M: f64 = CRACK_M / LINE_WIDTH_MIN_PX;
+pub const REQUIRED_GSD_M: f64 = CRACK_WIDTH_M / MIN_LINE_WIDTH_PX;
 /// Sight lines end at this distance in front of the surface, m.
-const CLEAR_M: f64 = 0.02;
+const SIGHT_LINE_MARGIN_M: f64 = 0.02;
 
 /// Returns the distance at which a pixel has the required size on the surface, m.
 #[must_use]
@@ -20,6 +20,6 @@ pub fn reach_m(camera: &Camera) -> f64 {
 
 pub(super) fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &ReviewContext<'_>) -> bool {
     let line = to - from;
-    let reach = line.norm() - CLEAR_M;
+    let reach = line.norm() - SIGHT_LINE_MARGIN_M;
     reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
 }

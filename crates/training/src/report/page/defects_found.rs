@@ -5,13 +5,13 @@ use super::figure::figure;
 use super::gallery::{DefectMark, frame};
 use crate::report::Review;
 use crate::report::defects::DefectOutcome;
+use crate::report::formatting;
 use crate::report::outline::ParallelView;
 use crate::report::plots::map;
 use crate::report::sketch::{SketchExposure, Sketcher};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
-use spandrel_model::defect_codes::kind_name;
+use spandrel_model::defect_codes::defect_name;
 use spandrel_model::scenario::Bridge;
 
 /// Renders the "Defects" section of a session report.
@@ -51,13 +51,14 @@ fn drawings(review: &Review, bridge: &Bridge) -> Markup {
 
 fn card(review: &Review, fate: &DefectOutcome, sketcher: &Sketcher) -> Markup {
     let defect = &fate.defect;
-    let marks = [DefectMark { id: defect.id, at_m: defect.position_m, long_m: defect.length_m, class: "missed", hidden: false }];
+    let marks =
+        [DefectMark { id: defect.id, at_m: defect.position_m, length_m: defect.length_m, class: "missed", hidden: false }];
     let alt = format!("Defect {}, seen from 4 m away", defect.id);
     let exposure = SketchExposure { light: 1.0, by_lamp: true };
     html! {
         li.shot {
             (frame(sketcher, (&fate.good_view(), &review.vehicle.camera), exposure, &marks, &alt))
-            p { span.badge.v-false { "missed" } " " b { "Defect " (defect.id) } ", " (kind_name(defect.kind)) ", condition state " (defect.condition_state) }
+            p { span.badge.v-false { "missed" } " " b { "Defect " (defect.id) } ", " (defect_name(defect.kind)) ", condition state " (defect.condition_state) }
             p { "On " (defect.member) " (" (defect.element.name()) "), " (size(fate)) "." }
             p.note { "It was " (fate.words()) "." }
         }
@@ -66,11 +67,11 @@ fn card(review: &Review, fate: &DefectOutcome, sketcher: &Sketcher) -> Markup {
 
 fn size(fate: &DefectOutcome) -> String {
     let defect = &fate.defect;
-    let long = words::number(100.0 * defect.length_m, 0);
+    let long = formatting::number(100.0 * defect.length_m, 0);
     if defect.line {
-        format!("{long} cm long, {} mm wide", words::number(1000.0 * defect.width_m, 2))
+        format!("{long} cm long, {} mm wide", formatting::number(1000.0 * defect.width_m, 2))
     } else {
-        format!("{long} by {} cm", words::number(100.0 * defect.width_m, 0))
+        format!("{long} by {} cm", formatting::number(100.0 * defect.width_m, 0))
     }
 }
 
@@ -78,11 +79,11 @@ fn table(review: &Review) -> Table {
     let row = |fate: &DefectOutcome| {
         let defect = &fate.defect;
         let [east, north, up] = defect.position_m.array();
-        let chance = fate.chance.as_ref();
+        let best_approach = fate.best_approach.as_ref();
         let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
         vec![
             defect.id.into(),
-            kind_name(defect.kind).into(),
+            defect_name(defect.kind).into(),
             u32::from(defect.condition_state).into(),
             u32::from(defect.element.number()).into(),
             defect.element.name().into(),
@@ -93,8 +94,8 @@ fn table(review: &Review) -> Table {
             TableCell::Number(north, 2),
             TableCell::Number(up, 2),
             fate.found_by.map_or("missed".into(), |number| format!("picture {number}")).into(),
-            number(chance.map(|c| c.in_view_s), 1),
-            number(chance.map(|c| c.nearest.0), 1),
+            number(best_approach.map(|c| c.in_view_s), 1),
+            number(best_approach.map(|c| c.nearest.0), 1),
             fate.words().into(),
         ]
     };

@@ -2,10 +2,10 @@
 
 use super::figure::{figure, scrolling};
 use crate::report::Review;
-use crate::report::cues::{CueEpisode, KINDS, median};
+use crate::report::feedback::{CueEpisode, KINDS, median};
+use crate::report::formatting;
 use crate::report::plots::{line, sheet, ticks, unit};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 620.0;
@@ -13,7 +13,7 @@ const LEFT: f64 = 96.0;
 const RIGHT: f64 = 600.0;
 const ROW: f64 = 34.0;
 /// End of the time axis, s. Later stick movements do not count as a reaction.
-const LONGEST_S: f64 = 5.0;
+const MAX_REACTION_S: f64 = 5.0;
 
 /// Renders the "Feedback" section of a session report.
 pub fn section(review: &Review) -> Markup {
@@ -26,7 +26,7 @@ pub fn section(review: &Review) -> Markup {
                     tbody { @for kind in &present { (row(review, *kind)) } }
                 }
             }
-            @if answered(review).next().is_some() {
+            @if reactions_by_kind(review).next().is_some() {
                 (figure("Time from the cue to the first stick movement; each dot is one cue, the bar is the median", &scrolling("Reaction times", &reactions(review))))
             }
             p.note { "A reaction is a stick movement of at least 10 % of full travel within 5 s of the cue. A stick that was already moving may count as a reaction by coincidence." }
@@ -41,12 +41,12 @@ fn of(review: &Review, kind: usize) -> impl Iterator<Item = &CueEpisode> {
     review.feedback.episodes.iter().filter(move |episode| episode.kind == kind)
 }
 
-fn answered(review: &Review) -> impl Iterator<Item = (usize, f64)> + '_ {
-    review.feedback.episodes.iter().filter_map(|episode| episode.answer_s.map(|answer_s| (episode.kind, answer_s)))
+fn reactions_by_kind(review: &Review) -> impl Iterator<Item = (usize, f64)> + '_ {
+    review.feedback.episodes.iter().filter_map(|episode| episode.reaction_s.map(|reaction_s| (episode.kind, reaction_s)))
 }
 
 fn times(review: &Review, kind: usize) -> Vec<f64> {
-    of(review, kind).filter_map(|episode| episode.answer_s).collect()
+    of(review, kind).filter_map(|episode| episode.reaction_s).collect()
 }
 
 fn row(review: &Review, kind: usize) -> Markup {
@@ -57,18 +57,18 @@ fn row(review: &Review, kind: usize) -> Markup {
         tr {
             th scope="row" { (KINDS[kind].name) }
             td.number { (count) }
-            td.number { (words::number(on, 1)) }
-            @if KINDS[kind].wants_answer {
+            td.number { (formatting::number(on, 1)) }
+            @if KINDS[kind].expects_reaction {
                 td.number { (answers.len()) " of " (count) }
-                td.number { (median(answers).map_or("–".into(), |s| words::number(s, 2))) }
+                td.number { (median(answers).map_or("–".into(), |s| formatting::number(s, 2))) }
             } @else { td.number { "–" } td.number { "–" } }
         }
     }
 }
 
 /// Returns the horizontal position of a reaction time in the drawing.
-fn fraction_text(answer_s: f64) -> f64 {
-    LEFT + (RIGHT - LEFT) * (answer_s / LONGEST_S).clamp(0.0, 1.0)
+fn x_of_reaction(reaction_s: f64) -> f64 {
+    LEFT + (RIGHT - LEFT) * (reaction_s / MAX_REACTION_S).clamp(0.0, 1.0)
 }
 
 fn reactions(review: &Review) -> Markup {
@@ -79,15 +79,15 @@ fn reactions(review: &Review) -> Markup {
         "Reaction times by feedback",
         "reactions",
         &html! {
-            @for tick in ticks(LONGEST_S, 5) {
-                path.grid d=(line(&[(fraction_text(tick), 0.0), (fraction_text(tick), bottom)], false)) {}
-                text.tick x=(unit(fraction_text(tick))) y=(unit(bottom + 16.0)) text-anchor="middle" { (words::number(tick, 0)) " s" }
+            @for tick in ticks(MAX_REACTION_S, 5) {
+                path.grid d=(line(&[(x_of_reaction(tick), 0.0), (x_of_reaction(tick), bottom)], false)) {}
+                text.tick x=(unit(x_of_reaction(tick))) y=(unit(bottom + 16.0)) text-anchor="middle" { (formatting::number(tick, 0)) " s" }
             }
             @for (k, kind) in kinds.iter().enumerate() {
                 @let y = ROW * k as f64 + 0.5 * ROW;
                 text.label x=(unit(LEFT - 10.0)) y=(unit(y + 5.0)) text-anchor="end" { (KINDS[*kind].name) }
-                @for answer_s in times(review, *kind) { circle.reaction cx=(unit(fraction_text(answer_s))) cy=(unit(y)) r="5" {} }
-                @if let Some(middle) = median(times(review, *kind)) { path.median d=(line(&[(fraction_text(middle), y - 11.0), (fraction_text(middle), y + 11.0)], false)) {} }
+                @for reaction_s in times(review, *kind) { circle.reaction cx=(unit(x_of_reaction(reaction_s))) cy=(unit(y)) r="5" {} }
+                @if let Some(middle) = median(times(review, *kind)) { path.median d=(line(&[(x_of_reaction(middle), y - 11.0), (x_of_reaction(middle), y + 11.0)], false)) {} }
             }
         },
     )
@@ -99,7 +99,7 @@ fn episodes(review: &Review) -> Table {
             TableCell::Clock(episode.from_s),
             KINDS[episode.kind].name.into(),
             TableCell::Number(episode.to_s - episode.from_s, 2),
-            episode.answer_s.map_or(TableCell::Empty, |answer_s| TableCell::Number(answer_s, 2)),
+            episode.reaction_s.map_or(TableCell::Empty, |reaction_s| TableCell::Number(reaction_s, 2)),
             episode.task.map_or("between tasks".into(), |task| format!("task {}", review.scenario.tasks[task].id)).into(),
         ]
     };
@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_reactions_lie_on_their_axis() {
-        assert_eq!((fraction_text(0.0), fraction_text(2.5), fraction_text(5.0), fraction_text(9.0)), (96.0, 348.0, 600.0, 600.0));
+    fn exact_reaction_times_map_to_axis() {
+        assert_eq!((x_of_reaction(0.0), x_of_reaction(2.5), x_of_reaction(5.0), x_of_reaction(9.0)), (96.0, 348.0, 600.0, 600.0));
     }
 }

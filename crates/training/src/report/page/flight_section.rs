@@ -1,11 +1,11 @@
 //! The flight on the site, its timeline and its charts, linked by a slider.
 
 use super::figure::{figure, legend, scrolling};
-use crate::report::cues::KINDS;
-use crate::report::plots::strips::{TimeStrip, strips};
+use crate::report::feedback::KINDS;
+use crate::report::plots::timeline::{TimeStrip, strips};
 use crate::report::plots::{colors, map};
 use crate::report::table::{Table, TableCell};
-use crate::report::{Review, words};
+use crate::report::{Review, formatting};
 use maud::{Markup, html};
 
 /// Id, title and data columns of each chart.
@@ -68,11 +68,11 @@ fn controls(review: &Review) -> Markup {
             }
             fieldset.switch {
                 legend { "Color flight path by" }
-                @for (k, (name, class)) in colors::COLOURINGS.iter().enumerate() {
+                @for (k, (name, class)) in colors::COLOR_MODES.iter().enumerate() {
                     label { input type="radio" name="colouring" value=(class) id=(class) checked[k == 0]; (name) }
                 }
             }
-            @for (k, (_, class)) in colors::COLOURINGS.iter().enumerate() {
+            @for (k, (_, class)) in colors::COLOR_MODES.iter().enumerate() {
                 div class={ "key " (class) } {
                     (legend(&colors::classes(k).iter().copied().zip(colors::legend(k, review.scenario.scoring.speed_limit_m_s)).collect::<Vec<_>>()))
                 }
@@ -129,7 +129,7 @@ fn stick_legend() -> Markup {
 }
 
 fn rows(review: &Review) -> Vec<TimeStrip> {
-    let mut rows = vec![control_stretches(review)];
+    let mut rows = vec![control_intervals(review)];
     for (k, window) in review.on_path.windows.iter().enumerate() {
         let stretch =
             window.map(|w| ("w-task".to_owned(), review.t_s(w.first), review.t_s(w.last), review.scenario.tasks[k].name.clone()));
@@ -147,7 +147,7 @@ fn rows(review: &Review) -> Vec<TimeStrip> {
                     "cue".to_owned(),
                     e.from_s,
                     e.to_s,
-                    format!("{} from {} to {}", about.name, words::clock(e.from_s), words::clock(e.to_s)),
+                    format!("{} from {} to {}", about.name, formatting::clock(e.from_s), formatting::clock(e.to_s)),
                 )
             })
             .collect();
@@ -171,11 +171,11 @@ fn rows(review: &Review) -> Vec<TimeStrip> {
     rows
 }
 
-fn control_stretches(review: &Review) -> TimeStrip {
-    let stretch = |s: &spandrel_monitor::assessment::ControlStretch| {
+fn control_intervals(review: &Review) -> TimeStrip {
+    let stretch = |s: &spandrel_monitor::assessment::ControlInterval| {
         let class = if s.by == Some(spandrel_mavlink::contract::modes::ControlSource::Pilot) { "h-pilot" } else { "h-other" };
         let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
-        (class.to_owned(), t_s(s.from_frame), t_s(s.to_frame), words::control_source_label(s.by).to_owned())
+        (class.to_owned(), t_s(s.from_frame), t_s(s.to_frame), formatting::control_source_label(s.by).to_owned())
     };
     TimeStrip { name: "flown by".into(), stretches: review.assessment.flown_by.iter().map(stretch).collect(), marks: Vec::new() }
 }
@@ -189,7 +189,7 @@ fn gaps(review: &Review) -> TimeStrip {
         match open {
             None if gap => open = Some(i),
             Some(from) if !gap => {
-                let seconds = words::number(review.t_s(i) - review.t_s(from), 1);
+                let seconds = formatting::number(review.t_s(i) - review.t_s(from), 1);
                 stretches.push(("gap".into(), review.t_s(from), review.t_s(i), format!("no telemetry for {seconds} s")));
                 open = None;
             }

@@ -3,14 +3,14 @@
 
 use crate::report::Review;
 use crate::report::assets::base64;
+use crate::report::formatting;
 use crate::report::pictures::{PictureVerdict, ReviewedPicture};
 use crate::report::plots::unit;
 use crate::report::sketch::{SketchExposure, Sketcher, WIDTH_PX};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::visibility::CENTRAL_SHARE;
+use spandrel_model::site::visibility::CENTRAL_FRACTION;
 use spandrel_model::vehicle::Camera;
 
 /// Prepares the site for all drawings, lit by the sun at mid-flight.
@@ -23,7 +23,7 @@ pub fn sketcher(review: &Review) -> Sketcher {
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     html! {
         @if review.pictures.is_empty() { p.calm { "No pictures were taken." } } @else {
-            p { (tally(review)) }
+            p { (verdict_counts(review)) }
             @if review.about.pictures.is_empty() {
                 p.note { "The session contains no photographs, so each view is drawn from the bridge geometry. Only defects inside the dashed frame count." }
             }
@@ -33,7 +33,7 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     }
 }
 
-fn tally(review: &Review) -> String {
+fn verdict_counts(review: &Review) -> String {
     let count = |verdict: PictureVerdict| review.pictures.iter().filter(|picture| picture.verdict == verdict).count();
     let parts: Vec<String> = PictureVerdict::ALL
         .iter()
@@ -49,7 +49,7 @@ fn card(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mark
         li.shot {
             (image(review, picture, sketcher))
             p { span class={ "badge " (picture.verdict.class()) } { (picture.verdict.name()) } " "
-                b { "Picture " (picture.number) } " at " (words::clock(picture.t_s))
+                b { "Picture " (picture.number) } " at " (formatting::clock(picture.t_s))
                 @if let Some(task) = picture.task { ", task " (review.scenario.tasks[task].id) } }
             p { (capitalized(&picture.reason)) "." }
             p.note { (target(picture)) }
@@ -69,11 +69,11 @@ fn target(picture: &ReviewedPicture) -> String {
         Some(t) => format!(
             "Center: {}, {} m away, {}° from the surface normal, {} mm per pixel, {} lx ({lamp}), motion blur {} px",
             t.name,
-            words::number(t.distance_m, 1),
-            words::number(t.incidence_rad.to_degrees(), 0),
-            words::number(1000.0 * t.gsd_m, 1),
-            words::number(t.lux, 0),
-            words::number(t.blur_px, 1),
+            formatting::number(t.distance_m, 1),
+            formatting::number(t.incidence_rad.to_degrees(), 0),
+            formatting::number(1000.0 * t.gsd_m, 1),
+            formatting::number(t.lux, 0),
+            formatting::number(t.blur_px, 1),
         ),
     }
 }
@@ -99,7 +99,7 @@ fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mar
             Some(DefectMark {
                 id: fate.defect.id,
                 at_m: fate.defect.position_m,
-                long_m: fate.defect.length_m,
+                length_m: fate.defect.length_m,
                 class,
                 hidden: !view.unoccluded,
             })
@@ -115,7 +115,7 @@ pub struct DefectMark {
     /// Position in the site frame (ENU), m.
     pub at_m: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>,
     /// Largest dimension of the defect, m.
-    pub long_m: f64,
+    pub length_m: f64,
     /// CSS class of the mark.
     pub class: &'static str,
     /// Whether the structure hides the defect from the camera.
@@ -137,16 +137,16 @@ pub fn frame(
         let to = mark.at_m - pose.position_m;
         let depth = to.dot(pose.forward).max(0.01);
         let middle = (0.5 * w + focal * to.dot(pose.right) / depth, 0.5 * h + focal * to.dot(down) / depth);
-        (middle, (0.5 * focal * mark.long_m / depth).clamp(7.0, 0.5 * w))
+        (middle, (0.5 * focal * mark.length_m / depth).clamp(7.0, 0.5 * w))
     };
-    let edge = 0.5 * (1.0 - CENTRAL_SHARE);
+    let edge = 0.5 * (1.0 - CENTRAL_FRACTION);
     // If the image cannot be encoded, the page shows only its text.
     let drawing = sketcher.png(pose, camera, exposure).map(|png| base64(&png)).unwrap_or_default();
     html! {
         svg.frame viewBox={ "0 0 " (unit(w)) " " (unit(h)) } role="img" aria-label=(words) {
             title { (words) }
             image href={ "data:image/png;base64," (drawing) } width=(unit(w)) height=(unit(h)) {}
-            rect.central x=(unit(edge * w)) y=(unit(edge * h)) width=(unit(CENTRAL_SHARE * w)) height=(unit(CENTRAL_SHARE * h)) {}
+            rect.central x=(unit(edge * w)) y=(unit(edge * h)) width=(unit(CENTRAL_FRACTION * w)) height=(unit(CENTRAL_FRACTION * h)) {}
             @for mark in marks {
                 @let ((x, y), r) = place(mark);
                 g class={ "ring " (mark.class) @if mark.hidden { " hidden-behind" } } {

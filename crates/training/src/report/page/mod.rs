@@ -1,21 +1,21 @@
 //! The report page, section by section. User-provided text is escaped by maud; data for the page's script is escaped by
 //! [`series`].
 
+mod certification;
 pub mod cohort;
 mod compare;
-mod conditions;
+mod coverage;
+mod crash_kinds;
 mod defects_found;
 mod feedback;
 mod figure;
 mod flight_section;
 mod gallery;
-mod kinds;
 mod next_steps;
 pub mod progress;
 mod record;
 pub mod series;
 mod summary;
-mod surface;
 mod tasks;
 
 pub use compare::comparison;
@@ -37,8 +37,8 @@ pub fn session(review: &Review) -> String {
         ("pictures", "Pictures", gallery::section(review, &sketcher)),
         ("defects", "Defects", defects_found::section(review, &sketcher)),
         ("feedback", "Feedback", feedback::section(review)),
-        ("coverage", "Coverage", surface::section(review)),
-        ("certification", "Certification", conditions::section(review)),
+        ("coverage", "Coverage", coverage::section(review)),
+        ("certification", "Certification", certification::section(review)),
         ("record", "Record", record::section(review)),
     ];
     let data = series::data(review);
@@ -60,7 +60,7 @@ pub fn session(review: &Review) -> String {
 /// Interactive content of a page: its embedded data and the scripts that it needs.
 enum PageScripts {
     /// The page is static.
-    Nothing,
+    None,
     /// Slider, charts and 3D view of a session.
     Session(String),
     /// Slider and charts of two sessions.
@@ -87,7 +87,7 @@ fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
             body {
                 (body)
                 @match moves {
-                    PageScripts::Nothing => {}
+                    PageScripts::None => {}
                     PageScripts::Session(data) => {
                         script type="application/json" id="flight-data" { (PreEscaped(data)) }
                         script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE)) }

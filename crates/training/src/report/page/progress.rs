@@ -1,15 +1,15 @@
 //! One trainee's progress on one job, by repetition, as the TASBID paper shows it for participant 18: scores, on-path share by
 //! task, crashes by kind and, after four repetitions, learning curves. Used in the trainee's page and the cohort pages.
 
+use super::crash_kinds::{KINDS, counted, segments};
 use super::figure::{figure, legend};
-use super::kinds::{KINDS, counted, segments};
 use crate::cohort::{JobProgress, Repetition, ScoreCurve, TraineeProgress};
 use crate::record::omitted_summary;
+use crate::report::formatting;
 use crate::report::plots::bars::{CountRow, counts};
+use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::plots::lines::{ChartLine, colour, lines};
-use crate::report::plots::practice::{PracticeChart, practice};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
 
 /// Names of the four scores.
@@ -22,7 +22,7 @@ pub fn most(score: &str) -> f64 {
 
 /// Renders the progress on one job.
 #[must_use]
-pub fn on_job(job: &JobProgress) -> Markup {
+pub fn job_progress(job: &JobProgress) -> Markup {
     let progress = &job.progress;
     let left_out = html! { @if let Some(words) = omitted_summary(job.left_out) { p.note { (words) "." } } };
     if progress.repetitions.is_empty() {
@@ -168,7 +168,7 @@ fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table
 pub fn too_few() -> String {
     format!(
         "A learning curve requires {} repetitions of the same job.",
-        words::number(crate::statistics::LEARNING_NEEDS as f64, 0)
+        formatting::number(crate::statistics::MIN_LEARNING_REPETITIONS as f64, 0)
     )
 }
 
@@ -177,20 +177,20 @@ mod tests {
     use super::*;
     use crate::cohort::by_job;
     use crate::record::{IncompletePolicy, SessionRecord};
-    use crate::testing::faultless;
+    use crate::testing::perfect_record;
 
     fn progress_page(count: usize) -> Markup {
-        let mut records: Vec<SessionRecord> = (1..=count).map(|k| faultless("anna", k)).collect();
+        let mut records: Vec<SessionRecord> = (1..=count).map(|k| perfect_record("anna", k)).collect();
         records[0].tasks[2].attempted = false;
         records[0].tasks[0].name = "<b>slab</b>".into();
         records[count - 1].tasks[0].name = "<b>slab</b>".into();
         records[0].tasks[1].crashes.water = 2;
         records[0].tasks[1].crashes.person = 1;
-        on_job(&by_job(&records, IncompletePolicy::LeaveOut)[0])
+        job_progress(&by_job(&records, IncompletePolicy::Exclude)[0])
     }
 
     #[test]
-    fn exact_scores_tasks_and_crashes_stand_repetition_by_repetition() {
+    fn exact_progress_lists_each_repetition() {
         let text = progress_page(3).into_string();
         assert_eq!(text.matches("class=\"lines\"").count(), 2);
         // Four score lines with three points each. The task lines have one point less, because one task was not attempted once.
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_fourth_repetition_brings_the_curves() {
+    fn exact_learning_curves_appear_at_fourth_repetition() {
         let text = progress_page(4).into_string();
         assert_eq!(text.matches("class=\"practice\"").count(), 5);
         assert!(text.contains("learning_curves.csv") && !text.contains("NaN"));

@@ -1,8 +1,8 @@
 //! Data behind the report: telemetry gaps, control sources, link statistics, files and their hashes.
 
 use crate::report::Review;
+use crate::report::formatting;
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
 
 /// Renders the "Record" section of a session report.
@@ -13,7 +13,7 @@ pub fn section(review: &Review) -> Markup {
         @if telemetry.missing_frames > 0 {
             p.note { "In gaps longer than 1 s, missing frames repeat the last position and are scored at that position." }
         }
-        (control_stretches(review).shown())
+        (control_intervals(review).shown())
         (files(review).shown())
         p.note { "This report is computed from the telemetry, the scenario file and the aircraft file. The same three files always produce the same report." }
     }
@@ -29,17 +29,17 @@ fn gaps(review: &Review) -> String {
         t.gaps,
         t.interpolated_frames,
         t.missing_frames,
-        words::number(100.0 * t.covered, 1)
+        formatting::number(100.0 * t.covered, 1)
     )
 }
 
-fn control_stretches(review: &Review) -> Table {
-    let row = |stretch: &spandrel_monitor::assessment::ControlStretch| {
+fn control_intervals(review: &Review) -> Table {
+    let row = |stretch: &spandrel_monitor::assessment::ControlInterval| {
         let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
         vec![
             TableCell::Clock(t_s(stretch.from_frame)),
             TableCell::Clock(t_s(stretch.to_frame)),
-            words::control_source_label(stretch.by).into(),
+            formatting::control_source_label(stretch.by).into(),
         ]
     };
     Table {

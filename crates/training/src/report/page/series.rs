@@ -12,11 +12,11 @@ use spandrel_model::frames::{Enu, Vec3};
 /// Maximum sampling rate of the time series, Hz.
 const RATE_HZ: f64 = 10.0;
 /// Maximum number of samples in a time series.
-const MOST: usize = 15_000;
+const MAX_SAMPLES: usize = 15_000;
 /// Number of terrain samples along each side of the 3D model.
-const GROUND: usize = 72;
+const TERRAIN_SAMPLES: usize = 72;
 /// Offset of a defect's mark from the surface along the normal, m. It keeps the mark invisible from the other side.
-const BEFORE_M: f64 = 0.5;
+const DEFECT_MARK_OFFSET_M: f64 = 0.5;
 
 /// Returns the data block of a session report as JSON.
 #[must_use]
@@ -30,19 +30,19 @@ pub fn data(review: &Review) -> String {
         "pictures": review.pictures.iter().map(|picture| json!({ "number": picture.number, "t": rounded(picture.t_s, 2),
             "at": place(picture.pose.position_m), "look": place(picture.pose.forward), "verdict": picture.verdict.class() })).collect::<Vec<_>>(),
         "crashes": review.crashes.iter().map(|crash| place(review.frames[crash.frame].position_m)).collect::<Vec<_>>(),
-        "defects": review.defects.iter().map(|fate| json!({ "id": fate.defect.id, "at": place(fate.defect.position_m + fate.defect.normal * BEFORE_M),
+        "defects": review.defects.iter().map(|fate| json!({ "id": fate.defect.id, "at": place(fate.defect.position_m + fate.defect.normal * DEFECT_MARK_OFFSET_M),
             "found": fate.found_by.is_some() })).collect::<Vec<_>>(),
         "mesh": mesh(&outline::mesh(review.site.members())),
         "ground": ground(review),
     });
-    closed(&block.to_string())
+    escape_json(&block.to_string())
 }
 
 /// Returns the data block of a comparison as JSON: the time series of both flights and the events at which they can be aligned.
 #[must_use]
-pub fn comparison(both: [&Review; 2], line_ups: &[AlignmentEvent]) -> String {
+pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> String {
     let flight = |k: usize| {
-        let starts: Vec<f64> = line_ups.iter().map(|line_up| line_up.at_s[k]).collect();
+        let starts: Vec<f64> = alignment_events.iter().map(|line_up| line_up.at_s[k]).collect();
         let tasks = both[k].scenario.tasks.iter().map(|task| format!("{} · {}", task.id, task.name));
         json!({ "series": series(both[k]), "starts": starts, "tasks": tasks.collect::<Vec<_>>() })
     };
@@ -51,7 +51,7 @@ pub fn comparison(both: [&Review; 2], line_ups: &[AlignmentEvent]) -> String {
         "flights": [flight(0), flight(1)],
         "limits": { "speed": scenario.scoring.speed_limit_m_s, "close": scenario.feedback.too_close_m },
     });
-    closed(&block.to_string())
+    escape_json(&block.to_string())
 }
 
 /// An event in both flights at which their times can be aligned.
@@ -65,7 +65,7 @@ pub struct AlignmentEvent {
 
 /// Returns lift-off and, if both flights are of the same job, the start of each task that both entered.
 #[must_use]
-pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
+pub fn alignment_events(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
     let mut found = vec![AlignmentEvent { name: "lift-off".into(), at_s: [0.0, 0.0] }];
     let tasks = both[0].scenario.tasks.iter().enumerate().filter(|_| same_job);
     found.extend(tasks.filter_map(|(k, task)| {
@@ -76,13 +76,13 @@ pub fn line_ups(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
 }
 
 /// Escapes `<` in JSON, so that the text cannot end the surrounding script element.
-fn closed(json: &str) -> String {
+fn escape_json(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
 fn series(review: &Review) -> Value {
     let rate_hz = review.scenario.scoring.frame_rate_hz;
-    let stride = ((rate_hz / RATE_HZ).round() as usize).max(review.frames.len().div_ceil(MOST)).max(1);
+    let stride = ((rate_hz / RATE_HZ).round() as usize).max(review.frames.len().div_ceil(MAX_SAMPLES)).max(1);
     let picked: Vec<(usize, &Frame)> = review.frames.iter().enumerate().step_by(stride).collect();
     let column = |value: &dyn Fn(usize, &Frame) -> Value| picked.iter().map(|(i, frame)| value(*i, frame)).collect::<Vec<_>>();
     let at = |k: usize| move |_: usize, frame: &Frame| rounded(frame.position_m.array()[k], 2);
@@ -110,11 +110,11 @@ fn mesh(mesh: &QuantizedMesh) -> Value {
 /// Returns terrain heights over a square around the origin, row by row from the southwest corner, m.
 fn ground(review: &Review) -> Value {
     let half = 0.5 * review.scenario.terrain.size_m;
-    let coordinate = |k: usize| -half + 2.0 * half * k as f64 / (GROUND - 1) as f64;
-    let heights = (0..GROUND).flat_map(|row| (0..GROUND).map(move |column| (row, column)));
+    let coordinate = |k: usize| -half + 2.0 * half * k as f64 / (TERRAIN_SAMPLES - 1) as f64;
+    let heights = (0..TERRAIN_SAMPLES).flat_map(|row| (0..TERRAIN_SAMPLES).map(move |column| (row, column)));
     let heights: Vec<Value> =
         heights.map(|(row, column)| rounded(review.site.ground_up_m(coordinate(column), coordinate(row)), 1)).collect();
-    json!({ "half": half, "side": GROUND, "heights": heights, "water": review.scenario.terrain.water_level_m })
+    json!({ "half": half, "side": TERRAIN_SAMPLES, "heights": heights, "water": review.scenario.terrain.water_level_m })
 }
 
 fn place(point: Vec3<Enu>) -> [Value; 3] {
@@ -137,9 +137,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_no_name_can_end_the_block_and_it_reads_back() {
+    fn exact_data_block_is_escaped_and_round_trips() {
         let evil = json!({ "name": "</script><script>alert(1)</script><!--" });
-        let text = closed(&evil.to_string());
+        let text = escape_json(&evil.to_string());
         assert!(!text.contains('<'));
         assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), evil);
         assert_eq!(rounded(1.005, 1), json!(1.0));

@@ -2,9 +2,9 @@
 
 use super::figure::figure;
 use crate::report::Review;
+use crate::report::formatting;
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
 use spandrel_monitor::assessment::Scores;
 use spandrel_monitor::score::Score;
@@ -25,11 +25,11 @@ pub fn header(review: &Review) -> Markup {
                     b { (review.about.trainee) } " · " (utc(&review.about.started_utc)) " · " (review.vehicle.name)
                     @if let Some(purpose) = &review.about.purpose { " · " (purpose) }
                 }
-                p { (words::duration(end.seconds)) " of flight, " (words::end_reason_label(end.reason)) ". " (cover(review)) }
+                p { (formatting::duration(end.seconds)) " of flight, " (formatting::end_reason_label(end.reason)) ". " (telemetry_summary(review)) }
             }
             div.overall {
                 @if review.assessment.completion.complete {
-                    p.figure { (words::number(scores.overall, 0)) span.of { " of " (words::number(scores.overall_max, 0)) } }
+                    p.figure { (formatting::number(scores.overall, 0)) span.of { " of " (formatting::number(scores.overall_max, 0)) } }
                     p { "overall" }
                 } @else {
                     p.headline { (review.assessment.completion.headline()) }
@@ -45,12 +45,12 @@ fn utc(text: &str) -> String {
     text.replace('T', " ").trim_end_matches('Z').to_owned() + " UTC"
 }
 
-fn cover(review: &Review) -> String {
+fn telemetry_summary(review: &Review) -> String {
     let telemetry = &review.assessment.telemetry;
     if telemetry.missing_frames == 0 {
         "The telemetry is complete.".into()
     } else {
-        format!("The telemetry covers {} % of the session.", words::number(100.0 * telemetry.covered, 1))
+        format!("The telemetry covers {} % of the session.", formatting::number(100.0 * telemetry.covered, 1))
     }
 }
 
@@ -69,8 +69,8 @@ pub fn scores(review: &Review) -> Markup {
                 @for (name, score) in scores_by_name(scores) {
                     div.card {
                         h3 { (name) }
-                        p.figure { @if let Some(score) = score { (words::number(score.pct, 0)) } @else { "n/a" } }
-                        p { (end_reason_text(review, name)) }
+                        p.figure { @if let Some(score) = score { (formatting::number(score.pct, 0)) } @else { "n/a" } }
+                        p { (score_explanation(review, name)) }
                     }
                 }
             }
@@ -89,16 +89,16 @@ pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     ]
 }
 
-fn end_reason_text(review: &Review, name: &str) -> String {
+fn score_explanation(review: &Review, name: &str) -> String {
     let assessment = &review.assessment;
     match name {
         "Conformity" => conformity(review),
         "Efficiency" => {
-            let best = words::duration(review.scenario.scoring.time_best_s);
+            let best = formatting::duration(review.scenario.scoring.time_best_s);
             if assessment.end.battery_failed {
                 "did not land near the ground team before the battery or time ran out".into()
             } else {
-                format!("{} of flight; full score up to {best}", words::duration(assessment.end.seconds))
+                format!("{} of flight; full score up to {best}", formatting::duration(assessment.end.seconds))
             }
         }
         "Safety" => {
@@ -132,8 +132,8 @@ fn conformity(review: &Review) -> String {
         return format!("{skipped} of {} tasks not attempted", tasks.len());
     }
     let speeding: f64 = review.tasks.iter().map(|task| task.speeding_s).sum();
-    let lowest = words::number(100.0 * worst.on_path, 0);
-    format!("lowest on-path share: {lowest} % (task {}); too fast for {} s", worst.id, words::number(speeding, 0))
+    let lowest = formatting::number(100.0 * worst.on_path, 0);
+    format!("lowest on-path share: {lowest} % (task {}); too fast for {} s", worst.id, formatting::number(speeding, 0))
 }
 
 fn table(review: &Review) -> Table {

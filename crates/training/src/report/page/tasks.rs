@@ -2,9 +2,9 @@
 
 use super::figure::{figure, legend};
 use crate::report::Review;
+use crate::report::formatting;
 use crate::report::plots::bars::{self, CountRow, ShareRow};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_monitor::score::completion::TaskState;
@@ -83,7 +83,7 @@ fn contact_kinds(review: &Review) -> Vec<(&'static str, String)> {
     KINDS
         .iter()
         .filter(|(kind, _)| present(*kind))
-        .map(|(kind, class)| (*class, words::contact_label(*kind).to_owned()))
+        .map(|(kind, class)| (*class, formatting::contact_label(*kind).to_owned()))
         .collect()
 }
 
@@ -104,7 +104,7 @@ fn task_table(review: &Review) -> Table {
             number(facts.mean_distance_m, 2),
             number(facts.max_distance_m, 2),
             number(facts.max_speed_m_s, 2),
-            number(facts.least_clearance_m, 2),
+            number(facts.min_clearance_m, 2),
         ]
     };
     Table {
@@ -135,7 +135,7 @@ fn crash_table(review: &Review) -> Table {
         vec![
             TableCell::Clock(review.t_s(crash.frame)),
             crash.task.map_or("between tasks".into(), |k| format!("task {}", review.scenario.tasks[k].id)).into(),
-            words::contact_label(crash.with).into(),
+            formatting::contact_label(crash.with).into(),
             TableCell::Number(crash.speed_m_s, 2),
             TableCell::Number(east, 2),
             TableCell::Number(north, 2),

@@ -57,14 +57,14 @@ fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
 /// Draws a bridge's side view background: the ground below the bridge axis and the water.
 pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &Bridge) -> Markup {
     let axis = map.view.right;
-    let middle = map.view.at(bridge.centre_m).0;
+    let middle = map.view.at(bridge.center_m).0;
     let from = map.corner_m.0;
     let to = from + map.size.0 / map.scale;
     let count = ((to - from) / GROUND_STEP_M).ceil().clamp(1.0, 400.0) as usize;
     let half = 0.5 * scenario.terrain.size_m;
     let profile = (0..=count).map(|k| {
         let along = from + (to - from) * k as f64 / count as f64;
-        let at = bridge.centre_m + axis * (along - middle);
+        let at = bridge.center_m + axis * (along - middle);
         let up = site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half));
         map.on_sheet((along, up))
     });
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_shore_lies_where_the_depth_is_zero() {
+    fn exact_shore_is_at_zero_depth() {
         assert_eq!(crossing((0.0, 1.0), (10.0, -4.0)), 2.0);
     }
 }

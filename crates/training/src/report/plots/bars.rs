@@ -1,7 +1,7 @@
 //! Bar charts in rows: fractions of a whole, and counts by kind.
 
 use super::{sheet, unit};
-use crate::report::words;
+use crate::report::formatting;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 420.0;
@@ -49,7 +49,7 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
                         @let at = top + 22.0 + (BAR + 4.0) * k as f64;
                         rect.track x=(unit(LEFT)) y=(unit(at)) width=(unit(RIGHT - LEFT)) height=(unit(BAR)) rx="3" {}
                         rect class=(class) x=(unit(LEFT)) y=(unit(at)) width=(unit(length(*share, 1.0))) height=(unit(BAR)) rx="3" {}
-                        text.tick x=(unit(WIDTH - 2.0)) y=(unit(at + 11.5)) text-anchor="end" { (words::number(100.0 * share, 0)) " %" }
+                        text.tick x=(unit(WIDTH - 2.0)) y=(unit(at + 11.5)) text-anchor="end" { (formatting::number(100.0 * share, 0)) " %" }
                     }
                 }
             }
@@ -117,7 +117,7 @@ pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
                     rect class=(class) x=(unit(LEFT + length(from, 1.0))) y=(unit(top + 21.0)) width=(unit(length(share, 1.0))) height=(unit(BAR)) {}
                 }
                 @let first = row.parts.first().map_or(0.0, |part| part.1);
-                text.tick x=(unit(WIDTH - 2.0)) y=(unit(top + 32.5)) text-anchor="end" { (words::number(100.0 * first, 0)) " %" }
+                text.tick x=(unit(WIDTH - 2.0)) y=(unit(top + 32.5)) text-anchor="end" { (formatting::number(100.0 * first, 0)) " %" }
             }
         },
     )
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_bars_are_as_long_as_their_share() {
+    fn exact_bar_length_is_proportional() {
         assert_eq!((length(0.0, 1.0), length(0.25, 1.0), length(1.0, 1.0)), (0.0, 92.0, 368.0));
         assert_eq!((length(2.0, 1.0), length(3.0, 12.0), length(1.0, 0.0)), (368.0, 92.0, 0.0));
         let row = ShareRow { name: "task <1>".into(), bars: vec![("on", 0.5)], instead: None };
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_segments_follow_each_other() {
+    fn exact_bar_segments_are_contiguous() {
         let row = CountRow { name: "a".into(), kinds: vec![("x", 2), ("y", 0), ("z", 3)] };
         assert_eq!(parts(&[("x", 2.0), ("y", 0.0), ("z", 3.0)]), [("x", 0.0, 2.0), ("z", 2.0, 3.0)]);
         let figure = counts(&[row], "t").into_string();
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_parts_of_a_whole_follow_each_other_and_the_first_is_said() {
+    fn exact_stacked_parts_are_contiguous_and_first_is_labeled() {
         let row = StackedBar { name: "deck".into(), parts: vec![("good", 0.25), ("none", 0.0), ("bad", 0.5)] };
         let figure = stacks(&[row], "t").into_string();
         assert!(figure.contains("class=\"good\" x=\"4\" y=\"21\" width=\"92\""), "{figure}");

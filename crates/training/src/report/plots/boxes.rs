@@ -1,15 +1,15 @@
 //! Box plots side by side on a common scale.
 
 use super::{line, sheet, ticks, unit};
-use crate::report::words;
+use crate::report::formatting;
 use crate::statistics::BoxPlot;
 use maud::{Markup, html};
 
 const LEFT: f64 = 40.0;
 const TOP: f64 = 10.0;
 const BOTTOM: f64 = 190.0;
-const STEP: f64 = 56.0;
-const HALF: f64 = 15.0;
+const BOX_SPACING: f64 = 56.0;
+const HALF_BOX_WIDTH: f64 = 15.0;
 
 /// A box plot with its label.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ pub fn y_of(value: f64, (low, high): (f64, f64)) -> f64 {
 #[must_use]
 pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
     // Keeps a minimum width, so that a few boxes are not enlarged.
-    let width = LEFT + STEP * named.len().max(5) as f64 + 10.0;
+    let width = LEFT + BOX_SPACING * named.len().max(5) as f64 + 10.0;
     let y = |value: f64| y_of(value, (0.0, most));
     sheet(
         (width, BOTTOM + 26.0),
@@ -40,20 +40,20 @@ pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
         &html! {
             @for tick in ticks(most, 5) {
                 path.grid d=(line(&[(LEFT, y(tick)), (width, y(tick))], false)) {}
-                text.tick x=(unit(LEFT - 6.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (words::number(tick, 0)) }
+                text.tick x=(unit(LEFT - 6.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for (k, one) in named.iter().enumerate() {
-                @let x = LEFT + STEP * (k as f64 + 0.5);
+                @let x = LEFT + BOX_SPACING * (k as f64 + 0.5);
                 @let b = one.plot;
                 path.whisker d={
                     (line(&[(x, y(b.high_whisker)), (x, y(b.q3))], false)) (line(&[(x, y(b.q1)), (x, y(b.low_whisker))], false))
                     (line(&[(x - 7.0, y(b.high_whisker)), (x + 7.0, y(b.high_whisker))], false))
                     (line(&[(x - 7.0, y(b.low_whisker)), (x + 7.0, y(b.low_whisker))], false))
                 } {}
-                rect.box x=(unit(x - HALF)) y=(unit(y(b.q3))) width=(unit(2.0 * HALF)) height=(unit((y(b.q1) - y(b.q3)).max(1.0))) {
-                    title { (one.name) ": median " (words::number(b.median, 1)) ", quartiles " (words::number(b.q1, 1)) " to " (words::number(b.q3, 1)) ", " (b.n) " trainees" }
+                rect.box x=(unit(x - HALF_BOX_WIDTH)) y=(unit(y(b.q3))) width=(unit(2.0 * HALF_BOX_WIDTH)) height=(unit((y(b.q1) - y(b.q3)).max(1.0))) {
+                    title { (one.name) ": median " (formatting::number(b.median, 1)) ", quartiles " (formatting::number(b.q1, 1)) " to " (formatting::number(b.q3, 1)) ", " (b.n) " trainees" }
                 }
-                path.median d=(line(&[(x - HALF, y(b.median)), (x + HALF, y(b.median))], false)) {}
+                path.median d=(line(&[(x - HALF_BOX_WIDTH, y(b.median)), (x + HALF_BOX_WIDTH, y(b.median))], false)) {}
                 path.mean d=(line(&[(x - 4.0, y(b.mean) - 4.0), (x + 4.0, y(b.mean) + 4.0)], false)) {}
                 path.mean d=(line(&[(x - 4.0, y(b.mean) + 4.0), (x + 4.0, y(b.mean) - 4.0)], false)) {}
                 @for place in places(&b.outliers, y) { circle.outlier cx=(unit(x)) cy=(place) r="3" {} }
@@ -76,7 +76,7 @@ mod tests {
     use crate::statistics::box_plot;
 
     #[test]
-    fn exact_a_box_stands_between_its_quartiles_with_the_outlier_beyond() {
+    fn exact_box_spans_quartiles_and_outliers_are_outside() {
         assert_eq!([0.0, 50.0, 100.0].map(|value| y_of(value, (0.0, 100.0))), [190.0, 100.0, 10.0]);
         let plot = box_plot(&[50.0, 50.0, 50.0, 60.0, 70.0, 70.0, 70.0, 0.0]).unwrap();
         assert_eq!((plot.q1, plot.median, plot.q3, plot.outliers.len()), (50.0, 55.0, 70.0, 1));

@@ -1,9 +1,9 @@
 //! The flight path's three color modes: the value shown, the legend, and segments of equal color.
 
-use super::plot_map::{PlotMap, TRACK_WITHIN};
+use super::plot_map::{PlotMap, TRACK_TOLERANCE};
 use super::{line, simplified};
 use crate::report::Review;
-use crate::report::words;
+use crate::report::formatting;
 use spandrel_mavlink::contract::continuity::is_jump;
 use spandrel_mavlink::telemetry::Frame;
 
@@ -11,44 +11,44 @@ use spandrel_mavlink::telemetry::Frame;
 pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
 
 /// Color modes of the flight path: label in the selection and CSS class of the layer.
-pub const COLOURINGS: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
+pub const COLOR_MODES: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
 
 /// Returns the flight path of one color mode: CSS class and path data of each color, in class order.
 pub(super) fn track(review: &Review, map: &PlotMap, layer: usize, shown: &dyn Fn(&Frame) -> bool) -> Vec<(&'static str, String)> {
     let names = classes(layer);
-    let pieces = pieces(review, map, names.len(), &|i| class_of(review, i, layer), shown);
-    names.iter().copied().zip(pieces).filter(|(_, data)| !data.is_empty()).collect()
+    let color_segments = color_segments(review, map, names.len(), &|i| class_of(review, i, layer), shown);
+    names.iter().copied().zip(color_segments).filter(|(_, data)| !data.is_empty()).collect()
 }
 
 /// Returns the path data of the whole flight path in a single color.
 pub(super) fn plain_color(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> String {
-    pieces(review, map, 1, &|_| 0, shown).swap_remove(0)
+    color_segments(review, map, 1, &|_| 0, shown).swap_remove(0)
 }
 
 /// Returns whether the drone was respawned between two consecutive frames.
-fn jumped(before: &Frame, next: &Frame) -> bool {
+fn was_respawned(before: &Frame, next: &Frame) -> bool {
     let step_m = (next.position_m - before.position_m).norm();
     is_jump(step_m, before.velocity_m_s.norm().max(next.velocity_m_s.norm()), next.time - before.time)
 }
 
-fn pieces(
+fn color_segments(
     review: &Review,
     map: &PlotMap,
     colours: usize,
     colour_of: &dyn Fn(usize) -> usize,
     shown: &dyn Fn(&Frame) -> bool,
 ) -> Vec<String> {
-    let mut pieces = vec![String::new(); colours];
+    let mut color_segments = vec![String::new(); colours];
     let mut run: Vec<(f64, f64)> = Vec::new();
     let mut colour = 0;
     let mut close = |run: &mut Vec<(f64, f64)>, colour: usize| {
         if run.len() > 1 {
-            pieces[colour].push_str(&line(&simplified(run, TRACK_WITHIN), false));
+            color_segments[colour].push_str(&line(&simplified(run, TRACK_TOLERANCE), false));
         }
         run.clear();
     };
     for (i, frame) in review.frames.iter().enumerate() {
-        let broken = i > 0 && jumped(&review.frames[i - 1], frame);
+        let broken = i > 0 && was_respawned(&review.frames[i - 1], frame);
         if broken || !shown(frame) {
             close(&mut run, colour);
             if !shown(frame) {
@@ -68,7 +68,7 @@ fn pieces(
         run.push(here);
     }
     close(&mut run, colour);
-    pieces
+    color_segments
 }
 
 /// Returns the CSS classes of a color mode, in legend order.
@@ -84,7 +84,7 @@ pub fn classes(layer: usize) -> &'static [&'static str] {
 /// Returns the legend of a color mode, in class order.
 #[must_use]
 pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
-    let speed = |share: f64| words::number(share * limit_m_s, 1);
+    let speed = |share: f64| formatting::number(share * limit_m_s, 1);
     match layer {
         0 => vec!["between tasks".into(), "on the path".into(), "off path during a task".into()],
         1 => vec![
@@ -92,10 +92,10 @@ pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
             format!("up to {} m/s", speed(0.5)),
             format!("up to {} m/s", speed(0.75)),
             format!("up to {} m/s", speed(1.0)),
-            format!("over the limit of {} m/s", words::number(limit_m_s, 2)),
+            format!("over the limit of {} m/s", formatting::number(limit_m_s, 2)),
         ],
         _ => {
-            let [a, b, c] = CLEARANCES_M.map(|limit| words::number(limit, 1));
+            let [a, b, c] = CLEARANCES_M.map(|limit| formatting::number(limit, 1));
             vec![
                 "nothing nearby".into(),
                 format!("over {c} m"),
@@ -135,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_speeds_and_clearances_fall_into_their_colours() {
+    fn exact_speed_and_clearance_color_classes() {
         assert_eq!([0.0, 1.0, 1.1, 3.0, 4.0, 4.1].map(|v| speed_class(v, 4.0)), [0, 0, 1, 2, 3, 4]);
         assert_eq!([0.2, 1.0, 2.5, 5.0, 9.0].map(clearance_class), [4, 3, 2, 1, 1]);
         for layer in 0..3 {

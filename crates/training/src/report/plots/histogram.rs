@@ -1,7 +1,7 @@
 //! Histogram of one score, with the mean marked.
 
 use super::{line, sheet, ticks, unit};
-use crate::report::words;
+use crate::report::formatting;
 use crate::statistics::HistogramBin;
 use maud::{Markup, html};
 
@@ -26,15 +26,15 @@ pub fn histogram(bins: &[HistogramBin], mean: f64, title: &str) -> Markup {
             // Counts are integers, so fractional ticks are omitted.
             @for tick in ticks(most, 4).into_iter().filter(|tick| tick.fract() == 0.0) {
                 path.grid d=(line(&[(LEFT, y(tick)), (RIGHT, y(tick))], false)) {}
-                text.tick x=(unit(LEFT - 5.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (words::number(tick, 0)) }
+                text.tick x=(unit(LEFT - 5.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for bin in bins.iter().filter(|bin| bin.count > 0) {
                 rect.bar x=(unit(x(bin.from) + 0.5)) y=(unit(y(bin.count as f64))) width=(unit(x(bin.to) - x(bin.from) - 1.0)) height=(unit(BOTTOM - y(bin.count as f64))) {
-                    title { (bin.count) " from " (words::number(bin.from, 0)) " to " (words::number(bin.to, 0)) }
+                    title { (bin.count) " from " (formatting::number(bin.from, 0)) " to " (formatting::number(bin.to, 0)) }
                 }
             }
-            path.median d=(line(&[(x(mean), TOP), (x(mean), BOTTOM)], false)) { title { "mean " (words::number(mean, 1)) } }
-            @for tick in ticks(to, 4) { text.tick x=(unit(x(tick))) y=(unit(BOTTOM + 17.0)) text-anchor="middle" { (words::number(tick, 0)) } }
+            path.median d=(line(&[(x(mean), TOP), (x(mean), BOTTOM)], false)) { title { "mean " (formatting::number(mean, 1)) } }
+            @for tick in ticks(to, 4) { text.tick x=(unit(x(tick))) y=(unit(BOTTOM + 17.0)) text-anchor="middle" { (formatting::number(tick, 0)) } }
         },
     )
 }
@@ -44,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_bar_is_as_tall_as_its_count() {
+    fn exact_histogram_bar_height_is_proportional() {
         let bins = [HistogramBin { from: 0.0, to: 50.0, count: 1 }, HistogramBin { from: 50.0, to: 100.0, count: 2 }];
         let figure = histogram(&bins, 75.0, "t").into_string();
         assert!(figure.contains("x=\"44.5\" y=\"65\" width=\"122\" height=\"57\""), "{figure}");

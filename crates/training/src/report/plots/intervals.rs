@@ -1,7 +1,7 @@
 //! Estimates with their confidence intervals, one per row, with a line at zero.
 
 use super::{line, sheet, ticks, unit};
-use crate::report::words;
+use crate::report::formatting;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 620.0;
@@ -9,7 +9,7 @@ const LEFT: f64 = 220.0;
 const RIGHT: f64 = 600.0;
 const ROW: f64 = 34.0;
 /// Margin beyond the outermost values, as a fraction of their range.
-const ROOM: f64 = 0.08;
+const AXIS_MARGIN: f64 = 0.08;
 
 /// An estimate with its confidence interval.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ pub struct IntervalEstimate {
 pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
     let all = estimates.iter().flat_map(|one| [Some(one.value), one.interval.map(|i| i[0]), one.interval.map(|i| i[1])]);
     let (low, high) = all.flatten().fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
-    let room = if high > low { ROOM * (high - low) } else { 1.0 };
+    let room = if high > low { AXIS_MARGIN * (high - low) } else { 1.0 };
     (low - room, high + room)
 }
 
@@ -54,7 +54,7 @@ pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Mar
         &html! {
             @for tick in &marks {
                 path.grid d=(line(&[(x_of(*tick, ends), 0.0), (x_of(*tick, ends), bottom)], false)) {}
-                text.tick x=(unit(x_of(*tick, ends))) y=(unit(bottom + 15.0)) text-anchor="middle" { (words::number(*tick, digits)) }
+                text.tick x=(unit(x_of(*tick, ends))) y=(unit(bottom + 15.0)) text-anchor="middle" { (formatting::number(*tick, digits)) }
             }
             path.zero d=(line(&[(x_of(0.0, ends), 0.0), (x_of(0.0, ends), bottom)], false)) {}
             text.tick x=(unit(0.5 * (LEFT + RIGHT))) y=(unit(bottom + 34.0)) text-anchor="middle" { (axis) }
@@ -68,7 +68,7 @@ pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Mar
                         (line(&[(x_of(high, ends), y - 6.0), (x_of(high, ends), y + 6.0)], false))
                     } {}
                 }
-                circle.dot-1 cx=(unit(x_of(one.value, ends))) cy=(unit(y)) r="5" { title { (one.name) ": " (words::number(one.value, 2)) } }
+                circle.dot-1 cx=(unit(x_of(one.value, ends))) cy=(unit(y)) r="5" { title { (one.name) ": " (formatting::number(one.value, 2)) } }
             }
         },
     )
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_axis_holds_every_interval_and_zero() {
+    fn exact_axis_contains_all_intervals_and_zero() {
         let all = [estimate(-2.0, Some([-4.0, -1.0])), estimate(0.5, Some([0.0, 1.0])), estimate(0.2, None)];
         assert_eq!(ends(&all), (-4.4, 1.4));
         assert_eq!((x_of(-4.4, ends(&all)), x_of(1.4, ends(&all))), (220.0, 600.0));

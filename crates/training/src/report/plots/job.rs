@@ -1,7 +1,7 @@
 //! Drawings of a job without a flight, used on the scenario page and as the background of the live page.
 
 use super::backdrop::{ground, lake};
-use super::map::{extent, label_distance, north, pad, references, scale, structure};
+use super::map::{extent, nearness_data, north, pad, references, scale, structure};
 use super::plot_map::PlotMap;
 use super::sheet;
 use crate::report::outline::ParallelView;
@@ -11,9 +11,9 @@ use spandrel_model::scenario::{Bridge, Scenario};
 use spandrel_model::site::Site;
 
 /// Margin beyond each end of a bridge in its side view, m.
-const BESIDE_M: f64 = 25.0;
+const END_MARGIN_M: f64 = 25.0;
 /// Margin above a bridge, m, so that a drone above the deck is inside the drawing.
-const ABOVE_M: f64 = 15.0;
+const TOP_MARGIN_M: f64 = 15.0;
 
 /// Draws the plan view with north up.
 #[must_use]
@@ -45,11 +45,11 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
     let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
     points.retain(|point| point.up() > water_m - 6.0);
     let top_m = points.iter().map(|point| point.up()).fold(water_m, f64::max);
-    let half_m = 0.5 * bridge.deck_length_m() + BESIDE_M;
+    let half_m = 0.5 * bridge.deck_length_m() + END_MARGIN_M;
     for along_m in [-half_m, half_m] {
-        let end = bridge.centre_m + view.right * along_m;
+        let end = bridge.center_m + view.right * along_m;
         points.push(Vec3::new(end.east(), end.north(), water_m - 4.0));
-        points.push(Vec3::new(end.east(), end.north(), top_m + ABOVE_M));
+        points.push(Vec3::new(end.east(), end.north(), top_m + TOP_MARGIN_M));
     }
     let map = PlotMap::around(view, &points);
     let title = format!("The bridge '{}' from the side", bridge.name);
@@ -72,8 +72,8 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
 pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     let pad_m = scenario.ground_team.pad_m;
     let mut points = extent(scenario, site);
-    points.push(Vec3::new(pad_m.east() - BESIDE_M, pad_m.north(), pad_m.up()));
-    points.push(Vec3::new(pad_m.east() + BESIDE_M, pad_m.north(), pad_m.up() + ABOVE_M));
+    points.push(Vec3::new(pad_m.east() - END_MARGIN_M, pad_m.north(), pad_m.up()));
+    points.push(Vec3::new(pad_m.east() + END_MARGIN_M, pad_m.north(), pad_m.up() + TOP_MARGIN_M));
     let map = PlotMap::around(ParallelView::from_south(), &points);
     let body = html! { (structure(site, &map, None)) (references(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
     sheet(map.size, "The job from the south", "map", &body)
@@ -83,8 +83,8 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
 /// also hidden while the drone is far from that bridge.
 fn drone(map: &PlotMap, bridge: Option<&Bridge>) -> Markup {
     html! {
-        path.trail data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] d="" {}
-        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] { circle r="7" {} circle.core r="2.5" {} }
+        path.trail data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] d="" {}
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] { circle r="7" {} circle.core r="2.5" {} }
     }
 }
 
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_drawings_show_members_paths_and_a_drone_to_move() {
+    fn exact_job_drawings_contain_members_paths_and_drone() {
         let (scenario, site) = job(include_str!("../../../../../scenarios/two-bridges.toml"));
         let plan = job_plan(&scenario, &site).into_string();
         assert_eq!((plan.matches("reference path of task").count(), plan.matches("data-near").count()), (4, 0));

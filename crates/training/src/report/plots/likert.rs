@@ -6,12 +6,12 @@ use maud::{Markup, html};
 const WIDTH: f64 = 640.0;
 const MIDDLE: f64 = 320.0;
 /// Width of 100 %, in drawing units. A row with full agreement fits on the left half.
-const WHOLE: f64 = 300.0;
+const FULL_WIDTH: f64 = 300.0;
 /// Height of a question with its bar, in drawing units; additional lines of text increase it.
 const ROW: f64 = 42.0;
 const LINE: f64 = 15.0;
 /// Maximum number of characters per line of text (for a wide sans-serif font at the label size).
-const LINE_CHARACTERS: usize = 84;
+const MAX_LINE_CHARACTERS: usize = 84;
 
 /// A question with its answer counts.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ pub struct LikertQuestion {
 #[must_use]
 pub fn bars(counts: [usize; 5]) -> [(f64, f64); 5] {
     let n = counts.iter().sum::<usize>().max(1) as f64;
-    let widths = counts.map(|count| WHOLE * count as f64 / n);
+    let widths = counts.map(|count| FULL_WIDTH * count as f64 / n);
     let mut at = MIDDLE - widths[0] - widths[1] - 0.5 * widths[2];
     widths.map(|width| {
         let from = at;
@@ -40,7 +40,7 @@ fn lines(name: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in name.split_whitespace() {
         if let Some(line) =
-            lines.last_mut().filter(|line| line.is_empty() || line.chars().count() + word.chars().count() < LINE_CHARACTERS)
+            lines.last_mut().filter(|line| line.is_empty() || line.chars().count() + word.chars().count() < MAX_LINE_CHARACTERS)
         {
             line.push_str(if line.is_empty() { "" } else { " " });
             line.push_str(word);
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_agreement_goes_left_and_disagreement_right_of_the_middle() {
+    fn exact_agreement_is_left_and_disagreement_right_of_center() {
         assert_eq!(bars([1, 0, 0, 0, 0])[0], (20.0, 300.0));
         assert_eq!(bars([0, 0, 0, 0, 3])[4], (320.0, 300.0));
         assert_eq!(bars([1, 0, 2, 0, 1]), [(170.0, 75.0), (245.0, 0.0), (245.0, 150.0), (395.0, 0.0), (395.0, 75.0)]);
@@ -102,11 +102,11 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_long_question_is_broken_between_words_and_pushes_what_follows_down() {
+    fn exact_long_question_wraps_at_words_and_shifts_following_rows() {
         let long = "physical activity ".repeat(10);
         let broken = lines(&long);
         assert_eq!(broken.join(" "), long.trim());
-        assert!(broken.len() == 3 && broken.iter().all(|line| line.chars().count() <= LINE_CHARACTERS), "{broken:?}");
+        assert!(broken.len() == 3 && broken.iter().all(|line| line.chars().count() <= MAX_LINE_CHARACTERS), "{broken:?}");
         assert_eq!((lines(""), lines(&"x".repeat(90)).len()), (vec![String::new()], 1));
         let question = |name: &str| LikertQuestion { name: name.into(), counts: [1, 0, 0, 0, 0] };
         let figure = likert(&[question(&long), question("short")], "t").into_string();

@@ -1,7 +1,7 @@
 //! Line chart over repetitions: one line per score or task, one point per session.
 
 use super::{line, sheet, ticks, unit};
-use crate::report::words;
+use crate::report::formatting;
 use maud::{Markup, html};
 
 const SIZE: (f64, f64) = (420.0, 240.0);
@@ -10,7 +10,7 @@ const RIGHT: f64 = 408.0;
 const TOP: f64 = 10.0;
 const BOTTOM: f64 = 206.0;
 /// Number of line colors.
-const COLOURS: usize = 4;
+const LINE_COLORS: usize = 4;
 
 /// A line in the chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +44,7 @@ pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
             @for tick in ticks(most, 5) {
                 @let (_, y) = place(0, 1, tick, most);
                 path.grid d=(line(&[(LEFT, y), (RIGHT, y)], false)) {}
-                text.tick x=(unit(LEFT - 6.0)) y=(unit(y + 4.0)) text-anchor="end" { (words::number(tick, 0)) }
+                text.tick x=(unit(LEFT - 6.0)) y=(unit(y + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for k in (0..count).step_by(step) {
                 @let (x, _) = place(k, count, 0.0, most);
@@ -52,7 +52,7 @@ pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
             }
             @for one in lines {
                 @let points = points(one, count, most);
-                path class={ "line line-" (colour(one.style)) @if one.style > COLOURS { " broken" } } d=(line(&points, false)) {}
+                path class={ "line line-" (colour(one.style)) @if one.style > LINE_COLORS { " broken" } } d=(line(&points, false)) {}
                 @for (x, y) in &points { circle class={ "dot-" (colour(one.style)) } cx=(unit(*x)) cy=(unit(*y)) r="4" {} }
             }
         },
@@ -62,7 +62,7 @@ pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
 /// Returns the color number of a style, 1 to 4.
 #[must_use]
 pub fn colour(style: usize) -> usize {
-    (style.max(1) - 1) % COLOURS + 1
+    (style.max(1) - 1) % LINE_COLORS + 1
 }
 
 fn points(one: &ChartLine, count: usize, most: f64) -> Vec<(f64, f64)> {
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_first_point_is_left_the_best_is_up_and_missing_scores_are_omitted() {
+    fn exact_line_chart_positions_and_missing_scores() {
         assert_eq!(place(0, 3, 0.0, 100.0), (50.0, BOTTOM));
         assert_eq!(place(2, 3, 100.0, 100.0), (394.0, TOP));
         assert_eq!(place(0, 1, 50.0, 100.0), (222.0, 108.0));

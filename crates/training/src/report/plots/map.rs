@@ -2,12 +2,12 @@
 //! color modes, marks for pictures, crashes and defects, and the drone, which the page's slider moves.
 
 use super::backdrop::{ground, lake};
-use super::colors::{COLOURINGS, track};
-use super::plot_map::{PlotMap, TRACK_WITHIN};
+use super::colors::{COLOR_MODES, track};
+use super::plot_map::{PlotMap, TRACK_TOLERANCE};
 use super::{line, sheet, simplified, unit};
 use crate::report::Review;
+use crate::report::formatting;
 use crate::report::outline::{ParallelView, outlines};
-use crate::report::words;
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
@@ -15,16 +15,16 @@ use spandrel_model::scenario::{Bridge, Scenario, Task};
 use spandrel_model::site::Site;
 
 /// Minimum size of a shape, in drawing units; smaller shapes are omitted.
-const LEAST: f64 = 1.6;
+const MIN_SHAPE_SIZE: f64 = 1.6;
 /// Maximum distance of a frame from a bridge's axis at which it is drawn in the bridge's side view, m.
-const BESIDE_M: f64 = 45.0;
+const MAX_SIDE_DISTANCE_M: f64 = 45.0;
 /// Number of pictures above which their marks are small and unnumbered.
-const MANY: usize = 40;
+const MAX_NUMBERED_PICTURES: usize = 40;
 
 /// Draws the plan view of a flight.
 #[must_use]
 pub fn plan(review: &Review) -> Markup {
-    let map = PlotMap::around(ParallelView::plan(), &everything(review));
+    let map = PlotMap::around(ParallelView::plan(), &bounding_points(review));
     let all = |_: &Frame| true;
     let body = html! {
         (lake(&review.scenario, &review.site, &map))
@@ -38,7 +38,7 @@ pub fn plan(review: &Review) -> Markup {
 /// Draws the oblique view of a flight.
 #[must_use]
 pub fn oblique(review: &Review) -> Markup {
-    let map = PlotMap::around(ParallelView::oblique(25.0, 22.0), &everything(review));
+    let map = PlotMap::around(ParallelView::oblique(25.0, 22.0), &bounding_points(review));
     let all = |_: &Frame| true;
     sheet(
         map.size,
@@ -55,7 +55,7 @@ pub fn oblique(review: &Review) -> Markup {
 #[must_use]
 pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
     let near = is_beside(bridge);
-    let map = beside(&review.scenario, &review.site, bridge, review.frames.iter().filter(|frame| near(frame)));
+    let map = side_view_map(&review.scenario, &review.site, bridge, review.frames.iter().filter(|frame| near(frame)));
     let prefix = format!("{}/", bridge.name);
     let title = format!("Flight at the bridge '{}' from the side", bridge.name);
     sheet(
@@ -72,27 +72,32 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
 
 /// Returns the values with which the page's script decides whether the drone is near a bridge: east and north of the center and
 /// of the axis, and the limits along and across the bridge, m.
-pub(super) fn label_distance(bridge: &Bridge) -> String {
+pub(super) fn nearness_data(bridge: &Bridge) -> String {
     let axis = ParallelView::side(bridge).right;
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
-    [bridge.centre_m.east(), bridge.centre_m.north(), axis.east(), axis.north(), half_m, BESIDE_M]
+    [bridge.center_m.east(), bridge.center_m.north(), axis.east(), axis.north(), half_m, MAX_SIDE_DISTANCE_M]
         .map(|value| format!("{value:.3}"))
         .join(" ")
 }
 
 /// Returns a function that decides whether a frame belongs in the side view of this bridge.
 pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
-    let (view, centre_m) = (ParallelView::side(bridge), bridge.centre_m);
+    let (view, center_m) = (ParallelView::side(bridge), bridge.center_m);
     let (axis, towards) = (view.right, view.towards());
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
     move |frame: &Frame| {
-        let to = frame.position_m - centre_m;
-        to.dot(axis).abs() < half_m && to.dot(towards).abs() < BESIDE_M
+        let to = frame.position_m - center_m;
+        to.dot(axis).abs() < half_m && to.dot(towards).abs() < MAX_SIDE_DISTANCE_M
     }
 }
 
 /// Fits the side view of a bridge, including these frames.
-pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flown: impl Iterator<Item = &'a Frame>) -> PlotMap {
+pub(super) fn side_view_map<'a>(
+    scenario: &Scenario,
+    site: &Site,
+    bridge: &Bridge,
+    flown: impl Iterator<Item = &'a Frame>,
+) -> PlotMap {
     let prefix = format!("{}/", bridge.name);
     let members = site.members().iter().filter(|member| member.name.starts_with(&prefix));
     let mut points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
@@ -100,14 +105,14 @@ pub(super) fn beside<'a>(scenario: &Scenario, site: &Site, bridge: &Bridge, flow
     let water_m = scenario.terrain.water_level_m;
     // Deep foundations would make the rest of the drawing too small.
     points.retain(|point| point.up() > water_m - 6.0);
-    points.push(Vec3::new(bridge.centre_m.east(), bridge.centre_m.north(), water_m - 4.0));
+    points.push(Vec3::new(bridge.center_m.east(), bridge.center_m.north(), water_m - 4.0));
     PlotMap::around(ParallelView::side(bridge), &points)
 }
 
 /// Draws a job without bridges from the south.
 #[must_use]
 pub fn south_elevation(review: &Review) -> Markup {
-    let map = PlotMap::around(ParallelView::from_south(), &everything(review));
+    let map = PlotMap::around(ParallelView::from_south(), &bounding_points(review));
     let all = |_: &Frame| true;
     sheet(
         map.size,
@@ -144,7 +149,7 @@ pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &st
     )
 }
 
-pub(super) fn everything(review: &Review) -> Vec<Vec3<Enu>> {
+pub(super) fn bounding_points(review: &Review) -> Vec<Vec3<Enu>> {
     let mut all = extent(&review.scenario, &review.site);
     let water_m = review.scenario.terrain.water_level_m;
     all.extend(review.frames.iter().map(|frame| frame.position_m).filter(|point| point.up() > water_m - 6.0));
@@ -162,7 +167,7 @@ pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
 pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Markup {
     let of = |name: &str| prefix.is_none_or(|prefix| name.starts_with(prefix));
     let members = site.members().iter().filter(|member| of(&member.name));
-    let shapes = outlines(members, &map.view, LEAST / map.scale);
+    let shapes = outlines(members, &map.view, MIN_SHAPE_SIZE / map.scale);
     html! {
         g.structure {
             @for shape in &shapes {
@@ -176,13 +181,13 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
 fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         (references(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
-        @for (layer, (_, class)) in COLOURINGS.iter().enumerate() {
+        @for (layer, (_, class)) in COLOR_MODES.iter().enumerate() {
             g class={ "flown " (class) } {
                 @for (colour, data) in track(review, map, layer, shown) { path class=(colour) d=(data) {} }
             }
         }
         (marks(review, map, shown))
-        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] { circle r="7" {} circle.core r="2.5" {} }
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] { circle r="7" {} circle.core r="2.5" {} }
         (scale(map))
     }
 }
@@ -195,7 +200,7 @@ pub(super) fn references(scenario: &Scenario, map: &PlotMap, bridge: Option<&str
     };
     let reference = |task: &Task| {
         let points: Vec<(f64, f64)> = task.path_m.iter().map(|point| map.at(*point)).collect();
-        line(&simplified(&points, TRACK_WITHIN), task.closed)
+        line(&simplified(&points, TRACK_TOLERANCE), task.closed)
     };
     html! {
         g.reference { @for task in scenario.tasks.iter().filter(of) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }
@@ -212,14 +217,14 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
         @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
             g.crash transform=(place(review.frames[crash.frame].position_m)) {
                 path d="M-5 -5L5 5M5 -5L-5 5" {}
-                title { "crash with " (words::contact_label(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
+                title { "crash with " (formatting::contact_label(crash.with)) " at " (formatting::clock(review.t_s(crash.frame))) }
             }
         }
         @for picture in &review.pictures {
             @let frame = &review.frames[(picture.frame as usize - 1).min(review.frames.len() - 1)];
             @if shown(frame) {
                 g class={ "picture " (picture.verdict.class()) } transform=(place(frame.position_m)) {
-                    @if review.pictures.len() > MANY { circle r="4.5" {} } @else {
+                    @if review.pictures.len() > MAX_NUMBERED_PICTURES { circle r="4.5" {} } @else {
                         circle r="8.5" {}
                         text.mark y="3.8" text-anchor="middle" { (picture.number) }
                     }
@@ -251,7 +256,7 @@ pub(super) fn scale(map: &PlotMap) -> Markup {
     html! {
         g.scale {
             path d=(line(&[(16.0, y - 5.0), (16.0, y), (16.0 + length_m * map.scale, y), (16.0 + length_m * map.scale, y - 5.0)], false)) {}
-            text.tick x=(unit(22.0 + length_m * map.scale)) y=(unit(y)) { (words::number(length_m, 0)) " m" }
+            text.tick x=(unit(22.0 + length_m * map.scale)) y=(unit(y)) { (formatting::number(length_m, 0)) " m" }
         }
     }
 }
@@ -262,7 +267,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_map_fits_its_points_keeps_proportions_and_its_matrix_agrees() {
+    fn exact_map_fits_points_with_uniform_scale() {
         let corners = [Vec3::new(-50.0, 10.0, 0.0), Vec3::new(50.0, 60.0, 20.0)];
         let map = PlotMap::around(ParallelView::plan(), &corners);
         for point in corners {

@@ -8,15 +8,15 @@ pub mod colors;
 pub mod histogram;
 pub mod intervals;
 pub mod job;
+pub mod learning_curve;
 pub mod likert;
 pub mod lines;
 pub mod map;
-pub mod model;
 pub mod overlay;
+pub mod path_diagram;
 pub mod plot_map;
-pub mod practice;
 pub mod radar;
-pub mod strips;
+pub mod timeline;
 
 use maud::{Markup, html};
 
@@ -55,7 +55,9 @@ pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
     (keep[0], keep[last]) = (true, true);
     let mut spans = vec![(0, last)];
     while let Some((from, to)) = spans.pop() {
-        let farthest = (from + 1..to).map(|k| (k, away(points[k], points[from], points[to]))).max_by(|a, b| a.1.total_cmp(&b.1));
+        let farthest = (from + 1..to)
+            .map(|k| (k, distance_to_segment(points[k], points[from], points[to])))
+            .max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((k, distance)) = farthest
             && distance > within
         {
@@ -67,7 +69,7 @@ pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
 }
 
 /// Returns the distance from a point to a segment.
-fn away(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
+fn distance_to_segment(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let length_squared = dx * dx + dy * dy;
     let t = if length_squared > 0.0 { (((p.0 - a.0) * dx + (p.1 - a.1) * dy) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
@@ -108,13 +110,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_path_data_is_short() {
+    fn exact_path_data_is_compact() {
         assert_eq!(line(&[(0.0, -0.04), (1.25, 10.0)], true), "M0 0L1.2 10Z");
         assert_eq!(line(&[], true), "");
     }
 
     #[test]
-    fn exact_a_straight_line_keeps_its_ends_and_a_corner_stays() {
+    fn exact_simplification_keeps_ends_and_corners() {
         let straight: Vec<(f64, f64)> = (0..100).map(|k| (f64::from(k), 0.0)).collect();
         assert_eq!(simplified(&straight, 0.1), [(0.0, 0.0), (99.0, 0.0)]);
         let corner = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (2.0, 2.0)];
@@ -124,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_axes_have_round_steps() {
+    fn exact_ticks_are_round_numbers() {
         assert_eq!(ticks(100.0, 5), [0.0, 20.0, 40.0, 60.0, 80.0, 100.0]);
         assert_eq!(ticks(7.0, 4), [0.0, 2.0, 4.0, 6.0]);
         assert_eq!(ticks(25.0, 6), [0.0, 5.0, 10.0, 15.0, 20.0, 25.0]);

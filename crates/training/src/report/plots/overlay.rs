@@ -2,12 +2,12 @@
 
 use super::backdrop::{ground, lake};
 use super::colors::plain_color;
-use super::map::{beside, everything, is_beside, label_distance, north, pad, references, scale, structure};
+use super::map::{bounding_points, is_beside, nearness_data, north, pad, references, scale, side_view_map, structure};
 use super::plot_map::PlotMap;
 use super::{sheet, unit};
 use crate::report::Review;
+use crate::report::formatting;
 use crate::report::outline::ParallelView;
-use crate::report::words;
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::scenario::Bridge;
@@ -15,7 +15,7 @@ use spandrel_model::scenario::Bridge;
 /// Draws the plan view, north up.
 #[must_use]
 pub fn plan(both: [&Review; 2]) -> Markup {
-    let map = PlotMap::around(ParallelView::plan(), &both.map(everything).concat());
+    let map = PlotMap::around(ParallelView::plan(), &both.map(bounding_points).concat());
     sheet(
         map.size,
         "Both flights from above, north up",
@@ -35,7 +35,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
     let near = is_beside(bridge);
     let [first, _] = both;
     let flown = both.into_iter().flat_map(|review| review.frames.iter()).filter(|frame| near(frame));
-    let map = beside(&first.scenario, &first.site, bridge, flown);
+    let map = side_view_map(&first.scenario, &first.site, bridge, flown);
     sheet(
         map.size,
         &format!("Both flights at the bridge '{}' from the side", bridge.name),
@@ -51,7 +51,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
 /// Draws a job without bridges from the south.
 #[must_use]
 pub fn from_south(both: [&Review; 2]) -> Markup {
-    let map = PlotMap::around(ParallelView::from_south(), &both.map(everything).concat());
+    let map = PlotMap::around(ParallelView::from_south(), &both.map(bounding_points).concat());
     let body = html! { (structure(&both[0].site, &map, None)) (flights(both, &map, None, &|_| true)) };
     sheet(map.size, "Both flights from the south", "map", &body)
 }
@@ -65,7 +65,7 @@ fn flights(both: [&Review; 2], map: &PlotMap, bridge: Option<&Bridge>, shown: &d
         (pad(&both[0].scenario, map))
         @for (k, review) in both.into_iter().enumerate() { (crashes(k, review, map, shown)) }
         @for k in 0..2 {
-            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(label_distance)] {
+            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] {
                 circle r="9" {}
                 text.mark y="4" text-anchor="middle" { (k + 1) }
             }
@@ -80,7 +80,7 @@ fn crashes(k: usize, review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> b
             @let (x, y) = map.at(review.frames[crash.frame].position_m);
             g class={ "crash of-" (k + 1) } transform={ "translate(" (unit(x)) " " (unit(y)) ")" } {
                 path d="M-5 -5L5 5M5 -5L-5 5" {}
-                title { "session " (k + 1) ": crash with " (words::contact_label(crash.with)) " at " (words::clock(review.t_s(crash.frame))) }
+                title { "session " (k + 1) ": crash with " (formatting::contact_label(crash.with)) " at " (formatting::clock(review.t_s(crash.frame))) }
             }
         }
     }

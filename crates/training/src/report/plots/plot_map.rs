@@ -9,7 +9,7 @@ pub(super) const MARGIN: f64 = 26.0;
 /// Minimum and maximum height of a drawing, in drawing units.
 const HEIGHTS: (f64, f64) = (110.0, 760.0);
 /// Tolerance for simplifying a flight path, in drawing units.
-pub(super) const TRACK_WITHIN: f64 = 0.35;
+pub(super) const TRACK_TOLERANCE: f64 = 0.35;
 
 /// A projection scaled to the size of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Radar chart (Kiviat diagram): one axis per score, 0 at the center, 100 at the edge.
 
 use super::{line, sheet, unit};
-use crate::report::words;
+use crate::report::formatting;
 use maud::{Markup, html};
 use spandrel_model::math;
 
@@ -48,7 +48,7 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
         &html! {
             @for pct in [25.0, 50.0, 75.0, 100.0] {
                 path.grid d=(ring(pct)) {}
-                @if pct < 100.0 { text.tick x=(unit(MIDDLE.0 + 4.0)) y=(unit(MIDDLE.1 - RADIUS * pct / 100.0 + 4.0)) { (words::number(pct, 0)) } }
+                @if pct < 100.0 { text.tick x=(unit(MIDDLE.0 + 4.0)) y=(unit(MIDDLE.1 - RADIUS * pct / 100.0 + 4.0)) { (formatting::number(pct, 0)) } }
             }
             @for (k, spoke) in spokes.iter().enumerate() {
                 @let (x, y) = at(k, 100.0);
@@ -56,7 +56,7 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
                 @let (lx, ly) = label(at(k, 114.0));
                 text.label x=(unit(lx)) y=(unit(ly + 4.0)) text-anchor=(anchor(lx)) { (spoke.name) }
                 text.value x=(unit(lx)) y=(unit(ly + 22.0)) text-anchor=(anchor(lx)) {
-                    (spoke.values.iter().map(|value| value.map_or("n/a".into(), |pct| words::number(pct, 0))).collect::<Vec<_>>().join(" / "))
+                    (spoke.values.iter().map(|value| value.map_or("n/a".into(), |pct| formatting::number(pct, 0))).collect::<Vec<_>>().join(" / "))
                 }
             }
             @for session in 0..sessions {
@@ -90,7 +90,7 @@ mod tests {
     const ROUNDING: f64 = 1e-12;
 
     #[test]
-    fn exact_spokes_point_up_right_down_left_and_values_scale_them() {
+    fn exact_radar_axis_directions_and_scale() {
         for (k, (x, y)) in [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)].into_iter().enumerate() {
             for pct in [0.0, 50.0, 100.0] {
                 let (px, py) = place(k, 4, pct);
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_polygon_goes_through_the_values_and_leaves_out_what_does_not_apply() {
+    fn exact_radar_polygon_skips_missing_scores() {
         let spoke = |name, value| RadarAxis { name, values: vec![value] };
         let figure = radar(&[spoke("a", Some(100.0)), spoke("b", Some(50.0)), spoke("c", Some(0.0)), spoke("d", None)], "t");
         let figure = figure.into_string();

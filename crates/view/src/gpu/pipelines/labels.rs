@@ -1,6 +1,9 @@
 //! Pipelines that render element and defect labels instead of radiance.
 
-use super::{ENTRIES, LIGHT, NEARER, PipelineKey, build, copies, corners, module, patches, special};
+use super::{
+    DEPTH_COMPARE, ENTRY_POINTS, PipelineKey, RADIANCE_FORMAT, build_pipeline, build_with_constants, copies, corners, module,
+    patches,
+};
 use crate::gpu::device::Gpu;
 use spandrel_model::defect_codes;
 
@@ -21,13 +24,13 @@ impl LabelPipelines {
         let constants = [("MASK", 1.0)];
         let solid = PipelineKey {
             module: &surface,
-            entries: ENTRIES,
+            entries: ENTRY_POINTS,
             layouts: &globals,
             buffers: &solids,
-            target: Some(LIGHT),
+            target: Some(RADIANCE_FORMAT),
             blend: None,
             writes: wgpu::ColorWrites::ALL,
-            depth: Some((true, NEARER)),
+            depth: Some((true, DEPTH_COMPARE)),
             bias: 0,
             cull: Some(wgpu::Face::Back),
             front: wgpu::FrontFace::Ccw,
@@ -38,13 +41,15 @@ impl LabelPipelines {
             module: &defect,
             buffers: &of_patches,
             writes: wgpu::ColorWrites::GREEN,
-            depth: Some((false, NEARER)),
+            depth: Some((false, DEPTH_COMPARE)),
             bias: 2,
             cull: None,
             ..solid
         };
-        let defects =
-            defect_codes::KINDS.iter().map(|code| (*code, special(gpu, &flat, &[("KIND", f64::from(*code))]))).collect();
-        Self { solid: build(gpu, &solid), defects }
+        let defects = defect_codes::ALL
+            .iter()
+            .map(|code| (*code, build_with_constants(gpu, &flat, &[("KIND", f64::from(*code))])))
+            .collect();
+        Self { solid: build_pipeline(gpu, &solid), defects }
     }
 }

@@ -27,7 +27,7 @@ impl ShotView {
             water_m,
             eye_m: shot.eye.position_m,
             lamp: usize::from(shot.beam.is_some()),
-            lake: may_show_in_lake(&shot.eye, shot.aspect(), water_m),
+            lake: may_be_visible_in_lake(&shot.eye, shot.aspect(), water_m),
         }
     }
 
@@ -41,22 +41,22 @@ impl ShotView {
         Frustum::of(&self.projection.after(&Matrix::mirror(self.water_m)))
     }
 
-    /// Returns the moving objects that may be visible directly or in the lake; `reaches_m` holds the distance from each
+    /// Returns the moving objects that may be visible directly or in the lake; `model_radii_m` holds the distance from each
     /// model's origin to its farthest vertex, m.
-    pub fn is_in_view(&self, moving: &[(MoverModel, Instance)], reaches_m: &[f64]) -> Vec<(MoverModel, Instance)> {
+    pub fn visible_objects(&self, moving: &[(MoverModel, Instance)], model_radii_m: &[f64]) -> Vec<(MoverModel, Instance)> {
         let (straight, mirrored) = (self.direct_view(), self.mirrored());
         let shows = |(model, instance): &&(MoverModel, Instance)| {
             let [x, y, z] = instance.rows.map(|row| f64::from(row[3]));
-            let radius_m = reaches_m.get(*model as usize).copied().unwrap_or(0.0);
-            let ball = BoundingSphere { centre_m: Vec3::new(x, y, z), radius_m };
-            straight.may_show(&ball) || (self.lake && mirrored.may_show(&ball))
+            let radius_m = model_radii_m.get(*model as usize).copied().unwrap_or(0.0);
+            let ball = BoundingSphere { center_m: Vec3::new(x, y, z), radius_m };
+            straight.may_be_visible(&ball) || (self.lake && mirrored.may_be_visible(&ball))
         };
         moving.iter().filter(shows).copied().collect()
     }
 }
 
 /// Returns false if the camera is above the water and no ray of the picture points down.
-fn may_show_in_lake(eye: &PinholeCamera, aspect: f64, water_m: f64) -> bool {
+fn may_be_visible_in_lake(eye: &PinholeCamera, aspect: f64, water_m: f64) -> bool {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
     eye.position_m.up() <= water_m || corners.iter().any(|(x, y)| eye.ray(*x, *y, aspect).up() < 0.0)
 }
@@ -72,31 +72,31 @@ mod tests {
         PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 50.0, 10.0 + rise_m), 1.0, ASPECT)
     }
 
-    fn is_visible(rise_m: f64, all: &[(MoverModel, Instance)]) -> Vec<(MoverModel, Instance)> {
+    fn visible_from(rise_m: f64, all: &[(MoverModel, Instance)]) -> Vec<(MoverModel, Instance)> {
         let (eye, water_m) = (eye(rise_m), 0.0);
-        let (projection, lake) = (eye.view_projection(ASPECT), may_show_in_lake(&eye, ASPECT, water_m));
+        let (projection, lake) = (eye.view_projection(ASPECT), may_be_visible_in_lake(&eye, ASPECT, water_m));
         let view = ShotView { projection, water_m, eye_m: eye.position_m, lamp: 0, lake };
-        view.is_in_view(all, &[3.0; MoverModel::ALL.len()])
+        view.visible_objects(all, &[3.0; MoverModel::ALL.len()])
     }
 
     #[test]
-    fn exact_the_lake_is_left_out_where_no_ray_falls() {
-        let shows = |rise_m: f64, water_m: f64| may_show_in_lake(&eye(rise_m), ASPECT, water_m);
+    fn exact_lake_is_culled_if_no_ray_points_down() {
+        let shows = |rise_m: f64, water_m: f64| may_be_visible_in_lake(&eye(rise_m), ASPECT, water_m);
         assert!(shows(0.0, 0.0) && !shows(60.0, 0.0));
         assert!(shows(60.0, 11.0), "from below the water");
     }
 
     #[test]
-    fn exact_what_moves_beside_the_picture_is_left_out_and_what_the_lake_shows_is_not() {
+    fn exact_moving_objects_are_culled_unless_the_lake_shows_them() {
         let at = |east: f64, north: f64, up: f64| {
             let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
             (MoverModel::Car, Instance::placed(Vec3::new(east, north, up), axes, [1.0; 4]))
         };
         let [ahead, behind, beside, above] =
             [at(0.0, 50.0, 10.0), at(0.0, -50.0, 10.0), at(90.0, 50.0, 10.0), at(0.0, 40.0, 40.0)];
-        assert_eq!(is_visible(0.0, &[ahead, behind, beside, above]), [ahead]);
+        assert_eq!(visible_from(0.0, &[ahead, behind, beside, above]), [ahead]);
         // In a view down into the lake, the reflection shows objects ahead and above.
-        assert_eq!(is_visible(-45.0, &[ahead, behind, beside, above]), [ahead, above]);
-        assert_eq!(is_visible(-400.0, &[ahead]), []);
+        assert_eq!(visible_from(-45.0, &[ahead, behind, beside, above]), [ahead, above]);
+        assert_eq!(visible_from(-400.0, &[ahead]), []);
     }
 }

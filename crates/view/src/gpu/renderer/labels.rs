@@ -3,8 +3,8 @@
 use super::{Frustum, Renderer, solids};
 use crate::gpu::device::{Gpu, GpuError};
 use crate::gpu::pass::{MeshInstances, begin};
-use crate::gpu::picture::{colour_texture, read_bytes};
-use crate::gpu::pipelines::{DEPTH, LIGHT, LabelPipelines};
+use crate::gpu::picture::{color_texture, read_bytes};
+use crate::gpu::pipelines::{DEPTH_FORMAT, LabelPipelines, RADIANCE_FORMAT};
 use crate::gpu::targets::texture;
 use crate::gpu::uniforms::{Globals, ShadowMaps};
 use crate::masks::LabelMask;
@@ -12,7 +12,7 @@ use crate::scene::Instance;
 use crate::shot::Shot;
 
 /// Bytes per label pixel: four half floats.
-const PIXEL: u32 = 8;
+const BYTES_PER_PIXEL: u32 = 8;
 
 impl Renderer {
     /// Returns the bridge element and defect at each pixel of a shot.
@@ -24,7 +24,7 @@ impl Renderer {
         let globals = Globals::new(shot, self.water_m, &ShadowMaps { sun: &[], lamp: None }, false);
         gpu.queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
         let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.pipelines.globals_layout));
-        let target = colour_texture(gpu, shot.size_px, (LIGHT, wgpu::TextureUsages::COPY_SRC));
+        let target = color_texture(gpu, shot.size_px, (RADIANCE_FORMAT, wgpu::TextureUsages::COPY_SRC));
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw_labels(gpu, &mut encoder, &pipelines, shot, &target);
         gpu.queue.submit([encoder.finish()]);
@@ -43,14 +43,14 @@ impl Renderer {
         let (moving, here) = (self.moving(gpu, &shot.moving), MeshInstances::new(gpu, &[Instance::HERE]));
         let shown = Frustum::of(&shot.eye.view_projection(shot.aspect()));
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
-        let depth = texture(gpu, shot.size_px, DEPTH, 1);
+        let depth = texture(gpu, shot.size_px, DEPTH_FORMAT, 1);
         let mut pass = begin(encoder, &view, None, Some(&depth));
         pass.set_bind_group(0, &self.bound, &[]);
         pass.set_pipeline(&pipelines.solid);
         let still = self
             .fixed
             .iter()
-            .filter(|fixed| fixed.visible_range.shows(false, 0.0) && shown.may_show_cell(&fixed.bounds))
+            .filter(|fixed| fixed.visible_range.shows(false, 0.0) && shown.cell_may_be_visible(&fixed.bounds))
             .map(|fixed| (&*fixed.solid, &fixed.copies));
         let lake = self.water.iter().flat_map(|(water, _)| Some((water, here.as_ref()?)));
         for (solid, copies) in solids(&self.models, &moving).chain(still).chain(lake) {
@@ -62,10 +62,12 @@ impl Renderer {
 
 fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<LabelMask, GpuError> {
     let (width, height) = (texture.width(), texture.height());
-    let bytes = read_bytes(gpu, texture, PIXEL)?;
+    let bytes = read_bytes(gpu, texture, BYTES_PER_PIXEL)?;
     let number = |k: usize| u16::from_le_bytes([bytes[k], bytes[k + 1]]);
     let of = |channel: usize| {
-        (0..bytes.len() / PIXEL as usize).map(|k| LabelMask::whole(number(PIXEL as usize * k + channel))).collect()
+        (0..bytes.len() / BYTES_PER_PIXEL as usize)
+            .map(|k| LabelMask::half_to_integer(number(BYTES_PER_PIXEL as usize * k + channel)))
+            .collect()
     };
     Ok(LabelMask { width, height, elements: of(0), defects: of(2) })
 }

@@ -34,13 +34,13 @@ pub fn fixed(gpu: &Gpu, scene: &Scene) -> Vec<StaticCell> {
             }));
         };
         if part.instances == [Instance::HERE] {
-            for cell in cells::cut(&part.mesh, part.backdrop) {
+            for cell in cells::split_into_cells(&part.mesh, part.backdrop) {
                 if let Some(solid) = GpuMesh::new(gpu, &cell) {
                     add(Arc::new(solid), &part.instances, CellBounds::of(&cell));
                 }
             }
         } else if let Some(solid) = GpuMesh::new(gpu, &part.mesh).map(Arc::new) {
-            for (instances, ball) in cells::grouped(&part.mesh, &part.instances) {
+            for (instances, ball) in cells::group_instances(&part.mesh, &part.instances) {
                 add(Arc::clone(&solid), &instances, ball.into());
             }
         }

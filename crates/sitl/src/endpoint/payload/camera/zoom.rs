@@ -2,7 +2,7 @@
 
 use spandrel_model::math;
 use spandrel_model::vehicle::Camera;
-pub use spandrel_model::vehicle::SENSOR_MM;
+pub use spandrel_model::vehicle::SENSOR_WIDTH_MM;
 
 /// Time to travel the whole zoom range, s (estimate: small motorized zooms take 2 to 4 s).
 const SWEEP_S: f64 = 3.0;
@@ -148,7 +148,7 @@ mod tests {
     fn exact_every_way_of_asking_comes_to_the_focal_length_that_is_requested() {
         // tan 45 deg is 1: the focal length is half the sensor's width, and twice that gives a field of view of 2 atan(1/2).
         let field = 2.0 * math::atan2(1.0, 2.0);
-        for request in [ZoomCommand::Level(0.5), ZoomCommand::FocalMm(SENSOR_MM), ZoomCommand::FieldOfView(field)] {
+        for request in [ZoomCommand::Level(0.5), ZoomCommand::FocalMm(SENSOR_WIDTH_MM), ZoomCommand::FieldOfView(field)] {
             let zoom = at_rest(request);
             assert!((zoom.ratio(&CAMERA) - 2.0).abs() < NEAR, "{request:?}");
             assert!((CAMERA.zoomed(zoom.ratio(&CAMERA)).hfov_rad - field).abs() < NEAR);

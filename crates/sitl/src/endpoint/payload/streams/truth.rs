@@ -2,12 +2,12 @@
 
 use super::super::snapshot::PayloadSnapshot;
 use spandrel_mavlink::contract::sticks;
-use spandrel_mavlink::contract::truth::Published;
+use spandrel_mavlink::contract::truth::PublishedTruth;
 use spandrel_mavlink::dialect::{MavMessage, RC_CHANNELS_DATA};
 
 pub(crate) fn state(v: &PayloadSnapshot) -> Option<MavMessage> {
     let truth = v.input.truth;
-    let published = Published {
+    let published = PublishedTruth {
         time_us: v.clock.sim_us(),
         place: v.input.true_geo(),
         velocity_m_s: truth.velocity_m_s,

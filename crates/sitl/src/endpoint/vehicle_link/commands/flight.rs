@@ -351,7 +351,7 @@ fn orbit(c: &VehicleCommand, a: &InboundMessage) -> Option<OrbitRequest> {
         Some(number) => Some(OrbitYaw::from_number(number)?),
     };
     let arc_rad = c.finite_param(3).unwrap_or(0.0).abs();
-    Some(OrbitRequest { centre_m: north_east_m, up_m, radius_m: c.finite_param(0), speed_m_s: c.finite_param(1), yaw, arc_rad })
+    Some(OrbitRequest { center_m: north_east_m, up_m, radius_m: c.finite_param(0), speed_m_s: c.finite_param(1), yaw, arc_rad })
 }
 
 /// Parameters 1 angle in degrees, 2 rate in deg/s (0: default), 3 direction, 4 whether relative to the current heading.

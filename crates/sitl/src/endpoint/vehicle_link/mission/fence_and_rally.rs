@@ -79,7 +79,7 @@ pub(super) fn zones(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane) -> Vec<
         let outline = if corners > 1 {
             FenceOutline::Polygon(items.iter().skip(at).take(corners).map(flat).collect())
         } else {
-            FenceOutline::Circle { centre_m: flat(item), radius_m: f64::from(item.param1) }
+            FenceOutline::Circle { center_m: flat(item), radius_m: f64::from(item.param1) }
         };
         out.push(FenceZone { outline, inclusion });
         at += corners;

@@ -199,8 +199,8 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
         | MavCmd::MAV_CMD_NAV_LOITER_TO_ALT
         | MavCmd::MAV_CMD_CONDITION_GATE => waypoint(item, plane, home_up_m),
         MavCmd::MAV_CMD_NAV_LOITER_TURNS => match place(item, plane, home_up_m) {
-            Some(centre_m) => MissionStep::Circle {
-                centre_m,
+            Some(center_m) => MissionStep::Circle {
+                center_m,
                 radius_m: if item.param3.abs() > 0.0 { number(item.param3, RADIUS_M) } else { RADIUS_M },
                 turns: number(item.param1, 1.0),
             },

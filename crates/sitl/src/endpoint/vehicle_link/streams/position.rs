@@ -40,7 +40,7 @@ pub(crate) fn global(v: &VehicleSnapshot) -> Option<MavMessage> {
 /// Sent only while orbiting.
 pub(crate) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
     let orbit = v.status.orbit?;
-    let centre = v.plane.geo_from_enu(orbit.centre_m.enu());
+    let centre = v.plane.geo_from_enu(orbit.center_m.enu());
     Some(MavMessage::ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA {
         time_usec: v.clock.boot_us(),
         radius: (orbit.radius_m * orbit.speed_m_s.signum()) as f32,

@@ -1,13 +1,13 @@
 //! Questionnaire answers and their relation to the measured scores.
 
 use super::super::figure::{figure, legend, scrolling};
-use super::people_shown::people_shown;
+use super::lists_individuals::lists_individuals;
 use super::pooled;
 use crate::cohort::{Cohort, Likert};
 use crate::questionnaire::{QuestionnaireItem, SHIPPED, read_wording};
+use crate::report::formatting;
 use crate::report::plots::likert::{LikertQuestion, likert};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
 
 /// CSS classes and labels of the five answers.
@@ -24,7 +24,7 @@ pub fn answers(cohort: &Cohort) -> Markup {
     let key: Vec<(&str, String)> = ANSWERS.iter().map(|(class, words)| (*class, (*words).to_owned())).collect();
     let of = |repetition: Option<usize>| -> Vec<LikertQuestion> {
         let those = cohort.likert.iter().filter(|one| one.repetition == repetition);
-        those.map(|one| LikertQuestion { name: asked(one), counts: one.counts }).collect()
+        those.map(|one| LikertQuestion { name: question_text(one), counts: one.counts }).collect()
     };
     let later: Vec<(usize, Vec<LikertQuestion>)> =
         (1..=cohort.repetitions).map(|k| (k, of(Some(k)))).filter(|(_, questions)| !questions.is_empty()).collect();
@@ -43,7 +43,7 @@ fn chart(questions: &[LikertQuestion], title: &str) -> Markup {
 }
 
 /// Returns the text of a question in English, or its key if it is unknown.
-fn asked(one: &Likert) -> String {
+fn question_text(one: &Likert) -> String {
     let wording = read_wording(SHIPPED[0].0, SHIPPED[0].1).ok();
     match (QuestionnaireItem::from_key(&one.question), wording) {
         (Some(item), Some(wording)) => {
@@ -63,16 +63,16 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
     let rating = &cohort.self_rating;
     html! {
         @if let Some(overall) = &rating.overall {
-            p { "Spearman's correlation of self-rating and overall score: " (words::number(overall.r, 2)) ", " (overall.n) " trainees." }
+            p { "Spearman's correlation of self-rating and overall score: " (formatting::number(overall.r, 2)) ", " (overall.n) " trainees." }
         }
-        @if people_shown(cohort) {
+        @if lists_individuals(cohort) {
             @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }
-            (rated(cohort).folded())
+            (self_rating_table(cohort).folded())
         } @else { (pooled::self_rating(cohort)) }
     }
 }
 
-fn rated(cohort: &Cohort) -> Table {
+fn self_rating_table(cohort: &Cohort) -> Table {
     let people = cohort.self_rating.people.iter();
     let rows = people.map(|one| {
         vec![one.trainee.clone().into(), TableCell::Number(one.self_rating, 2), TableCell::Number(one.measured_pct, 1)]

@@ -1,11 +1,11 @@
 //! The causal model section: demand, strain and performance, with feedback as moderator.
 
 use super::super::figure::{figure, scrolling};
-use crate::cohort::{Cohort, IndirectEffect, MediationModel, SENSIBLE_N};
+use crate::cohort::{Cohort, IndirectEffect, MediationModel, RECOMMENDED_TRAINEES};
+use crate::report::formatting;
 use crate::report::plots::intervals::{IntervalEstimate, intervals};
-use crate::report::plots::model::{PathEffect, PathEffects, model};
+use crate::report::plots::path_diagram::{PathEffect, PathEffects, model};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use crate::statistics::{Coefficient, Regression};
 use maud::{Markup, html};
 
@@ -14,16 +14,16 @@ pub fn causal(cohort: &Cohort) -> Markup {
     html! {
         p { "Does demand increase strain, does strain reduce performance, and does in-flight feedback weaken the effect of demand on strain? Estimated from the first sessions of all trainees who answered." }
         @match &cohort.causal {
-            Some(model) => (estimated(model)),
-            None => p.caution { "No estimate available: too few trainees answered, or their answers do not vary. At least " (SENSIBLE_N) " trainees with complete answers are recommended." },
+            Some(model) => (model_section(model)),
+            None => p.caution { "No estimate available: too few trainees answered, or their answers do not vary. At least " (RECOMMENDED_TRAINEES) " trainees with complete answers are recommended." },
         }
     }
 }
 
-fn estimated(model_: &MediationModel) -> Markup {
+fn model_section(model_: &MediationModel) -> Markup {
     html! {
-        @if model_.n < SENSIBLE_N {
-            p.caution { b { (model_.n) " trainees with complete answers." } " With fewer than " (SENSIBLE_N) ", the model can miss medium effects. It describes these trainees only and does not generalize." }
+        @if model_.n < RECOMMENDED_TRAINEES {
+            p.caution { b { (model_.n) " trainees with complete answers." } " With fewer than " (RECOMMENDED_TRAINEES) ", the model can miss medium effects. It describes these trainees only and does not generalize." }
         }
         (figure("Path diagram; dashed arrows mark effects whose 95 % interval contains zero", &scrolling("The causal model", &model(&effects(model_), "Demand, strain, performance and feedback"))))
         p.note { "Demand, strain and feedback are scales from 1 to 5; performance is the overall score in % of the maximum." }
@@ -33,13 +33,13 @@ fn estimated(model_: &MediationModel) -> Markup {
     }
 }
 
-fn named(at: usize) -> &'static str {
+fn feedback_level_name(at: usize) -> &'static str {
     ["low feedback", "mean feedback", "high feedback"].get(at).copied().unwrap_or_default()
 }
 
 fn indirect(model: &MediationModel) -> Vec<IntervalEstimate> {
     let estimate = |(k, one): (usize, &IndirectEffect)| IntervalEstimate {
-        name: format!("{} ({})", named(k), words::number(one.feedback, 1)),
+        name: format!("{} ({})", feedback_level_name(k), formatting::number(one.feedback, 1)),
         value: one.effect,
         interval: one.interval_95,
     };
@@ -57,13 +57,13 @@ fn effects(model: &MediationModel) -> PathEffects {
 
 fn effect(regression: &Regression, name: &str) -> PathEffect {
     let Some(one) = regression.coefficients.iter().find(|one| one.name == name) else {
-        return PathEffect { words: "–".into(), may_be_none: true };
+        return PathEffect { words: "–".into(), contains_zero: true };
     };
     let [low, high] = one.interval_95;
-    let number = |value: f64| words::number(value, 2).replace('-', "−");
+    let number = |value: f64| formatting::number(value, 2).replace('-', "−");
     PathEffect {
         words: format!("{} [{}, {}]", number(one.estimate), number(low), number(high)),
-        may_be_none: low <= 0.0 && high >= 0.0,
+        contains_zero: low <= 0.0 && high >= 0.0,
     }
 }
 
@@ -72,7 +72,8 @@ fn effects_table(model: &MediationModel) -> Table {
     let row = |name: &str, one: &IndirectEffect| {
         vec![name.into(), TableCell::Number(one.feedback, 2), TableCell::Number(one.effect, 2), ends(one, 0), ends(one, 1)]
     };
-    let mut rows: Vec<Vec<TableCell>> = model.indirect.iter().enumerate().map(|(k, one)| row(named(k), one)).collect();
+    let mut rows: Vec<Vec<TableCell>> =
+        model.indirect.iter().enumerate().map(|(k, one)| row(feedback_level_name(k), one)).collect();
     rows.push(row("moderation: change per unit of feedback", &model.moderation));
     Table {
         name: "indirect_effects",

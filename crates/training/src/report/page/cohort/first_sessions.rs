@@ -1,8 +1,8 @@
 //! Scores of the first sessions: distributions, trainees and tasks, crashes.
 
+use super::super::crash_kinds::{KINDS, counted, segments};
 use super::super::figure::{figure, legend};
-use super::super::kinds::{KINDS, counted, segments};
-use super::people_shown::people_shown;
+use super::lists_individuals::lists_individuals;
 use super::pooled;
 use crate::cohort::Cohort;
 use crate::report::plots::bars::{CountRow, ShareRow, counts, shares};
@@ -35,7 +35,7 @@ pub fn distributions(cohort: &Cohort) -> Markup {
 
 /// Renders each trainee's scores and tasks, or their distributions if there are too many trainees to list.
 pub fn people(cohort: &Cohort) -> Markup {
-    if people_shown(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
+    if lists_individuals(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
 }
 
 fn one_by_one(cohort: &Cohort) -> Markup {
@@ -101,12 +101,12 @@ pub fn crashes(cohort: &Cohort) -> Markup {
             (figure("By object", &html! { (legend(&key)) (counts(&[all], "Crashes by kind")) }))
             (figure("By task", &counts(&by_task, "Crashes by task")))
         }
-        @if people_shown(cohort) {
-            details.numbers { summary { "By trainee" } (figure("Crashes by trainee", &counts(&by_person(cohort), "Crashes by trainee"))) }
+        @if lists_individuals(cohort) {
+            details.numbers { summary { "By trainee" } (figure("Crashes by trainee", &counts(&counts_by_trainee(cohort), "Crashes by trainee"))) }
         } @else { (pooled::crashes(cohort)) }
     }
 }
 
-fn by_person(cohort: &Cohort) -> Vec<CountRow> {
+fn counts_by_trainee(cohort: &Cohort) -> Vec<CountRow> {
     cohort.crashes.rows.iter().map(|row| CountRow { name: row.trainee.clone(), kinds: vec![("k-bridge", row.total)] }).collect()
 }

@@ -3,15 +3,15 @@
 use super::super::figure::{figure, legend};
 use super::super::progress::{most, pictures, too_few};
 use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
-use crate::report::plots::practice::{PracticeChart, practice};
+use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::table::{Table, TableCell};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
 /// Maximum number of individual curves drawn behind the group's curve; more would be indistinguishable.
-const CURVES_SHOWN: usize = 40;
+const MAX_INDIVIDUAL_CURVES: usize = 40;
 /// Maximum number of trainees shown individually.
-const ONE_BY_ONE: usize = 24;
+const MAX_INDIVIDUAL_TRAINEES: usize = 24;
 
 /// Renders the group's curves, or the reason why there are none.
 pub fn curves(cohort: &Cohort) -> Markup {
@@ -27,7 +27,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
             (legend(&key))
             div.trio {
                 @for one in &cohort.learning {
-                    @let others = of_people(cohort, &one.score);
+                    @let others = individual_curves(cohort, &one.score);
                     @let drawn = PracticeChart { values: &one.means, curve: &one.curve, others: &others, most: most(&one.score) };
                     (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
                 }
@@ -42,7 +42,7 @@ fn people(count: usize) -> String {
     if count == 1 { "one trainee".to_owned() } else { format!("{count} trainees") }
 }
 
-fn of_people(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
+fn individual_curves(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
     let all: Vec<LearningCurve> = cohort
         .progress
         .iter()
@@ -50,7 +50,7 @@ fn of_people(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
         .filter(|curve| curve.score == score)
         .map(|curve| curve.curve)
         .collect();
-    if all.len() > CURVES_SHOWN { Vec::new() } else { all }
+    if all.len() > MAX_INDIVIDUAL_CURVES { Vec::new() } else { all }
 }
 
 fn numbers(curves: &[GroupCurve]) -> Table {
@@ -79,8 +79,8 @@ fn numbers(curves: &[GroupCurve]) -> Table {
 pub fn one_by_one(cohort: &Cohort) -> Markup {
     let repeated: Vec<&TraineeProgress> = repeated(cohort).collect();
     html! {
-        @if repeated.len() > ONE_BY_ONE {
-            p.calm { (repeated.len()) " trainees flew more than once. Above " (ONE_BY_ONE) ", trainees are not shown individually; see progress.csv." }
+        @if repeated.len() > MAX_INDIVIDUAL_TRAINEES {
+            p.calm { (repeated.len()) " trainees flew more than once. Above " (MAX_INDIVIDUAL_TRAINEES) ", trainees are not shown individually; see progress.csv." }
         } @else {
             @for one in repeated {
                 details.numbers { summary { (one.trainee) ", " (one.repetitions.len()) " times" } (pictures(one, &tasks(cohort, one))) }

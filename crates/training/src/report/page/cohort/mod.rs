@@ -5,35 +5,35 @@ mod answers;
 mod causal;
 mod first_sessions;
 mod learning;
-mod people_shown;
+mod lists_individuals;
 mod pooled;
 mod repetitions;
 
-pub use people_shown::PEOPLE_SHOWN;
+pub use lists_individuals::MAX_LISTED_TRAINEES;
 
 use super::{PageScripts, document};
 use crate::cohort::{Cohort, TABLES, tables};
 use crate::record::omitted_summary;
 use crate::report::table::download;
+use lists_individuals::lists_individuals;
 use maud::{Markup, html};
-use people_shown::people_shown;
 
 /// Location of the table files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableLinks<'a> {
     /// Embedded in the page. Tables with one row per trainee are included only if the page lists trainees individually.
-    Inside,
+    Embedded,
     /// Downloaded from the server: URL prefix and query, placed before and after the file name.
-    At(&'a str, &'a str),
+    Served(&'a str, &'a str),
 }
 
 /// Renders the standalone offline page.
 #[must_use]
 pub fn cohort(cohort: &Cohort) -> String {
-    let sections = sections(cohort, TableLinks::Inside);
+    let sections = sections(cohort, TableLinks::Embedded);
     document(
         "Cohort report",
-        &PageScripts::Nothing,
+        &PageScripts::None,
         &html! {
             header { div { p.kicker { "Cohort report" } h1 { (cohort.scenarios.join(", ")) } (summary_lines(cohort)) } }
             nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
@@ -87,7 +87,7 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
 }
 
 /// Tables with one or more rows per trainee.
-const BY_PERSON: [&str; 7] = [
+const TABLES_BY_TRAINEE: [&str; 7] = [
     "individuals.csv",
     "conformity_by_task.csv",
     "crashes.csv",
@@ -99,15 +99,15 @@ const BY_PERSON: [&str; 7] = [
 
 fn files(cohort: &Cohort, at: TableLinks<'_>) -> Markup {
     match at {
-        TableLinks::At(address, query) => html! {
+        TableLinks::Served(address, query) => html! {
             ul.actions { @for name in TABLES { li { a href={ (address) (name) (query) } { (name) } } } }
         },
-        TableLinks::Inside => {
-            let inside = |name: &str| people_shown(cohort) || !BY_PERSON.contains(&name);
+        TableLinks::Embedded => {
+            let inside = |name: &str| lists_individuals(cohort) || !TABLES_BY_TRAINEE.contains(&name);
             html! {
                 ul.actions { @for (name, csv) in tables(cohort).into_iter().filter(|(name, _)| inside(name)) { li { (download(name, &csv, name)) } } }
-                @if !people_shown(cohort) {
-                    p.note { "Tables with one row per trainee are not embedded because they would make this page too large. " code { "spandrel cohort --csv FOLDER" } " writes " (BY_PERSON.join(", ")) "." }
+                @if !lists_individuals(cohort) {
+                    p.note { "Tables with one row per trainee are not embedded because they would make this page too large. " code { "spandrel cohort --csv FOLDER" } " writes " (TABLES_BY_TRAINEE.join(", ")) "." }
                 }
             }
         }
@@ -119,13 +119,13 @@ mod tests {
     use super::*;
     use crate::cohort::{Selection, cohort as of};
     use crate::record::{IncompletePolicy, SessionRecord};
-    use crate::testing::faultless;
+    use crate::testing::perfect_record;
 
     fn group() -> Vec<SessionRecord> {
         let mut records = Vec::new();
         for person in 0..6 {
             for number in 1..=2 {
-                let mut record = faultless(&format!("t{person}"), number);
+                let mut record = perfect_record(&format!("t{person}"), number);
                 record.scores.safety = 70.0 + 3.0 * f64::from(person) + number as f64;
                 record.tasks[0].crashes.bridge = number;
                 records.push(record);
@@ -136,8 +136,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_page_shows_every_figure_and_escapes_names() {
-        let cohort = of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut });
+    fn exact_cohort_page_shows_all_figures_and_escapes_names() {
+        let cohort = of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude });
         let page = super::cohort(&cohort);
         assert!(!page.contains("<script>alert") && page.contains("&lt;script&gt;"));
         for figure in
@@ -149,25 +149,25 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_group_without_answers_or_repetitions_leaves_those_sections_out() {
+    fn exact_sections_without_data_are_omitted() {
         let mut records = group();
         records.iter_mut().for_each(|record| record.answers = None);
         let cohort =
-            of(&records[..1], &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut });
-        let ids: Vec<&str> = sections(&cohort, TableLinks::Inside).into_iter().map(|(id, _, _)| id).collect();
+            of(&records[..1], &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude });
+        let ids: Vec<&str> = sections(&cohort, TableLinks::Embedded).into_iter().map(|(id, _, _)| id).collect();
         assert!(!ids.contains(&"answers") && !ids.contains(&"repetitions") && ids.contains(&"files"), "{ids:?}");
         assert!(!ids.contains(&"causal") && !ids.contains(&"learning"), "{ids:?}");
     }
 
     #[test]
-    fn exact_the_causal_model_is_drawn_with_its_warning_or_the_page_explains_why_not() {
+    fn exact_causal_model_is_drawn_or_explained() {
         // All test answers are equal, so the model cannot be estimated.
         let page = super::cohort(&of(
             &group(),
-            &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut },
+            &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude },
         ));
         assert!(page.contains("No estimate available") && !page.contains("class=\"model-drawing\""));
-        let mut records: Vec<SessionRecord> = (0..20).map(|person| faultless(&format!("t{person}"), 1)).collect();
+        let mut records: Vec<SessionRecord> = (0..20).map(|person| perfect_record(&format!("t{person}"), 1)).collect();
         let mut chance = spandrel_model::random::RandomStream::new(3, "made-up answers");
         for record in &mut records {
             for answer in record.answers.as_mut().unwrap().given.values_mut() {
@@ -175,7 +175,7 @@ mod tests {
             }
             record.scores.overall = chance.range(200.0, 400.0);
         }
-        let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut });
+        let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude });
         assert!(cohort.causal.is_some(), "{:?}", cohort.warnings);
         let page = super::cohort(&cohort);
         assert!(page.contains("class=\"model-drawing\"") && page.contains("With fewer than 78"), "no warning");
@@ -184,12 +184,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_learning_curve_stands_where_somebody_flew_often_enough() {
+    fn exact_learning_curve_is_shown_after_enough_repetitions() {
         let flown = |times: usize| {
-            let records: Vec<SessionRecord> = (1..=times).flat_map(|k| [faultless("anna", k), faultless("ben", k)]).collect();
+            let records: Vec<SessionRecord> =
+                (1..=times).flat_map(|k| [perfect_record("anna", k), perfect_record("ben", k)]).collect();
             super::cohort(&of(
                 &records,
-                &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut },
+                &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude },
             ))
         };
         let (three, four) = (flown(3), flown(4));
@@ -199,15 +200,15 @@ mod tests {
     }
 
     #[test]
-    fn exact_of_many_people_the_page_shows_distributions_and_stays_small() {
+    fn exact_large_cohort_page_shows_distributions_and_stays_small() {
         let people = |count: usize| {
             let records: Vec<SessionRecord> =
-                (0..count).flat_map(|k| [faultless(&format!("p{k}"), 1), faultless(&format!("p{k}"), 2)]).collect();
-            of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::LeaveOut })
+                (0..count).flat_map(|k| [perfect_record(&format!("p{k}"), 1), perfect_record(&format!("p{k}"), 2)]).collect();
+            of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude })
         };
-        let few = super::cohort(&people(PEOPLE_SHOWN));
+        let few = super::cohort(&people(MAX_LISTED_TRAINEES));
         assert!(few.contains("By trainee") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
-        let (some, many) = (super::cohort(&people(PEOPLE_SHOWN + 1)), super::cohort(&people(20 * PEOPLE_SHOWN)));
+        let (some, many) = (super::cohort(&people(MAX_LISTED_TRAINEES + 1)), super::cohort(&people(20 * MAX_LISTED_TRAINEES)));
         assert!(
             !some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are not listed individually")
         );
@@ -215,8 +216,8 @@ mod tests {
         assert!(some.contains("Histogram of crashes per trainee") && some.contains("On-path share by task"));
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());
         // On the server, every file has a link.
-        let cohort = people(PEOPLE_SHOWN + 1);
-        let (_, _, files) = sections(&cohort, TableLinks::At("/cohort/", "?repetitions=2")).pop().unwrap();
+        let cohort = people(MAX_LISTED_TRAINEES + 1);
+        let (_, _, files) = sections(&cohort, TableLinks::Served("/cohort/", "?repetitions=2")).pop().unwrap();
         let files = files.into_string();
         let names: Vec<&str> = tables(&cohort).into_iter().map(|(name, _)| name).collect();
         assert_eq!(names, TABLES);

@@ -9,16 +9,16 @@ use crate::statistics::{BoxPlot, HistogramBin, box_plot};
 use maud::{Markup, html};
 
 /// Maximum number of bins in the crash histogram; above it, each bin covers several counts.
-const BARS: usize = 20;
+const MAX_BINS: usize = 20;
 
-fn too_many(cohort: &Cohort, file: &str) -> Markup {
+fn too_many_note(cohort: &Cohort, file: &str) -> Markup {
     html! { p.note { (cohort.trainees) " trainees are not listed individually. The figures show distributions; individual data is in " (file) "." } }
 }
 
 /// A box plot with its label.
 type LabeledBox = (String, BoxPlot);
 
-fn drawn(of: &[LabeledBox], most: f64, title: &str) -> Markup {
+fn draw_boxes(of: &[LabeledBox], most: f64, title: &str) -> Markup {
     let named: Vec<NamedBox<'_>> = of.iter().map(|(name, plot)| NamedBox { name: name.clone(), plot }).collect();
     boxes(&named, most, title)
 }
@@ -41,9 +41,9 @@ pub fn tasks(cohort: &Cohort) -> Markup {
     let of = |id: &u32| Some((format!("task {id}"), box_plot(&shares(*id)).ok()?));
     let all: Vec<LabeledBox> = cohort.crashes.tasks.iter().filter_map(of).collect();
     html! {
-        (too_many(cohort, "individuals.csv"))
+        (too_many_note(cohort, "individuals.csv"))
         @if !all.is_empty() {
-            (figure("On-path share of each task, %", &drawn(&all, 100.0, "On-path share by task")))
+            (figure("On-path share of each task, %", &draw_boxes(&all, 100.0, "On-path share by task")))
             (table("on_path_by_task", "on-path share by task, %, for trainees who attempted it", "task", &all).shown())
         }
     }
@@ -71,7 +71,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
 /// Returns bins of equal width that cover the counts from 0 to the maximum.
 fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     let most = counts.iter().copied().max().unwrap_or(0);
-    let wide = (most + 1).div_ceil(BARS).max(1);
+    let wide = (most + 1).div_ceil(MAX_BINS).max(1);
     let bin = |from: usize| {
         let to = from + wide;
         HistogramBin { from: from as f64, to: to as f64, count: counts.iter().filter(|count| (from..to).contains(count)).count() }
@@ -88,9 +88,9 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
     };
     let all: Vec<LabeledBox> = (1..=5).filter_map(|rating| Some((rating.to_string(), rated(rating)?))).collect();
     html! {
-        (too_many(cohort, "self_rating.csv"))
+        (too_many_note(cohort, "self_rating.csv"))
         @if !all.is_empty() {
-            (figure("Overall score, % of the maximum, by self-rating (5 is best)", &drawn(&all, 100.0, "Measured score by self-rating")))
+            (figure("Overall score, % of the maximum, by self-rating (5 is best)", &draw_boxes(&all, 100.0, "Measured score by self-rating")))
             (table("measured_by_self_rating", "measured score by self-rating, %", "self-rating", &all).shown())
         }
         p { (cohort.self_rating.contradictions.len()) " contradictions are listed in contradictions.csv." }
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_person_falls_into_one_bin() {
+    fn exact_each_count_is_in_one_bin() {
         let bins = bins(&[0, 0, 1, 3, 45]);
         assert_eq!((bins.len(), bins[0].to, bins.iter().map(|bin| bin.count).sum::<usize>()), (16, 3.0, 5));
         assert_eq!(super::bins(&[0, 2]).iter().map(|bin| bin.count).collect::<Vec<_>>(), [1, 0, 1]);

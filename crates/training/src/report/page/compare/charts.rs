@@ -20,9 +20,9 @@ const READOUT: [(&str, &str); 5] =
     [("task", "Task"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")];
 
 /// Renders the section. Drawings are included only if both flights are of the same job.
-pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
+pub fn section(both: [&Review; 2], same_job: bool, alignment_events: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
     html! {
-        (controls(line_ups, key))
+        (controls(alignment_events, key))
         @if same_job { (drawings(both)) }
         div.charts {
             @for (column, title) in CHARTS {
@@ -37,12 +37,12 @@ pub fn section(both: [&Review; 2], same_job: bool, line_ups: &[AlignmentEvent], 
     }
 }
 
-fn controls(line_ups: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
+fn controls(alignment_events: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
     html! {
         div.controls id="controls" {
             div.run hidden id="run" {
                 (slider())
-                label { "Aligned at " select id="line-up" { @for (k, line_up) in line_ups.iter().enumerate() { option value=(k) { (line_up.name) } } } }
+                label { "Aligned at " select id="line-up" { @for (k, line_up) in alignment_events.iter().enumerate() { option value=(k) { (line_up.name) } } } }
             }
             div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the slider's time" {
                 table.moment {

@@ -23,11 +23,11 @@ pub fn comparison(first: &Review, second: &Review) -> String {
         })
         .collect();
     let same = first.scenario.tasks.len() == second.scenario.tasks.len() && first.scenario.crc == second.scenario.crc;
-    let line_ups = series::line_ups(both, same);
-    let key = [("dot-1", format!("1: {}", words_of(first))), ("dot-2", format!("2: {}", words_of(second)))];
+    let alignment_events = series::alignment_events(both, same);
+    let key = [("dot-1", format!("1: {}", session_label(first))), ("dot-2", format!("2: {}", session_label(second)))];
     document(
         "Comparison of two sessions",
-        &PageScripts::Comparison(series::comparison(both, &line_ups)),
+        &PageScripts::Comparison(series::comparison(both, &alignment_events)),
         &html! {
             header {
                 div {
@@ -47,7 +47,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 }
                 section aria-labelledby="flight-head" {
                     h2 id="flight-head" { "Flights" }
-                    (charts::section(both, same, &line_ups, &key))
+                    (charts::section(both, same, &alignment_events, &key))
                 }
                 @if same {
                     section aria-labelledby="tasks-head" {
@@ -60,7 +60,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
     )
 }
 
-fn words_of(review: &Review) -> String {
+fn session_label(review: &Review) -> String {
     format!("{}, {}", review.about.trainee, review.about.started_utc)
 }
 
@@ -97,13 +97,13 @@ fn table(first: &Review, second: &Review) -> Table {
     put("Pictures", 0, both.map(|review| Some(review.pictures.len() as f64)));
     put("Defects found", 0, both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
     put("Cues", 0, both.map(|review| Some(review.feedback.episodes.len() as f64)));
-    put("Time too close or off the path, s", 1, both.map(|review| Some(warned_s(review))));
+    put("Time too close or off the path, s", 1, both.map(|review| Some(warning_duration_s(review))));
     put("Surface shown well, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))));
     Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["measure", "first", "second", "change"], rows }
 }
 
 /// Returns the total duration of the "too close" and "off path" cues, s.
-fn warned_s(review: &Review) -> f64 {
-    let wanted = |kind: usize| matches!(crate::report::cues::KINDS[kind].name, "too close" | "off path");
+fn warning_duration_s(review: &Review) -> f64 {
+    let wanted = |kind: usize| matches!(crate::report::feedback::KINDS[kind].name, "too close" | "off path");
     review.feedback.episodes.iter().filter(|e| wanted(e.kind)).map(|e| e.to_s - e.from_s).sum()
 }

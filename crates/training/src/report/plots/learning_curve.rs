@@ -1,7 +1,7 @@
 //! Scores by repetition with the fitted learning curve, extended by one repetition.
 
 use super::{line, sheet, ticks, unit};
-use crate::report::words;
+use crate::report::formatting;
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
@@ -11,9 +11,9 @@ const RIGHT: f64 = 298.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 140.0;
 /// Number of curve segments between two repetitions.
-const FINE: usize = 6;
+const SEGMENTS_PER_REPETITION: usize = 6;
 /// Maximum number of numbered repetitions.
-const NUMBERED: usize = 10;
+const MAX_NUMBERED_REPETITIONS: usize = 10;
 
 /// Values and curves shown in a learning curve chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,10 +42,11 @@ pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
     let (count, most) = (drawn.values.len(), drawn.most);
     let at = |repetition: f64, value: f64| place(repetition, count, value, most);
     let along = |curve: &LearningCurve, last: usize| {
-        let steps = (0..=FINE * last.saturating_sub(1)).map(|k| 1.0 + k as f64 / FINE as f64);
+        let steps =
+            (0..=SEGMENTS_PER_REPETITION * last.saturating_sub(1)).map(|k| 1.0 + k as f64 / SEGMENTS_PER_REPETITION as f64);
         line(&steps.map(|n| at(n, curve.at(n))).collect::<Vec<_>>(), false)
     };
-    let step = (count + 1).div_ceil(NUMBERED).max(1);
+    let step = (count + 1).div_ceil(MAX_NUMBERED_REPETITIONS).max(1);
     sheet(
         SIZE,
         title,
@@ -54,7 +55,7 @@ pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
             @for tick in ticks(most, 4) {
                 @let (_, y) = at(1.0, tick);
                 path.grid d=(line(&[(LEFT, y), (RIGHT, y)], false)) {}
-                text.tick x=(unit(LEFT - 5.0)) y=(unit(y + 4.0)) text-anchor="end" { (words::number(tick, 0)) }
+                text.tick x=(unit(LEFT - 5.0)) y=(unit(y + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for k in (1..=count + 1).step_by(step) {
                 text.tick x=(unit(at(k as f64, 0.0).0)) y=(unit(BOTTOM + 17.0)) text-anchor="middle" { (k) }
@@ -66,7 +67,7 @@ pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
                 circle.dot-1 cx=(unit(x)) cy=(unit(y)) r="4" {}
             }
             @let (x, y) = at((count + 1) as f64, drawn.curve.next);
-            circle.expected cx=(unit(x)) cy=(unit(y)) r="4" { title { "predicted next: " (words::number(drawn.curve.next.min(most), 1)) } }
+            circle.expected cx=(unit(x)) cy=(unit(y)) r="4" { title { "predicted next: " (formatting::number(drawn.curve.next.min(most), 1)) } }
         },
     )
 }
@@ -77,7 +78,7 @@ mod tests {
     use crate::statistics::learning_curve;
 
     #[test]
-    fn exact_the_first_is_left_the_next_is_right_and_no_score_leaves_the_sheet() {
+    fn exact_practice_chart_positions_are_clamped() {
         assert_eq!(place(1.0, 4, 0.0, 100.0), (42.0, BOTTOM));
         assert_eq!(place(5.0, 4, 100.0, 100.0), (290.0, TOP));
         assert_eq!(place(3.0, 4, 50.0, 100.0), (166.0, 74.0));

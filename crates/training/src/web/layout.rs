@@ -7,7 +7,7 @@ use maud::{DOCTYPE, Markup, html};
 /// URL of the page for a trainee's own flight; instructors use the live page.
 const OWN_FLIGHT: &str = "/flight";
 /// Navigation entries: URL, label, required access.
-const PLACES: [(&str, &str, AccessLevel); 8] = [
+const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 8] = [
     ("/sessions", "Sessions", AccessLevel::Login),
     (OWN_FLIGHT, "My flight", AccessLevel::Login),
     ("/live", "Live", AccessLevel::Instructor),
@@ -42,8 +42,8 @@ pub fn in_language(visitor: &Visitor, at: &str, title: &str, (language, script):
                 meta name="color-scheme" content="light dark";
                 title { (title) " · Spandrel" }
                 link rel="icon" href="data:,";
-                link rel="stylesheet" href=(assets::address(assets::STYLE_NAME));
-                @if let Some(script) = script { script src=(assets::address(script)) defer {} }
+                link rel="stylesheet" href=(assets::asset_url(assets::STYLE_NAME));
+                @if let Some(script) = script { script src=(assets::asset_url(script)) defer {} }
             }
             body.web {
                 a.skip href="#main" lang="en" { "Skip to content" }
@@ -59,7 +59,7 @@ fn bar(visitor: &Visitor, at: &str) -> Markup {
         header.bar lang="en" {
             a.brand href="/" { "Spandrel" }
             nav aria-label="Main" {
-                @for (address, words, needs) in PLACES {
+                @for (address, words, needs) in NAVIGATION_ENTRIES {
                     @if visitor.satisfies(needs) && !(visitor.open && address == "/account") && !(visitor.satisfies(AccessLevel::Instructor) && address == OWN_FLIGHT) {
                         a href=(address) aria-current=[(address == at).then_some("page")] { (words) }
                     }
@@ -146,10 +146,10 @@ pub(super) mod tests {
     use crate::trainee::Role;
 
     /// A name that attempts script injection.
-    pub(crate) const EVIL: &str = "<script>alert(1)</script>\"'&";
+    pub(crate) const HOSTILE_NAME: &str = "<script>alert(1)</script>\"'&";
 
     pub(crate) fn administrator() -> Visitor {
-        Visitor { name: Some(EVIL.into()), role: Role::Administrator, open: false, token: "t0ken".into() }
+        Visitor { name: Some(HOSTILE_NAME.into()), role: Role::Administrator, open: false, token: "t0ken".into() }
     }
 
     /// Panics if the page contains unescaped text or anything that the content security policy blocks.
@@ -163,14 +163,14 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn exact_names_are_escaped_and_forms_carry_the_token() {
-        let text = page(&administrator(), "/sessions", EVIL, &html! { p { (EVIL) } }).into_string();
+    fn exact_names_are_escaped_and_forms_contain_the_token() {
+        let text = page(&administrator(), "/sessions", HOSTILE_NAME, &html! { p { (HOSTILE_NAME) } }).into_string();
         check(&text);
         assert!(text.contains("href=\"/sessions\" aria-current=\"page\""), "{text}");
     }
 
     #[test]
-    fn exact_the_navigation_shows_what_may_be_opened() {
+    fn exact_navigation_shows_only_accessible_pages() {
         let trainee = Visitor { role: Role::Trainee, ..administrator() };
         let text = page(&trainee, "", "x", &html! {}).into_string();
         assert!(text.contains("/sessions") && !text.contains("\"/trainees\"") && !text.contains("\"/settings\""));
@@ -180,7 +180,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn exact_a_list_of_one_page_has_no_links() {
+    fn exact_single_page_list_has_no_links() {
         assert_eq!(pages("/x?", 1, 1).into_string(), "");
         let text = pages("/x?trainee=a&", 2, 3).into_string();
         assert!(text.contains("/x?trainee=a&amp;page=1") && text.contains("page=3") && text.contains("page 2 of 3"), "{text}");

@@ -1,7 +1,7 @@
 //! Timeline of the session with a common time axis: rows for control source, tasks, feedback, pictures and gaps.
 
 use super::{line, sheet, ticks, unit};
-use crate::report::words;
+use crate::report::formatting;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 900.0;
@@ -40,7 +40,7 @@ pub fn strips(rows: &[TimeStrip], end_s: f64, title: &str) -> Markup {
             @for minute in &minutes {
                 @let x = x_of(60.0 * minute, end_s);
                 path.grid d=(line(&[(x, 2.0), (x, bottom)], false)) {}
-                text.tick x=(unit(x)) y=(unit(bottom + 16.0)) text-anchor="middle" { (words::clock(60.0 * minute)) }
+                text.tick x=(unit(x)) y=(unit(bottom + 16.0)) text-anchor="middle" { (formatting::clock(60.0 * minute)) }
             }
             @for (k, row) in rows.iter().enumerate() {
                 @let top = 6.0 + ROW * k as f64;
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_time_runs_from_left_to_right() {
+    fn exact_timeline_positions_increase_with_time() {
         assert_eq!((x_of(0.0, 100.0), x_of(50.0, 100.0), x_of(100.0, 100.0)), (118.0, 504.0, 890.0));
         assert_eq!((x_of(-1.0, 100.0), x_of(101.0, 100.0), x_of(1.0, 0.0)), (118.0, 890.0, 118.0));
         let row = TimeStrip {

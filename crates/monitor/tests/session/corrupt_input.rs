@@ -8,7 +8,7 @@ use spandrel_monitor::assess_log;
 use spandrel_testkit::job::*;
 
 /// Number of datagrams per run.
-const MUTATED: usize = 20_000;
+const DATAGRAMS_PER_RUN: usize = 20_000;
 
 /// Changes some payload bytes of a MAVLink 2 frame and recomputes its checksum.
 fn mutate_fields(frame: &mut [u8], stream: &mut RandomStream) {
@@ -47,11 +47,11 @@ fn sample() -> Tape {
 }
 
 #[test]
-fn prop_no_datagram_brings_the_monitor_down() {
+fn prop_monitor_survives_corrupt_datagrams() {
     let tape = sample();
     let mut stream = RandomStream::new(3, "hostile");
     let mut sent = 0;
-    while sent < MUTATED {
+    while sent < DATAGRAMS_PER_RUN {
         let mut monitor = monitor_of(one_task());
         for datagram in &tape.datagrams {
             let mut datagram = datagram.clone();
@@ -70,7 +70,7 @@ fn prop_no_datagram_brings_the_monitor_down() {
 }
 
 #[test]
-fn prop_no_log_brings_the_scorer_down() {
+fn prop_scorer_survives_corrupt_logs() {
     let log = sample().log(1);
     let mut stream = RandomStream::new(4, "hostile log");
     let mut scored = 0;

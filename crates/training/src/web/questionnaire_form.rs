@@ -3,7 +3,7 @@
 
 use super::access::Visitor;
 use super::assets;
-use super::frame::{in_language, message, token};
+use super::layout::{in_language, message, token};
 use crate::questionnaire::{
     Answers, InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP,
     TlxScale, Wording,
@@ -11,7 +11,7 @@ use crate::questionnaire::{
 use maud::{Markup, html};
 
 /// Prefix of NASA-TLX form fields.
-const TLX: &str = "tlx.";
+const TLX_FIELD_PREFIX: &str = "tlx.";
 
 /// Content of the form.
 #[derive(Debug, Clone, Copy)]
@@ -53,13 +53,15 @@ pub fn parse_answers(answers: &mut Answers, fields: &[(String, String)], tasks: 
     for (field, value) in fields {
         if let Some(item) = QuestionnaireItem::from_key(field).filter(|item| items.contains(item)) {
             let allowed = || format!("{STRONGLY_AGREE} to {STRONGLY_DISAGREE}");
-            answers.given.insert(item, number(field, value, |v| (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(&v), allowed)?);
-        } else if let Some(scale) = field.strip_prefix(TLX).and_then(TlxScale::from_key) {
+            answers
+                .given
+                .insert(item, parse_number(field, value, |v| (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(&v), allowed)?);
+        } else if let Some(scale) = field.strip_prefix(TLX_FIELD_PREFIX).and_then(TlxScale::from_key) {
             if value.is_empty() {
                 continue;
             }
             let allowed = || format!("0 to {TLX_MAX} in steps of {TLX_STEP}");
-            answers.tlx.insert(scale, number(field, value, |v| v <= TLX_MAX && v.is_multiple_of(TLX_STEP), allowed)?);
+            answers.tlx.insert(scale, parse_number(field, value, |v| v <= TLX_MAX && v.is_multiple_of(TLX_STEP), allowed)?);
         } else {
             continue;
         }
@@ -68,7 +70,7 @@ pub fn parse_answers(answers: &mut Answers, fields: &[(String, String)], tasks: 
     Ok(taken)
 }
 
-fn number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: impl Fn() -> String) -> Result<u8, InvalidAnswer> {
+fn parse_number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: impl Fn() -> String) -> Result<u8, InvalidAnswer> {
     let short = |text: &str| text.chars().filter(|c| !c.is_control()).take(60).collect();
     let wrong = || InvalidAnswer { field: short(field), value: short(value), allowed: allowed() };
     value.parse().ok().filter(|value| fits(*value)).ok_or_else(wrong)
@@ -82,16 +84,16 @@ pub fn page(visitor: &Visitor, asked: &FormContext<'_>) -> Markup {
     let overall: Vec<QuestionnaireItem> = OverallItem::ALL.map(QuestionnaireItem::Overall).to_vec();
     let words = &asked.wording.form;
     let body = html! {
-        (switch(asked))
+        (language_selection(asked))
         p.lead { (asked.wording.introduction) }
         @if asked.saved { (message("good", &words.saved)) }
         form.questions method="post" action={ "/sessions/" (asked.id) "/questions" } data-save data-answered=(words.answered) data-not-saved=(words.not_saved) {
             (token(visitor))
             input type="hidden" name="language" value=(asked.wording.language);
             p.status { span role="status" data-status { (words.answered(all - open, all)) } " · " (words.at_once) }
-            (group(&asked.wording.overall_heading, &overall, asked))
+            (question_group(&asked.wording.overall_heading, &overall, asked))
             @for phase in InspectionPhase::all(&tasks) {
-                (group(&phase_name(asked, phase), &PhaseAspect::ALL.map(|aspect| QuestionnaireItem::Phase(phase, aspect)), asked))
+                (question_group(&phase_name(asked, phase), &PhaseAspect::ALL.map(|aspect| QuestionnaireItem::Phase(phase, aspect)), asked))
             }
             (workload(asked))
             p.tools {
@@ -104,7 +106,7 @@ pub fn page(visitor: &Visitor, asked: &FormContext<'_>) -> Markup {
 }
 
 /// Renders the language selection, with each language in its own name. Answers are already saved, so switching loses none.
-fn switch(asked: &FormContext<'_>) -> Markup {
+fn language_selection(asked: &FormContext<'_>) -> Markup {
     let words = &asked.wording.form;
     html! {
         form.inline.languages method="get" action={ "/sessions/" (asked.id) "/questions" } {
@@ -125,7 +127,7 @@ fn phase_name(asked: &FormContext<'_>, phase: InspectionPhase) -> String {
     asked.wording.phase(phase, name)
 }
 
-fn group(heading: &str, items: &[QuestionnaireItem], asked: &FormContext<'_>) -> Markup {
+fn question_group(heading: &str, items: &[QuestionnaireItem], asked: &FormContext<'_>) -> Markup {
     html! {
         section {
             h2 { (heading) }
@@ -158,7 +160,7 @@ fn workload(asked: &FormContext<'_>) -> Markup {
                     @let (question, low, high) = asked.wording.tlx(scale);
                     label.scale {
                         span { (question) }
-                        select name={ (TLX) (scale.key()) } {
+                        select name={ (TLX_FIELD_PREFIX) (scale.key()) } {
                             option value="" selected[!asked.answers.tlx.contains_key(&scale)] { "–" }
                             @for value in (0..=TLX_MAX).step_by(usize::from(TLX_STEP)) {
                                 option value=(value) selected[asked.answers.tlx.get(&scale) == Some(&value)] {
@@ -175,7 +177,7 @@ fn workload(asked: &FormContext<'_>) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
     use crate::questionnaire::Languages;
 
@@ -184,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_answers_are_taken_and_what_is_none_is_refused_by_name() {
+    fn exact_valid_answers_are_merged_and_invalid_ones_rejected() {
         let mut answers = Answers::default();
         let given = fields(&[
             ("token", "x"),
@@ -209,12 +211,12 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_form_shows_what_was_answered_and_escapes_names() {
+    fn exact_form_shows_answers_and_escapes_names() {
         let languages = Languages::with(Vec::new()).unwrap();
         let wording = languages.of("de").unwrap();
         let mut answers = Answers::default();
         answers.given.insert(QuestionnaireItem::Overall(OverallItem::Feedback), 5);
-        let tasks = [(1, EVIL.to_owned())];
+        let tasks = [(1, HOSTILE_NAME.to_owned())];
         let asked = FormContext { id: "s", tasks: &tasks, wording, languages: languages.all(), answers: &answers, saved: true };
         let text = page(&administrator(), &asked).into_string();
         check(&text);

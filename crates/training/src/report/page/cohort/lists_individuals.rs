@@ -3,9 +3,9 @@
 use crate::cohort::Cohort;
 
 /// Maximum number of trainees listed individually.
-pub const PEOPLE_SHOWN: usize = 60;
+pub const MAX_LISTED_TRAINEES: usize = 60;
 
 /// Returns whether the page lists trainees individually.
-pub(super) fn people_shown(cohort: &Cohort) -> bool {
-    cohort.trainees <= PEOPLE_SHOWN
+pub(super) fn lists_individuals(cohort: &Cohort) -> bool {
+    cohort.trainees <= MAX_LISTED_TRAINEES
 }

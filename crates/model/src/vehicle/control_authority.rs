@@ -7,11 +7,11 @@ use nalgebra::{DMatrix, DVector};
 /// Minimum ratio of the smallest to the largest singular value of the matrix that maps rotor thrusts to lift and moments (roll
 /// and pitch arms relative to the longest arm, yaw per unit of spin) for control authority (estimate; a square quadrotor has
 /// 0.7).
-const LEAST_SHARE: f64 = 0.05;
+const MIN_SINGULAR_VALUE_RATIO: f64 = 0.05;
 
 /// Returns the first requirement that the rotor layout does not meet; `None` if it meets all of them.
 #[must_use]
-pub fn missing_axes(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Option<&'static str> {
+pub fn unmet_requirement(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Option<&'static str> {
     let arm_m = rotors.iter().map(|rotor| math::hypot(rotor.position_m.forward(), rotor.position_m.right())).fold(0.0, f64::max);
     if rotors.len() < 4 || arm_m <= 0.0 {
         return Some("at least four rotors, not all at the center of mass");
@@ -23,7 +23,7 @@ pub fn missing_axes(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> Optio
         (_, rotor) => -rotor.spin,
     };
     let map = DMatrix::from_fn(4, rotors.len(), entry).svd(true, true);
-    if map.singular_values.min() < LEAST_SHARE * map.singular_values.max() {
+    if map.singular_values.min() < MIN_SINGULAR_VALUE_RATIO * map.singular_values.max() {
         return Some("rotors that are not in a line and spin in both directions");
     }
     let weight = DVector::from_vec(vec![mass_kg * GRAVITY_M_S2, 0.0, 0.0, 0.0]);
@@ -55,9 +55,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_square_and_a_hexagon_have_authority() {
+    fn exact_quad_and_hexarotor_have_control_authority() {
         assert_eq!(
-            missing_axes(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, -1.0), (-0.2, 0.2, -1.0)]), &MODEL, 1.2),
+            unmet_requirement(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, -1.0), (-0.2, 0.2, -1.0)]), &MODEL, 1.2),
             None
         );
         let hexagon: Vec<(f64, f64, f64)> = (0..6)
@@ -66,21 +66,21 @@ mod tests {
                 (0.3 * cosine, 0.3 * sine, if k % 2 == 0 { 1.0 } else { -1.0 })
             })
             .collect();
-        assert_eq!(missing_axes(&rotors(&hexagon), &MODEL, 1.2), None);
+        assert_eq!(unmet_requirement(&rotors(&hexagon), &MODEL, 1.2), None);
     }
 
     #[test]
-    fn exact_three_rotors_a_line_one_spin_and_a_heap_on_one_side_have_none() {
-        assert!(missing_axes(&rotors(&[(0.2, 0.2, 1.0), (-0.2, 0.0, -1.0), (0.2, -0.2, -1.0)]), &MODEL, 1.2).is_some());
+    fn exact_deficient_rotor_layouts_have_no_control_authority() {
+        assert!(unmet_requirement(&rotors(&[(0.2, 0.2, 1.0), (-0.2, 0.0, -1.0), (0.2, -0.2, -1.0)]), &MODEL, 1.2).is_some());
         assert!(
-            missing_axes(&rotors(&[(0.3, 0.0, 1.0), (0.1, 0.0, -1.0), (-0.1, 0.0, 1.0), (-0.3, 0.0, -1.0)]), &MODEL, 1.2)
+            unmet_requirement(&rotors(&[(0.3, 0.0, 1.0), (0.1, 0.0, -1.0), (-0.1, 0.0, 1.0), (-0.3, 0.0, -1.0)]), &MODEL, 1.2)
                 .is_some()
         );
         assert!(
-            missing_axes(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, 1.0), (-0.2, 0.2, 1.0)]), &MODEL, 1.2)
+            unmet_requirement(&rotors(&[(0.2, 0.2, 1.0), (-0.2, -0.2, 1.0), (0.2, -0.2, 1.0), (-0.2, 0.2, 1.0)]), &MODEL, 1.2)
                 .is_some()
         );
         let aside = [(0.5, 0.2, 1.0), (0.1, -0.2, 1.0), (0.5, -0.2, -1.0), (0.1, 0.2, -1.0)];
-        assert!(missing_axes(&rotors(&aside), &MODEL, 1.2).is_some());
+        assert!(unmet_requirement(&rotors(&aside), &MODEL, 1.2).is_some());
     }
 }

@@ -2,28 +2,28 @@
 //! it reallocates.
 
 /// Number of rows per block.
-const BLOCK: usize = 1_024;
+const ROWS_PER_BLOCK: usize = 1_024;
 
 /// Rows in the order in which they were added.
 #[derive(Debug, Clone)]
-pub struct Rows<T> {
+pub struct BlockList<T> {
     /// Blocks of rows. All except the last one are full.
     blocks: Vec<Vec<T>>,
 }
 
-impl<T> Default for Rows<T> {
+impl<T> Default for BlockList<T> {
     fn default() -> Self {
         Self { blocks: Vec::new() }
     }
 }
 
-impl<T> Rows<T> {
+impl<T> BlockList<T> {
     /// Appends a row without moving the others.
     pub fn push(&mut self, row: T) {
         match self.blocks.last_mut() {
-            Some(block) if block.len() < BLOCK => block.push(row),
+            Some(block) if block.len() < ROWS_PER_BLOCK => block.push(row),
             _ => {
-                let mut block = Vec::with_capacity(BLOCK);
+                let mut block = Vec::with_capacity(ROWS_PER_BLOCK);
                 block.push(row);
                 self.blocks.push(block);
             }
@@ -36,7 +36,7 @@ impl<T> Rows<T> {
     }
 }
 
-impl<T> Extend<T> for Rows<T> {
+impl<T> Extend<T> for BlockList<T> {
     fn extend<I: IntoIterator<Item = T>>(&mut self, rows: I) {
         rows.into_iter().for_each(|row| self.push(row));
     }
@@ -47,12 +47,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_rows_keep_their_order_and_never_move() {
-        let mut rows = Rows::default();
+    fn exact_rows_stay_in_order_and_in_place() {
+        let mut rows = BlockList::default();
         rows.push(0);
         let first: *const usize = rows.iter().next().unwrap();
-        rows.extend(1..3 * BLOCK + 1);
-        assert!(rows.iter().copied().eq(0..3 * BLOCK + 1));
+        rows.extend(1..3 * ROWS_PER_BLOCK + 1);
+        assert!(rows.iter().copied().eq(0..3 * ROWS_PER_BLOCK + 1));
         assert_eq!(rows.iter().next().unwrap() as *const usize, first);
     }
 }

@@ -14,12 +14,12 @@ use std::path::Path;
 const SCENARIO_MUTANTS: usize = 2_000;
 const VEHICLE_MUTANTS: usize = 500;
 /// Number of bridges with random dimensions per bridge type.
-const BRIDGES: usize = 150;
+const RANDOM_BRIDGES: usize = 150;
 /// Maximum number of mutations applied to one file.
-const MOST_SPOILS: usize = 3;
+const MAX_MUTATIONS: usize = 3;
 
 /// Extreme or malformed values that could cause errors in the parser.
-const EXTREMES: [&str; 14] = [
+const EXTREME_VALUES: [&str; 14] = [
     "1e999",
     "-1e999",
     "nan",
@@ -36,7 +36,7 @@ const EXTREMES: [&str; 14] = [
     "1979-05-27",
 ];
 
-fn texts(folder: &str) -> Vec<String> {
+fn file_texts(folder: &str) -> Vec<String> {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(folder);
     let mut paths: Vec<_> = std::fs::read_dir(root).unwrap().map(|e| e.unwrap().path()).collect();
     paths.retain(|p| p.extension().is_some_and(|e| e == "toml"));
@@ -48,15 +48,15 @@ fn read(text: &str) -> Result<Scenario, Problems> {
     spandrel_model::scenario::read("job.toml", text, &|name| Err(format!("no file {name}")))
 }
 
-fn spoil(text: &str, random: &mut RandomStream) -> String {
+fn mutate(text: &str, random: &mut RandomStream) -> String {
     let mut text = text.to_string();
-    for _ in 0..=random.below(MOST_SPOILS) {
-        text = spoil_once(&text, random);
+    for _ in 0..=random.below(MAX_MUTATIONS) {
+        text = mutate_once(&text, random);
     }
     text
 }
 
-fn spoil_once(text: &str, random: &mut RandomStream) -> String {
+fn mutate_once(text: &str, random: &mut RandomStream) -> String {
     let mut lines: Vec<String> = text.lines().map(String::from).collect();
     if lines.is_empty() {
         return text.into();
@@ -64,17 +64,17 @@ fn spoil_once(text: &str, random: &mut RandomStream) -> String {
     let k = random.below(lines.len());
     let other = random.below(lines.len());
     match random.below(7) {
-        0 => return flip(text, random),
+        0 => return flip_bit(text, random),
         1 => return String::from_utf8_lossy(&text.as_bytes()[..random.below(text.len() + 1)]).into_owned(),
         2 => drop(lines.remove(k)),
         3 => lines.insert(other, lines[k].clone()),
         4 => swap_values(&mut lines, k, other),
-        _ => with_extreme(&mut lines, random),
+        _ => insert_extreme_value(&mut lines, random),
     }
     lines.join("\n")
 }
 
-fn flip(text: &str, random: &mut RandomStream) -> String {
+fn flip_bit(text: &str, random: &mut RandomStream) -> String {
     let mut bytes = text.as_bytes().to_vec();
     if !bytes.is_empty() {
         let k = random.below(bytes.len());
@@ -83,31 +83,31 @@ fn flip(text: &str, random: &mut RandomStream) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-fn halves(line: &str) -> Option<(String, String)> {
+fn split_key_value(line: &str) -> Option<(String, String)> {
     line.split_once(" = ").map(|(key, value)| (key.to_string(), value.to_string()))
 }
 
 fn swap_values(lines: &mut [String], a: usize, b: usize) {
-    if let (Some((key_a, value_a)), Some((key_b, value_b))) = (halves(&lines[a]), halves(&lines[b])) {
+    if let (Some((key_a, value_a)), Some((key_b, value_b))) = (split_key_value(&lines[a]), split_key_value(&lines[b])) {
         lines[a] = format!("{key_a} = {value_b}");
         lines[b] = format!("{key_b} = {value_a}");
     }
 }
 
-fn with_extreme(lines: &mut [String], random: &mut RandomStream) {
-    let keyed: Vec<usize> = (0..lines.len()).filter(|k| halves(&lines[*k]).is_some()).collect();
+fn insert_extreme_value(lines: &mut [String], random: &mut RandomStream) {
+    let keyed: Vec<usize> = (0..lines.len()).filter(|k| split_key_value(&lines[*k]).is_some()).collect();
     if keyed.is_empty() {
         return;
     }
     let k = keyed[random.below(keyed.len())];
-    let extreme = EXTREMES[random.below(EXTREMES.len())];
-    if let Some((key, value)) = halves(&lines[k]) {
+    let extreme = EXTREME_VALUES[random.below(EXTREME_VALUES.len())];
+    if let Some((key, value)) = split_key_value(&lines[k]) {
         let inside = value.starts_with('[').then(|| value.split_once(',')).flatten();
         lines[k] = inside.map_or_else(|| format!("{key} = {extreme}"), |(_, rest)| format!("{key} = [{extreme},{rest}"));
     }
 }
 
-fn explained(problems: &Problems, file: &str, text: &str) {
+fn assert_problems_are_explained(problems: &Problems, file: &str, text: &str) {
     assert!(!problems.0.is_empty(), "rejected without a reason:\n{text}");
     let last = text.lines().count().max(1) + 1;
     for problem in &problems.0 {
@@ -119,7 +119,7 @@ fn explained(problems: &Problems, file: &str, text: &str) {
 
 /// Returns the scenario with a coarser height grid and at most one defect, so that thousands of sites can be built quickly.
 /// Bridges and tasks are unchanged.
-fn quick(scenario: Scenario) -> Scenario {
+fn simplified_scenario(scenario: Scenario) -> Scenario {
     let spacing_m = scenario.terrain.spacing_m.max(scenario.terrain.size_m / 25.0);
     let count = scenario.defects.count.min(1);
     Scenario {
@@ -129,9 +129,9 @@ fn quick(scenario: Scenario) -> Scenario {
     }
 }
 
-fn builds(scenario: Scenario, text: &str) {
+fn assert_builds(scenario: Scenario, text: &str) {
     let pad = scenario.ground_team.pad_m;
-    let site = Site::build(&quick(scenario), 3);
+    let site = Site::build(&simplified_scenario(scenario), 3);
     let near = site.nearest(pad + Vec3::new(0.0, 0.0, 5.0), 100.0, SimTime::from_s(1.0));
     assert!(near.is_none_or(|n| n.distance_m.is_finite() && n.normal.norm().is_finite()), "{near:?}\n{text}");
     let finite = |v: Vec3<_>| v.array().iter().all(|c| c.is_finite());
@@ -140,20 +140,20 @@ fn builds(scenario: Scenario, text: &str) {
 }
 
 #[test]
-fn prop_a_spoilt_scenario_is_refused_with_a_place_or_builds() {
-    let texts = texts("scenarios");
+fn prop_mutated_scenarios_are_rejected_with_a_line_or_build() {
+    let texts = file_texts("scenarios");
     let mut random = RandomStream::new(1, "prop.scenario-files");
     let (mut accepted, mut refused) = (0, 0);
     for _ in 0..SCENARIO_MUTANTS {
-        let text = spoil(&texts[random.below(texts.len())], &mut random);
+        let text = mutate(&texts[random.below(texts.len())], &mut random);
         match read(&text) {
             Ok(scenario) => {
                 accepted += 1;
-                builds(scenario, &text);
+                assert_builds(scenario, &text);
             }
             Err(problems) => {
                 refused += 1;
-                explained(&problems, "job.toml", &text);
+                assert_problems_are_explained(&problems, "job.toml", &text);
             }
         }
     }
@@ -162,12 +162,12 @@ fn prop_a_spoilt_scenario_is_refused_with_a_place_or_builds() {
 }
 
 #[test]
-fn prop_a_spoilt_aircraft_is_refused_with_a_place_or_finite() {
-    let texts = texts("vehicle-params");
+fn prop_mutated_vehicles_are_rejected_with_a_line_or_valid() {
+    let texts = file_texts("vehicle-params");
     let mut random = RandomStream::new(1, "prop.vehicle-files");
     let (mut accepted, mut refused) = (0, 0);
     for _ in 0..VEHICLE_MUTANTS {
-        let text = spoil(&texts[random.below(texts.len())], &mut random);
+        let text = mutate(&texts[random.below(texts.len())], &mut random);
         match spandrel_model::vehicle::read("aircraft.toml", &text) {
             Ok(vehicle) => {
                 accepted += 1;
@@ -176,7 +176,7 @@ fn prop_a_spoilt_aircraft_is_refused_with_a_place_or_finite() {
             }
             Err(problems) => {
                 refused += 1;
-                explained(&problems, "aircraft.toml", &text);
+                assert_problems_are_explained(&problems, "aircraft.toml", &text);
             }
         }
     }
@@ -199,10 +199,10 @@ fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
 
 /// Returns sets of dimensions: each dimension alone at its minimum and maximum, then random sets. Dimensions that must be
 /// integers are rounded.
-fn number_sets(fields: &'static [BridgeField]) -> Vec<Vec<(&'static str, f64)>> {
+fn dimension_sets(fields: &'static [BridgeField]) -> Vec<Vec<(&'static str, f64)>> {
     let mut random = RandomStream::new(2, "prop.bridges");
     let mut sets: Vec<Vec<(&str, f64)>> = fields.iter().flat_map(|f| [vec![(f.key, f.min)], vec![(f.key, f.max)]]).collect();
-    for _ in 0..BRIDGES {
+    for _ in 0..RANDOM_BRIDGES {
         // A cubed random number is often close to the default, so that enough of the sets are consistent.
         let mut near = |f: &BridgeField| {
             let draw = random.range(-1.0, 1.0);
@@ -215,7 +215,7 @@ fn number_sets(fields: &'static [BridgeField]) -> Vec<Vec<(&'static str, f64)>> 
     sets
 }
 
-fn closed(scenario: &Scenario) {
+fn assert_positive_volumes(scenario: &Scenario) {
     for member in scenario.bridges.iter().flat_map(spandrel_model::scenario::Bridge::members) {
         let solid = &member.solid;
         let at = |k: u32| solid.vertices_m[k as usize];
@@ -227,29 +227,29 @@ fn closed(scenario: &Scenario) {
     }
 }
 
-fn any_bridge_builds(kind: &str, fields: &'static [BridgeField]) {
+fn assert_random_bridges_build(kind: &str, fields: &'static [BridgeField]) {
     let mut accepted = 0;
-    let sets = number_sets(fields);
+    let sets = dimension_sets(fields);
     for values in &sets {
         let text = bridge_text(kind, values);
         match read(&text) {
             Ok(scenario) => {
                 accepted += 1;
-                closed(&scenario);
-                builds(scenario, &text);
+                assert_positive_volumes(&scenario);
+                assert_builds(scenario, &text);
             }
-            Err(problems) => explained(&problems, "job.toml", &text),
+            Err(problems) => assert_problems_are_explained(&problems, "job.toml", &text),
         }
     }
     assert!(accepted > sets.len() / 10, "{accepted} of {} sets of dimensions accepted", sets.len());
 }
 
 #[test]
-fn prop_any_legal_arch_builds_with_members_that_have_a_volume() {
-    any_bridge_builds("arch", Arch::FIELDS);
+fn prop_all_valid_arches_build_with_positive_volumes() {
+    assert_random_bridges_build("arch", Arch::FIELDS);
 }
 
 #[test]
-fn prop_any_legal_suspension_bridge_builds_with_members_that_have_a_volume() {
-    any_bridge_builds("suspension", Suspension::FIELDS);
+fn prop_all_valid_suspension_bridges_build_with_positive_volumes() {
+    assert_random_bridges_build("suspension", Suspension::FIELDS);
 }

@@ -3,34 +3,34 @@
 use spandrel_model::toml::Problems;
 use std::path::Path;
 
-fn shipped() -> String {
+fn shipped_scenario() -> String {
     std::fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios/two-bridges.toml")).unwrap()
 }
 
-fn problems(text: &str) -> Problems {
+fn read_problems(text: &str) -> Problems {
     let result = spandrel_model::scenario::read("job.toml", text, &|name| Err(format!("no file {name}")));
     result.err().unwrap_or(Problems(Vec::new()))
 }
 
 /// Returns the line index and the key of each line that sets a key.
-fn keys(text: &str) -> Vec<(usize, String)> {
+fn key_lines(text: &str) -> Vec<(usize, String)> {
     let key = |(k, line): (usize, &str)| line.split_once(" = ").map(|(key, _)| (k, key.to_string()));
     text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')).filter_map(key).collect()
 }
 
-fn with_line(text: &str, at: usize, new: Option<&str>) -> String {
+fn replace_line(text: &str, at: usize, new: Option<&str>) -> String {
     let lines = text.lines().enumerate();
     lines.filter_map(|(k, line)| if k == at { new } else { Some(line) }).collect::<Vec<_>>().join("\n")
 }
 
 #[test]
-fn prop_every_misspelt_key_is_named_with_its_line_and_the_right_spelling() {
-    let text = shipped();
-    for (at, key) in keys(&text) {
+fn prop_misspelled_keys_are_reported_with_line_and_suggestion() {
+    let text = shipped_scenario();
+    for (at, key) in key_lines(&text) {
         let line = text.lines().nth(at).unwrap();
         // Repeating the last letter never yields another valid key.
         let wrong = format!("{key}{}", key.chars().last().unwrap());
-        let problems = problems(&with_line(&text, at, Some(&line.replacen(&key, &wrong, 1))));
+        let problems = read_problems(&replace_line(&text, at, Some(&line.replacen(&key, &wrong, 1))));
         let suggestion = format!("unknown key; did you mean {key}?");
         let named = problems.0.iter().any(|p| p.line == at + 1 && p.key.ends_with(&wrong) && p.message == suggestion);
         assert!(named, "line {}: {wrong}: {problems}", at + 1);
@@ -38,18 +38,18 @@ fn prop_every_misspelt_key_is_named_with_its_line_and_the_right_spelling() {
 }
 
 #[test]
-fn prop_a_missing_required_key_is_named_and_any_other_may_go() {
-    let text = shipped();
+fn prop_only_missing_required_keys_are_reported() {
+    let text = shipped_scenario();
     let siblings = |_: &str| Err(String::new());
-    let asked = spandrel_model::scenario::read_asked("job.toml", &text, &siblings).1;
+    let asked = spandrel_model::scenario::read_with_keys("job.toml", &text, &siblings).1;
     let mut required = 0;
-    for (at, key) in keys(&text) {
+    for (at, key) in key_lines(&text) {
         let section = text.lines().take(at).filter(|l| l.starts_with('[')).last().unwrap_or("");
         let prefix = section.replace("[[", "").replace("]]", "[].").replace('[', "").replace(']', ".");
         let prefix = if section.starts_with("[[") { section[2..section.len() - 2].to_string() + "[]." } else { prefix };
         let path = format!("{prefix}{key}");
         let is_required = asked[&path].default == "required";
-        let found = problems(&with_line(&text, at, None));
+        let found = read_problems(&replace_line(&text, at, None));
         let named = found.0.iter().any(|p| p.key == path && p.message == "missing");
         assert_eq!(named, is_required, "{path}: {found}");
         required += usize::from(is_required);
@@ -58,15 +58,15 @@ fn prop_a_missing_required_key_is_named_and_any_other_may_go() {
 }
 
 #[track_caller]
-fn says(from: &str, to: &str, expected: &str) {
-    let text = shipped();
+fn assert_message(from: &str, to: &str, expected: &str) {
+    let text = shipped_scenario();
     assert!(text.contains(from), "{from}");
-    assert_eq!(problems(&text.replacen(from, to, 1)).to_string(), expected);
+    assert_eq!(read_problems(&text.replacen(from, to, 1)).to_string(), expected);
 }
 
 #[test]
-fn regress_the_words_for_an_unknown_key() {
-    says(
+fn regress_message_for_an_unknown_key() {
+    assert_message(
         "cloud_cover = 0.9",
         "cloud_covr = 0.9",
         "job.toml:91: light.cloud_covr = 0.9: unknown key; did you mean cloud_cover? \
@@ -75,8 +75,8 @@ fn regress_the_words_for_an_unknown_key() {
 }
 
 #[test]
-fn regress_the_words_for_a_number_out_of_range() {
-    says(
+fn regress_message_for_a_number_out_of_range() {
+    assert_message(
         "latitude_deg = 46.7052",
         "latitude_deg = 467.052",
         "job.toml:7: origin.latitude_deg = 467.052: out of range (allowed: -85 to 85)",
@@ -84,13 +84,13 @@ fn regress_the_words_for_a_number_out_of_range() {
 }
 
 #[test]
-fn regress_the_words_for_a_wrong_type() {
-    says(
+fn regress_message_for_a_wrong_type() {
+    assert_message(
         "altitude_m = 430.0",
         "altitude_m = \"high\"",
         "job.toml:9: origin.altitude_m = \"high\": not a number (allowed: -400 to 5000)",
     );
-    says(
+    assert_message(
         "pad_m = [-112.0, 78.0, 5.0]",
         "pad_m = [-112.0, 78.0]",
         "job.toml:23: ground_team.pad_m = [-112.0, 78.0]: not a valid list (allowed: 3 numbers, each -5000 to 5000)",
@@ -98,13 +98,13 @@ fn regress_the_words_for_a_wrong_type() {
 }
 
 #[test]
-fn regress_the_words_for_a_missing_key() {
-    says("longitude_deg = 8.3814\n", "", "job.toml:6: origin.longitude_deg: missing (allowed: -180 to 180)");
+fn regress_message_for_a_missing_key() {
+    assert_message("longitude_deg = 8.3814\n", "", "job.toml:6: origin.longitude_deg: missing (allowed: -180 to 180)");
 }
 
 #[test]
-fn regress_the_words_for_an_unknown_bridge() {
-    says(
+fn regress_message_for_an_unknown_bridge() {
+    assert_message(
         "bridge = \"suspension\"",
         "bridge = \"suspenson\"",
         "job.toml:64: tasks[].bridge = suspenson: unknown bridge (allowed: a bridge in this file: arch, suspension)",
@@ -112,14 +112,14 @@ fn regress_the_words_for_an_unknown_bridge() {
 }
 
 #[test]
-fn regress_the_words_for_numbers_that_do_not_fit_together() {
-    says("spacing_m = 4.0", "spacing_m = 1.0", "");
-    says(
+fn regress_message_for_inconsistent_numbers() {
+    assert_message("spacing_m = 4.0", "spacing_m = 1.0", "");
+    assert_message(
         "size_m = 800.0\nspacing_m = 4.0",
         "size_m = 4000.0\nspacing_m = 1.0",
         "job.toml:13: terrain.spacing_m = 1: more than 2000 cells per side (allowed: at least 2 for this size_m)",
     );
-    says(
+    assert_message(
         "centre_m = [0.0, 0.0, 34.0]\n",
         "centre_m = [0.0, 0.0, 34.0]\narch = { floorbeam_depth_m = 3.0 }\n",
         "job.toml:35: bridges[].arch.floorbeam_depth_m = 3: inconsistent with other values \
@@ -128,16 +128,17 @@ fn regress_the_words_for_numbers_that_do_not_fit_together() {
 }
 
 #[test]
-fn regress_the_words_for_a_path_of_a_thousand_kilometres() {
+fn regress_message_for_a_path_that_is_too_long() {
     let far: Vec<String> = (0..200).map(|k| format!("[{}, 0.0, 50.0]", if k % 2 == 0 { -4000.0 } else { 4000.0 })).collect();
-    let text = shipped() + &format!("\n[[tasks]]\nname = \"far\"\nkind = \"free\"\npoints_m = [{}]\n", far.join(", "));
-    let problems = problems(&text);
+    let text = shipped_scenario() + &format!("\n[[tasks]]\nname = \"far\"\nkind = \"free\"\npoints_m = [{}]\n", far.join(", "));
+    let problems = read_problems(&text);
     assert!(problems.to_string().ends_with("1592000 m long: too long (allowed: at most 20000 m of path)"), "{problems}");
 }
 
 #[test]
-fn regress_inline_tables_read_like_tables_and_survive_resolving() {
-    let text = shipped().replace("[defects]\ncount = 10\n", "").replacen("[origin]", "defects = { count = 2 }\n\n[origin]", 1);
+fn regress_inline_tables_are_read_and_resolved_like_tables() {
+    let text =
+        shipped_scenario().replace("[defects]\ncount = 10\n", "").replacen("[origin]", "defects = { count = 2 }\n\n[origin]", 1);
     let read =
         |text: &str| spandrel_model::scenario::read("job.toml", text, &|_| Err(String::new())).unwrap_or_else(|p| panic!("{p}"));
     let scenario = read(&text);

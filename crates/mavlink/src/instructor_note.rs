@@ -6,9 +6,9 @@ use super::codec::{Encoder, ReceivedFrame};
 /// Message ID of TUNNEL.
 const TUNNEL: u32 = 385;
 /// Payload type of notes; types from 32768 are reserved for private use.
-const TYPE: u16 = 33_077;
+const NOTE_PAYLOAD_TYPE: u16 = 33_077;
 /// Number of bytes before the text: payload type, target system, target component, text length.
-const HEAD: usize = 5;
+const HEADER_LEN: usize = 5;
 /// Maximum length of the text, bytes.
 pub const LONGEST: usize = 128;
 
@@ -17,7 +17,7 @@ pub const LONGEST: usize = 128;
 pub fn encode(encoder: &mut Encoder, system: u8, component: u8, text: &str) -> Vec<u8> {
     let end = (0..=LONGEST.min(text.len())).rfind(|at| text.is_char_boundary(*at)).unwrap_or(0);
     let text = &text[..end];
-    let [low, high] = TYPE.to_le_bytes();
+    let [low, high] = NOTE_PAYLOAD_TYPE.to_le_bytes();
     let mut payload = vec![low, high, system, component, u8::try_from(text.len()).unwrap_or(0)];
     payload.extend_from_slice(text.as_bytes());
     encoder.encode_payload(TUNNEL, &payload)
@@ -29,9 +29,9 @@ pub fn decode(frame: &ReceivedFrame) -> Option<((u8, u8), String)> {
     if frame.message_id != TUNNEL {
         return None;
     }
-    let payload = frame.payload(HEAD + LONGEST);
+    let payload = frame.payload(HEADER_LEN + LONGEST);
     let [low, high, system, component, length, text @ ..] = payload.as_slice() else { return None };
-    if u16::from_le_bytes([*low, *high]) != TYPE {
+    if u16::from_le_bytes([*low, *high]) != NOTE_PAYLOAD_TYPE {
         return None;
     }
     let text = text.get(..usize::from(*length))?;
@@ -50,7 +50,7 @@ mod tests {
     }
 
     #[test]
-    fn wire_a_note_comes_back_and_goes_to_the_sidecar_alone() {
+    fn wire_note_round_trips_and_targets_only_the_monitor() {
         for text in ["too fast at the pier", "", "Brücke", &"x".repeat(LONGEST)] {
             let frame = sent(text);
             assert_eq!(decode(&frame), Some(((1, 191), text.to_owned())));
@@ -65,12 +65,12 @@ mod tests {
     }
 
     #[test]
-    fn wire_other_tunnels_are_no_notes() {
+    fn wire_other_tunnel_payloads_are_not_notes() {
         let mut encoder = Encoder::new(1, 1);
         let other = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[1, 0, 1, 191, 2, b'h', b'i'])).remove(0);
         assert_eq!(decode(&other), None);
         // The length field exceeds the payload.
-        let [low, high] = TYPE.to_le_bytes();
+        let [low, high] = NOTE_PAYLOAD_TYPE.to_le_bytes();
         let long = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[low, high, 1, 191, 200, b'h'])).remove(0);
         assert_eq!(decode(&long), None);
     }

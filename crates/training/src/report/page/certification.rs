@@ -1,10 +1,10 @@
 //! The certification profile: its requirements and the components of its scores.
 
 use crate::report::Review;
+use crate::report::formatting;
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
-use spandrel_model::defect_codes::kind_name;
+use spandrel_model::defect_codes::defect_name;
 use spandrel_model::elements::Element;
 use spandrel_monitor::score::completion::verdict;
 
@@ -27,15 +27,15 @@ pub fn section(review: &Review) -> Markup {
             }
         }
         @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
-        p { "Closer than " (words::number(review.scenario.scoring.clearance_m, 1)) " m to a surface for " (words::number(c.exposure_s, 1))
+        p { "Closer than " (formatting::number(review.scenario.scoring.clearance_m, 1)) " m to a surface for " (formatting::number(c.exposure_s, 1))
             " s; " (c.crash_onsets) " contacts, " (c.crashes.len()) " after merging those less than a second apart; "
-            (words::number(c.battery_at_end_pct, 0)) " % battery at the end." }
-        (visits(review).folded())
-        (detection(review).folded())
+            (formatting::number(c.battery_at_end_pct, 0)) " % battery at the end." }
+        (visits_table(review).folded())
+        (detection_table(review).folded())
     }
 }
 
-fn visits(review: &Review) -> Table {
+fn visits_table(review: &Review) -> Table {
     let row = |task: &spandrel_monitor::score::certification::TaskVisits| {
         vec![
             task.id.into(),
@@ -53,22 +53,22 @@ fn visits(review: &Review) -> Table {
     }
 }
 
-fn detection(review: &Review) -> Table {
+fn detection_table(review: &Review) -> Table {
     let mut rows = Vec::new();
     let mut put = |by: &str, name: String, found: usize, placed: usize| {
         rows.push(vec![by.into(), name.into(), found.into(), placed.into()]);
     };
-    let fates = &review.defects;
+    let defect_outcomes = &review.defects;
     let mut tell = |by: &str, key: &dyn Fn(&spandrel_model::scenario::PlacedDefect) -> u32, name: &dyn Fn(u32) -> String| {
-        let keys: std::collections::BTreeSet<u32> = fates.iter().map(|fate| key(&fate.defect)).collect();
+        let keys: std::collections::BTreeSet<u32> = defect_outcomes.iter().map(|fate| key(&fate.defect)).collect();
         for k in keys {
-            let mine: Vec<_> = fates.iter().filter(|fate| key(&fate.defect) == k).collect();
+            let mine: Vec<_> = defect_outcomes.iter().filter(|fate| key(&fate.defect) == k).collect();
             put(by, name(k), mine.iter().filter(|fate| fate.found_by.is_some()).count(), mine.len());
         }
     };
     let element = |number: u32| Element::from_number(number as u16);
     tell("element", &|defect| defect.element.number().into(), &|k| format!("{k} {}", element(k).name()));
-    tell("kind", &|defect| defect.kind, &|k| kind_name(k).to_owned());
+    tell("kind", &|defect| defect.kind, &|k| defect_name(k).to_owned());
     tell("condition state", &|defect| u32::from(defect.condition_state), &|k| k.to_string());
     Table {
         name: "detection",

@@ -6,7 +6,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use std::path::{Path, PathBuf};
 
-pub fn files(folder: &str) -> Vec<PathBuf> {
+pub fn toml_files(folder: &str) -> Vec<PathBuf> {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(folder);
     let mut files: Vec<PathBuf> = std::fs::read_dir(root).unwrap().map(|e| e.unwrap().path()).collect();
     files.retain(|p| p.extension().is_some_and(|e| e == "toml"));
@@ -15,30 +15,30 @@ pub fn files(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-pub fn scenario(path: &Path) -> Scenario {
+pub fn read_scenario(path: &Path) -> Scenario {
     let text = std::fs::read_to_string(path).unwrap();
     let name = path.file_name().unwrap().to_string_lossy().into_owned();
     spandrel_model::scenario::read(&name, &text, &|f| Err(format!("no file {f}"))).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-pub fn vehicle(path: &Path) -> Vehicle {
+pub fn read_vehicle(path: &Path) -> Vehicle {
     let text = std::fs::read_to_string(path).unwrap();
     let name = path.file_name().unwrap().to_string_lossy().into_owned();
     spandrel_model::vehicle::read(&name, &text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 #[test]
-fn val_every_shipped_aircraft_reads_and_covers_the_reference_camera() {
-    for path in files("vehicle-params") {
-        let vehicle = vehicle(&path);
+fn val_shipped_aircraft_meet_the_reference_camera() {
+    for path in toml_files("vehicle-params") {
+        let vehicle = read_vehicle(&path);
         let short = spandrel_model::site::defects::reference_shortfalls(&vehicle.camera, &vehicle.lamp);
         assert!(short.is_empty(), "{}: {short:?}", path.display());
     }
 }
 
 #[test]
-fn val_every_number_of_a_shipped_aircraft_names_its_source() {
-    for path in files("vehicle-params") {
+fn val_all_numbers_in_vehicle_files_have_a_source() {
+    for path in toml_files("vehicle-params") {
         for (k, line) in std::fs::read_to_string(&path).unwrap().lines().enumerate() {
             let number = line.split_once(" = ").is_some_and(|(key, value)| {
                 key != "format" && value.starts_with(['[', '-', '0', '1', '2', '3', '4', '5', '6', '7', '8', '9'])
@@ -49,10 +49,10 @@ fn val_every_number_of_a_shipped_aircraft_names_its_source() {
 }
 
 #[test]
-fn val_every_shipped_path_is_flyable_with_the_default_aircraft() {
-    let aircraft = vehicle(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("vehicle-params/phantom2.toml"));
-    for path in files("scenarios") {
-        let scenario = scenario(&path);
+fn val_shipped_paths_clear_the_default_aircraft() {
+    let aircraft = read_vehicle(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("vehicle-params/phantom2.toml"));
+    for path in toml_files("scenarios") {
+        let scenario = read_scenario(&path);
         let site = Site::build(
             &Scenario {
                 traffic: spandrel_model::scenario::TrafficSpec { cars: 0, trucks: 0, pedestrians: 0, ..scenario.traffic.clone() },
@@ -88,8 +88,8 @@ fn val_every_shipped_path_is_flyable_with_the_default_aircraft() {
 }
 
 #[test]
-fn val_ten_defects_are_placed_on_the_two_bridges() {
-    let scenario = scenario(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios/two-bridges.toml"));
+fn val_two_bridges_job_places_ten_defects() {
+    let scenario = read_scenario(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios/two-bridges.toml"));
     for seed in [1, 7] {
         let site = Site::build(&scenario, seed);
         assert_eq!(site.defects().len(), 10, "seed {seed}");
@@ -105,13 +105,13 @@ fn val_ten_defects_are_placed_on_the_two_bridges() {
 }
 
 /// Illuminance below which photos need the lamp, lx: f/2.8, ISO 1600 and an exposure of 1/100 s.
-const NEEDED_LX: f64 = 122.5;
+const REQUIRED_LUX: f64 = 122.5;
 
 #[test]
-fn val_in_the_papers_job_it_takes_the_lamp_between_deck_and_arch_and_nowhere_else() {
-    let scenario = scenario(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios/two-bridges.toml"));
-    let phantom = vehicle(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("vehicle-params/phantom2.toml"));
-    assert!((spandrel_model::site::visibility::needed_lux(&phantom.camera) - NEEDED_LX).abs() < 0.1);
+fn val_default_job_requires_the_lamp_only_in_the_interlayer() {
+    let scenario = read_scenario(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios/two-bridges.toml"));
+    let phantom = read_vehicle(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("vehicle-params/phantom2.toml"));
+    assert!((spandrel_model::site::visibility::needed_lux(&phantom.camera) - REQUIRED_LUX).abs() < 0.1);
     let (mut dark, mut inside) = (0, 0);
     for seed in 1..=10 {
         let site = Site::build(&scenario, seed);
@@ -124,9 +124,9 @@ fn val_in_the_papers_job_it_takes_the_lamp_between_deck_and_arch_and_nowhere_els
             let lux = site.ambient_lux(defect.position_m, Some(defect.normal), SimTime::ZERO);
             if scenario.tasks[task].dark {
                 inside += 1;
-                dark += i32::from(lux < NEEDED_LX);
+                dark += i32::from(lux < REQUIRED_LUX);
             } else {
-                assert!(lux > NEEDED_LX, "{} in task {}: {lux} lx", defect.member, task + 1);
+                assert!(lux > REQUIRED_LUX, "{} in task {}: {lux} lx", defect.member, task + 1);
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Scenario list, scenario page and upload, and import of recorded flights.
 
 use super::access::{AccessLevel, Visitor};
-use super::frame::{message, page, section, table, token};
+use super::layout::{message, page, section, table, token};
+use crate::report::formatting;
 use crate::report::plots::job::job_plan;
-use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
@@ -65,14 +65,14 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
             dt { "Tasks" } dd { (scenario.tasks.len()) }
             dt { "Defects to find" } dd { (scenario.defects.count) }
             dt { "Traffic" } dd { (scenario.traffic.cars) " cars, " (scenario.traffic.trucks) " trucks, " (scenario.traffic.pedestrians) " pedestrians" }
-            dt { "Wind" } dd { (words::number(scenario.wind.speed_m_s, 1)) " m/s from " (words::number(scenario.wind.from_deg, 0)) "°" }
-            dt { "Speed limit" } dd { (words::number(s.speed_limit_m_s, 2)) " m/s" }
-            dt { "Time" } dd { "full score up to " (words::duration(s.time_best_s)) ", at most " (words::duration(s.time_max_s)) }
+            dt { "Wind" } dd { (formatting::number(scenario.wind.speed_m_s, 1)) " m/s from " (formatting::number(scenario.wind.from_deg, 0)) "°" }
+            dt { "Speed limit" } dd { (formatting::number(s.speed_limit_m_s, 2)) " m/s" }
+            dt { "Time" } dd { "full score up to " (formatting::duration(s.time_best_s)) ", at most " (formatting::duration(s.time_max_s)) }
         }
     };
     let rows = html! {
         @for task in &scenario.tasks {
-            tr { th scope="row" { (task.id) " · " (task.name) } td.number { (words::number(task.threshold_m, 1)) } }
+            tr { th scope="row" { (task.id) " · " (task.name) } td.number { (formatting::number(task.threshold_m, 1)) } }
         }
     };
     let body = html! {
@@ -96,9 +96,9 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UploadMessage<'a> {
     /// The recording is invalid.
-    Wrong(&'a str),
+    Invalid(&'a str),
     /// The session already exists.
-    There {
+    AlreadyImported {
         /// Id of the session (name of its folder).
         id: &'a str,
         /// Trainee of that session.
@@ -112,8 +112,8 @@ pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[Stri
     let body = html! {
         @match told {
             None => {},
-            Some(UploadMessage::Wrong(words)) => (message("bad", words)),
-            Some(UploadMessage::There { id, trainee }) => p.message.good role="status" {
+            Some(UploadMessage::Invalid(words)) => (message("bad", words)),
+            Some(UploadMessage::AlreadyImported { id, trainee }) => p.message.good role="status" {
                 "This recording was already imported as " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". No changes were made."
             },
         }
@@ -134,23 +134,23 @@ pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[Stri
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
     use crate::trainee::Role;
 
     #[test]
-    fn exact_uploads_are_for_instructors_and_text_from_files_is_escaped() {
-        let named = [ScenarioEntry { name: EVIL.into(), title: EVIL.into(), uploaded: true }];
-        let text = list(&administrator(), &named, Some(("bad", EVIL))).into_string();
+    fn exact_only_instructors_upload_and_file_text_is_escaped() {
+        let named = [ScenarioEntry { name: HOSTILE_NAME.into(), title: HOSTILE_NAME.into(), uploaded: true }];
+        let text = list(&administrator(), &named, Some(("bad", HOSTILE_NAME))).into_string();
         check(&text);
         assert!(text.contains("type=\"file\""));
         let trainee = Visitor { role: Role::Trainee, ..administrator() };
         assert!(!list(&trainee, &named, None).into_string().contains("type=\"file\""));
-        for told in [UploadMessage::Wrong(EVIL), UploadMessage::There { id: "s-1", trainee: EVIL }] {
-            check(&recorded(&administrator(), &named, &[EVIL.into()], Some(told)).into_string());
+        for told in [UploadMessage::Invalid(HOSTILE_NAME), UploadMessage::AlreadyImported { id: "s-1", trainee: HOSTILE_NAME }] {
+            check(&recorded(&administrator(), &named, &[HOSTILE_NAME.into()], Some(told)).into_string());
         }
-        let there =
-            recorded(&administrator(), &named, &[], Some(UploadMessage::There { id: "s-1", trainee: "anna" })).into_string();
+        let there = recorded(&administrator(), &named, &[], Some(UploadMessage::AlreadyImported { id: "s-1", trainee: "anna" }))
+            .into_string();
         assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session of anna"), "{there}");
     }
 }

@@ -2,14 +2,14 @@
 //! from those of their IP address, so that others at the same address cannot lock the user out. Kept in memory as a hash of
 //! cookie and name, so browsers are unknown again after a restart, until the next login. Callers pass time and random bytes.
 
-use super::visits::{TokenBytes, text_of};
+use super::browser_sessions::{TokenBytes, text_of};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 /// A browser is forgotten after this time without a login, µs: 90 days, which is longer than a break between courses.
-const FORGOTTEN_US: u64 = 90 * 24 * 3_600_000_000;
+const BROWSER_EXPIRY_US: u64 = 90 * 24 * 3_600_000_000;
 /// Maximum number of known browsers. When it is exceeded, the one with the oldest login is forgotten.
-const DEVICES: usize = 10_000;
+const MAX_KNOWN_BROWSERS: usize = 10_000;
 
 /// Hash that identifies a known browser of one user.
 pub type KnownBrowser = [u8; 32];
@@ -22,16 +22,16 @@ impl KnownBrowsers {
     /// Returns the browser with this cookie if `name` has logged in from it before.
     #[must_use]
     pub fn find(&self, cookie: &str, name: &str, now_us: u64) -> Option<KnownBrowser> {
-        let device = device(cookie, name);
-        self.0.get(&device).filter(|login_us| now_us.saturating_sub(**login_us) < FORGOTTEN_US).map(|_| device)
+        let device = browser_key(cookie, name);
+        self.0.get(&device).filter(|login_us| now_us.saturating_sub(**login_us) < BROWSER_EXPIRY_US).map(|_| device)
     }
 
     /// Records a login of `name` and returns the cookie to set: the existing one if the browser is known, otherwise a new one.
     pub fn remember(&mut self, cookie: Option<&str>, name: &str, secret: &TokenBytes, now_us: u64) -> String {
         let known = cookie.filter(|cookie| self.find(cookie, name, now_us).is_some());
         let cookie = known.map_or_else(|| text_of(secret), str::to_owned);
-        self.0.insert(device(&cookie, name), now_us);
-        if self.0.len() > DEVICES
+        self.0.insert(browser_key(&cookie, name), now_us);
+        if self.0.len() > MAX_KNOWN_BROWSERS
             && let Some(oldest) = self.0.iter().min_by_key(|(_, login_us)| **login_us).map(|(device, _)| *device)
         {
             self.0.remove(&oldest);
@@ -40,7 +40,7 @@ impl KnownBrowsers {
     }
 }
 
-fn device(cookie: &str, name: &str) -> KnownBrowser {
+fn browser_key(cookie: &str, name: &str) -> KnownBrowser {
     // Cookies contain no zero byte, so different pairs of cookie and name never produce the same input.
     Sha256::new().chain_update(cookie).chain_update([0]).chain_update(name).finalize().into()
 }
@@ -53,23 +53,23 @@ mod tests {
     fn exact_a_browser_is_remembered_per_user() {
         let mut devices = KnownBrowsers::default();
         let cookie = devices.remember(None, "anna", &[1; 32], 0);
-        assert!(devices.find(&cookie, "anna", FORGOTTEN_US - 1).is_some());
-        assert_eq!(devices.find(&cookie, "anna", FORGOTTEN_US), None);
+        assert!(devices.find(&cookie, "anna", BROWSER_EXPIRY_US - 1).is_some());
+        assert_eq!(devices.find(&cookie, "anna", BROWSER_EXPIRY_US), None);
         assert_eq!(devices.find(&cookie, "ben", 1), None);
         assert_eq!(devices.find("guessed", "anna", 1), None);
         assert_eq!(devices.remember(Some(&cookie), "anna", &[2; 32], 1), cookie, "known browser keeps its cookie");
         assert_ne!(devices.remember(Some("planted"), "anna", &[3; 32], 1), "planted");
-        assert!(devices.find(&cookie, "anna", FORGOTTEN_US).is_some(), "a login restarts the expiry");
+        assert!(devices.find(&cookie, "anna", BROWSER_EXPIRY_US).is_some(), "a login restarts the expiry");
     }
 
     #[test]
-    fn prop_many_logins_fill_no_memory() {
+    fn prop_known_browsers_are_bounded() {
         let mut devices = KnownBrowsers::default();
-        for k in 0..DEVICES as u32 + 100 {
+        for k in 0..MAX_KNOWN_BROWSERS as u32 + 100 {
             let mut secret = [0; 32];
             secret[..4].copy_from_slice(&k.to_le_bytes());
             devices.remember(None, "anna", &secret, u64::from(k));
         }
-        assert_eq!(devices.0.len(), DEVICES);
+        assert_eq!(devices.0.len(), MAX_KNOWN_BROWSERS);
     }
 }

@@ -79,7 +79,7 @@ pub enum HullProbe {
     /// A sphere.
     Ball {
         /// Center, m.
-        centre_m: Vec3<Enu>,
+        center_m: Vec3<Enu>,
         /// Radius, m.
         radius_m: f64,
     },

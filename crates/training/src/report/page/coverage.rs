@@ -3,17 +3,17 @@
 use super::figure::{figure, legend};
 use crate::report::Review;
 use crate::report::coverage::{BLUR_MAX_PX, ElementSurface, REQUIRED_GSD_M, SurfaceCoverage, SurfaceOutcome, reach_m};
+use crate::report::formatting;
 use crate::report::plots::bars::{StackedBar, stacks};
 use crate::report::table::{Table, TableCell};
-use crate::report::words;
 use maud::{Markup, html};
 use spandrel_model::elements::Element;
-use spandrel_model::site::visibility::INCIDENCE_MAX_RAD;
+use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 
 /// Maximum number of reasons named in the summary.
-const REASONS: usize = 3;
+const MAX_REASONS: usize = 3;
 /// Minimum fraction of the inspectable surface at which a reason is named.
-const LEAST_SHARE: f64 = 0.01;
+const MIN_REASON_SHARE: f64 = 0.01;
 
 /// Renders the "Coverage" section of a session report.
 pub fn section(review: &Review) -> Markup {
@@ -21,16 +21,16 @@ pub fn section(review: &Review) -> Markup {
     if total.inspectable_m2 <= 0.0 {
         return html! { p.calm { "No bridge surface can be inspected from the reference paths; all surfaces are beyond the camera's range." } };
     }
-    let share = |area: f64| words::number(100.0 * area / total.inspectable_m2, 0);
+    let share = |area: f64| formatting::number(100.0 * area / total.inspectable_m2, 0);
     let key: Vec<(&str, String)> = SurfaceOutcome::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
     html! {
-        p { "Of " (words::number(total.inspectable_m2, 0)) " m² that can be inspected from the reference paths, pictures show "
-            b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " well enough." @if let Some(why) = lacking(&total) { " The rest: " (why) "." } }
-        p.note { "A surface is inspectable if it is visible from at least one point of a reference path at " (words::number(1000.0 * REQUIRED_GSD_M, 2))
+        p { "Of " (formatting::number(total.inspectable_m2, 0)) " m² that can be inspected from the reference paths, pictures show "
+            b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " well enough." @if let Some(why) = reasons_not_shown(&total) { " The rest: " (why) "." } }
+        p.note { "A surface is inspectable if it is visible from at least one point of a reference path at " (formatting::number(1000.0 * REQUIRED_GSD_M, 2))
             " mm per pixel or finer (a 1.27 mm crack, the limit between condition states 2 and 3, then covers half a pixel; with this camera, this corresponds to a distance of "
-            (words::number(reach_m(&review.vehicle.camera), 1)) " m) and at most "
-            (words::number(INCIDENCE_MAX_RAD.to_degrees(), 0)) "° from normal. It is shown well if a picture meets these limits, has enough light (including the lamp) for an exposure within the camera's limits, and has at most "
-            (words::number(BLUR_MAX_PX, 0)) " px of motion blur. If several pictures show the same surface, the best one counts." }
+            (formatting::number(reach_m(&review.vehicle.camera), 1)) " m) and at most "
+            (formatting::number(MAX_INCIDENCE_RAD.to_degrees(), 0)) "° from normal. It is shown well if a picture meets these limits, has enough light (including the lamp) for an exposure within the camera's limits, and has at most "
+            (formatting::number(BLUR_MAX_PX, 0)) " px of motion blur. If several pictures show the same surface, the best one counts." }
         (figure("Coverage of each element's inspectable surface", &html! {
             (legend(&key))
             div.split {
@@ -45,20 +45,22 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-/// Returns the main reasons why surface is not shown well; `None` if each is below [`LEAST_SHARE`].
-fn lacking(total: &ElementSurface) -> Option<String> {
+/// Returns the main reasons why surface is not shown well; `None` if each is below [`MIN_REASON_SHARE`].
+fn reasons_not_shown(total: &ElementSurface) -> Option<String> {
     let share = |fate: &SurfaceOutcome| total.area_m2(*fate) / total.inspectable_m2;
-    let mut rest: Vec<SurfaceOutcome> =
-        SurfaceOutcome::ALL.into_iter().filter(|fate| *fate != SurfaceOutcome::Shown && share(fate) >= LEAST_SHARE).collect();
+    let mut rest: Vec<SurfaceOutcome> = SurfaceOutcome::ALL
+        .into_iter()
+        .filter(|fate| *fate != SurfaceOutcome::Shown && share(fate) >= MIN_REASON_SHARE)
+        .collect();
     rest.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    let words = |fate: &SurfaceOutcome| format!("{} % {}", words::number(100.0 * share(fate), 0), fate.name());
-    let words: Vec<String> = rest.iter().take(REASONS).map(words).collect();
+    let words = |fate: &SurfaceOutcome| format!("{} % {}", formatting::number(100.0 * share(fate), 0), fate.name());
+    let words: Vec<String> = rest.iter().take(MAX_REASONS).map(words).collect();
     (!words.is_empty()).then(|| words.join("; "))
 }
 
 fn rows(coverage: &SurfaceCoverage) -> Vec<StackedBar> {
     let row = |(element, surface): (&Element, &ElementSurface)| StackedBar {
-        name: format!("{} · {} ({} m²)", element.number(), element.name(), words::number(surface.inspectable_m2, 0)),
+        name: format!("{} · {} ({} m²)", element.number(), element.name(), formatting::number(surface.inspectable_m2, 0)),
         parts: SurfaceOutcome::ALL.map(|fate| (fate.class(), surface.area_m2(fate) / surface.inspectable_m2)).to_vec(),
     };
     coverage.elements.iter().map(row).collect()
@@ -68,12 +70,12 @@ fn table(coverage: &SurfaceCoverage) -> Table {
     let row = |element: &ElementSurface, [number, name]: [TableCell; 2]| {
         let mut row = vec![number, name, TableCell::Number(element.inspectable_m2, 1)];
         row.extend(SurfaceOutcome::ALL.map(|fate| TableCell::Number(element.area_m2(fate), 1)));
-        let typical = element.typical();
+        let average_picture = element.average_picture();
         let value = |value: Option<f64>, digits| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
-        row.push(value(typical.map(|like| 1000.0 * like.gsd_m), 2));
-        row.push(value(typical.map(|like| like.incidence_rad.to_degrees()), 0));
-        row.push(value(typical.map(|like| like.lux), 0));
-        row.push(value(typical.map(|like| like.blur_px), 2));
+        row.push(value(average_picture.map(|like| 1000.0 * like.gsd_m), 2));
+        row.push(value(average_picture.map(|like| like.incidence_rad.to_degrees()), 0));
+        row.push(value(average_picture.map(|like| like.lux), 0));
+        row.push(value(average_picture.map(|like| like.blur_px), 2));
         row
     };
     let mut rows: Vec<Vec<TableCell>> = coverage
@@ -117,11 +119,11 @@ mod tests {
             (SurfaceOutcome::DarkLampOff, 35.0),
             (SurfaceOutcome::Blurred, 20.0),
             (SurfaceOutcome::TooFar, 4.6),
-            (SurfaceOutcome::Unseen, 0.4),
+            (SurfaceOutcome::NeverInView, 0.4),
         ] {
-            element.by_fate_m2.insert(fate, area_m2);
+            element.area_by_outcome_m2.insert(fate, area_m2);
         }
-        assert_eq!(lacking(&element).unwrap(), "35 % too dark, lamp off; 20 % blurred; 5 % too far");
+        assert_eq!(reasons_not_shown(&element).unwrap(), "35 % too dark, lamp off; 20 % blurred; 5 % too far");
         let table = table(&SurfaceCoverage { elements: [(Element::RcBoxGirder, element)].into() });
         for (k, fate) in SurfaceOutcome::ALL.iter().enumerate() {
             assert_eq!(table.columns[3 + k], format!("{}, m²", fate.name()));
@@ -130,9 +132,9 @@ mod tests {
         assert_eq!(table.rows[1][6], TableCell::Number(35.0, 1), "the total of a single element equals that element");
         let all = ElementSurface {
             inspectable_m2: 1.0,
-            by_fate_m2: [(SurfaceOutcome::Shown, 1.0)].into(),
+            area_by_outcome_m2: [(SurfaceOutcome::Shown, 1.0)].into(),
             ..ElementSurface::default()
         };
-        assert_eq!(lacking(&all), None);
+        assert_eq!(reasons_not_shown(&all), None);
     }
 }

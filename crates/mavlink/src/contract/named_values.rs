@@ -119,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_named_value_comes_back() {
+    fn exact_named_values_round_trip() {
         let all = [
             Named::Contact(ContactKind::Person),
             Named::Hits(3),

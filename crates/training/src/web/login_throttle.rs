@@ -1,9 +1,9 @@
 //! Throttling of failed logins. After a few failures for one name from one address, or many failures from one address, each
 //! further attempt must wait longer, up to one minute. A longer lockout would let others behind the same address lock out a user.
 //! One minute allows about 60 guesses per hour against passwords that `login::check` accepts. A browser from which the user has
-//! logged in before is counted separately ([`super::devices`]), so failures of others at the same address do not delay it.
+//! logged in before is counted separately ([`super::known_browsers`]), so failures of others at the same address do not delay it.
 
-use super::devices::KnownBrowser;
+use super::known_browsers::KnownBrowser;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
@@ -13,13 +13,13 @@ const WINDOW_US: u64 = 15 * 60_000_000;
 /// short enough after a typing error.
 const FIRST_WAIT_US: u64 = 4_000_000;
 /// Maximum wait between two attempts, µs.
-const LONGEST_WAIT_US: u64 = 60_000_000;
+const MAX_WAIT_US: u64 = 60_000_000;
 /// Number of failures allowed within the window for one name from one address.
-const OF_NAME: usize = 5;
+const MAX_FAILURES_PER_NAME: usize = 5;
 /// Number of failures allowed within the window from one address, over all names.
-const OF_ADDRESS: usize = 20;
+const MAX_FAILURES_PER_ADDRESS: usize = 20;
 /// Maximum number of origins stored. When it is reached, the one with the oldest failure is forgotten.
-const ADDRESSES: usize = 10_000;
+const MAX_ORIGINS: usize = 10_000;
 
 /// Origin of a login attempt. Failures are counted per origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -52,32 +52,32 @@ impl LoginThrottle {
             let waits_until = times.last()?.saturating_add(wait_after(times.len().checked_sub(most)?));
             waits_until.checked_sub(now_us).filter(|left| *left > 0)
         };
-        let of_name = recent.iter().filter(|(_, who)| *who == tracked(name)).map(|(at, _)| *at).collect();
-        left(of_name, OF_NAME).max(left(recent.iter().map(|(at, _)| *at).collect(), OF_ADDRESS))
+        let of_name = recent.iter().filter(|(_, who)| *who == truncate_name(name)).map(|(at, _)| *at).collect();
+        left(of_name, MAX_FAILURES_PER_NAME).max(left(recent.iter().map(|(at, _)| *at).collect(), MAX_FAILURES_PER_ADDRESS))
     }
 
     /// Records a failed login.
     pub fn record_failure(&mut self, from: LoginOrigin, name: &str, now_us: u64) {
-        if self.0.len() >= ADDRESSES {
-            self.forget(now_us);
+        if self.0.len() >= MAX_ORIGINS {
+            self.forget_oldest(now_us);
         }
         let failures = self.0.entry(from).or_default();
         failures.retain(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US);
-        failures.push((now_us, tracked(name)));
+        failures.push((now_us, truncate_name(name)));
     }
 
     /// Clears the failures of a name after a successful login.
     pub fn clear_failures(&mut self, from: LoginOrigin, name: &str) {
         if let Some(failures) = self.0.get_mut(&from) {
-            let name = tracked(name);
+            let name = truncate_name(name);
             failures.retain(|(_, who)| *who != name);
         }
     }
 
-    fn forget(&mut self, now_us: u64) {
+    fn forget_oldest(&mut self, now_us: u64) {
         let newest = |failures: &Vec<(u64, String)>| failures.last().map_or(0, |(at, _)| *at);
         self.0.retain(|_, failures| now_us.saturating_sub(newest(failures)) < WINDOW_US);
-        if self.0.len() >= ADDRESSES
+        if self.0.len() >= MAX_ORIGINS
             && let Some(oldest) = self.0.iter().min_by_key(|(_, failures)| newest(failures)).map(|(address, _)| *address)
         {
             self.0.remove(&oldest);
@@ -88,14 +88,11 @@ impl LoginThrottle {
 /// Returns the wait for the given number of failures above the limit, µs.
 fn wait_after(beyond: usize) -> u64 {
     let doublings = u32::try_from(beyond).unwrap_or(u32::MAX);
-    FIRST_WAIT_US
-        .checked_shl(doublings)
-        .filter(|wait| *wait >= FIRST_WAIT_US)
-        .map_or(LONGEST_WAIT_US, |wait| wait.min(LONGEST_WAIT_US))
+    FIRST_WAIT_US.checked_shl(doublings).filter(|wait| *wait >= FIRST_WAIT_US).map_or(MAX_WAIT_US, |wait| wait.min(MAX_WAIT_US))
 }
 
 /// Truncates a name for storage, because an attacker controls its length.
-fn tracked(name: &str) -> String {
+fn truncate_name(name: &str) -> String {
     name.chars().take(64).collect()
 }
 
@@ -116,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_five_failures_cost_seconds_and_never_more_than_a_minute() {
+    fn regress_login_wait_doubles_up_to_a_minute() {
         let mut throttle = LoginThrottle::default();
         for k in 0..5 {
             assert_eq!(throttle.wait_us(this_machine(), "anna", k), None);
@@ -145,31 +142,26 @@ mod tests {
     }
 
     #[test]
-    fn exact_waits_double_and_end() {
-        for (beyond, wait_us) in
-            [(0, 4_000_000), (1, 8_000_000), (4, LONGEST_WAIT_US), (63, LONGEST_WAIT_US), (usize::MAX, LONGEST_WAIT_US)]
+    fn exact_login_waits_double_up_to_maximum() {
+        for (beyond, wait_us) in [(0, 4_000_000), (1, 8_000_000), (4, MAX_WAIT_US), (63, MAX_WAIT_US), (usize::MAX, MAX_WAIT_US)]
         {
             assert_eq!(wait_after(beyond), wait_us, "{beyond}");
         }
     }
 
     #[test]
-    fn regress_a_known_browser_is_not_delayed_by_its_address_and_is_limited_itself() {
+    fn regress_known_browser_is_throttled_separately() {
         let mut throttle = LoginThrottle::default();
         let known = LoginOrigin::for_address([127, 0, 0, 1].into(), Some([7; 32]));
         (0..30).for_each(|_| throttle.record_failure(this_machine(), "anna", 0));
-        assert_eq!(
-            throttle.wait_us(this_machine(), "anna", 1),
-            Some(LONGEST_WAIT_US - 1),
-            "an unknown browser at the same address"
-        );
+        assert_eq!(throttle.wait_us(this_machine(), "anna", 1), Some(MAX_WAIT_US - 1), "an unknown browser at the same address");
         assert_eq!(throttle.wait_us(known, "anna", 1), None, "a known browser");
-        (0..OF_NAME).for_each(|_| throttle.record_failure(known, "anna", 1));
+        (0..MAX_FAILURES_PER_NAME).for_each(|_| throttle.record_failure(known, "anna", 1));
         assert_eq!(throttle.wait_us(known, "anna", 1), Some(FIRST_WAIT_US), "guessing with a stolen cookie");
     }
 
     #[test]
-    fn exact_many_names_from_one_address_wait_together() {
+    fn exact_failures_for_many_names_throttle_the_address() {
         let mut throttle = LoginThrottle::default();
         for k in 0..20 {
             assert_eq!(throttle.wait_us(this_machine(), &format!("n{k}"), 0), None, "{k}");
@@ -179,18 +171,18 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_subscribers_addresses_count_as_one() {
+    fn exact_ipv6_network_counts_as_one_origin() {
         let at = |last: u16| IpAddr::from([0x2001, 0xdb8, 0, 1, 0, 0, 0, last]);
         assert_eq!(network(at(1)), network(at(2)));
         assert_eq!(network("::ffff:10.0.0.1".parse().unwrap()), IpAddr::from([10, 0, 0, 1]));
     }
 
     #[test]
-    fn prop_many_addresses_fill_no_memory() {
+    fn prop_login_throttle_is_bounded() {
         let mut throttle = LoginThrottle::default();
         for k in 0..30_000u32 {
             throttle.record_failure(LoginOrigin::for_address(k.to_be_bytes().into(), None), "x", u64::from(k));
         }
-        assert!(throttle.0.len() <= ADDRESSES);
+        assert!(throttle.0.len() <= MAX_ORIGINS);
     }
 }

@@ -5,17 +5,17 @@ use crate::frames::{Enu, Vec3};
 
 /// Returns the point on a crease that is nearest to a segment, and a rank for comparison with other creases: the distance, or
 /// minus the penetration depth if the segment passes below the crease.
-pub(super) fn over_crease((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (f64, SurfacePoint) {
-    let (q, e) = nearest_of_segments((a, b), (c, d));
+pub(super) fn nearest_on_crease((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (f64, SurfacePoint) {
+    let (q, e) = closest_points_of_segments((a, b), (c, d));
     let distance_m = (q - e).norm();
-    let depth = depth_under((a, b), (c, d)).unwrap_or(0.0);
+    let depth = depth_below((a, b), (c, d)).unwrap_or(0.0);
     let signed = if depth > 0.0 { -distance_m } else { distance_m };
     let rank = if depth > 0.0 { -depth } else { distance_m };
     (rank, SurfacePoint { distance_m: signed, point_m: e, normal: (q - e) / signed })
 }
 
 /// Returns the depth at which segment a-b passes below segment c-d where they cross in plan view; `None` if they do not cross.
-fn depth_under((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> Option<f64> {
+fn depth_below((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> Option<f64> {
     let (u, v, w) = (b - a, d - c, c - a);
     let turn = |p: Vec3<Enu>, q: Vec3<Enu>| p.east() * q.north() - p.north() * q.east();
     let cross = turn(u, v);
@@ -25,7 +25,7 @@ fn depth_under((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -
 }
 
 /// Returns the points at which segments a-b and c-d are closest.
-fn nearest_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (Vec3<Enu>, Vec3<Enu>) {
+fn closest_points_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (Vec3<Enu>, Vec3<Enu>) {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, uv, vv) = (u.norm_squared(), u.dot(v), v.norm_squared());
     let square = uu * vv - uv * uv;
@@ -38,7 +38,7 @@ fn nearest_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<
 }
 
 /// Returns the point of triangle a-b-c that is nearest to `p`.
-pub(super) fn nearest_of_triangle(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>, c: Vec3<Enu>) -> Vec3<Enu> {
+pub(super) fn nearest_on_triangle(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>, c: Vec3<Enu>) -> Vec3<Enu> {
     let normal = (b - a).cross(c - a);
     let foot = p - normal * (normal.dot(p - a) / normal.norm_squared());
     let outside = |from: Vec3<Enu>, to: Vec3<Enu>| (to - from).cross(foot - from).dot(normal) < 0.0;
@@ -63,14 +63,14 @@ mod tests {
     const ROUNDING_M: f64 = 1e-9;
 
     #[test]
-    fn prop_a_triangle_has_no_nearer_point() {
+    fn prop_nearest_triangle_point_matches_sampling() {
         let mut random = RandomStream::new(4, "triangles");
         let mut point = |spread: f64| {
             Vec3::<Enu>::new(random.range(-spread, spread), random.range(-spread, spread), random.range(-spread, spread))
         };
         for _ in 0..300 {
             let (p, a, b, c) = (point(4.0), point(2.0), point(2.0), point(2.0));
-            let q = nearest_of_triangle(p, a, b, c);
+            let q = nearest_on_triangle(p, a, b, c);
             for (i, j) in (0..=20).flat_map(|i| (0..=20 - i).map(move |j| (f64::from(i) / 20.0, f64::from(j) / 20.0))) {
                 let other = a + (b - a) * i + (c - a) * j;
                 assert!((p - q).norm() <= (p - other).norm() + ROUNDING_M);

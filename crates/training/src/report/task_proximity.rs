@@ -22,7 +22,7 @@ pub struct TaskProximityStep {
 
 /// Measures of one task's window.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TaskFacts {
+pub struct TaskTotals {
     /// Time from the first to the last on-path frame, s.
     pub time_s: f64,
     /// Time off the path within the window, s.
@@ -36,7 +36,7 @@ pub struct TaskFacts {
     /// Maximum speed, m/s.
     pub max_speed_m_s: f64,
     /// Minimum clearance to any surface, m.
-    pub least_clearance_m: f64,
+    pub min_clearance_m: f64,
 }
 
 /// Computes the position relative to the tasks in all frames.
@@ -67,31 +67,31 @@ pub fn steps(paths: &ReferencePaths, on_path: &OnPath, scene: &ReviewContext<'_>
 
 /// Computes the totals of all tasks.
 #[must_use]
-pub fn tasks(scene: &ReviewContext<'_>, on_path: &OnPath, steps: &[TaskProximityStep]) -> Vec<TaskFacts> {
+pub fn tasks(scene: &ReviewContext<'_>, on_path: &OnPath, steps: &[TaskProximityStep]) -> Vec<TaskTotals> {
     let paths = ReferencePaths::new(scene.scenario);
     let rate_hz = scene.scenario.scoring.frame_rate_hz;
     let of = |task: usize| {
-        let Some(window) = on_path.windows[task] else { return TaskFacts::no_task() };
+        let Some(window) = on_path.windows[task] else { return TaskTotals::not_entered() };
         let frames = &scene.frames[window.first..=window.last];
         let seconds = |count: usize| count as f64 / rate_hz;
         let away = frames.iter().filter_map(|frame| paths.nearest(task, frame.position_m)).map(|nearest| nearest.distance_m);
         let away: Vec<f64> = away.collect();
         let on = on_path.task[window.first..=window.last].iter().flatten().filter(|(t, _)| *t == task).count();
-        TaskFacts {
+        TaskTotals {
             time_s: seconds(frames.len()),
             off_path_s: seconds(frames.len() - on),
             speeding_s: seconds(steps[window.first..=window.last].iter().filter(|step| step.speeding).count()),
             mean_distance_m: away.iter().sum::<f64>() / away.len().max(1) as f64,
             max_distance_m: away.iter().copied().fold(0.0, f64::max),
             max_speed_m_s: frames.iter().map(Frame::speed_m_s).fold(0.0, f64::max),
-            least_clearance_m: frames.iter().filter_map(|frame| frame.clearance_m).fold(f64::INFINITY, f64::min),
+            min_clearance_m: frames.iter().filter_map(|frame| frame.clearance_m).fold(f64::INFINITY, f64::min),
         }
     };
     (0..on_path.windows.len()).map(of).collect()
 }
 
-impl TaskFacts {
-    fn no_task() -> Self {
+impl TaskTotals {
+    fn not_entered() -> Self {
         let unknown = f64::NAN;
         Self {
             time_s: 0.0,
@@ -100,7 +100,7 @@ impl TaskFacts {
             mean_distance_m: unknown,
             max_distance_m: unknown,
             max_speed_m_s: unknown,
-            least_clearance_m: unknown,
+            min_clearance_m: unknown,
         }
     }
 }

@@ -25,7 +25,7 @@ impl MaterialGroup {
 
     /// Checks whether the group's materials have specular reflection.
     #[must_use]
-    pub const fn shines(self) -> bool {
+    pub const fn has_specular(self) -> bool {
         matches!(self, Self::Steel | Self::Simple)
     }
 
@@ -51,7 +51,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_material_group_has_materials_and_a_shader_constant() {
+    fn exact_material_groups_have_materials_and_shader_constants() {
         let shader = super::super::shaders::source("surface");
         for look in MaterialGroup::ALL {
             assert!((0..16).any(|material| MaterialGroup::of(material) == look), "{look:?}");

@@ -2,7 +2,7 @@
 //! reactions.
 
 use super::context::ReviewContext;
-use super::track::TaskProximityStep;
+use super::task_proximity::TaskProximityStep;
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_model::scenario::Scenario;
@@ -14,18 +14,18 @@ use std::ops::ControlFlow;
 
 /// Minimum change of a stick's position after the cue that counts as a reaction, full travel = 1 (estimate: larger than hand
 /// tremor, smaller than any deliberate correction).
-const STICK_MOVE: f64 = 0.1;
+const MIN_STICK_CHANGE: f64 = 0.1;
 /// Maximum reaction time, s. Later movements do not count as a reaction to the cue (estimate).
-const ANSWER_WITHIN_S: f64 = 5.0;
+const MAX_REACTION_S: f64 = 5.0;
 
 /// The cues in display order.
 pub const KINDS: [CueKind; 6] = [
-    CueKind { bit: cue::CRASH, name: "crash", wants_answer: true },
-    CueKind { bit: cue::TOO_CLOSE, name: "too close", wants_answer: true },
-    CueKind { bit: cue::SPEEDING, name: "speeding", wants_answer: true },
-    CueKind { bit: cue::OFF_PATH, name: "off path", wants_answer: true },
-    CueKind { bit: cue::BATTERY_YELLOW, name: "battery yellow", wants_answer: false },
-    CueKind { bit: cue::BATTERY_RED, name: "battery red", wants_answer: false },
+    CueKind { bit: cue::CRASH, name: "crash", expects_reaction: true },
+    CueKind { bit: cue::TOO_CLOSE, name: "too close", expects_reaction: true },
+    CueKind { bit: cue::SPEEDING, name: "speeding", expects_reaction: true },
+    CueKind { bit: cue::OFF_PATH, name: "off path", expects_reaction: true },
+    CueKind { bit: cue::BATTERY_YELLOW, name: "battery yellow", expects_reaction: false },
+    CueKind { bit: cue::BATTERY_RED, name: "battery red", expects_reaction: false },
 ];
 
 /// A kind of cue that the monitor raises.
@@ -36,7 +36,7 @@ pub struct CueKind {
     /// Name shown in the report.
     pub name: &'static str,
     /// Whether a stick reaction is expected.
-    pub wants_answer: bool,
+    pub expects_reaction: bool,
 }
 
 /// An interval in which a cue was on.
@@ -49,14 +49,14 @@ pub struct CueEpisode {
     /// End, s since lift-off.
     pub to_s: f64,
     /// Time from the start of the cue to the first stick movement, s; `None` without a reaction in time.
-    pub answer_s: Option<f64>,
+    pub reaction_s: Option<f64>,
     /// Index of the task being flown.
     pub task: Option<usize>,
 }
 
 /// Feedback given during a session.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct CueText {
+pub struct SessionFeedback {
     /// Cues in order of their start.
     pub episodes: Vec<CueEpisode>,
     /// Messages and their times, s since lift-off.
@@ -68,10 +68,10 @@ pub struct CueText {
 
 /// Collects the feedback from the monitor's events.
 #[must_use]
-pub fn cue_text(events: Vec<LoggedEvent>, scene: &ReviewContext<'_>, track: &[TaskProximityStep]) -> CueText {
-    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return CueText::default() };
+pub fn collect_feedback(events: Vec<TimedEvent>, scene: &ReviewContext<'_>, track: &[TaskProximityStep]) -> SessionFeedback {
+    let (Some(first), Some(last)) = (scene.frames.first(), scene.frames.last()) else { return SessionFeedback::default() };
     let end_s = (last.time - first.time).s();
-    let mut said = CueText::default();
+    let mut said = SessionFeedback::default();
     let mut open: [Option<f64>; KINDS.len()] = [None; KINDS.len()];
     for (time_s, event) in events {
         let t_s = time_s - first.time.s();
@@ -106,13 +106,13 @@ pub fn cue_text(events: Vec<LoggedEvent>, scene: &ReviewContext<'_>, track: &[Ta
 }
 
 /// Simulation time, s, and content of one line of `events.jsonl`.
-pub type LoggedEvent = (f64, serde_json::Value);
+pub type TimedEvent = (f64, serde_json::Value);
 
 /// Replays a log through the monitor and returns its events.
 ///
 /// # Errors
 /// If the log cannot be read.
-pub fn events(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> std::io::Result<Vec<LoggedEvent>> {
+pub fn events(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> std::io::Result<Vec<TimedEvent>> {
     let mut monitor = Monitor::new(MonitorConfig {
         scenario: scenario.clone(),
         vehicle: vehicle.clone(),
@@ -145,14 +145,14 @@ fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &ReviewContext<'_>, t
     let onset = first + SimTime::from_s(from_s);
     let at = scene.frames.partition_point(|frame| frame.time < onset).min(scene.frames.len() - 1);
     let before = scene.frames[at].sticks;
-    let until = onset + SimTime::from_s(ANSWER_WITHIN_S);
-    let moved = |sticks: [f64; 4]| sticks.iter().zip(before).any(|(now, then)| (now - then).abs() >= STICK_MOVE);
+    let until = onset + SimTime::from_s(MAX_REACTION_S);
+    let moved = |sticks: [f64; 4]| sticks.iter().zip(before).any(|(now, then)| (now - then).abs() >= MIN_STICK_CHANGE);
     let answer = scene.frames[at..].iter().take_while(|frame| frame.time <= until).find(|frame| moved(frame.sticks));
     CueEpisode {
         kind,
         from_s,
         to_s,
-        answer_s: answer.filter(|_| KINDS[kind].wants_answer).map(|frame| (frame.time - onset).s().max(0.0)),
+        reaction_s: answer.filter(|_| KINDS[kind].expects_reaction).map(|frame| (frame.time - onset).s().max(0.0)),
         task: track.get(at).filter(|step| step.inside).and_then(|step| step.task),
     }
 }
@@ -171,7 +171,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_median_of_odd_even_and_nothing() {
+    fn exact_median_of_odd_even_and_empty_lists() {
         assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
         assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), Some(2.5));
         assert_eq!(median(Vec::new()), None);

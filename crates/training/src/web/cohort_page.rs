@@ -1,7 +1,7 @@
 //! The cohort page: the sections of the offline page and a form that selects the sessions.
 
 use super::access::Visitor;
-use super::frame::{page, section};
+use super::layout::{page, section};
 use crate::cohort::Cohort;
 use crate::record::{IncompletePolicy, omitted_summary};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
@@ -9,7 +9,7 @@ use maud::{Markup, html};
 
 /// Selection shown in the form.
 #[derive(Debug, Clone, Copy)]
-pub struct GroupSelection<'a> {
+pub struct CohortPageSelection<'a> {
     /// All scenarios that were flown.
     pub flown_scenarios: &'a [String],
     /// Selected scenarios.
@@ -24,7 +24,7 @@ pub struct GroupSelection<'a> {
 
 /// Renders the page; without sessions, only the form and a note.
 #[must_use]
-pub fn group(visitor: &Visitor, chosen: &GroupSelection<'_>, cohort: Option<&Cohort>) -> Markup {
+pub fn group(visitor: &Visitor, chosen: &CohortPageSelection<'_>, cohort: Option<&Cohort>) -> Markup {
     let body = html! {
         section {
             form.inline method="get" action="/cohort" {
@@ -45,13 +45,13 @@ pub fn group(visitor: &Visitor, chosen: &GroupSelection<'_>, cohort: Option<&Coh
             }
         }
         @if let Some(cohort) = cohort {
-            @for (id, name, body) in sections(cohort, TableLinks::At("/cohort/tables/", &format!("?{}", query(chosen)))) { (section(id, name, &body)) }
+            @for (id, name, body) in sections(cohort, TableLinks::Served("/cohort/tables/", &format!("?{}", query(chosen)))) { (section(id, name, &body)) }
         }
     };
     page(visitor, "/cohort", "Cohort", &body)
 }
 
-fn query(chosen: &GroupSelection<'_>) -> String {
+fn query(chosen: &CohortPageSelection<'_>) -> String {
     let mut query = form_urlencoded::Serializer::new(String::new());
     query.extend_pairs(chosen.scenarios.iter().map(|name| ("scenario", name)));
     query.append_pair("repetitions", &chosen.repetitions.to_string());
@@ -63,24 +63,24 @@ fn query(chosen: &GroupSelection<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frame::tests::{EVIL, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
     use crate::cohort::{Selection, cohort};
-    use crate::testing::faultless;
+    use crate::testing::perfect_record;
 
     #[test]
-    fn exact_the_page_holds_the_reports_sections_and_escapes() {
-        let mut records = vec![faultless("anna", 1), faultless("ben", 1)];
-        records[0].scenario = EVIL.into();
-        records[1].scenario = EVIL.into();
+    fn exact_cohort_page_contains_report_sections_and_escapes_names() {
+        let mut records = vec![perfect_record("anna", 1), perfect_record("ben", 1)];
+        records[0].scenario = HOSTILE_NAME.into();
+        records[1].scenario = HOSTILE_NAME.into();
         let cohort =
-            cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::LeaveOut });
-        let names = [EVIL.to_owned()];
-        let chosen = GroupSelection {
+            cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude });
+        let names = [HOSTILE_NAME.to_owned()];
+        let chosen = CohortPageSelection {
             flown_scenarios: &names,
             scenarios: &names,
             repetitions: 1,
-            incomplete: IncompletePolicy::LeaveOut,
+            incomplete: IncompletePolicy::Exclude,
             left_out: 0,
         };
         let text = group(&administrator(), &chosen, Some(&cohort)).into_string();
@@ -88,7 +88,7 @@ mod tests {
         assert!(text.contains("href=\"/cohort/tables/t_tests.csv?scenario="), "{text}");
         assert!(text.contains("2 trainees, 2 sessions") && text.contains("class=\"histogram\""), "{text}");
         assert!(group(&administrator(), &chosen, None).into_string().contains("No sessions yet"));
-        let chosen = GroupSelection { incomplete: IncompletePolicy::Include, ..chosen };
+        let chosen = CohortPageSelection { incomplete: IncompletePolicy::Include, ..chosen };
         let text = group(&administrator(), &chosen, Some(&cohort)).into_string();
         assert!(text.contains("incomplete=1") && text.contains("value=\"1\" checked"), "{text}");
     }

@@ -13,7 +13,7 @@ const STRAIN: f64 = 352.0;
 const PERFORMANCE: f64 = 692.0;
 const FEEDBACK: (f64, f64) = (182.0, 10.0);
 /// Half the width of an arrowhead, in drawing units.
-const HEAD: f64 = 5.0;
+const ARROWHEAD_HALF_WIDTH: f64 = 5.0;
 
 /// An effect in the model and whether it is distinguishable from zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub struct PathEffect {
     /// Estimate and confidence interval, as text.
     pub words: String,
     /// Whether the interval contains zero.
-    pub may_be_none: bool,
+    pub contains_zero: bool,
 }
 
 /// The four effects of the model.
@@ -48,10 +48,10 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
         title,
         "model-drawing",
         &html! {
-            (labeled_arrow((DEMAND, ROW), "Demand", "mental, physical"))
-            (labeled_arrow((STRAIN, ROW), "Strain", "pressure, frustration"))
-            (labeled_arrow((PERFORMANCE, ROW), "Performance", "overall score, %"))
-            (labeled_arrow(FEEDBACK, "Feedback", "helpfulness"))
+            (labeled_box((DEMAND, ROW), "Demand", "mental, physical"))
+            (labeled_box((STRAIN, ROW), "Strain", "pressure, frustration"))
+            (labeled_box((PERFORMANCE, ROW), "Performance", "overall score, %"))
+            (labeled_box(FEEDBACK, "Feedback", "helpfulness"))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
             (effect_text((crossing, middle + 24.0), &effects.on_strain))
             (arrow(&[(STRAIN + BOX.0, middle), (PERFORMANCE, middle)], &effects.on_performance))
@@ -65,7 +65,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
     )
 }
 
-fn labeled_arrow((x, y): (f64, f64), name: &str, what: &str) -> Markup {
+fn labeled_box((x, y): (f64, f64), name: &str, what: &str) -> Markup {
     html! {
         rect.node x=(unit(x)) y=(unit(y)) width=(unit(BOX.0)) height=(unit(BOX.1)) rx="8" {}
         text.label x=(unit(x + 0.5 * BOX.0)) y=(unit(y + 23.0)) text-anchor="middle" { (name) }
@@ -78,19 +78,23 @@ fn effect_text((x, y): (f64, f64), effect: &PathEffect) -> Markup {
 }
 
 fn arrow(points: &[(f64, f64)], effect: &PathEffect) -> Markup {
-    let head = head(points);
+    let head = arrowhead(points);
     html! {
-        path class={ "arrow" @if effect.may_be_none { " may-be-none" } } d=(line(points, false)) {}
+        path class={ "arrow" @if effect.contains_zero { " may-be-none" } } d=(line(points, false)) {}
         path.arrow-head d=(line(&head, true)) {}
     }
 }
 
 /// Returns the corners of an arrowhead at the end of a line. The line's last segment must be parallel to an axis.
-fn head(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+fn arrowhead(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let [.., (x0, y0), (x, y)] = points else { return Vec::new() };
     let (dx, dy) = ((x - x0).signum() * f64::from(u8::from(x != x0)), (y - y0).signum() * f64::from(u8::from(y != y0)));
-    let (back_x, back_y) = (x - 2.0 * HEAD * dx, y - 2.0 * HEAD * dy);
-    vec![(*x, *y), (back_x + HEAD * dy, back_y + HEAD * dx), (back_x - HEAD * dy, back_y - HEAD * dx)]
+    let (back_x, back_y) = (x - 2.0 * ARROWHEAD_HALF_WIDTH * dx, y - 2.0 * ARROWHEAD_HALF_WIDTH * dy);
+    vec![
+        (*x, *y),
+        (back_x + ARROWHEAD_HALF_WIDTH * dy, back_y + ARROWHEAD_HALF_WIDTH * dx),
+        (back_x - ARROWHEAD_HALF_WIDTH * dy, back_y - ARROWHEAD_HALF_WIDTH * dx),
+    ]
 }
 
 #[cfg(test)]
@@ -98,11 +102,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_heads_point_along_the_last_part_and_what_may_be_nothing_is_dashed() {
-        assert_eq!(head(&[(0.0, 0.0), (50.0, 0.0)]), [(50.0, 0.0), (40.0, 5.0), (40.0, -5.0)]);
-        assert_eq!(head(&[(0.0, 9.0), (0.0, 50.0)]), [(0.0, 50.0), (5.0, 40.0), (-5.0, 40.0)]);
-        assert!(head(&[(0.0, 0.0)]).is_empty());
-        let effect = |words: &str, may_be_none| PathEffect { words: words.into(), may_be_none };
+    fn exact_arrowheads_follow_last_segment_and_uncertain_effects_are_dashed() {
+        assert_eq!(arrowhead(&[(0.0, 0.0), (50.0, 0.0)]), [(50.0, 0.0), (40.0, 5.0), (40.0, -5.0)]);
+        assert_eq!(arrowhead(&[(0.0, 9.0), (0.0, 50.0)]), [(0.0, 50.0), (5.0, 40.0), (-5.0, 40.0)]);
+        assert!(arrowhead(&[(0.0, 0.0)]).is_empty());
+        let effect = |words: &str, contains_zero| PathEffect { words: words.into(), contains_zero };
         let effects = PathEffects {
             on_strain: effect("0.7 <a>", false),
             on_performance: effect("b", true),

@@ -5,11 +5,11 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 /// Time after which an unused login session expires, µs: two hours, so that users stay logged in during a flight.
-const IDLE_US: u64 = 2 * 3_600_000_000;
+const IDLE_TIMEOUT_US: u64 = 2 * 3_600_000_000;
 /// Time after which every login session expires, µs: a working day.
-const LONGEST_US: u64 = 12 * 3_600_000_000;
+const MAX_SESSION_AGE_US: u64 = 12 * 3_600_000_000;
 /// Maximum number of anonymous browser sessions. Bounds the memory that clients without cookies can use.
-const STRANGERS: usize = 4_096;
+const MAX_ANONYMOUS_SESSIONS: usize = 4_096;
 
 /// Random bytes of a cookie or CSRF token.
 pub type TokenBytes = [u8; 32];
@@ -25,7 +25,7 @@ pub struct BrowserSession {
     pub credential: Option<CredentialHash>,
     /// CSRF token included in every form.
     pub token: String,
-    began_us: u64,
+    started_us: u64,
     used_us: u64,
 }
 
@@ -48,7 +48,8 @@ impl BrowserSessions {
     pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<BrowserSession> {
         let key = key(cookie);
         let visit = self.0.get_mut(&key)?;
-        let over = now_us.saturating_sub(visit.used_us) > IDLE_US || now_us.saturating_sub(visit.began_us) > LONGEST_US;
+        let over = now_us.saturating_sub(visit.used_us) > IDLE_TIMEOUT_US
+            || now_us.saturating_sub(visit.started_us) > MAX_SESSION_AGE_US;
         if over {
             self.0.remove(&key);
             return None;
@@ -69,7 +70,7 @@ impl BrowserSessions {
             self.evict_oldest(now_us);
         }
         let (name, credential) = who.map(|(name, credential)| (name.to_owned(), credential)).unzip();
-        let visit = BrowserSession { name, credential, token: text_of(&token), began_us: now_us, used_us: now_us };
+        let visit = BrowserSession { name, credential, token: text_of(&token), started_us: now_us, used_us: now_us };
         let cookie = text_of(&cookie);
         self.0.insert(key(&cookie), visit.clone());
         (cookie, visit)
@@ -95,16 +96,16 @@ impl BrowserSessions {
 
     /// Removes expired sessions and, above the limit, the anonymous sessions that have been idle longest.
     fn evict_oldest(&mut self, now_us: u64) {
-        if self.0.len() < STRANGERS {
+        if self.0.len() < MAX_ANONYMOUS_SESSIONS {
             return;
         }
-        self.0.retain(|_, visit| now_us.saturating_sub(visit.used_us) <= IDLE_US);
+        self.0.retain(|_, visit| now_us.saturating_sub(visit.used_us) <= IDLE_TIMEOUT_US);
         let mut strangers: Vec<(u64, [u8; 32])> =
             self.0.iter().filter(|(_, visit)| visit.name.is_none()).map(|(key, visit)| (visit.used_us, *key)).collect();
-        if strangers.len() >= STRANGERS {
+        if strangers.len() >= MAX_ANONYMOUS_SESSIONS {
             strangers.sort_unstable();
             // Removes a quarter of them, so that further anonymous requests do not each trigger a scan.
-            for (_, key) in strangers.into_iter().take(STRANGERS / 4) {
+            for (_, key) in strangers.into_iter().take(MAX_ANONYMOUS_SESSIONS / 4) {
                 self.0.remove(&key);
             }
         }
@@ -121,7 +122,7 @@ pub fn constant_time_eq(a: &str, b: &str) -> bool {
 mod tests {
     use super::*;
 
-    const WORD: CredentialHash = [1; 32];
+    const TEST_CREDENTIAL: CredentialHash = [1; 32];
 
     fn secrets(k: u32) -> [TokenBytes; 2] {
         let mut a = [0; 32];
@@ -130,50 +131,54 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_visit_lives_while_it_is_used_and_no_longer_than_a_day() {
+    fn exact_browser_session_expires_when_idle_or_after_maximum_age() {
         let mut visits = BrowserSessions::default();
-        let (cookie, visit) = visits.begin(Some(("anna", WORD)), secrets(1), 0);
+        let (cookie, visit) = visits.begin(Some(("anna", TEST_CREDENTIAL)), secrets(1), 0);
         assert_eq!(cookie.len(), 64);
-        assert_eq!(visits.find(&cookie, IDLE_US).map(|visit| visit.name), Some(Some("anna".into())));
-        assert_eq!(visits.find(&cookie, 2 * IDLE_US).map(|found| found.token), Some(visit.token));
-        assert_eq!(visits.find(&cookie, 3 * IDLE_US + 1), None);
-        let (cookie, _) = visits.begin(Some(("anna", WORD)), secrets(2), 0);
+        assert_eq!(visits.find(&cookie, IDLE_TIMEOUT_US).map(|visit| visit.name), Some(Some("anna".into())));
+        assert_eq!(visits.find(&cookie, 2 * IDLE_TIMEOUT_US).map(|found| found.token), Some(visit.token));
+        assert_eq!(visits.find(&cookie, 3 * IDLE_TIMEOUT_US + 1), None);
+        let (cookie, _) = visits.begin(Some(("anna", TEST_CREDENTIAL)), secrets(2), 0);
         for k in 1..=6 {
-            assert!(visits.find(&cookie, k * IDLE_US).is_some());
+            assert!(visits.find(&cookie, k * IDLE_TIMEOUT_US).is_some());
         }
-        assert_eq!(visits.find(&cookie, LONGEST_US + 1), None);
+        assert_eq!(visits.find(&cookie, MAX_SESSION_AGE_US + 1), None);
         assert_eq!(visits.find("", 0), None);
     }
 
     #[test]
-    fn exact_a_new_password_ends_all_other_visits_of_that_person() {
+    fn exact_password_change_ends_other_sessions_of_user() {
         let mut visits = BrowserSessions::default();
-        let cookies = [("anna", 1), ("anna", 2), ("ben", 3)].map(|(name, k)| visits.begin(Some((name, WORD)), secrets(k), 0).0);
+        let cookies =
+            [("anna", 1), ("anna", 2), ("ben", 3)].map(|(name, k)| visits.begin(Some((name, TEST_CREDENTIAL)), secrets(k), 0).0);
         visits.end_all_of("anna", Some(&cookies[0]));
         assert_eq!(cookies.each_ref().map(|cookie| visits.find(cookie, 1).is_some()), [true, false, true]);
         visits.renew(&cookies[0], [2; 32]);
         let credential = |visits: &mut BrowserSessions, cookie: &str| visits.find(cookie, 1).and_then(|visit| visit.credential);
-        assert_eq!((credential(&mut visits, &cookies[0]), credential(&mut visits, &cookies[2])), (Some([2; 32]), Some(WORD)));
+        assert_eq!(
+            (credential(&mut visits, &cookies[0]), credential(&mut visits, &cookies[2])),
+            (Some([2; 32]), Some(TEST_CREDENTIAL))
+        );
         let (stranger, _) = visits.begin(None, secrets(4), 0);
-        visits.renew(&stranger, WORD);
+        visits.renew(&stranger, TEST_CREDENTIAL);
         assert_eq!(credential(&mut visits, &stranger), None, "an anonymous session has no credential");
         visits.end(&cookies[0]);
         assert_eq!(visits.find(&cookies[0], 1), None);
     }
 
     #[test]
-    fn prop_unknown_visitors_use_bounded_memory_and_end_no_sessions() {
+    fn prop_anonymous_sessions_are_bounded_and_evict_no_logins() {
         let mut visits = BrowserSessions::default();
-        let (anna, _) = visits.begin(Some(("anna", WORD)), secrets(u32::MAX), 0);
+        let (anna, _) = visits.begin(Some(("anna", TEST_CREDENTIAL)), secrets(u32::MAX), 0);
         for k in 0..20_000 {
             visits.begin(None, secrets(k), u64::from(k));
         }
-        assert!(visits.0.len() <= STRANGERS + 1, "{}", visits.0.len());
+        assert!(visits.0.len() <= MAX_ANONYMOUS_SESSIONS + 1, "{}", visits.0.len());
         assert!(visits.find(&anna, 20_000).is_some());
     }
 
     #[test]
-    fn exact_tokens_are_compared_whole() {
+    fn exact_constant_time_comparison() {
         assert!(constant_time_eq("ab", "ab") && constant_time_eq("", ""));
         assert!(!constant_time_eq("ab", "ac") && !constant_time_eq("ab", "abc") && !constant_time_eq("", "a"));
     }

@@ -14,7 +14,7 @@ pub(super) struct LaneTrack {
     pub(super) first: usize,
     pub(super) count: usize,
     pub(super) reach_m: f64,
-    pub(super) band_m: (f64, f64),
+    pub(super) height_range_m: (f64, f64),
 }
 
 impl LaneTrack {
@@ -28,7 +28,7 @@ impl LaneTrack {
     }
 
     /// Returns the arc length of the track point that is nearest to a point, m; at most `beyond_m` beyond the ends.
-    pub(super) fn lateral_distance_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
+    pub(super) fn nearest_arc_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
         let last = self.points_m.len() - 2;
         let place = |k: usize| {
             let (line, to) = (self.points_m[k + 1] - self.points_m[k], point_m - self.points_m[k]);
@@ -52,8 +52,8 @@ impl LaneTrack {
 
     /// Returns false only if a ray misses all objects in this lane. Compares the height ranges of ray and lane, extended by the
     /// reach.
-    pub(super) fn ray_passes(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> bool {
-        let (low, high) = self.band_m;
+    pub(super) fn ray_may_hit(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> bool {
+        let (low, high) = self.height_range_m;
         let end = origin_m.up() + direction.up() * max_m;
         let (bottom, top) = (origin_m.up().min(end), origin_m.up().max(end));
         top >= low - self.reach_m && bottom <= high + self.reach_m
@@ -61,9 +61,9 @@ impl LaneTrack {
 }
 
 /// Returns a polyline without collinear points, so that a straight deck is one segment regardless of its point spacing.
-pub(super) fn simplified(points_m: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
+pub(super) fn without_collinear_points(points_m: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
     /// Maximum deviation of a point from a straight segment, m.
-    const STRAIGHT_M: f64 = 1e-4;
+    const COLLINEAR_TOLERANCE_M: f64 = 1e-4;
     let mut kept: Vec<Vec3<Enu>> = Vec::new();
     for p in points_m {
         if kept.last().is_some_and(|l| (*p - *l).norm() < 1e-9) {
@@ -72,7 +72,7 @@ pub(super) fn simplified(points_m: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
         if let [.., a, b] = kept[..] {
             let line = (*p - a).unit();
             let off = (b - a) - line * (b - a).dot(line);
-            if off.norm() < STRAIGHT_M {
+            if off.norm() < COLLINEAR_TOLERANCE_M {
                 kept.pop();
             }
         }
