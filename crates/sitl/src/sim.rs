@@ -365,7 +365,7 @@ impl Sim {
     }
 
     /// Runs the ticks due up to `until`. Stops early for a lockstep request to peers, or for a file request of a client
-    /// ([`Sim::poll_file_job`]): it must be completed before the next tick so that its response has a defined place in simulation
+    /// ([`Sim::poll_file_job`]): it must be completed before the next tick so that its response arrives at a defined simulation
     /// time.
     pub fn handle_timeout(&mut self, until: SimTime) {
         if self.waiting() {

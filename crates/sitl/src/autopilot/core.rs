@@ -1,4 +1,4 @@
-//! The autopilot object: it carries inputs and requests between estimator, navigator, failsafes and control.
+//! The autopilot object: passes inputs and requests between the estimator, navigator, failsafes and control loops.
 
 use super::control::airframe::Airframe;
 use super::control::landed::{FlightPhase, LandingInput, PhaseChange};
@@ -78,7 +78,7 @@ pub struct Autopilot {
     control: Control,
     unfused: UnfusedReadings,
     armed: bool,
-    /// Status for telemetry, written from the parts. No part reads it.
+    /// Status for telemetry. Output only: the autopilot never reads it.
     status: AutopilotStatus,
     events: EventQueue,
     last_step: SimTime,
@@ -238,7 +238,7 @@ impl Autopilot {
         self.navigator.mission.set_deferred(deferred);
     }
 
-    /// Jumps to a mission item. With `anew`, resets the mission's progress. Returns false if the item does not exist.
+    /// Jumps to a mission item. If `anew` is true, resets the mission's progress first. Returns false if the item does not exist.
     pub fn set_mission_current(&mut self, index: usize, anew: bool) -> bool {
         let known = self.navigator.set_mission_current(index, anew);
         self.update_status();
@@ -537,7 +537,7 @@ impl Autopilot {
         self.navigate(tick, Navigator::touch_down);
     }
 
-    /// Writes the status for telemetry from the parts.
+    /// Updates the status for telemetry from the state of all modules.
     fn update_status(&mut self) {
         let (status, navigator, failsafe) = (&mut self.status, &self.navigator, &self.failsafe);
         status.armed = self.armed;

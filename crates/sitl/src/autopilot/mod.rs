@@ -1,8 +1,7 @@
 //! The built-in autopilot: estimator, navigator, failsafes and control. Its inputs are sensor readings, sticks and requests, never
 //! the true state.
 //!
-//! Each part is a state with functions of that state and its inputs, and calls no other part. [`Autopilot`] carries inputs, requests
-//! and events between them.
+//! The four modules do not call each other. [`Autopilot`] passes inputs, requests and events between them.
 
 mod control;
 mod core;

@@ -96,7 +96,7 @@ pub struct Tuning {
     pub fence_action: FenceAction,
     /// `FENCE_ENABLE` (ArduPilot): whether the geofence is enabled. Commands and mission items can change it.
     pub fence_enabled: bool,
-    /// The fence switch is a parameter that ground stations see, and it persists. Otherwise the fence is enabled again after the
+    /// The fence switch is a persistent parameter visible to ground stations. Otherwise the fence is enabled again after the
     /// flight (ArduPilot).
     pub fence_switch_stays: bool,
     /// `GF_MAX_HOR_DIST`: maximum distance from home, m; 0: no limit.

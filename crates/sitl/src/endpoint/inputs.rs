@@ -7,7 +7,7 @@ use super::vehicle_link::VehicleLink;
 use super::vehicle_link::snapshot::VehicleSnapshot;
 use crate::autopilot::Autopilot;
 
-/// Returns the aircraft as the equipment and the scoring feed know it.
+/// Returns the aircraft state for the equipment and the scoring feed.
 pub(super) fn payload_input<'v>(
     vehicle: &VehicleLink,
     aircraft: &SimulatedAircraft<'v>,

@@ -26,7 +26,7 @@ fn repeat_autopilot(link: &mut PeerLink, inputs: &StreamInputs) {
 }
 
 impl Endpoint {
-    /// Sends everything that is due.
+    /// Sends all messages scheduled for this tick.
     pub fn publish(
         &mut self,
         aircraft: &SimulatedAircraft,

@@ -321,7 +321,7 @@ mod tests {
 
     #[test]
     fn exact_an_empty_battery_outranks_being_respawned() {
-        // One millisecond before the respawn, and at the same instant.
+        // One millisecond before the respawn, and exactly at it.
         for ms in [2_999, 3_000] {
             let mut sim = flown(|_| ());
             touches(&mut sim, Some(Surface::Bridge), 2.0);
@@ -356,12 +356,12 @@ mod tests {
                 put(&mut sim, pad + Vec3::new(0.3, 0.0, 0.1));
                 touches(&mut sim, Some(surface), impact_m_s);
                 let mut events = pass(&mut sim, 1);
-                // The vehicle then stays there.
+                // The vehicle then remains at that position.
                 touches(&mut sim, Some(surface), 0.0);
                 events.extend(pass(&mut sim, 10_000));
                 assert_eq!(crashes(&events), expected, "{surface:?} at {impact_m_s} m/s: {events:?}");
                 assert!(!events.contains(&SimEvent::Respawn) && sim.ended().is_none(), "{events:?}");
-                assert_eq!(sim.scoring.contact, ContactKind::None, "standing on the pad is no contact");
+                assert_eq!(sim.scoring.contact, ContactKind::None, "resting on the pad does not count as a contact");
             }
         }
     }

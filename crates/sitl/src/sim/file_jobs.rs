@@ -1,4 +1,4 @@
-//! File jobs for the host: those of the file server and of log transfers take turns.
+//! File jobs for the host, alternating between the file server and log transfers.
 
 use crate::endpoint::VehicleLink;
 use crate::endpoint::files::job::{FileError, FileJob, FileJobResult};
@@ -6,7 +6,7 @@ use crate::endpoint::files::job_allowance::JobAllowance;
 use crate::endpoint::logs::LogTransfers;
 use spandrel_model::time::SimTime;
 
-/// The limit per tick, and whose turn it is.
+/// The per-tick limit, and the service whose job runs next.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FileJobScheduler {
     allowance: JobAllowance,

@@ -1,4 +1,4 @@
-//! Instructor inputs during a flight: failures, weather and radio impairment.
+//! Applies instructor inputs during a flight: failures, weather and radio impairment.
 
 use super::Sim;
 use crate::endpoint::{FailureInjection, LinkId, LinkKind};

@@ -1,4 +1,4 @@
-//! One tick in its documented order.
+//! Runs one simulation tick in the order given in docs/src/reference/wire.md, "One simulation step".
 
 use super::{STEP, Sim};
 use crate::autopilot::CONTROL_HZ;

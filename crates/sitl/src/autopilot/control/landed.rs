@@ -12,7 +12,7 @@ const STOPPED_S: f64 = 0.3;
 const DESCENT_MIN_M_S: f64 = 0.25;
 /// Time over which the thrust fades out after ground contact, s. The landing is then complete.
 const FADE_S: f64 = 0.5;
-/// Tolerance of the range finder over the standing height, m.
+/// Maximum range finder reading above its value on the ground that still counts as on the ground, m.
 const RANGE_MARGIN_M: f64 = 0.35;
 /// Minimum cosine of the tilt on the ground (40 degrees).
 const UPRIGHT: f64 = 0.766;
@@ -36,7 +36,7 @@ pub enum FlightPhase {
     InAir,
 }
 
-/// A change of the phase, or the end of the time that an armed vehicle may stand.
+/// A change of the flight phase, or expiry of the automatic disarm timeout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PhaseChange {
     /// The motors spool up for a take-off.
@@ -47,7 +47,7 @@ pub enum PhaseChange {
     TakeoffAbandoned,
     /// The vehicle has landed.
     Landed,
-    /// The vehicle has stood armed for too long.
+    /// The vehicle has been armed on the ground for longer than the automatic disarm timeout.
     StandingTimeout {
         /// Whether it has flown since arming.
         flown: bool,
@@ -122,7 +122,7 @@ impl LandingDetector {
         ((now - self.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0)
     }
 
-    /// Returns the remaining thrust fraction while the ground takes the weight, 0 to 1.
+    /// Returns the remaining thrust fraction as the thrust fades out after ground contact, 0 to 1.
     #[must_use]
     pub fn thrust_share(&self) -> f64 {
         1.0 - self.fade_s / FADE_S

@@ -110,9 +110,9 @@ mod tests {
             }
             check.dropped()
         };
-        assert!(!feed(true, 1_000) && !feed(false, 500), "half a second is an outlier");
-        assert!(feed(false, 500), "a second is a fault");
-        assert!(feed(true, 1_000), "not back at once");
+        assert!(!feed(true, 1_000) && !feed(false, 500), "half a second of rejections is not a fault");
+        assert!(feed(false, 500), "one second of rejections is a fault");
+        assert!(feed(true, 1_000), "not used again immediately");
         assert!(!feed(true, 1_000));
     }
 }

@@ -51,6 +51,6 @@ mod tests {
         ground.add_measurement(9.0);
         assert!(!ground.agrees_with_filter(-5.0, -9.1));
         ground.add_measurement(f64::INFINITY);
-        assert!(!ground.agrees_with_filter(-5.1, -9.0), "nothing to see");
+        assert!(!ground.agrees_with_filter(-5.1, -9.0), "no ground in range");
     }
 }

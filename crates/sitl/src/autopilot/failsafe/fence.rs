@@ -51,7 +51,7 @@ impl FenceOutline {
                 let meet = |(start, end): ((f64, f64), (f64, f64))| {
                     let (side, gap) = ((end.0 - start.0, end.1 - start.1), (start.0 - from.0, start.1 - from.1));
                     let d = cross(path, side);
-                    // On the side itself, its midpoint decides.
+                    // A side parallel to the path has no single intersection; the midpoint of the section along it is tested instead.
                     let share = cross(gap, path) / d;
                     (d != 0.0 && (0.0..=1.0).contains(&share)).then(|| cross(gap, side) / d)
                 };
@@ -195,6 +195,6 @@ mod tests {
         for (place, allowed) in [((5.0, 5.0), true), ((0.0, 0.0), false), ((50.0, 0.0), false), ((100.0, 0.0), true)] {
             assert_eq!(fence.allows(place), allowed, "{place:?}");
         }
-        assert!(Fence::default().allows((1e6, 0.0)), "without areas there is no boundary");
+        assert!(Fence::default().allows((1e6, 0.0)), "no zones, no boundary");
     }
 }

@@ -1,4 +1,4 @@
-//! What the failsafes see of the other parts.
+//! Inputs of the failsafes: a read-only view of the rest of the autopilot.
 
 use crate::autopilot::estimator::estimate::Estimate;
 use crate::autopilot::external_input::Sticks;

@@ -102,7 +102,7 @@ impl LossMonitor {
         Some(respond_to_loss(input.tuning.manual_loss, hold, why, input))
     }
 
-    /// Reports the begin or end of a failsafe. Returns the request for its mode.
+    /// Reports the start or end of a failsafe. Returns the mode change request.
     pub fn conclude(
         &mut self,
         flown: Option<LossMode>,

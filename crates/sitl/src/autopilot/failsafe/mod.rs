@@ -1,5 +1,5 @@
-//! Failsafes: links, sensor health, geofence, battery, arming checks and stick takeover. They return requests and report events;
-//! they change no other part.
+//! Failsafes: links, sensor health, geofence, battery, arming checks and stick takeover. They only return requests and
+//! report events; the autopilot carries the requests out.
 
 mod arming;
 mod attitude_monitor;
@@ -159,7 +159,7 @@ impl Failsafe {
         self.losses.check(loss, &self.links, input)
     }
 
-    /// Reports the begin or end of a failsafe after all losses were checked. Returns the request for its mode.
+    /// Reports the start or end of a failsafe after all losses have been checked. Returns the mode change request.
     pub fn conclude_losses(&mut self, flown: Option<LossMode>, input: &FailsafeInput) -> Option<FailsafeRequest> {
         self.losses.conclude(flown, input, &mut self.events)
     }

@@ -32,7 +32,7 @@ pub struct Heading {
     rate_rad_s: f64,
     /// Added to the heading rate setpoint while a turn is braked, rad/s.
     brake_rad_s: f64,
-    /// Whether no heading is held: the nose turns at a rate, or has not come to rest since.
+    /// Whether heading hold is off: a rate is commanded, or the rotation has not stopped since.
     free: bool,
     /// A commanded turn.
     turn: Option<TurnCommand>,

@@ -1,4 +1,4 @@
-//! What the navigator sees of the other parts.
+//! Inputs of the navigator: a read-only view of the rest of the autopilot.
 
 use crate::autopilot::control::airframe::Airframe;
 use crate::autopilot::control::gains::Gains;

@@ -69,7 +69,7 @@ impl Navigator {
         let low = math::lerp(input.gains.hover_n, input.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
         let thrust_n = if s.up > 0.0 { math::lerp(input.gains.hover_n, input.gains.thrust_max_n, s.up) } else { low };
         let descent_m_s = if s.up < -0.5 { l.descend_m_s } else { 0.0 };
-        // A mode with heading hold continues from this heading.
+        // If the next mode holds the heading, it starts from the current one.
         self.heading.yaw_rad = yaw;
         self.heading.stop();
         Setpoint::Rates { rates_rad_s, thrust_n, descent_m_s }

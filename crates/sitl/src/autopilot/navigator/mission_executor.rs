@@ -134,7 +134,7 @@ impl Navigator {
         self.report.target_m = Some(self.target_m);
         let heading = heading_of(self.target_m - input.here(), TURN_BEYOND_M);
         self.heading.turn_to(self.look_rad(input).or(self.heading.target_rad).or(heading), self.modes.active, input);
-        // Whatever follows the trajectory continues from the plan.
+        // The next mode or item starts from the planned velocity and acceleration.
         self.shaper.velocity_m_s = planned.velocity_m_s;
         self.shaper.acceleration_m_s2 = planned.acceleration_m_s2;
         let behind = self.tracking_error(&planned, input);

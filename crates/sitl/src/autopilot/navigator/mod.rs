@@ -1,5 +1,5 @@
-//! The navigator: modes, missions, returns, circles, home and the heading. It turns sticks, requests and external setpoints into
-//! setpoints for the control loops.
+//! The navigator: modes, missions, returns, circles, home and the heading. It converts stick inputs, requests and external
+//! setpoints into setpoints for the control loops.
 
 mod automatic;
 mod circle;

@@ -141,7 +141,7 @@ impl Navigator {
         Vec3::new(flat.north(), flat.east(), mix[2].clamp(-up, down))
     }
 
-    /// Keeps the position relative to the target with the nose toward it. Holds position without a target.
+    /// Maintains the configured position relative to the target and points the nose at it. Holds position without a target.
     pub(super) fn follow_target(&mut self, input: &NavigatorInput) -> Setpoint {
         let Some(target) = self.follower.target(&input.tuning.follow, input.here(), input.tuning.client_pace, input.now) else {
             return self.go(None, input);

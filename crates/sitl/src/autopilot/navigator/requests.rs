@@ -33,7 +33,7 @@ impl Navigator {
                 self.switch_fence(enabled);
                 RequestOutcome::Accepted
             }
-            // These concern the motors.
+            // Arming and disarming are handled by the autopilot object.
             AutopilotRequest::Arm { .. } | AutopilotRequest::Disarm { .. } => RequestOutcome::Unsupported,
             AutopilotRequest::Orbit(request) => self.request_orbit(request, input),
             AutopilotRequest::CircleAhead => self.request_circle_ahead(input),
@@ -102,7 +102,7 @@ impl Navigator {
         None
     }
 
-    /// Returns true on the ground if the throttle stick is so high that a mode with direct throttle would take off at once.
+    /// Returns true on the ground if the throttle stick is so high that a mode with direct throttle would take off immediately.
     fn throttle_too_high(&self, mode: FlightMode, input: &NavigatorInput) -> bool {
         let direct = |mode: FlightMode| matches!(mode, FlightMode::Stabilized | FlightMode::Acro);
         let high = input.links.sticks.up > HALF_HOVER_THROTTLE && input.sticks_fresh();

@@ -5,7 +5,7 @@ use crate::endpoint::link::LinkId;
 use spandrel_mavlink::ftp::FtpPacket;
 use std::collections::VecDeque;
 
-/// Burst packets per tick, for all clients together: about 240 kB/s at 1000 ticks a second, less than a local link carries.
+/// Burst packets per tick, for all clients together: about 240 kB/s at 1000 ticks/s, below the capacity of a local link.
 const PACKETS_A_TICK: usize = 1;
 
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@
 use super::job::FileAction;
 use spandrel_model::time::SimTime;
 
-/// Maximum number of jobs at once after an idle period.
+/// Maximum number of jobs in a burst after an idle period.
 const SAVED_MAX: u32 = 32;
 
 /// One small job per millisecond of simulation time, accumulated up to a maximum.

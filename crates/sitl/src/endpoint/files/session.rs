@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// Maximum number of open files of all clients.
 const SESSIONS_MAX: usize = 32;
-/// Maximum number of open files per client; MAVProxy transfers five at once.
+/// Maximum number of open files per client; MAVProxy transfers up to five in parallel.
 const EACH_MAX: usize = 8;
 /// Timeout after which an idle session is closed, so that a vanished client does not hold resources.
 const IDLE: SimTime = SimTime::from_ms(60_000);

@@ -233,7 +233,7 @@ fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
     let create = bench.packet(Opcode::CreateFile, 4, 0, b"new");
     bench.put(CLIENT, &create);
     bench.ask(Opcode::WriteFile, 4, 0, b"hello");
-    assert!(bench.put(CLIENT, &create).is_empty(), "late: its answer has long been there");
+    assert!(bench.put(CLIENT, &create).is_empty(), "late duplicate of an answered request");
     assert_eq!(bench.files.0["new"], b"hello");
     bench.now += SimTime::from_ms(2_001);
     assert_eq!(bench.put(CLIENT, &create).len(), 1);

@@ -55,7 +55,7 @@ impl StreamSchedule {
         self.streams.iter().filter_map(|stream| stream.interval).map(|interval| 1.0 / interval.s()).sum()
     }
 
-    /// Checks whether anything is due.
+    /// Returns true if any message is ready to be sent.
     #[must_use]
     pub fn is_due(&self, now: SimTime) -> bool {
         now >= self.next_due

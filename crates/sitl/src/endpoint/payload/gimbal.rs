@@ -46,7 +46,7 @@ pub struct GimbalState {
     pub pitch_rad: f64,
     /// Pitch rate, rad/s.
     pub rate_rad_s: f64,
-    /// Primary control: system and component ID; 0 for nobody.
+    /// Component in primary control: system and component ID; 0 if none.
     pub control: (u8, u8),
     /// Secondary control: system and component ID.
     pub secondary: (u8, u8),
@@ -72,7 +72,7 @@ impl GimbalState {
         }
     }
 
-    /// Checks whether this sender may move the gimbal: anyone if nobody has control, otherwise only those in control.
+    /// Returns true if this sender may move the gimbal. Without a component in control, any sender may.
     #[must_use]
     pub fn accepts_control_from(&self, from: (u8, u8)) -> bool {
         self.control == (0, 0) || self.control == from || self.secondary == from

@@ -1,4 +1,4 @@
-//! What the equipment and the scoring feed know of the aircraft. It comes from sensors, physics and the state that any autopilot
+//! Aircraft state used by the equipment and the scoring feed. It comes from sensors, physics and the state that any autopilot
 //! reports, so that this half also works behind another autopilot.
 
 use super::scoring_truth::ScoringTruth;

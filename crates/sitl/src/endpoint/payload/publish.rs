@@ -10,7 +10,7 @@ use crate::endpoint::link::{LinkId, Links};
 use spandrel_mavlink::dialect::{MavMessage, MavResult};
 
 impl PayloadLink {
-    /// Takes the image that is due, and announces it.
+    /// Captures the next scheduled image and announces it.
     pub(crate) fn take_picture(&mut self, input: &PayloadInput, links: &mut Links) {
         let (now, here) = (input.clock.now, input.position_m.enu());
         if !self.equipment.camera.due(now, here) {

@@ -16,7 +16,7 @@ pub struct ScoringFeed {
 }
 
 impl ScoringFeed {
-    /// Creates the feed; everything is due immediately.
+    /// Creates the feed. Every value is sent on the first call.
     #[must_use]
     pub fn new() -> Self {
         let at = |hz| Schedule::new(SimTime::ZERO, hz);

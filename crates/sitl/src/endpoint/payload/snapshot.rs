@@ -10,7 +10,7 @@ use crate::endpoint::link::LinkKind;
 use spandrel_model::frames::{Frd, Ned, Rotation};
 use spandrel_model::vehicle::Camera;
 
-/// State of the equipment and of the aircraft that carries it.
+/// State of the equipment and its aircraft.
 #[derive(Debug, Clone, Copy)]
 pub struct PayloadSnapshot<'a> {
     /// The time on the clocks of the link that messages are built for.

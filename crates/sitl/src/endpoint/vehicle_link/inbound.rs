@@ -18,7 +18,7 @@ pub(crate) struct InboundMessage<'a, 'v> {
     pub from: (u8, u8),
     /// The aircraft.
     pub aircraft: &'a SimulatedAircraft<'v>,
-    /// The aircraft as the equipment knows it.
+    /// Aircraft state available to the equipment.
     pub input: &'a PayloadInput<'v>,
     /// The autopilot.
     pub autopilot: &'a mut Autopilot,

@@ -310,13 +310,13 @@ impl CameraState {
         }
     }
 
-    /// Checks whether an image is due at `now`; if so, call [`CameraState::take`].
+    /// Returns true if the next image should be captured at `now`; if so, call [`CameraState::take`].
     #[must_use]
     pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
         self.series.due(now, here) && !self.is_full(now)
     }
 
-    /// Stores the image that is due and returns its message. A full card ends every series.
+    /// Captures and stores the next image and returns its message. A full card ends every series.
     pub fn take(&mut self, image: CaptureRecord, now: SimTime, here: Vec3<Enu>) -> MavMessage {
         let message = image.message();
         self.card.add_picture(image, self.settings.picture_mib());
@@ -356,7 +356,7 @@ mod tests {
         let most = (CARD_MIB / CameraSettings::default().picture_mib()) as i32;
         assert!(indices.iter().copied().eq(0..most), "{} pictures", indices.len());
         let left = CARD_MIB - camera.summary(now).used_mib;
-        assert!((0.0..CameraSettings::default().picture_mib()).contains(&left), "the storage that is told agrees: {left}");
+        assert!((0.0..CameraSettings::default().picture_mib()).contains(&left), "reported free storage does not match: {left}");
         assert!(camera.is_full(now) && camera.summary(now).interval_s.is_none());
         assert_eq!(camera.start(0.0, 1.0, now), Err(CameraError::Full));
         assert_eq!(camera.start_by_distance(5.0, false, here, now), Err(CameraError::Full));
@@ -376,7 +376,7 @@ mod tests {
             taken += 1;
         }
         assert_eq!(taken, 4, "three single ones and the first of the series");
-        assert_eq!(camera.summary(now).interval_s, Some(1.0), "the series goes on");
+        assert_eq!(camera.summary(now).interval_s, Some(1.0), "the series continues");
         assert!(camera.start(0.0, 1.0, now).is_ok());
         camera.stop();
         assert!(camera.due(now, here), "a picture that was promised before the stop");

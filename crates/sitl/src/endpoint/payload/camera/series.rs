@@ -75,7 +75,7 @@ impl CaptureSeries {
         *self = Self::default();
     }
 
-    /// Checks whether an image is due; call [`CaptureSeries::taken`] once it is taken.
+    /// Returns true if the next image should be captured; call [`CaptureSeries::taken`] after the capture.
     #[must_use]
     pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
         let far = self.by_distance.is_some_and(|(distance_m, last)| (here - last).norm() >= distance_m);

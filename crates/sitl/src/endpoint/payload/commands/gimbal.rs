@@ -70,7 +70,7 @@ fn configure(c: &VehicleCommand, payload: &mut Payload) -> MavResult {
     let controller = |k: usize, now: (u8, u8)| {
         let is_own = now == c.from;
         let pair = (id_of(c.p[k], now.0, c.from.0, is_own)?, id_of(c.p[k + 1], now.1, c.from.1, is_own)?);
-        // Without a system, nobody is in control, whatever the component.
+        // A system ID of 0 releases control, regardless of the component ID.
         Some(if pair.0 == 0 { (0, 0) } else { pair })
     };
     let (Some(primary), Some(secondary), true) =

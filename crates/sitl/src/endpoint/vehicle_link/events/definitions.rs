@@ -49,7 +49,7 @@ const CHECKS: [(&str, &str, u8); 13] = [
     ("Obstacle above vehicle", "check_obstacle_above", SYSTEM),
     (OTHER, "check_other", SYSTEM),
 ];
-/// A check without an event of its own; the details are in its status text.
+/// A check without a dedicated event; its status text has the details.
 const OTHER: &str = "Preflight check failed";
 pub(super) const ARMING_SUMMARY: &str = "commander_arming_check_summary";
 pub(super) const HEALTH_SUMMARY: &str = "commander_health_summary";

@@ -1,4 +1,4 @@
-//! What differs between autopilot interfaces on the wire.
+//! Differences between the autopilot interfaces on the wire.
 
 use super::super::calibration::CalibrationTexts;
 use super::super::params::ParamView;

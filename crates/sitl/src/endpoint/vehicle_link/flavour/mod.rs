@@ -43,7 +43,7 @@ mod tests {
             }
             for row in flavour.modes {
                 assert_eq!(flavour.row(row.number).unwrap().name, row.name);
-                assert_eq!(flavour.row_of(row.mode, row.number).name, row.name, "as it was asked for");
+                assert_eq!(flavour.row_of(row.mode, row.number).name, row.name, "requested mode");
             }
             assert!(flavour.standard(0).is_none() && flavour.standard(99).is_none());
         }
@@ -58,7 +58,7 @@ mod tests {
         }
         assert_eq!(copter.row_of(FlightMode::Position, 4).number, 5);
         assert_eq!(copter.row_of(FlightMode::Position, 16).number, 16);
-        assert_eq!(copter.row_of(FlightMode::Hold, 3).number, 17, "a hold that nobody asked for is a brake");
+        assert_eq!(copter.row_of(FlightMode::Hold, 3).number, 17, "an unrequested hold is reported as BRAKE");
         assert_eq!(copter.row_of(FlightMode::Hold, 5).number, 5, "LOITER holds without sticks");
         assert_eq!((copter.default_mode(FlightMode::Mission).number, copter.row_of(FlightMode::Mission, 27).number), (3, 27));
     }

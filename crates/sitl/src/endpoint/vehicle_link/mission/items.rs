@@ -127,7 +127,7 @@ fn speed(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     span(item.param2, SPEEDS_M_S, MavMissionResult::MAV_MISSION_INVALID_PARAM2)
 }
 
-/// Rejects a mission with a loop of endless jumps that contains nothing to fly or wait for.
+/// Rejects a mission with an endless jump loop that contains no flight or wait items.
 pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> ItemResult {
     let idle = |item: &MISSION_ITEM_INT_DATA| {
         (item.command as u16) > NAV_LAST

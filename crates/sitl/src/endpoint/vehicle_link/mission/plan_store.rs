@@ -1,5 +1,5 @@
 //! Plans: full and partial upload, and download, of missions, fences and rally points.
-#![allow(deprecated, reason = "clients still know MISSION_REQUEST alone")]
+#![allow(deprecated, reason = "some clients support only MISSION_REQUEST")]
 
 use super::plan_summary::PlanSummary;
 use super::positions::relative;
@@ -22,9 +22,9 @@ const MOST_ITEMS: u16 = 2_000;
 const STALL_S: f64 = 10.0;
 /// Every n-th retry of a request for the first item uses the other encoding (estimate: a second at the usual timeout).
 const OTHER_FORM_EVERY: u8 = 4;
-/// Timeout after which a silent uploader is asked again, s, as in PX4.
+/// Timeout after which a mission item request is repeated, s, as in PX4.
 const ASK_AGAIN_S: f64 = 0.25;
-/// An uploader that usually answers faster is asked again sooner: after this multiple of its usual delay, but not before this
+/// For an uploader that usually responds faster, the request is repeated sooner: after this multiple of its usual delay, but not before this
 /// time, s. MAVSDK gives up on an item after five half-seconds without a request; at 0.25 s only one retry fits into each.
 const OVERDUE: f64 = 4.0;
 const ASK_AGAIN_SOONEST_S: f64 = 0.12;

@@ -17,7 +17,7 @@ pub(super) use tables::{COPTER, PX4};
 
 /// Adds the stored rows with names not yet present, sorted by name.
 pub(super) fn fill_missing(mut rows: Vec<Row>, stored: &[Row]) -> Vec<Row> {
-    // The stable sort keeps the row from the code before the stored one of the same name.
+    // The sort is stable, so a row defined in code precedes a stored row of the same name.
     rows.extend(stored.iter().copied());
     rows.sort_by_key(|row| row.name);
     rows.dedup_by_key(|row| row.name);
