@@ -203,7 +203,7 @@ fn forbidden(folder: &str, layer: &str, module: &[String], path: &[&str]) -> Opt
     let (_, allowed) = TABLE.iter().find(|(name, _)| *name == layer)?;
     let library = folder == PROGRAM && folder_of(target) != PROGRAM;
     if target != layer && !library && !allowed.contains(&target) {
-        return Some(format!("{layer} must not know {target}"));
+        return Some(format!("{layer} must not use {target}"));
     }
     let in_autopilot = folder == "sitl" && module.first().is_some_and(|first| first == "autopilot");
     let truth = target == "sitl" && rest.first() == Some(&"physics") && !rest.get(1).is_some_and(|name| ACTUATION.contains(name));
