@@ -1,5 +1,6 @@
-//! Scores a 25-minute flight again: about 50 Hz of position and stick samples among half a million other frames, four tasks, ten photographs. Prints
-//! the speed as a multiple of real time, the ratio to reading every byte once (which is independent of the machine), and compares with the limit.
+//! Measures how long it takes to score a recorded 25-minute flight. The log contains position and stick samples at about 50 Hz among half a million
+//! other frames, four tasks, and ten photographs. Prints the speed as a multiple of real time, and the ratio to the time for reading every byte once,
+//! which is independent of the machine. Compares the scoring time with its limit.
 
 #[path = "support/best.rs"]
 mod best;
@@ -12,14 +13,14 @@ use spandrel_testkit::job::{self, Tape, fence_of_ten, line, scenario, task, vehi
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Maximum time for scoring, from the issue.
+/// Maximum scoring time, as required by the issue.
 const MAX_TIME: Duration = Duration::from_millis(500);
-/// Maximum time from a sample to the changed cue (shared assessment, in-task feedback).
+/// Maximum time from a telemetry sample to the cue that it changes (shared assessment, in-task feedback).
 const MAX_CUE_LATENCY: Duration = Duration::from_millis(100);
 const FLIGHT_S: f64 = 1500.0;
 const ROUNDS: usize = 7;
 
-/// Returns a long flight with the message rates of a busy link: 340 frames per second in all, and `clearance` at 30 Hz.
+/// Generates a long flight with the message rates of a busy link: 340 frames per second in total, and `clearance` at 30 Hz.
 fn long_flight() -> Vec<Vec<u8>> {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -55,7 +56,8 @@ fn long_flight() -> Vec<Vec<u8>> {
     busy
 }
 
-/// Returns the longest time from a datagram to the transmitted cue over a whole flight: for all datagrams, and for those that changed the cues.
+/// Returns the longest times between receiving a datagram and sending the cue during a whole flight: over all datagrams, and over only those that
+/// changed a cue.
 #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
 fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duration) {
     let mut monitor = Monitor::new(MonitorConfig {

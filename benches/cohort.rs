@@ -1,4 +1,5 @@
-//! Computes a cohort of 10,000 sessions, copied from the example study under new names: parsing the records and all statistics.
+//! Measures how long a cohort of 10,000 sessions takes, from parsing the records to the last statistic. The sessions are copies of the example study
+//! under new names.
 
 #[path = "support/best.rs"]
 mod best;
@@ -11,7 +12,7 @@ use std::time::Duration;
 
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
 const SESSIONS: usize = 10_000;
-/// Maximum time, from the issue.
+/// Maximum time, as required by the issue.
 const MAX_TIME: Duration = Duration::from_secs(2);
 const ROUNDS: usize = 5;
 

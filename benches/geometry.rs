@@ -1,4 +1,5 @@
-//! Cost of queries to the site's static geometry by location: in the open, near the structure, in the interlayer, over the ground.
+//! Measures the cost of queries to the site's static geometry at different locations: in the open, near the structure, in the interlayer, and over
+//! the ground.
 
 #[path = "support/best.rs"]
 mod best;

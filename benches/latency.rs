@@ -1,6 +1,6 @@
-//! Response times of a running simulator over loopback, in real time: command to acknowledgment, and stick to the first changed telemetry (its echo
-//! and, in flight, the roll rate). Also measures whether the simulator misses ticks while a peer floods it. Each result is also printed in control
-//! ticks of 2.5 ms.
+//! Measures the response times of a simulator that runs in real time, over loopback: from a command to its acknowledgment, and from a stick movement
+//! to the first telemetry that shows it (the echoed stick position and, in flight, the roll rate). Also measures whether the simulator keeps up while
+//! a peer floods it with messages. Results are printed in milliseconds and in control ticks of 2.5 ms.
 
 #[path = "support/running.rs"]
 mod running;
@@ -12,18 +12,18 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 const TICK_MS: f64 = 2.5;
-/// Target for the 99th percentile, from the issue: two control ticks.
+/// Target for the 99th percentile, as required by the issue: two control ticks.
 const TARGET_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
-/// Pause between measurements. Not a multiple of any period in the vehicle, so that all phases occur.
+/// Pause between measurements. It is not a multiple of any period in the vehicle, so that the measurements sample all phases of each period.
 const MEASUREMENT_PAUSE: Duration = Duration::from_micros(7_310);
 /// Message rate and duration of the flood.
 const FLOOD_HZ: u64 = 50_000;
 const FLOOD_DURATION: Duration = Duration::from_secs(5);
-/// Minimum simulation time per wall time during the flood.
+/// Minimum ratio of simulation time to wall time during the flood.
 const MIN_PACE: f64 = 0.99;
 
-/// Number of stick steps in flight, and time with centered stick before each, so that the vehicle is at rest.
+/// Number of stick steps in flight, and the time for which the stick is centered before each step, so that the vehicle comes to rest.
 const STEPS: usize = 150;
 const CENTERED_DURATION: Duration = Duration::from_millis(400);
 /// Interval between stick samples in flight.
@@ -113,7 +113,7 @@ fn rest_roll_rates(client: &mut Client, time: Duration) -> Vec<f64> {
     rates
 }
 
-/// Measures from a step of the stick in flight to the first roll rate outside the noise, which includes rotors and airframe.
+/// Measures the time from a stick step in flight to the first roll rate outside the noise. This includes the response of the rotors and the airframe.
 fn rates(client: &mut Client) -> (f64, f64) {
     command_and_wait(client, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [30.0, 2_500.0, 0.0]);
     rest_roll_rates(client, CENTERED_DURATION);
@@ -138,7 +138,8 @@ fn rates(client: &mut Client) -> (f64, f64) {
     spread
 }
 
-/// Returns the simulation time per second of wall time, as observed by one peer while another one floods, and the messages per second.
+/// Returns the simulation time per second of wall time, as one peer observes it while another peer floods the simulator, and the message rate of the
+/// flood.
 fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     let (stop, sent) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
     let flood = {

@@ -1,6 +1,6 @@
-//! Cost of a physics step: in free flight, near a bridge, standing on one, and scraping along it. Prints medians in nanoseconds and as ratios to a
-//! baseline measured in the same run: a minimal Runge-Kutta quadrotor on plain arrays with rotor lag and drag. The ratios are valid on busy and slow
-//! machines alike; exceeding a limit ends the benchmark with an error.
+//! Measures the cost of a physics step in free flight, near a bridge, standing on a bridge, and scraping along it. Prints the medians in nanoseconds
+//! and as ratios to a baseline from the same run: a minimal Runge-Kutta quadrotor with rotor lag and drag that uses plain arrays. The ratios hardly
+//! depend on the speed and the load of the machine. The benchmark fails if a ratio exceeds its limit.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{BatteryModel, Scenario};
@@ -13,19 +13,19 @@ use std::path::Path;
 use std::process::ExitCode;
 
 const STEP: SimTime = SimTime::from_ms(1);
-/// Steps per sample. Each sample starts from the same state, so that all do the same work.
+/// Number of steps per sample. Every sample starts from the same state, so that all samples do the same work.
 const STEPS: i64 = 500;
-/// Samples per median. The cases alternate, so that a busy period of the machine affects all of them.
+/// Number of samples per median. The cases alternate, so that a period of high machine load affects all of them.
 const SAMPLES: usize = 61;
 
-/// Maximum medians, as ratios to the baseline.
+/// Limits of the medians, as ratios to the baseline.
 const MAX_FREE: f64 = 4.0;
 const MAX_NEAR: f64 = 8.0;
 const MAX_CLOSE: f64 = 20.0;
 const MAX_STANDING: f64 = 200.0;
 const MAX_SCRAPING: f64 = 200.0;
 
-/// Baseline: position, velocity, attitude and rates of a rigid body (13 numbers) and four rotor speeds, integrated in minimal code.
+/// Baseline: minimal code that integrates a rigid body (13 numbers: position, velocity, attitude and angular rates) and four rotor speeds.
 mod floor {
     pub type Y = [f64; 17];
 
@@ -84,7 +84,7 @@ struct Case {
     /// Simulation time of the state.
     start_time: SimTime,
     actuators: Actuators,
-    /// True if it touches the deck in almost every step.
+    /// True if the aircraft touches the deck in almost every step.
     touches: bool,
     samples: Vec<f64>,
 }
@@ -128,10 +128,10 @@ fn vehicle() -> Vehicle {
     spandrel_model::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Finds a point on a bridge's deck with only the road around it.
+/// Finds a point on a bridge deck that is surrounded only by road.
 fn deck(site: &Site) -> Vec3<Enu> {
     let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("a road lane");
-    // A lane starts and ends on the road that leads to the bridge.
+    // The ends of a lane are on the approach road, so its middle is on the bridge.
     let (first, last) = (lane.points_m[0], lane.points_m[lane.points_m.len() - 1]);
     let above = (first + last) * 0.5 + Vec3::new(0.0, 0.0, 3.0);
     let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck under its lane");
@@ -149,7 +149,7 @@ fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
     state
 }
 
-/// Time after which an aircraft that was placed on the deck has settled.
+/// Simulation time by which an aircraft placed on the deck has settled.
 const SETTLED_AT: SimTime = SimTime::from_ms(2000);
 
 /// Returns the state of an aircraft standing on the deck at [`SETTLED_AT`].

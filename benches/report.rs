@@ -1,11 +1,12 @@
-//! Report of a 25-minute session: time for reading, evaluating and writing, and size of the page, compared with the limits.
+//! Measures the report of a 25-minute session: the time for reading, evaluating and writing it, and the size of the page. Compares both with their
+//! limits.
 
 use spandrel_testkit::inspection;
 use spandrel_training::report::{Review, SessionMetadata, page};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Limits from the issue.
+/// Limits, as required by the issue.
 const MAX_TIME: Duration = Duration::from_secs(2);
 const MAX_PAGE_BYTES: usize = 10_000_000;
 const FLIGHT_S: f64 = 1480.0;

@@ -1,6 +1,6 @@
-//! Speed of the whole vehicle (physics, site, sensors, estimator, autopilot, telemetry encoding for a ground station, an SDK and the monitor) as a
-//! multiple of real time on one core, over complete demo flights at the two bridges, including contacts. The synthetic trainee flies them once to
-//! record its inputs; the timed runs replay these inputs, so that the pilot is not part of the measurement.
+//! Measures the speed of the whole vehicle as a multiple of real time on one core: physics, site, sensors, estimator, autopilot, and telemetry
+//! encoding for a ground station, an SDK and the monitor. The runs are complete demo flights at the two bridges, including contacts. The synthetic
+//! trainee flies each one once to record its inputs. The timed runs replay these inputs, so that the measurement does not include the trainee.
 
 use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
 use spandrel_mavlink::codec::Decoder;
@@ -16,10 +16,10 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Minimum speed of the whole vehicle, as a multiple of real time, from the issue.
+/// Minimum speed of the whole vehicle, as a multiple of real time, as required by the issue.
 const MIN_SPEED: f64 = 300.0;
 const STEP: SimTime = SimTime::from_ms(20);
-/// Time limit of a flight; the battery is empty before.
+/// Time limit of a flight. The battery runs out earlier.
 const MAX_FLIGHT: SimTime = SimTime::from_ms(1_600_000);
 const PILOT: LinkId = LinkId(1);
 const ROUNDS: usize = 3;
@@ -55,7 +55,8 @@ impl Job {
         sim
     }
 
-    /// Lets the trainee fly. Returns its inputs with their times, the end of the flight, the number of contacts, and the reason for the end.
+    /// Runs a flight with the synthetic trainee. Returns the trainee's inputs with their times, the end time, the number of contacts, and the reason
+    /// for the end.
     fn fly(&self, skill: Skill) -> (Inputs, SimTime, usize, String) {
         let (scenario, vehicle) = (Arc::clone(&self.scenario), Arc::clone(&self.vehicle));
         let mut pilot = Pilot::new(PilotConfig { scenario, vehicle, skill, seed: self.seed });

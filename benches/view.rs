@@ -1,6 +1,6 @@
-//! Cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup time. Renders in software, as on a machine
-//! without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best available device and higher presets, and fails if a graphics card misses its
-//! target.
+//! Measures the cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup time. Renders in software, as
+//! on a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best available device and higher presets, and fails if a graphics card
+//! does not reach the target frame rate.
 
 #[path = "support/running.rs"]
 mod running;
@@ -18,17 +18,17 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Target frame rate of both views at 640 x 360 with the preset `low` on two cores, 1/s, from the issue.
+/// Target frame rate of both views at 640 x 360 with the preset `low` on two cores, 1/s, as required by the issue.
 const TARGET_HZ: f64 = 15.0;
-/// Maximum processor time per frame, s: twice that of the slowest locations when it was set. Processor time is used because it hardly depends on
-/// other load on the machine.
+/// Maximum processor time per frame, s: twice the value that the slowest viewpoints needed when the limit was set. Processor time is used because it
+/// hardly depends on other load on the machine.
 const MAX_FRAME_CPU_S: f64 = 0.25;
-/// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s, from the issue.
+/// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s, as required by the issue.
 const MIN_CARD_HZ: f64 = 144.0;
-/// Number of frames per location, after one that warms up the caches.
+/// Number of measured frames per viewpoint, after one frame that warms up the caches.
 const FRAMES: usize = 4;
 
-/// Returns viewpoints of a flight with the points to look at.
+/// Returns viewpoints along a flight, each with the point that the camera looks at.
 fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
     vec![
         ("take-off", at(-112.0, 78.0, 12.0), at(-40.0, 20.0, 25.0)),
@@ -40,10 +40,10 @@ fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
     ]
 }
 
-/// Minimum simulation time per wall time of a simulator that runs while views are rendered continuously.
+/// Minimum ratio of simulation time to wall time for a simulator that runs while views are rendered continuously.
 const MIN_PACE: f64 = 0.99;
-/// Maximum number of clock slips of that simulator; each one removes a part of the flight. The clock slips if a tick is 0.25 s late. Delays are
-/// noticeable in the controls from 0.1 s on; these are printed, but not limited, because other load on the machine can cause them.
+/// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip makes the flight shorter. Pilots notice
+/// control delays above 0.1 s. Such delays are printed but not limited, because other load on the machine can cause them.
 const MAX_SLIPS: u64 = 0;
 /// Duration of this measurement.
 const PACE_DURATION: Duration = Duration::from_secs(10);
@@ -53,7 +53,7 @@ struct Cost {
     counts: DrawCounts,
 }
 
-/// Renders both views like the window: the camera's on a second device if there is no graphics card.
+/// Renders both views in the same way as the window: without a graphics card, a second device renders the camera's view.
 struct Views {
     studio: Studio,
     secondary: Option<SecondaryRenderer>,
@@ -148,8 +148,8 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
     (cpu, 1.0 / whole)
 }
 
-/// Measures a simulator in real time while this process renders both views continuously at the same priority (the window itself has a lower
-/// priority). Returns the simulator's pace, the frame rate, and the simulator's delays.
+/// Measures a simulator that runs in real time while this process renders both views continuously at the same priority (the real window has a lower
+/// priority). Returns the simulator's speed relative to real time, the frame rate, and the simulator's delays.
 fn beside(views: &mut Views) -> (f64, f64, Lateness) {
     let (running, port) = start();
     let stop = Arc::new(AtomicBool::new(false));

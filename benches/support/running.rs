@@ -1,4 +1,4 @@
-//! A real simulator process in real time, and a client for it.
+//! Starts a simulator process that runs in real time, and a client for it.
 #![allow(dead_code, reason = "each bench uses its part")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -8,7 +8,7 @@ use std::net::UdpSocket;
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Time without data after which the simulator counts as gone.
+/// Time without data after which the simulator is considered to have exited.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(5);
 
 #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
@@ -16,22 +16,22 @@ pub fn now() -> Instant {
     Instant::now()
 }
 
-/// A simulator process that ends when this is dropped.
+/// A simulator process, stopped when this is dropped.
 pub struct SimulatorProcess {
     child: Child,
     told: BufReader<ChildStdout>,
 }
 
-/// Delays of a simulator, in wall time.
+/// Delays of a simulator behind real time, in wall time.
 pub struct Lateness {
     /// Longest delay of a tick, ms.
     pub latest_ms: f64,
-    /// Number of times that the simulation clock skipped a delay.
+    /// Number of times that the simulation clock skipped time instead of catching up.
     pub slips: u64,
 }
 
 impl SimulatorProcess {
-    /// Ends the simulator and reads its delays.
+    /// Stops the simulator and returns the delays that it reports.
     pub fn end(mut self) -> Lateness {
         drop(self.child.stdin.take());
         let told = self.line();
@@ -48,7 +48,7 @@ impl SimulatorProcess {
 
 impl Drop for SimulatorProcess {
     fn drop(&mut self) {
-        // Closing standard input ends the simulator. It may already have exited.
+        // Closing standard input stops the simulator, which may already have exited.
         drop(self.child.stdin.take());
         let _ = self.child.wait();
     }
@@ -75,7 +75,7 @@ impl Client {
         self.socket.send(&frame).expect("loopback takes it");
     }
 
-    /// Returns the simulation time per wall time over at least this duration, and the measured wall time, s.
+    /// Measures for at least this duration. Returns the ratio of simulation time to wall time, and the wall time of the measurement, s.
     pub fn pace(&mut self, over: Duration) -> (f64, f64) {
         let (sim_begin, wall_begin) = self.clock();
         let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);

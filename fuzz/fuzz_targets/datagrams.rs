@@ -1,5 +1,6 @@
-//! Feeds arbitrary bytes to the codec and the monitor as datagrams, each preceded by a length byte. Depending on its first byte, a datagram is used
-//! unchanged, or as the fields of a message with a corrected checksum. There must be no panic, and frames must not be longer than their datagram.
+//! Feeds arbitrary bytes to the codec and the monitor. The input is split into datagrams by length bytes. The first byte of a datagram selects
+//! whether the rest is passed on unchanged, or as the payload of a message with a valid checksum. Neither part may panic, and no decoded frame may be
+//! longer than its datagram.
 #![no_main]
 
 use mavlink::Message;
@@ -24,7 +25,7 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
     })
 });
 
-/// Creates a frame of the vehicle with these payload bytes.
+/// Creates a frame that the vehicle could have sent, with these payload bytes.
 fn framed(choice: u16, payload: &[u8]) -> Vec<u8> {
     let ids = MavMessage::all_ids();
     let id = ids[usize::from(choice) % ids.len()];

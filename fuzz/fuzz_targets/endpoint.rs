@@ -1,5 +1,6 @@
-//! Feeds arbitrary bytes to the vehicle in flight, in chunks with a length byte before each. Depending on its first byte, a chunk is a datagram, or
-//! the fields of a message that the vehicle handles, with a correct checksum. There must be no panic, and the state must stay finite.
+//! Feeds arbitrary bytes to the vehicle in flight. The input is split into chunks by length bytes. The first byte of a chunk selects whether the rest
+//! is sent as a raw datagram, or as the payload of a message that the vehicle handles, with a valid checksum. The vehicle must not panic, and its
+//! state must stay finite.
 #![no_main]
 
 use mavlink::Message;
