@@ -21,12 +21,12 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use std::collections::BTreeSet;
 
-/// The job against which a flight is scored.
+/// The scenario, vehicle and site that a flight is scored against.
 #[derive(Debug, Clone, Copy)]
 pub struct ScoringJob<'a> {
     /// Scenario of the session.
     pub scenario: &'a Scenario,
-    /// Vehicle that was flown.
+    /// Vehicle flown in the session.
     pub vehicle: &'a Vehicle,
     /// Site built from the session's seed, used to determine which defects are visible.
     pub survey: &'a dyn SiteSurvey,
@@ -59,7 +59,7 @@ pub enum AssessError {
         /// Seed of the session.
         ours: u64,
     },
-    /// Neither the telemetry, the scenario nor the command line provides a seed.
+    /// No seed is available from the telemetry, the scenario or the command line.
     #[error(
         "no seed available: the telemetry contains no `seed` message, and neither the scenario nor the command line specifies one"
     )]
@@ -78,7 +78,7 @@ impl From<std::io::Error> for AssessError {
 /// Assessment of a session: the TASBID scores and the certification profile.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Assessment {
-    /// Name of the profile by which `scores` are computed; always `paper`.
+    /// Scoring profile used for `scores`; always `paper`.
     pub profile: &'static str,
     /// The four scores and their sum.
     pub scores: Scores,
@@ -88,11 +88,11 @@ pub struct Assessment {
     pub tasks: Vec<TaskResult>,
     /// Number of crashes by kind.
     pub crashes: CrashCounts,
-    /// Results of the pictures, in total and one by one.
+    /// Picture results: totals, and the result of each picture.
     pub snapshots: SnapshotCounts,
-    /// When and why the session ended.
+    /// End of the session: reason, length and battery failure.
     pub end: SessionEnd,
-    /// Fraction of frames received, and gaps.
+    /// Fraction of frames for which telemetry was received, and the number of gaps.
     pub telemetry: TelemetryCoverage,
     /// Control source over time. Does not affect any score.
     pub flown_by: Vec<ControlInterval>,
@@ -135,7 +135,7 @@ pub struct TaskResult {
     pub id: u32,
     /// Whether the drone entered the task's path. If false, the task has the flag `not_attempted`.
     pub attempted: bool,
-    /// Whether the task is done, partly flown or not attempted.
+    /// State of the task: done, partly flown or not attempted.
     pub state: TaskState,
     /// Fraction of the task's path that was flown, 0 to 1.
     pub covered: f64,
@@ -149,7 +149,7 @@ pub struct TaskResult {
     pub speeding: f64,
 }
 
-/// Number of crashes by kind of object.
+/// Crash counts, by kind of object hit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashCounts {
     /// Number of contacts with anything except people and vehicles (X_o).
@@ -167,11 +167,11 @@ pub struct CrashCounts {
 pub struct SnapshotCounts {
     /// Number of pictures taken (X_pd).
     pub taken: usize,
-    /// Number of pictures that were the first to show a defect.
+    /// Number of pictures that show a defect not shown in any earlier picture.
     pub hits: usize,
-    /// Number of distinct defects shown (X_td).
+    /// Number of different defects that the pictures show (X_td).
     pub defects_found: usize,
-    /// Number of defects placed (X_d).
+    /// Number of defects placed in the scene (X_d).
     pub defects_placed: usize,
     /// Precision: `hits` / `taken`.
     pub precision: f64,
@@ -179,18 +179,18 @@ pub struct SnapshotCounts {
     pub recall: Option<f64>,
     /// F-measure of precision and recall; `None` if no defect was placed.
     pub f_beta: Option<f64>,
-    /// Results of all pictures in order, with the conditions that failed.
+    /// Result of each picture in order, including the conditions that it did not meet.
     pub each: Vec<Snapshot>,
 }
 
-/// When and why the session ended.
+/// End of the session: reason, length and battery failure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SessionEnd {
     /// Reason for the end.
     pub reason: EndReason,
     /// Number of frames (N).
     pub frames: usize,
-    /// Duration: frames over frame rate (N/f), s.
+    /// Duration of the session, s: number of frames divided by the frame rate (N/f).
     pub seconds: f64,
     /// Whether the session ended because of an empty battery or the time limit (X_b).
     pub battery_failed: bool,
@@ -209,7 +209,7 @@ pub struct TelemetryCoverage {
     pub covered: f64,
 }
 
-/// An assessment and the frames that it was computed from.
+/// An assessment, together with the frames from which it was computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AssessedSession {
     /// Assessment of the session.
@@ -223,7 +223,7 @@ pub struct AssessedSession {
 /// Scores one flight and returns the assessment and its frames.
 ///
 /// # Errors
-/// Fails if the telemetry contains no truth messages or the drone never lifted off.
+/// Fails if the telemetry contains no ground-truth messages, or if the drone never lifted off.
 pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<Frame>), AssessError> {
     if flight.truths.is_empty() {
         return Err(AssessError::NoTruth);

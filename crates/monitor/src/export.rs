@@ -1,5 +1,5 @@
-//! Exports with stable names: frames as table columns, and the parts of a scenario that matter for scoring as JSON. Numbers have
-//! the fewest digits that represent the value exactly.
+//! Exports for external tools: the frames as a table, and the scoring-related parts of a scenario as JSON. Column names and keys
+//! are stable. Numbers are written with the fewest digits that still represent the value exactly.
 
 pub mod columns;
 pub mod fields;

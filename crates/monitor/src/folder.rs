@@ -46,14 +46,14 @@ pub struct SessionInfo {
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
-    /// Seed, once it was received.
+    /// Seed of the session; `None` until it is received.
     pub seed: Option<u64>,
-    /// Purpose of the session, `practice` or `assessment`, if chosen.
+    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
     /// Number of times that the monitor was started for this folder.
     pub monitor_starts: u32,
-    /// Link statistics since this start of the monitor.
+    /// Link statistics since the monitor was last started.
     pub link: LinkCounts,
     /// Number of received bytes that were not valid MAVLink.
     pub bad_bytes: u64,

@@ -11,7 +11,7 @@
 //! # fn main() -> Result<(), spandrel_model::toml::Problems> {
 //! let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|file| Err(format!("{file} not found")))?;
 //! let aircraft = vehicle::read("phantom2.toml", shipped::PHANTOM2)?;
-//! Contents of a telemetry.tlog. An empty log contains no flight, which is an error.
+//! // Contents of a telemetry.tlog file. An empty log contains no flight, so scoring it fails.
 //! let log: &[u8] = &[];
 //! let graded = assess_log(log, &job, &aircraft, build_site);
 //! assert_eq!(graded.err(), Some(AssessError::NoTruth));

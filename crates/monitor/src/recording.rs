@@ -11,7 +11,7 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 
 /// Minimum interval between coordinate frames.
 const FRAME_STEP: SimTime = SimTime::from_ms(40);
-/// Number of frames per message for all other data.
+/// All other data is recorded once per this number of frames.
 const SLOW_DATA_INTERVAL_FRAMES: usize = 25;
 /// MAVLink severities used for log messages.
 const SEVERITY_CRITICAL: u8 = 2;

@@ -1,4 +1,4 @@
-//! Determines where a session starts and ends, and the reason for the end.
+//! Determines the start and end of a session, and the reason why it ended.
 
 use super::measures::crash;
 use serde::Serialize;
@@ -68,12 +68,12 @@ impl EndReason {
     }
 }
 
-/// State of the flight at one instant, from which the end of the session is determined.
+/// State of the flight at one point in time, used to detect the end of the session.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndRuleInput {
-    /// Simulation time at this instant.
+    /// Current simulation time.
     pub time: SimTime,
-    /// Flight time including this instant, s.
+    /// Flight time up to now, s.
     pub flown_s: f64,
     /// Position of the drone's center in the site frame, m.
     pub position_m: Vec3<Enu>,
@@ -123,7 +123,7 @@ impl EndRule {
         }
     }
 
-    /// Discards armed and on-ground states from before a respawn.
+    /// Discards armed and on-ground states that were received before a respawn.
     fn discard_stale_states(&mut self, moment: &EndRuleInput) -> EndRuleInput {
         let jumped = self.last.is_some_and(|last| {
             let step_m = (moment.position_m - last.position_m).norm();
@@ -140,7 +140,7 @@ impl EndRule {
         EndRuleInput { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
     }
 
-    /// Returns the time of the last frame and the reason if the session ends at this instant.
+    /// Returns the time of the last frame and the reason for the end, if the session ends now.
     pub fn update(&mut self, moment: &EndRuleInput) -> Option<(SimTime, EndReason)> {
         let moment = &self.discard_stale_states(moment);
         match moment.contact {
@@ -170,7 +170,7 @@ impl EndRule {
         if self.rest_since.is_none() { self.pending } else { None }
     }
 
-    /// Returns an end that was deferred until a possible landing is confirmed. It applies if the telemetry stops before that.
+    /// Returns the end that is on hold while a possible landing is being confirmed. It applies if the telemetry stops first.
     #[must_use]
     pub fn pending(&self) -> Option<(SimTime, EndReason)> {
         self.pending
@@ -190,7 +190,7 @@ pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     MIN_LIFT_OFF_HEIGHT_M.max(stand + RESTING_HEIGHT_MARGIN_M)
 }
 
-/// Time after the time limit for which frames are still evaluated; longer than it takes to confirm a landing.
+/// Time beyond the time limit during which frames are still evaluated. It is longer than a landing takes to be confirmed.
 const EVALUATION_MARGIN: SimTime = SimTime::from_ms(10_000);
 
 /// The frames of a session and its end.

@@ -1,4 +1,4 @@
-//! Session records: checks the causes in the records against flights with known faults.
+//! Tests of session records: the recorded causes must match the known faults in each test flight.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_model::scenario::Scenario;
@@ -18,7 +18,7 @@ fn two_tasks() -> Scenario {
     scenario(vec![near, task(2, line((70.0, 0.0, 10.0), (100.0, 0.0, 10.0)), 3.0)])
 }
 
-/// Records a flight of task 1 with each fault once. Task 2 is not flown.
+/// Records a flight of task 1 that contains each fault once. Task 2 is not flown.
 fn faulty_flight() -> Tape {
     let mut tape = Tape::new();
     tape.hold(1.0);
@@ -117,7 +117,7 @@ fn exact_sideways_deviation_is_not_a_height_deviation() {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.fly((30.0, 5.0, 10.0), 2.0);
     tape.hold(3.0);
-    // Beyond 8 m, the drone counts as elsewhere, not as off the path.
+    // Beyond 8 m from the path, the drone is considered to be elsewhere, not off the path.
     tape.fly((30.0, 20.0, 10.0), 4.0);
     tape.hold(5.0);
     tape.fly((30.0, 0.0, 10.0), 4.0);

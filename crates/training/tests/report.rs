@@ -1,4 +1,4 @@
-//! The session report: it matches the scorer, escapes user-provided text, makes no network requests and stays small.
+//! Tests of the session report: it matches the scorer, escapes user-provided text, makes no network requests and stays small.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::Encoder;
@@ -59,14 +59,14 @@ fn exact_instructor_note_is_in_report_but_not_among_messages() {
     assert!(page.contains("instructor's notes") && page.contains("note: watch the pier") && page.contains("class=\"note-dot\""));
 }
 
-/// Returns the values of all attributes from which a browser loads something.
+/// Returns the values of all attributes that make a browser load a resource.
 fn loaded_urls(page: &str) -> Vec<&str> {
     let starts = [" src=\"", " href=\"", " action=\"", " poster=\"", " data=\"", " srcset=\""];
     let values = |start: &'static str| page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
     starts.into_iter().flat_map(values).collect()
 }
 
-/// Returns the page without libraries and without Spandrel's own scripts and styles.
+/// Returns the page without its scripts and styles, both Spandrel's own and those of libraries.
 fn without_assets(page: &str) -> String {
     use spandrel_training::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
     [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
@@ -142,7 +142,7 @@ fn exact_user_text_is_escaped_everywhere() {
         for raw in ["<script>alert", "<img src=x", "<!--"] {
             assert!(!page.contains(raw), "{raw}");
         }
-        // The data block contains JSON's quotes. No other part contains a quote that could end an attribute.
+        // The data block is JSON and contains quotes. No other part of the page contains a quote that could end an attribute.
         let before = page.split("<script type=\"application/json\"").next().unwrap_or_default();
         assert!(!before.contains("\"'>"));
     }
@@ -183,7 +183,7 @@ fn exact_night_changes_only_light_outcomes() {
     assert!(night.average_picture().unwrap().lux < day.average_picture().unwrap().lux);
 }
 
-/// The forward stick in the tape moves by 0.01 of full travel per 100 ms, so that a reaction of 0.1 takes up to 1 s.
+/// In the tape, the forward stick moves by 0.01 of full travel per 100 ms, so a movement of 0.1 takes up to 1 s to show.
 #[test]
 fn exact_speeding_cue_is_reported_with_reaction_time() {
     let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);
@@ -199,7 +199,7 @@ fn exact_speeding_cue_is_reported_with_reaction_time() {
     let lift_off_s = review.frames[0].time.s();
     let speeding: Vec<_> = review.feedback.episodes.iter().filter(|e| KINDS[e.kind].name == "speeding").collect();
     assert_eq!(speeding.len(), 1, "{:?}", review.feedback.episodes);
-    // Truth messages arrive every 20 ms. The cue stays on for a hold time after the end of the cause.
+    // Truth messages arrive every 20 ms. After its cause has ended, the cue stays on for a hold time.
     assert!((speeding[0].from_s + lift_off_s - fast_from_s).abs() <= 0.021, "{:?}", speeding[0]);
     assert!((-0.021..=2.5).contains(&(speeding[0].to_s + lift_off_s - fast_to_s)), "{:?}", speeding[0]);
     assert!(speeding[0].reaction_s.is_some_and(|s| s <= 1.1), "{:?}", speeding[0]);

@@ -4,7 +4,8 @@ use super::FrameRow;
 use spandrel_model::frames::{Enu, Vec3};
 use std::fmt::Write;
 
-/// Type of a column and the function that returns its value for a row; `None` if the telemetry does not contain it.
+/// Data type of a column, and the function that reads its value from a row. The function returns `None` if the telemetry does not
+/// contain the value.
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
     /// Column of integers.
@@ -13,14 +14,14 @@ pub enum Read {
     Float(fn(&FrameRow) -> Option<f64>),
     /// Column of Booleans; 1 or 0 in CSV.
     Boolean(fn(&FrameRow) -> bool),
-    /// Column of words from a fixed set.
+    /// Column of strings from a fixed set of values.
     Text(fn(&FrameRow) -> &'static str),
 }
 
 /// A column of the frames export.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Name, ending with the unit if there is one.
+    /// Column name. If the value has a unit, the name ends with it.
     pub name: &'static str,
     /// Unit symbol; empty for counts, fractions, flags and strings.
     pub unit: &'static str,
@@ -28,9 +29,9 @@ pub struct Column {
     pub frame: &'static str,
     /// Definition of the value, in one sentence.
     pub description: &'static str,
-    /// Whether values may be missing; they are empty in CSV and null in Parquet.
+    /// Whether values may be missing. A missing value is empty in CSV and null in Parquet.
     pub optional: bool,
-    /// Type of the column and function that returns its value.
+    /// Data type of the column, and the function that reads its value.
     pub read: Read,
 }
 
@@ -161,7 +162,7 @@ pub const COLUMNS: &[Column] = &[
     ),
 ];
 
-/// Typical length of a line, used for the initial allocation, bytes.
+/// Typical length of a CSV line, bytes. Determines the initial size of the output buffer.
 const LINE_BYTES: usize = 360;
 
 /// Returns frames as CSV: a header line, then one line per frame.
@@ -183,7 +184,7 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
     csv
 }
 
-/// Appends a cell. Writing to a string cannot fail.
+/// Appends one cell to the CSV text. Ignores the result of the write, because writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
     let _ = match read {
         Read::Integer(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),

@@ -11,7 +11,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use std::ops::ControlFlow;
 
-/// Distance of the drone to a task's path.
+/// Distance from the drone to a task's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskDistance {
     /// Number of the task in the scenario.
@@ -43,7 +43,7 @@ pub struct FrameRow {
     pub estimate_m: Option<Vec3<Enu>>,
 }
 
-/// Reads the scored frames of a log with the data for all export columns.
+/// Reads the scored frames of a telemetry log and adds the data for all export columns.
 ///
 /// # Errors
 /// Fails if the log cannot be read, belongs to a different scenario or seed, or contains no session.

@@ -36,7 +36,7 @@ pub struct BatteryCue {
 }
 
 impl BatteryCue {
-    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
+    /// Updates the rule. Returns the cue bits, and the text to send, if any.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.battery_pct.map_or(BatteryColor::Green, |pct| color(pct, limits));
         let worse = now > self.worst_color;

@@ -1,5 +1,5 @@
-//! Crash cue: raised at the start of any contact and names the object hit. Its text is sent before all others. Contacts in quick
-//! succession produce only one text.
+//! Crash cue: raised at the start of a contact. Its text names the object that was hit and is sent before all other texts.
+//! Contacts in quick succession produce only one text.
 
 use super::input::FeedbackInput;
 use super::pilot_text::{CoolDown, PilotText};
@@ -8,7 +8,7 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
-/// Time for which the cue stays on after the last contact (estimate: time to read it).
+/// Time that the cue stays on after the last contact (estimate: long enough to read it).
 const CUE_HOLD: SimTime = SimTime::from_ms(2_000);
 /// Contacts within this interval count as one crash (docs/src/reference/assessment.md, "Certification": contacts less than a
 /// second apart).
@@ -23,12 +23,12 @@ pub struct CrashCue {
 }
 
 impl CrashCue {
-    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
+    /// Updates the rule. Returns the cue bits, and the text to send, if any.
     pub fn update(&mut self, moment: &FeedbackInput, _limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let contact = if moment.in_session { moment.contact } else { ContactKind::None };
         let worse = contact.severity() > self.before.severity();
         self.before = contact;
-        // Hitting a person or a vehicle always produces a text of its own.
+        // A collision with a person or vehicle always produces a separate text.
         if worse && matches!(contact, ContactKind::Person | ContactKind::Vehicle) {
             self.cool_down = CoolDown::default();
         }

@@ -1,4 +1,4 @@
-//! Input of the feedback rules.
+//! Inputs to the feedback rules.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::time::SimTime;
@@ -10,18 +10,18 @@ pub struct TaskProximity {
     pub distance_m: f64,
     /// On-path threshold of the task, m.
     pub threshold_m: f64,
-    /// Clearance below which the drone is too close in this task, m; `None` for the scenario's value.
+    /// Minimum clearance in this task, m; `None` to use the scenario's value.
     pub too_close_m: Option<f64>,
     /// Number of the task in the scenario.
     pub id: u32,
-    /// Whether the trainee may leave the task: its path was flown, or the nearest point is an end of the path.
+    /// Whether the trainee may leave the task, because its path was flown or because the drone is nearest to an end of the path.
     pub may_leave_task: bool,
 }
 
-/// Input of the feedback rules at one instant.
+/// Inputs to the feedback rules at one point in time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedbackInput {
-    /// Simulation time at this instant.
+    /// Current simulation time.
     pub time: SimTime,
     /// Whether the session is running, from lift-off to its end.
     pub in_session: bool,

@@ -43,7 +43,7 @@ impl FeedbackRules {
         }
     }
 
-    /// Updates all rules. Returns the mask of active cues, and the texts with the most urgent first.
+    /// Updates all rules. Returns the mask of active cues, and the texts to send, most urgent first.
     pub fn update(&mut self, moment: &FeedbackInput) -> (i32, Vec<PilotText>) {
         let mut mask = 0;
         let mut texts = Vec::new();

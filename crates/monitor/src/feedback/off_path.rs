@@ -8,11 +8,11 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
-/// A task counts as left if the drone has moved away from it for this long (docs/src/reference/assessment.md, "Feedback during
-/// the flight").
+/// The drone has left a task once it has been moving away from it for this long (docs/src/reference/assessment.md, "Feedback
+/// during the flight").
 const LEAVE_CONFIRM_TIME: SimTime = SimTime::from_ms(2_000);
-/// Minimum change of distance that counts as movement, m (estimate: half the slowest inspection speed; MAVLink rounds to 1 cm).
-/// The constant below is the time for which it is valid.
+/// Minimum change in distance that counts as movement, m (estimate: half the slowest inspection speed; MAVLink rounds to 1 cm).
+/// A change no longer counts once it is older than `MAX_MOVEMENT_AGE`.
 const MIN_MOVEMENT_M: f64 = 0.15;
 const MAX_MOVEMENT_AGE: SimTime = SimTime::from_ms(600);
 
@@ -25,12 +25,12 @@ pub struct OffPathCue {
     transit: Transit,
 }
 
-/// State of leaving a task.
+/// Detects when the drone leaves a task.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Transit {
     /// Task id, distance (m) and time of the last change, and whether the distance increased.
     change: Option<(u32, f64, SimTime, bool)>,
-    /// Time at which the drone started to leave; `None` if it is not leaving.
+    /// Time at which the drone started to leave the task; `None` if it is not leaving.
     leaving: Option<SimTime>,
     /// Whether the drone has left the task.
     left: bool,
@@ -60,7 +60,7 @@ impl Transit {
 }
 
 impl OffPathCue {
-    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
+    /// Updates the rule. Returns the cue bits, and the text to send, if any.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.time;
         if !moment.in_session {

@@ -19,7 +19,7 @@ pub struct SpeedingCue {
 const CUE_OFF_DELAY_MS: i64 = 500;
 
 impl SpeedingCue {
-    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
+    /// Updates the rule. Returns the cue bits, and the text to send, if any.
     pub fn update(&mut self, moment: &FeedbackInput, limit_m_s: f64, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let near_last = moment.last.is_some_and(|task| moment.tasks[task].distance_m <= limits.off_path_max_m);
         let speeding = moment.in_session && moment.speed_m_s > limit_m_s && (moment.current_task.is_some() || near_last);

@@ -14,14 +14,14 @@ pub struct TooCloseCue {
 }
 
 impl TooCloseCue {
-    /// Updates the rule. Returns the cue bits and, if one must be sent, a text.
+    /// Updates the rule. Returns the cue bits, and the text to send, if any.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let Some(clearance) = moment.clearance_m.filter(|_| moment.in_session && moment.airborne) else {
             self.on = false;
             return (0, None);
         };
-        // A task's own limit applies while the drone is on its path, and near it while off all paths. Entering or leaving a
-        // confined space therefore raises no warning.
+        // A task's own limit applies while the drone is on that task's path, or near it and on no other path. This prevents a
+        // warning when the drone enters or leaves a confined space.
         let near = moment.tasks.iter().filter(|task| task.distance_m <= limits.off_path_max_m);
         let own = match moment.current_task {
             Some(task) => moment.tasks[task].too_close_m,

@@ -56,7 +56,7 @@ impl SiteSurvey for Site {
 /// Difference below which two fields of view count as equal, rad. Telemetry transmits degrees with 24-bit precision.
 const FOV_TOLERANCE_RAD: f64 = 1e-6;
 
-/// Evaluation of one picture.
+/// Result of evaluating one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Snapshot {
     /// Frame in which the picture was taken, from 1.
@@ -65,7 +65,7 @@ pub struct Snapshot {
     pub t_s: f64,
     /// Whether the picture shows at least one defect that no earlier picture shows.
     pub hit: bool,
-    /// Ids of the defects that this picture is the first to show.
+    /// Ids of the defects in this picture that no earlier picture shows.
     pub found: Vec<u32>,
     /// All defects in view, each with the conditions that failed.
     pub views: Vec<DefectSighting>,
@@ -110,7 +110,7 @@ fn sightings_at(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn 
     looks.iter().filter(|look| look.in_frame || look.hit).map(view).collect()
 }
 
-/// Returns the camera with its recorded field of view. If none was recorded, the lens is fixed.
+/// Returns the camera with the recorded field of view. If none was recorded, the camera has a fixed lens.
 #[must_use]
 pub fn camera(flight: &Flight, time: SimTime, camera: &Camera) -> Camera {
     match flight.field_of_view.at(time) {

@@ -44,7 +44,7 @@ pub struct FlownPath {
 }
 
 impl FlownPath {
-    /// Creates a tracker for a path of which nothing was flown.
+    /// Creates a tracker for a path on which nothing has been flown yet.
     #[must_use]
     pub fn new(path: &ReferencePath, threshold_m: f64) -> Self {
         let covered = vec![false; path.points_m().len()];

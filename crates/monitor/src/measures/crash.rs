@@ -8,8 +8,8 @@ use spandrel_model::scenario::GroundTeam;
 
 /// Maximum vertical speed at which contact with the pad is not a crash, m/s (docs/src/reference/assessment.md, "Crashes").
 const MAX_SOFT_TOUCH_M_S: f64 = 1.0;
-/// Maximum height above the pad at which a contact can be with the surrounding ground, m (estimate: center of any tilted
-/// aircraft).
+/// Maximum height above the pad at which a contact may be a contact with the ground around the pad, m (estimate: height of the
+/// center of any aircraft that is tilted).
 const MAX_PAD_CONTACT_HEIGHT_M: f64 = 1.0;
 /// Number of preceding frames that are searched for the impact speed, because the drone may already have stopped when the contact
 /// is reported.
@@ -30,8 +30,8 @@ pub struct Crash {
     pub task: Option<usize>,
 }
 
-/// Restores contacts whose messages were lost, then removes touchdowns and lift-offs on the pad. Changes only `contact` of the
-/// frames.
+/// Restores contacts whose messages were lost, then removes touchdowns and lift-offs on the pad. Changes only the frames'
+/// `contact` field.
 pub fn clean_up_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam) {
     for time in flight.missed_contacts() {
         let i = frames.partition_point(|frame| frame.time < time);

@@ -6,7 +6,7 @@ use spandrel_model::scenario::Scenario;
 /// Number of points per search block. Blocks whose bounding box is farther away than the best point so far are skipped; the
 /// result is still exact.
 const BLOCK_POINTS: usize = 16;
-/// Factor that allows for rounding errors when a box is skipped.
+/// Margin for rounding errors in the test whether a box can be skipped.
 const BOX_TOLERANCE: f64 = 1.0 + 1e-9;
 
 /// A reference path indexed for nearest-point queries.
@@ -78,7 +78,7 @@ impl ReferencePath {
         Some(NearestOnPath { point, distance_m: squared.sqrt() })
     }
 
-    /// Returns the exact distance to the whole polyline.
+    /// Returns the exact distance to the polyline, m.
     #[must_use]
     pub fn exact(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let to_segment = |k: usize| {
@@ -89,7 +89,7 @@ impl ReferencePath {
         Some(NearestOnPath { point, distance_m: to_segment(point).sqrt() })
     }
 
-    /// Returns the position on the whole polyline that is nearest, m.
+    /// Returns the nearest position anywhere on the polyline, m.
     #[must_use]
     pub fn closest_position(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
         let point = self.exact(position_m)?.point;

@@ -7,11 +7,11 @@ use super::Score;
 pub struct DetectionTally {
     /// Number of pictures taken.
     pub taken: usize,
-    /// Number of pictures that were the first to show at least one defect.
+    /// Number of pictures that show at least one defect not shown in any earlier picture.
     pub hits: usize,
-    /// Number of distinct defects shown.
+    /// Number of different defects that the pictures show.
     pub found: usize,
-    /// Number of defects placed.
+    /// Number of defects placed in the scene.
     pub placed: usize,
 }
 

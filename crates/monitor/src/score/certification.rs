@@ -21,7 +21,7 @@ const VISIT_MERGE_GAP_S: f64 = 10.0;
 const CRASH_MERGE_GAP_S: f64 = 1.0;
 /// Minimum battery at landing, % (docs/src/reference/assessment.md, "Certification").
 const MIN_LANDING_BATTERY_PCT: f64 = 20.0;
-/// Minimum loss per crash, points; the loss of any crash in TASBID.
+/// Minimum loss per crash, points (equal to TASBID's fixed loss per crash).
 const MIN_CRASH_LOSS: f64 = 3.0;
 /// Speed at which a crash costs twice the minimum loss, m/s (estimate). The energy increases with the square of the speed, so
 /// that at twice this speed the loss is five times the minimum.
@@ -103,7 +103,7 @@ pub struct TaskVisits {
     pub speeding: f64,
 }
 
-/// A crash after merging.
+/// A crash. Contacts that are close together in time are merged into one crash.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MergedCrash {
     /// Number of the first frame.
@@ -125,7 +125,7 @@ pub struct MergedCrash {
 pub struct DetectionCounts {
     /// Number of defects found.
     pub found: usize,
-    /// Number of defects placed.
+    /// Number of defects placed in the scene.
     pub placed: usize,
 }
 
@@ -170,7 +170,7 @@ pub struct CertificationInputs<'a> {
     pub found: &'a BTreeSet<u32>,
 }
 
-/// Evaluates a session by the certification profile.
+/// Evaluates a session against the certification profile.
 #[must_use]
 pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
     let scenario = evidence.scenario;
@@ -313,8 +313,8 @@ fn merge_crashes(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
         .collect()
 }
 
-/// Returns the time spent below the minimum clearance, s. The limit is the scenario's or, if smaller, that of the last task
-/// entered, as in the feedback.
+/// Returns the time spent below the minimum clearance, s. The limit is the scenario's or, if lower, that of the last task
+/// entered. The too-close cue uses the same limit.
 fn exposure_s(evidence: &CertificationInputs<'_>) -> f64 {
     let scenario = evidence.scenario;
     let mut current: Option<usize> = None;

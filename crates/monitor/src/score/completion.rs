@@ -1,11 +1,11 @@
-//! Completion of the job. It is shown with every score, so that nobody takes the scores of an incomplete flight for those of a
-//! complete one.
+//! Completion of the job. It is shown with every score, so that the scores of an incomplete flight are not mistaken for those of
+//! a complete one.
 
 use crate::measures::coverage::PathCoverage;
 use serde::{Deserialize, Serialize};
 use spandrel_model::numbers::{format_limit, format_with_limit};
 
-/// How much of a task was flown.
+/// Completion state of a task.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TaskState {
@@ -80,7 +80,8 @@ impl Completion {
     #[must_use]
     pub fn short(&self) -> String {
         let word = if self.complete { "Complete" } else { "Incomplete" };
-        // If there is one task, its share determines the completion and needs enough digits; with several tasks it does not.
+        // With a single task, its share decides whether the job is complete, so the text needs enough digits to show why. With
+        // several tasks, a rounded share is enough.
         let share =
             if self.tasks == 1 { percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) };
         let tasks = if self.tasks == 1 { "task" } else { "tasks" };
@@ -95,7 +96,7 @@ impl Completion {
     }
 }
 
-/// Formats a fraction as a percentage with enough digits to tell it from the limit.
+/// Formats a fraction as a percentage, with enough digits to distinguish it from the limit.
 #[must_use]
 pub fn percent(share: f64, done_share: f64) -> String {
     format_with_limit(100.0 * share, 100.0 * done_share, 0)

@@ -9,11 +9,11 @@ pub mod safety;
 
 use serde::Serialize;
 
-/// Version of the scorer. It is increased whenever the same flight could get a different score, so that only scores of the same
-/// version are compared.
+/// Version of the scorer. Increase it with every change that could give the same flight a different score. Scores are compared
+/// only if they have the same version.
 pub const SCORER_VERSION: u32 = 2;
 
-/// A score on its own scale and as a percentage, in full precision. Scores are rounded only for display.
+/// A score, on its own scale and as a percentage, at full precision. Scores are rounded only for display.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Score {
     /// Result of the formula, clamped to its scale.

@@ -2,7 +2,7 @@
 
 use super::Score;
 
-/// Points lost for hitting people and points lost for hitting vehicles.
+/// Points lost if a person was hit. If a vehicle was hit, the same number of points is lost.
 const TRAFFIC_LOSS: f64 = 100.0;
 /// Points lost for each other crash.
 const OTHER_LOSS: f64 = 3.0;

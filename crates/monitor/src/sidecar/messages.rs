@@ -68,8 +68,8 @@ impl Monitor {
         }
     }
 
-    /// Returns whether the trainee may leave the task here: anywhere after its path was flown, before that only at an end of the
-    /// path.
+    /// Returns whether the trainee may leave the task at this point: anywhere once its path has been flown, otherwise only at an end
+    /// of the path.
     fn may_leave_task(&self, task: usize, point: usize) -> bool {
         let count = self.paths.path(task).points_m().len();
         let passed = self.live.visited_points[task].iter().filter(|passed| **passed).count();

@@ -46,9 +46,9 @@ const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
 const HEARTBEAT_WALL_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// Time to wait for late datagrams before scoring.
 const SCORING_DELAY: SimTime = SimTime::from_ms(500);
-/// Delay before the next attempt if the live rule detected an end that the scorer did not.
+/// Delay before scoring is retried if the live rule detected an end of the session, but the scorer did not.
 const END_RETRY_DELAY: SimTime = SimTime::from_ms(5_000);
-/// Wall-clock time without telemetry after which the session is closed, once an end was detected.
+/// Wall-clock time without telemetry after which the session is closed, if its end was already detected.
 const SILENCE_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 /// Search radius around the drone's center for the object in contact, m (estimate: half the size of the largest aircraft).
 const CONTACT_SEARCH_RADIUS_M: f64 = 1.5;
@@ -67,11 +67,11 @@ pub fn build_site(scenario: &Scenario, seed: u64) -> Arc<dyn SiteSurvey> {
 pub struct MonitorConfig {
     /// Scenario of the session.
     pub scenario: Scenario,
-    /// Aircraft that is flown.
+    /// Aircraft flown in the session.
     pub vehicle: Vehicle,
     /// Pseudonym of the trainee.
     pub trainee: String,
-    /// Purpose of the session, `practice` or `assessment`, if chosen.
+    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<String>,
     /// Wall-clock time at which the session started, µs since the Unix epoch. After a restart of the monitor, the time of the
     /// first start.

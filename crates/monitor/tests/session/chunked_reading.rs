@@ -1,4 +1,4 @@
-//! Reading a telemetry log in pieces gives the same records as reading it at once.
+//! Checks that reading a telemetry log in chunks gives the same records as reading it in one piece.
 
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavMessage};
@@ -6,7 +6,7 @@ use spandrel_mavlink::telemetry::log_stream::RecordSplitter;
 use spandrel_mavlink::telemetry::tlog::{TlogReader, TlogRecord, record};
 use std::ops::ControlFlow;
 
-/// Returns a log with damaged records that ends in the middle of a record.
+/// Returns a log that contains damaged records and ends in the middle of a record.
 fn damaged_log() -> Vec<u8> {
     let mut encoder = Encoder::new(1, 1);
     let mut bytes = Vec::new();

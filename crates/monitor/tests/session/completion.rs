@@ -1,4 +1,4 @@
-//! Completion of the job: coverage by length, the resulting headline, and the requirements for certification.
+//! Tests of job completion: coverage by length, the resulting headline, and the certification requirements.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;

@@ -1,4 +1,4 @@
-//! The frames export: compares every column with a flight that has known values.
+//! Tests of the frames export: compares every column with the known values of a recorded flight.
 
 use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, MavMessage, WIND_COV_DATA};
 use spandrel_model::frames::{Enu, Vec3};
@@ -36,8 +36,8 @@ fn wind(tape: &mut Tape, [north, east, down]: [f32; 3]) {
     }));
 }
 
-/// Records a flight along the path to 30 m with a wind report at 15 m, then 5 m to the north, 3 s without telemetry, and a
-/// landing.
+/// Records a flight that follows the path for 30 m, with a wind report at 15 m. The drone then flies 5 m north, sends no telemetry
+/// for 3 s, and lands.
 fn flight() -> Tape {
     let mut tape = Tape::new();
     tape.yaw_rad = 0.5;

@@ -1,4 +1,4 @@
-//! The six kinds of feedback as sent over MAVLink, with their thresholds and timing.
+//! Tests of the six kinds of feedback sent over MAVLink, with their thresholds and timing.
 
 use crate::live::{monitor_of, sent};
 use spandrel_mavlink::contract::cue;
@@ -55,7 +55,7 @@ fn exact_off_path_cue_has_delay_and_hold_time() {
     watch.tape.hold(3.0);
     let cues = watch.run();
     let on = cues.iter().find(|(_, cues)| cues & cue::OFF_PATH != 0).unwrap().0;
-    // The drone crossed 3 m about 0.2 s before it reached 5 m. Messages are 20 ms apart.
+    // The drone passed a distance of 3 m about 0.2 s before it reached 5 m. Messages are 20 ms apart.
     assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left {left}, on {on}");
     // The drone is back on the path within half a second, but the cue stays on for two seconds.
     let mut watch = MonitoredFlight::airborne();
@@ -93,7 +93,7 @@ fn regress_entering_or_leaving_at_path_end_is_not_off_path() {
     watch.tape.fly((60.0, 0.0, 10.0), 4.0);
     watch.tape.fly((80.0, 0.0, 10.0), 1.0);
     assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
-    // After the task was left, passing its path on the way home does not raise the cue.
+    // Once the drone has left the task, passing near its path on the way home does not raise the cue.
     watch.tape.fly((70.0, 6.0, 10.0), 4.0);
     watch.tape.fly((0.0, 6.0, 10.0), 4.0);
     assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
@@ -192,7 +192,7 @@ fn exact_texts_of_one_rule_are_rate_limited() {
         watch.tape.hold(0.1);
     }
     watch.run();
-    // The toggling lasts four seconds, but the interval between texts is five seconds.
+    // The cue toggles for four seconds, but texts are at least five seconds apart.
     assert_eq!(watch.texts.len(), 1);
 }
 

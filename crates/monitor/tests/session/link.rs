@@ -1,4 +1,4 @@
-//! Effects of a bad link: lost, duplicated, reordered and truncated datagrams.
+//! Tests with a bad link: lost, duplicated, reordered and truncated datagrams.
 
 use spandrel_mavlink::telemetry::{Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
@@ -112,7 +112,7 @@ fn exact_link_statistics_are_counted() {
 
 #[test]
 fn exact_long_loss_is_not_counted_as_reordering() {
-    // Sequence numbers wrap at 256. Regardless of how many datagrams are lost, none of the following ones counts as old.
+    // Sequence numbers wrap at 256. However many datagrams are lost, the next datagram received is not treated as an old one.
     let tape = busy_flight();
     let whole = grade(&tape.datagrams).frames;
     for lost in [60, 100, 129, 200, 255, 256, 300] {

@@ -1,4 +1,4 @@
-//! The live monitor: its replies, its output files, and a replay that gives the same results.
+//! Tests of the live monitor: its replies, its output files, and a replay that must give the same results.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
@@ -84,7 +84,7 @@ fn exact_timestamps_are_session_start_plus_simulation_time() {
     assert_eq!(spandrel_mavlink::telemetry::tlog::session_start_us(&log), Some(START_US));
 }
 
-/// A monitor that joins an hour after the vehicle started stamps messages with the current time.
+/// A monitor that starts an hour after the vehicle must still use the current simulation time in its messages.
 #[test]
 fn regress_timestamps_of_late_monitor_start_at_session_start() {
     let mut tape = Tape::new();
@@ -113,7 +113,7 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     assert!((START_US + 4_900_000..=START_US + 5_100_000).contains(&last), "{} us", last - START_US);
 }
 
-/// The monitor accepts only datagrams from an autopilot, and after a scored flight exists only those of its system.
+/// The monitor accepts only datagrams from an autopilot. Once a scored flight exists, it accepts only that vehicle's datagrams.
 #[test]
 fn regress_monitor_accepts_only_its_vehicle() {
     let beat = |system: u8, component: u8, autopilot| {

@@ -1,4 +1,4 @@
-//! Tests of whole sessions from datagrams: frames, measures, ends, the live monitor and its replay.
+//! Tests that process whole sessions from their datagrams: frames, measures, session ends, the live monitor and its replay.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod chunked_reading;

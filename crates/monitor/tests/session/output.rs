@@ -1,4 +1,4 @@
-//! Names that external tools read: JSON keys and CSV columns.
+//! Tests of the names that external tools rely on: JSON keys and CSV columns.
 
 use serde_json::Value;
 use spandrel_monitor::export::{self, ScenarioExport};
@@ -42,7 +42,8 @@ fn exact_assessment_json_keys_are_stable() {
     assert_eq!(value["end"]["reason"], "landed");
 }
 
-/// Each frame belongs to exactly one interval, in order, and its control source is that of the preceding heartbeat.
+/// The intervals are in order, and each frame is in exactly one of them. A frame's control source is that of the last heartbeat
+/// before it.
 #[test]
 fn exact_assessment_lists_control_source_intervals() {
     let mut tape = Tape::new();

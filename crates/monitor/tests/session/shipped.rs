@@ -85,7 +85,7 @@ fn flight_exact_flight_of_shipped_paths_has_full_conformity() {
         for point in task.path_m.iter().chain(around) {
             tape.fly((point.east(), point.north(), point.up()), 4.0);
         }
-        // Moves to the side and up, so that no transit crosses a task's path.
+        // Flies sideways and up first, so that no transit crosses a task's path.
         let [e, n, u] = tape.at_m.array();
         let side = if n < -5.0 || task.closed { -40.0 } else { 40.0 };
         tape.fly((e, n + side, u), 4.0);
@@ -111,7 +111,7 @@ fn flight_exact_flight_of_shipped_paths_has_full_conformity() {
 #[test]
 fn regress_defects_are_placed_on_free_tasks_at_a_bridge() {
     let (mut scenario, _) = shipped();
-    // The path of the slab task, given point by point: the task names no bridge and no direction to look.
+    // Specifies the path of the slab task point by point. Such a task has no bridge and no viewing direction.
     let mut free = scenario.tasks[0].clone();
     (free.kind, free.bridge, free.look) =
         (spandrel_model::scenario::TaskKind::Free, None, vec![Vec3::new(1.0, 0.0, 0.0); free.path_m.len()]);

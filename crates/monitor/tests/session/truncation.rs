@@ -35,7 +35,7 @@ fn exact_clean_flight_has_full_score_and_ends_at_touchdown() {
 
 #[test]
 fn exact_short_gaps_are_interpolated_and_long_gaps_missing() {
-    // Each case: length of the gap in ms, interpolated frames, missing frames. Frames are 40 ms apart, truth messages 20 ms.
+    // Each case lists the gap in ms, the interpolated frames and the missing frames. Frames are 40 ms apart, truth messages 20 ms.
     for (ms, interpolated, missing) in [(200, 0, 0), (240, 5, 0), (1_000, 24, 0), (1_040, 0, 25)] {
         let mut tape = Tape::new();
         tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -48,7 +48,7 @@ fn exact_short_gaps_are_interpolated_and_long_gaps_missing() {
         let graded = grade(&tape, &one_task());
         let telemetry = graded.assessment.telemetry;
         let got = (telemetry.interpolated_frames, telemetry.missing_frames);
-        // The time of lift-off determines the phase of the frames, so the gap may contain one frame more or less.
+        // The lift-off time determines when frames are sampled, so the gap may contain one frame more or less.
         assert!(got.0.abs_diff(interpolated) <= 1 && got.1.abs_diff(missing) <= 1, "{ms} ms: {got:?}");
         assert_eq!(telemetry.gaps, usize::from(ms > 200));
         assert_eq!(got.0 == 0, interpolated == 0, "{ms} ms");
@@ -162,12 +162,12 @@ fn exact_long_contact_is_one_crash_and_short_contact_counts() {
     tape.hold(1.0);
     tape.contact(0);
     tape.hold(1.0);
-    // A contact starts and ends between two truth messages, so it is shorter than any frame.
+    // The contact starts and ends between two truth messages, so it is shorter than a frame.
     tape.contact(2);
     tape.int("hits", 2);
     tape.contact(0);
     tape.hold(1.0);
-    // Both messages of a contact are lost; only the count reveals it.
+    // Both messages about a contact are lost. Only the contact count shows that it happened.
     tape.int("hits", 3);
     tape.land();
     let graded = grade(&tape, &one_task());
@@ -279,7 +279,7 @@ fn exact_pictures_count_once_and_dark_picture_has_reason() {
     tape.snapshot(2);
     tape.fly((25.0, 0.0, 10.0), 4.0);
     tape.snapshot(3);
-    // The camera sends the message of a lost picture again, much later.
+    // Much later, the camera resends the message about a picture whose first message was lost.
     tape.snapshot_at(1, taken_ms);
     tape.land();
     let snapshots = grade(&tape, &one_task()).assessment.snapshots;
@@ -310,7 +310,7 @@ fn exact_simulator_restart_in_flight_ends_session_and_keeps_frames() {
     assert_eq!(graded.assessment.tasks[0].on_path, 1.0);
 }
 
-/// A site whose defects count only in pictures with a narrow field of view.
+/// A site whose defects are visible only in pictures with a narrow field of view.
 #[derive(Debug)]
 struct NarrowViewSite(Fence);
 
@@ -386,7 +386,7 @@ fn exact_pictures_with_reused_numbers_after_formatting_are_new() {
     tape.snapshot(0);
     let taken_ms = tape.now_ms;
     tape.fly((20.0, 0.0, 10.0), 4.0);
-    // After the card was formatted, the numbers start again.
+    // Image numbers restart after the memory card is formatted.
     tape.snapshot(0);
     tape.hold(1.0);
     tape.snapshot_at(0, taken_ms);

@@ -40,7 +40,7 @@ pub struct Repetition {
     pub seconds: f64,
     /// On-path share by task number; `None` if the task was not attempted.
     pub on_path: Vec<(u32, Option<f64>)>,
-    /// Number of crashes by kind of object.
+    /// Crash counts, by kind of object hit.
     pub crashes: Crashes,
 }
 

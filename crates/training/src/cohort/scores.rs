@@ -29,7 +29,7 @@ pub struct Individual {
     pub trainee: String,
     /// Id of the session (name of its folder).
     pub session: String,
-    /// `practice` or `assessment`, if chosen.
+    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
     /// Conformity, 0 to 100; `None` if it does not apply.

@@ -1,4 +1,5 @@
-//! Cohort tables as CSV (RFC 4180), one file per table. Numbers have the fewest digits that represent the value exactly.
+//! Cohort tables as CSV (RFC 4180), one file per table. Numbers are written with the fewest digits that still represent the value
+//! exactly.
 
 use super::Cohort;
 use crate::statistics::{Regression, TailProbabilities};

@@ -327,7 +327,7 @@ fn axis(task: &TaskRecord) -> &'static str {
     }
 }
 
-/// Formats a value with enough digits to tell it from the limit.
+/// Formats a value with enough digits to distinguish it from the limit.
 fn displayed_value(measure: RuleMeasure, value: f64, limit: f64) -> String {
     match measure {
         RuleMeasure::OffPath | RuleMeasure::Speeding | RuleMeasure::Missed | RuleMeasure::FalseSnapshots => {

@@ -26,7 +26,7 @@ pub struct SessionRecord {
     pub fingerprint: String,
     /// Pseudonym of the trainee.
     pub trainee: String,
-    /// `practice` or `assessment`, if chosen.
+    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
     /// Wall-clock time of simulation time zero, µs since the Unix epoch.
@@ -60,7 +60,7 @@ pub struct SessionRecord {
     pub defects: Vec<DefectRecord>,
     /// Number of snapshots taken.
     pub snapshots: usize,
-    /// Number of snapshots that were the first to show a defect.
+    /// Number of snapshots that show a defect not shown in any earlier snapshot.
     pub hits: usize,
     /// Reason why the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or `restart`.
     pub end_reason: String,
@@ -105,7 +105,7 @@ pub struct SessionListEntry {
     pub id: String,
     /// Pseudonym of the trainee.
     pub trainee: String,
-    /// `practice` or `assessment`, if chosen.
+    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<String>,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,

@@ -16,7 +16,7 @@ pub struct RecordSource<'a> {
     pub id: &'a str,
     /// Pseudonym of the trainee.
     pub trainee: &'a str,
-    /// `practice` or `assessment`, if chosen.
+    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<&'a str>,
     /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,

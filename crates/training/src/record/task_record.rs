@@ -47,7 +47,7 @@ pub struct TaskRecord {
     pub defects_found: usize,
 }
 
-/// Number of crashes by kind of object.
+/// Crash counts, by kind of object hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Crashes {
     /// Crashes into bridges.

@@ -15,7 +15,7 @@ pub struct ReviewContext<'a> {
     pub frames: &'a [Frame],
     /// Scenario of the session.
     pub scenario: &'a Scenario,
-    /// Vehicle that was flown.
+    /// Vehicle flown in the session.
     pub vehicle: &'a Vehicle,
     /// Site of the session.
     pub site: &'a Site,

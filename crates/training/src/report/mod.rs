@@ -41,7 +41,7 @@ use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 pub struct SessionMetadata {
     /// Pseudonym of the trainee.
     pub trainee: String,
-    /// `practice` or `assessment`, if chosen.
+    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<String>,
     /// Wall-clock time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
@@ -73,7 +73,7 @@ pub struct Review {
     pub about: SessionMetadata,
     /// Scenario of the session.
     pub scenario: Scenario,
-    /// Vehicle that was flown.
+    /// Vehicle flown in the session.
     pub vehicle: Vehicle,
     /// Site built from the session's seed.
     pub site: Site,

@@ -89,7 +89,7 @@ pub struct ReviewedPicture {
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
-    /// Simulation time at this instant.
+    /// Current simulation time.
     pub time: SimTime,
     /// Camera position, orientation and lamp state.
     pub pose: CameraPose,
@@ -99,7 +99,7 @@ pub struct ReviewedPicture {
     pub verdict: PictureVerdict,
     /// Reason for the verdict, as a phrase.
     pub reason: String,
-    /// Ids of the defects that this picture is the first to show.
+    /// Ids of the defects in this picture that no earlier picture shows.
     pub found: Vec<u32>,
     /// Defects in the central part of the image, including those that do not count.
     pub views: Vec<DefectView>,
