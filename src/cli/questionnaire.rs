@@ -235,7 +235,7 @@ mod tests {
         let (shown, saved) = run_with_input(&all(), &mut answers, "1\n6\nfive\n0\n4\nq\n3\n");
         assert_eq!((answers.given.len(), saved), (2, 2));
         assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 4);
-        assert_eq!(shown.matches("Please a whole number from 1 to 5").count(), 3);
+        assert_eq!(shown.matches("Please enter a whole number from 1 to 5").count(), 3);
         // The end of the input also leaves the questionnaire.
         assert_eq!(run_with_input(&all(), &mut answers, "").1, 0);
     }

@@ -209,5 +209,5 @@ fn wire_demo_session_works_without_derived_files() {
     let log = session.join("telemetry.tlog").display().to_string();
     let (code, _, err) = code_and_output(&spandrel(&["assess", &log, "--scenario", "drill-hover", "--vehicle", "phantom2"]));
     assert_eq!(code, Some(2), "{err}");
-    assert!(err.contains("another scenario"), "{err}");
+    assert!(err.contains("a different scenario"), "{err}");
 }

@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_equipments_interface_does_not_know_the_autopilot() {
+    fn exact_payload_interface_does_not_use_the_autopilot() {
         let file = "crates/sitl/src/endpoint/payload/input.rs";
         assert_eq!(check(file, "use crate::autopilot::Estimate;"), 1);
         assert_eq!(check(file, "use crate::endpoint::vehicle_link::snapshot::VehicleSnapshot;"), 1);

@@ -146,7 +146,7 @@ fn exact_wrong_scenario_or_seed_is_rejected() {
     seeded.seed = Some(8);
     let refused = assess_log(&tape.log(0), &seeded, &vehicle(), fence_of_ten).unwrap_err();
     assert_eq!(refused, AssessError::OtherSeed { heard: SEED, ours: 8 });
-    assert!(refused.to_string().contains("seed is 7"));
+    assert!(refused.to_string().contains("uses seed 7"));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::clock::VehicleClock;
 use super::payload::ScoringTruth;
-use crate::physics::{Actuators, RigidState, battery};
+use crate::physics::{Actuators, RigidState, BatteryState};
 use crate::sensors::Readings;
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
@@ -24,7 +24,7 @@ pub struct SimulatedAircraft<'a> {
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,
     /// Battery state.
-    pub battery: &'a battery::BatteryState,
+    pub battery: &'a BatteryState,
     /// Motor commands.
     pub actuators: &'a Actuators,
     /// Wind at the aircraft, m/s.

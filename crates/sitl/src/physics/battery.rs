@@ -1,64 +1,13 @@
 //! Battery model: open-circuit voltage as a function of charge, internal resistance and power draw; or the fixed
 //! endurance given in the TASBID paper.
 
-use super::{AirframeModel, PhysicsState as Physics, PowerLoad};
+use super::airframe::AirframeModel;
+use super::state::{PhysicsState as Physics, PowerLoad};
 use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
 
 /// Cell voltage below which the pack counts as empty, V (estimate; usual LiPo practice).
 const EMPTY_CELL_V: f64 = 3.2;
-
-/// State of charge and terminal readings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BatteryState {
-    /// State of charge, 0 to 1.
-    pub charge: f64,
-    /// Terminal voltage, V; 0 until the first step.
-    pub voltage_v: f64,
-    /// Current, A.
-    pub current_a: f64,
-    /// Energy drawn, J.
-    pub energy_j: f64,
-    /// Fraction of the maximum rotor speed available at the current voltage.
-    pub speed_factor: f64,
-    /// Failed cells that deliver no voltage, as a bit mask; bit 0 is the first cell.
-    pub dead_cells: u16,
-}
-
-impl BatteryState {
-    /// A fully charged pack.
-    pub const FULL: Self = Self { charge: 1.0, voltage_v: 0.0, current_a: 0.0, energy_j: 0.0, speed_factor: 1.0, dead_cells: 0 };
-
-    /// Returns true if the pack has no charge left.
-    #[must_use]
-    pub fn empty(&self) -> bool {
-        self.charge <= 0.0
-    }
-
-    /// Returns true if the cell with this zero-based index has failed.
-    #[must_use]
-    pub fn is_empty(&self, cell: usize) -> bool {
-        cell < 16 && self.dead_cells & (1 << cell) != 0
-    }
-
-    /// Sets or clears the failure of one cell.
-    pub fn fail_cell(&mut self, cell: usize, dead: bool) {
-        let bit = if cell < 16 { 1 << cell } else { 0 };
-        self.dead_cells = if dead { self.dead_cells | bit } else { self.dead_cells & !bit };
-    }
-
-    /// Returns the number of working cells in a pack of `cells` cells.
-    #[must_use]
-    pub fn live_cells(&self, cells: u32) -> u32 {
-        cells.saturating_sub(self.dead_cells.count_ones())
-    }
-
-    /// Returns the remaining charge, %.
-    #[must_use]
-    pub fn remaining_pct(&self) -> f64 {
-        self.charge * 100.0
-    }
-}
 
 /// Returns the open-circuit voltage of the pack at a state of charge, V. Interpolates linearly between the eleven
 /// points of the vehicle file.

@@ -1,6 +1,8 @@
 //! Contact response as velocity impulses: restitution, Coulomb friction and a one-step look-ahead that prevents tunneling.
 
-use super::{AirframeModel, Obstacles, PhysicsState, RigidState};
+use super::airframe::AirframeModel;
+use super::obstacles::{Obstacles, more_severe_surface};
+use super::state::{ContactKey, ContactReport, PhysicsState, RigidState, WarmStart};
 use nalgebra::{Matrix3, Vector3};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::site::{Contact, ObjectId, Surface};
@@ -23,34 +25,6 @@ const MAX_ITERATIONS: usize = 16;
 const CONVERGENCE_THRESHOLD: f64 = 1e-9;
 /// Time constant at which a rotor in contact loses speed, s (estimate).
 const ROTOR_STRIKE_TIME_CONSTANT_S: f64 = 0.08;
-
-/// Contacts of one step.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ContactReport {
-    /// The most severe surface in contact and its object.
-    pub surface: Option<(Surface, ObjectId)>,
-    /// Largest approach speed stopped in this step, m/s.
-    pub impact_m_s: f64,
-    /// Sum of normal forces, N.
-    pub normal_n: f64,
-}
-
-impl ContactReport {
-    /// Returns true if any surface is in contact.
-    #[must_use]
-    pub fn touching(&self) -> bool {
-        self.surface.is_some()
-    }
-}
-
-/// Impulses of the last step, used as the initial guess.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct WarmStart {
-    impulses: Vec<(ContactKey, Vector3<f64>)>,
-}
-
-/// Probe index, object ID and the number of earlier contacts between the two in this step.
-type ContactKey = (usize, u32, usize);
 
 struct ContactConstraint {
     key: ContactKey,
@@ -275,7 +249,7 @@ fn report(constraints: &[ContactConstraint], dt_s: f64) -> ContactReport {
     let mut out = ContactReport::default();
     for c in constraints.iter().filter(|c| c.active && c.gap < TOUCH_DISTANCE_M.max(c.approach * dt_s)) {
         out.surface = Some(match out.surface {
-            Some((known, _)) if super::more_severe_surface(known, c.surface) == known => out.surface.unwrap_or((known, c.object)),
+            Some((known, _)) if more_severe_surface(known, c.surface) == known => out.surface.unwrap_or((known, c.object)),
             _ => (c.surface, c.object),
         });
         out.impact_m_s = out.impact_m_s.max(c.approach);

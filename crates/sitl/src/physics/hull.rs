@@ -1,6 +1,6 @@
 //! Collision hull of the aircraft as convex probes: arms, rotor discs or cage, feet and body.
 
-use super::RigidState;
+use super::state::RigidState;
 use spandrel_model::frames::{Enu, Frd, Vec3};
 use spandrel_model::site::HullProbe;
 use spandrel_model::vehicle::Vehicle;

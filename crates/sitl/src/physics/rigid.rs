@@ -1,7 +1,8 @@
 //! Free flight: one classical Runge-Kutta step for rigid body and rotors. Within the step, rotor speeds follow their
 //! exact exponential, so that only the rigid body is integrated numerically.
 
-use super::{AirState, AirframeModel, MAX_ROTORS, RigidState};
+use super::airframe::AirframeModel;
+use super::state::{AirState, MAX_ROTORS, RigidState};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;

@@ -1,6 +1,8 @@
 //! Ground and ceiling effect of each rotor as a thrust factor at a given rotor speed.
 
-use super::{AirframeModel, MAX_ROTORS, Obstacles, RigidState};
+use super::airframe::AirframeModel;
+use super::obstacles::Obstacles;
+use super::state::{MAX_ROTORS, RigidState};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;

@@ -2,7 +2,7 @@
 //! cameras cover all sides, as on current inspection aircraft). There is no measurement over distant water or in the
 //! dark.
 
-use super::FlowReading;
+use super::readings::FlowReading;
 use crate::physics::RigidState;
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;

@@ -2,7 +2,8 @@
 //! the visible ones. Position errors combine slow drift, white noise, and multipath that grows with the hidden fraction
 //! of the sky.
 
-use super::{GnssReading, Surroundings};
+use super::readings::GnssReading;
+use super::surroundings::Surroundings;
 use crate::physics::RigidState;
 use nalgebra::{Matrix4, Vector4};
 use spandrel_model::frames::{Enu, Ned, Vec3};

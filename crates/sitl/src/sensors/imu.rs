@@ -1,6 +1,6 @@
 //! Accelerometer and gyroscope: mean over each sampling interval plus white noise and a slowly varying bias.
 
-use super::ImuReading;
+use super::readings::ImuReading;
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;

@@ -1,6 +1,6 @@
 //! Range finders: one down, one up and eight around in the body plane, modeled as rays into the site.
 
-use super::Surroundings;
+use super::surroundings::Surroundings;
 use crate::physics::RigidState;
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;

@@ -192,7 +192,7 @@ fn contact_with(surface: Surface) -> ContactKind {
 mod tests {
     use super::*;
     use crate::endpoint::flavour::px4;
-    use crate::physics::contact::ContactReport;
+    use crate::physics::ContactReport;
     use crate::sim::{SimConfig, SimEvent};
     use spandrel_model::frames::Enu;
     use spandrel_model::scenario::Scenario;

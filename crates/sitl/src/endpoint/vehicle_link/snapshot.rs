@@ -11,7 +11,7 @@ use crate::endpoint::payload::camera::CameraSummary;
 use crate::endpoint::payload::gimbal::GimbalState;
 use crate::endpoint::payload::lamp::LampState;
 use crate::endpoint::payload::{Payload, ScoringTruth};
-use crate::physics::{Actuators, RigidState, battery};
+use crate::physics::{Actuators, RigidState, BatteryState};
 use crate::sensors::Readings;
 use spandrel_model::frames::{Frd, LocalNed, Ned, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
@@ -37,7 +37,7 @@ pub struct VehicleSnapshot<'a> {
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,
     /// Battery state.
-    pub battery: &'a battery::BatteryState,
+    pub battery: &'a BatteryState,
     /// Motor commands.
     pub actuators: &'a Actuators,
     /// Wind at the aircraft, m/s.

@@ -94,7 +94,7 @@ pub(crate) fn battery(v: &VehicleSnapshot) -> Option<MavMessage> {
         .iter_mut()
         .take(cells as usize)
         .enumerate()
-        .filter(|(cell, _)| v.battery.is_empty(*cell))
+        .filter(|(cell, _)| v.battery.cell_failed(*cell))
         .for_each(|(_, mv)| *mv = 0);
     let state = match v.battery.remaining_pct() {
         p if p < v.status.battery_critical_pct => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,

@@ -1,0 +1,94 @@
+//! Constants of one aircraft, precomputed for the models.
+
+use super::hull;
+use super::state::{Actuators, BatteryState, MAX_ROTORS};
+use nalgebra::Vector3;
+use spandrel_model::math;
+use spandrel_model::scenario::BatteryModel;
+use spandrel_model::vehicle::{BatterySpec, Lamp, Rotor, RotorModel, Vehicle};
+
+/// Constants of an aircraft in the form that the physics models use.
+#[derive(Debug, Clone)]
+pub struct AirframeModel {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    pub(super) inverse_mass: f64,
+    pub(super) inertia: Vector3<f64>,
+    pub(super) inverse_inertia: Vector3<f64>,
+    /// Factor on gravity: 1 on Earth, 0 in tests of torque-free motion.
+    pub gravity_scale: f64,
+    pub(super) rotors: Vec<Rotor>,
+    pub(super) rotor: RotorModel,
+    pub(super) drag_area_m2: Vector3<f64>,
+    pub(super) angular_damping: Vector3<f64>,
+    pub(super) probes: Vec<hull::BodyProbe>,
+    pub(super) hull_radius_m: f64,
+    pub(super) restitution: f64,
+    pub(super) friction: f64,
+    pub(super) battery: BatterySpec,
+    pub(super) battery_model: BatteryModel,
+    pub(super) lamp: Lamp,
+}
+
+impl AirframeModel {
+    /// Builds the model from an aircraft and the battery model of the scenario.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle, battery_model: BatteryModel) -> Self {
+        let inertia = Vector3::from(vehicle.inertia_kg_m2);
+        let probes = hull::probes(vehicle);
+        let hull_radius_m = probes.iter().map(hull::BodyProbe::reach_m).fold(0.0, f64::max);
+        Self {
+            mass_kg: vehicle.mass_kg,
+            inverse_mass: 1.0 / vehicle.mass_kg,
+            inertia,
+            inverse_inertia: inertia.map(|i| 1.0 / i),
+            gravity_scale: 1.0,
+            rotors: vehicle.rotors.clone(),
+            rotor: vehicle.rotor,
+            drag_area_m2: Vector3::from(vehicle.drag.area_m2),
+            angular_damping: Vector3::from(vehicle.drag.angular_n_m_s),
+            probes,
+            hull_radius_m,
+            restitution: vehicle.hull.restitution,
+            friction: vehicle.hull.friction,
+            battery: vehicle.battery.clone(),
+            battery_model,
+            lamp: vehicle.lamp,
+        }
+    }
+
+    pub(super) fn decay(&self, dt_s: f64) -> f64 {
+        math::exp(-dt_s / self.rotor.time_constant_s)
+    }
+
+    pub(super) fn decay_half_step(&self, dt_s: f64) -> f64 {
+        math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
+    }
+
+    /// Returns the rotor speed in hover, rad/s.
+    #[must_use]
+    pub fn hover_rotor_rad_s(&self) -> f64 {
+        let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
+        (per_rotor / self.rotor.thrust_coefficient_n_s2).sqrt()
+    }
+
+    /// Returns the motor command (0 to 1) in hover with a full battery.
+    #[must_use]
+    pub fn hover_command(&self) -> f64 {
+        let speed = self.hover_rotor_rad_s();
+        (speed - self.rotor.idle_speed_rad_s) / (self.rotor.max_speed_rad_s - self.rotor.idle_speed_rad_s)
+    }
+
+    /// Returns the target rotor speeds, rad/s.
+    pub(super) fn target_rotor_speeds(&self, actuators: &Actuators, battery: &BatteryState) -> [f64; MAX_ROTORS] {
+        let mut out = [0.0; MAX_ROTORS];
+        if !actuators.armed || battery.empty() {
+            return out;
+        }
+        let top = self.rotor.max_speed_rad_s * battery.speed_factor;
+        for (target, command) in out.iter_mut().zip(actuators.motors).take(self.rotors.len()) {
+            *target = self.rotor.idle_speed_rad_s + command.clamp(0.0, 1.0) * (top - self.rotor.idle_speed_rad_s).max(0.0);
+        }
+        out
+    }
+}
