@@ -247,7 +247,7 @@ impl VehicleShell {
     /// Waits for the next tick, or for the lockstep peers.
     fn wait_for_next_tick(&mut self) -> Result<(), AppError> {
         let wall = self.stopwatch.elapsed();
-        if let Some(heard) = self.core.awaits_first_answer() {
+        if let Some(heard) = self.core.awaits_first_response() {
             self.await_first_answer(heard, wall);
             return Ok(());
         }
@@ -277,7 +277,7 @@ impl VehicleShell {
             FirstAnswerAction::Announce => self.core.send_first_contact(),
             FirstAnswerAction::Proceed => {
                 tracing::info!("a lockstep peer has not answered TIMESYNC yet: serving it in real time until it does");
-                self.core.skip_first_answers();
+                self.core.skip_first_responses();
                 return;
             }
         }

@@ -40,7 +40,7 @@ pub const STEP: SimTime = SimTime::from_ms(1);
 /// Interval between lockstep requests to peers.
 pub const LOCKSTEP: SimTime = SimTime::from_ms(20);
 /// Search radius for clearance, m.
-const CLEARANCE_REACH_M: f64 = 30.0;
+const CLEARANCE_SEARCH_RADIUS_M: f64 = 30.0;
 
 /// Configuration of a simulation.
 #[derive(Debug, Clone)]
@@ -178,7 +178,7 @@ impl Sim {
             scoring: ScoringTruth {
                 seed: i32::try_from(seed & 0x7fff_ffff).unwrap_or(0),
                 scenario_crc: scenario.crc,
-                clearance_m: CLEARANCE_REACH_M,
+                clearance_m: CLEARANCE_SEARCH_RADIUS_M,
                 ..ScoringTruth::default()
             },
             control_due: at(CONTROL_HZ),
@@ -307,7 +307,7 @@ impl Sim {
     /// Returns `None` unless the simulation is waiting for peers that have never responded; otherwise whether anything was
     /// received from all of them.
     #[must_use]
-    pub fn awaits_first_answer(&self) -> Option<bool> {
+    pub fn awaits_first_response(&self) -> Option<bool> {
         let has_received = |(link, step, has_received): (LinkId, LockstepState, bool)| {
             (step == LockstepState::Awaited && self.pending_answers.contains_key(&link)).then_some(has_received)
         };
@@ -321,7 +321,7 @@ impl Sim {
     }
 
     /// Stops waiting for first responses. Lockstep with each peer begins with its first response.
-    pub fn skip_first_answers(&mut self) {
+    pub fn skip_first_responses(&mut self) {
         let pending: Vec<LinkId> = self.pending_answers.keys().copied().collect();
         for link in pending {
             self.endpoint.links.serve_in_real_time(link);
@@ -374,7 +374,7 @@ impl Sim {
         self.process_inbox();
         while self.now + STEP <= until && !self.has_file_job() {
             self.tick();
-            if self.now.ns() % LOCKSTEP.ns() == 0 && self.ask_peers() {
+            if self.now.ns() % LOCKSTEP.ns() == 0 && self.send_lockstep_requests() {
                 return;
             }
             self.process_inbox();
@@ -382,7 +382,7 @@ impl Sim {
     }
 
     /// Sends lockstep requests. Returns true if there are peers to wait for.
-    fn ask_peers(&mut self) -> bool {
+    fn send_lockstep_requests(&mut self) -> bool {
         self.endpoint.links.request_lockstep(self.now);
         self.pending_answers = self.endpoint.links.lockstep_peers().map(|link| (link, self.now.ns())).collect();
         !self.pending_answers.is_empty()
@@ -468,7 +468,7 @@ impl Sim {
 
 fn new_autopilot(config: &SimConfig) -> Autopilot {
     let scenario = &config.scenario;
-    let mut tuning = Autopilot::tuning_for(&scenario.rules);
+    let mut tuning = Autopilot::default_tuning(&scenario.rules);
     tuning.start_unix_s = scenario.light.start_unix_s;
     Autopilot::new(&config.vehicle, &scenario.rules, scenario.origin, tuning)
 }

@@ -12,7 +12,7 @@ use super::failsafe::Failsafe;
 use super::failsafe::fence::FenceZone;
 use super::failsafe::input::{FailsafeInput, FlightSummary};
 use super::failsafe::losses::{Loss, LossResponse};
-use super::failsafe::operator_rules::{FenceSwitching, FlightEnvelope, JOB_BATTERY};
+use super::failsafe::operator_rules::{FenceSwitching, FlightEnvelope, SCENARIO_BATTERY_ACTIONS};
 use super::failsafe::response::FailsafeRequest;
 use super::flight_state::FlightMode;
 use super::navigator::Navigator;
@@ -89,7 +89,7 @@ impl Autopilot {
     #[must_use]
     pub fn new(vehicle: &Vehicle, rules: &SessionRules, origin: Geo, mut tuning: Tuning) -> Self {
         if rules.low_battery_return {
-            tuning.rules.responses.battery = JOB_BATTERY;
+            tuning.rules.responses.battery = SCENARIO_BATTERY_ACTIONS;
         }
         let estimator = Estimator::new(&vehicle.sensors, origin);
         Self {
@@ -110,7 +110,7 @@ impl Autopilot {
 
     /// Returns the settings for the rules of a scenario, which define the battery thresholds.
     #[must_use]
-    pub fn tuning_for(rules: &SessionRules) -> Tuning {
+    pub fn default_tuning(rules: &SessionRules) -> Tuning {
         Tuning { battery_low_pct: rules.low_battery_pct, battery_critical_pct: rules.critical_battery_pct, ..Tuning::default() }
     }
 
@@ -184,12 +184,12 @@ impl Autopilot {
         self.failsafe.links.take_sticks(sticks, self.tuning.stick_deadband, now);
         let tick = Tick::between_steps(now);
         let request = self.supervise(tick, Failsafe::check_stick_takeover);
-        self.carry_out(request, tick);
+        self.apply_failsafe_request(request, tick);
         self.update_status();
     }
 
     /// Sets whether stick input arrives in guided mode, where the yaw stick turns the nose and does not take over.
-    pub fn note_errands(&mut self, flown: bool) {
+    pub fn set_sticks_in_guided(&mut self, flown: bool) {
         self.failsafe.links.guided = flown;
     }
 
@@ -320,7 +320,7 @@ impl Autopilot {
         self.estimator.configure(rules.no_aid_s, rules.height_reference, !self.armed);
         self.estimator.step(readings, now);
         self.estimate = self.estimator.estimate();
-        if let Some(step_m) = self.estimator.take_place_step() {
+        if let Some(step_m) = self.estimator.take_position_reset() {
             self.navigator.move_position_lock(step_m);
             let text = format!("GNSS position jumped {:.0} m: position reset", step_m.horizontal_norm());
             self.events.push(Severity::Critical, text);
@@ -333,7 +333,7 @@ impl Autopilot {
     /// Continues after a respawn in the air: resets estimator and controllers to this state, armed. A manual mode is kept;
     /// otherwise the mode is Hold.
     pub fn respawn(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
-        self.estimator.reinitialise(position_m, velocity_m_s, attitude, now);
+        self.estimator.reset_to_pose(position_m, velocity_m_s, attitude, now);
         self.estimate = self.estimator.estimate();
         self.armed = true;
         self.failsafe.continue_in_air();
@@ -434,7 +434,7 @@ impl Autopilot {
     }
 
     /// Carries out the request of a failsafe.
-    fn carry_out(&mut self, request: Option<FailsafeRequest>, tick: Tick) {
+    fn apply_failsafe_request(&mut self, request: Option<FailsafeRequest>, tick: Tick) {
         match request {
             None => {}
             Some(FailsafeRequest::Override(mode)) => self.navigate(tick, |n, input| n.override_mode(mode, input)),
@@ -453,7 +453,7 @@ impl Autopilot {
         }
         self.navigate(tick, Navigator::set_first_home);
         let request = self.supervise(tick, Failsafe::check_battery);
-        self.carry_out(request, tick);
+        self.apply_failsafe_request(request, tick);
         self.supervise(tick, Failsafe::update_fence);
         if !self.armed {
             self.status.arming_reasons = self.supervise(tick, Failsafe::check_on_ground);
@@ -463,11 +463,11 @@ impl Autopilot {
         self.status.arming_reasons.clear();
         for check in [Failsafe::check_attitude_tracking, Failsafe::check_crash] {
             let request = self.supervise(tick, check);
-            self.carry_out(request, tick);
+            self.apply_failsafe_request(request, tick);
         }
         if self.is_flying() {
             let request = self.supervise(tick, Failsafe::enforce_fence);
-            self.carry_out(request, tick);
+            self.apply_failsafe_request(request, tick);
         }
         if self.is_flying() {
             self.check_losses(tick);
@@ -486,12 +486,12 @@ impl Autopilot {
                     flown = Some(mode);
                     break;
                 }
-                Some(LossResponse::Request(request)) => self.carry_out(Some(request), tick),
+                Some(LossResponse::Request(request)) => self.apply_failsafe_request(Some(request), tick),
                 None => {}
             }
         }
-        let request = self.supervise(tick, |failsafe, input| failsafe.conclude_losses(flown, input));
-        self.carry_out(request, tick);
+        let request = self.supervise(tick, |failsafe, input| failsafe.finish_loss_checks(flown, input));
+        self.apply_failsafe_request(request, tick);
     }
 
     /// Updates the phase of the flight while armed.

@@ -2,7 +2,7 @@
 
 use super::clock::VehicleClock;
 use super::payload::ScoringTruth;
-use crate::physics::{Actuators, RigidState, BatteryState};
+use crate::physics::{Actuators, BatteryState, RigidState};
 use crate::sensors::Readings;
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;

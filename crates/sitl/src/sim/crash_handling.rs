@@ -1,6 +1,6 @@
 //! Consequences of a step: lift-off, contact, empty battery and respawn, plus clearance and light for scoring.
 
-use super::{CLEARANCE_REACH_M, Sim, SimEvent};
+use super::{CLEARANCE_SEARCH_RADIUS_M, Sim, SimEvent};
 use crate::autopilot::LandedState;
 use crate::physics;
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -14,13 +14,13 @@ const LIFT_OFF_M: f64 = 0.3;
 /// Minimum clearance of a safe hover, m.
 const SAFE_CLEARANCE_M: f64 = 1.0;
 /// Speed below which the vehicle counts as motionless, m/s.
-const STILL_M_S: f64 = 0.3;
+const MOTIONLESS_M_S: f64 = 0.3;
 /// Speed below which contact with the landing pad or the ground around it is a landing, m/s (docs/src/reference/assessment.md,
 /// "Crashes").
-const PAD_TOUCH_M_S: f64 = 1.0;
+const GENTLE_CONTACT_M_S: f64 = 1.0;
 /// Time without contact after which the vehicle counts as flying, s (estimate: a body at rest can rock off its contact for a step
 /// or two).
-const FLIES_S: f64 = 0.5;
+const AIRBORNE_AFTER_S: f64 = 0.5;
 
 impl Sim {
     /// Handles lift-off, contact, empty battery and respawn.
@@ -81,7 +81,7 @@ impl Sim {
         let here = self.state.rigid.position_m.enu() - team.pad_m;
         let home = here.horizontal_norm() <= team.home_radius_m;
         let place = surface == Surface::Pad || (surface == Surface::Terrain && home);
-        place && impact_m_s < PAD_TOUCH_M_S
+        place && impact_m_s < GENTLE_CONTACT_M_S
     }
 
     /// Returns true if the vehicle rests on its side or back. Near home this is gentle contact and not a crash, but the vehicle
@@ -109,13 +109,13 @@ impl Sim {
         }
         let rigid = &self.state.rigid;
         let touching = self.scoring.contact != ContactKind::None || self.is_upside_down();
-        let still = rigid.velocity_m_s.norm() < STILL_M_S;
+        let still = rigid.velocity_m_s.norm() < MOTIONLESS_M_S;
         let wet = self.scoring.contact == ContactKind::Water;
         if touching {
             self.touched_at = self.now;
         }
-        self.hard_contact |= touching && self.state.contact.impact_m_s >= PAD_TOUCH_M_S;
-        if !touching && (self.now - self.touched_at).s() > FLIES_S {
+        self.hard_contact |= touching && self.state.contact.impact_m_s >= GENTLE_CONTACT_M_S;
+        if !touching && (self.now - self.touched_at).s() > AIRBORNE_AFTER_S {
             self.hard_contact = false;
         }
         if self.has_landed_upright() {
@@ -123,7 +123,7 @@ impl Sim {
             return;
         }
         if !(touching && (still || wet)) {
-            let flies = !still || (self.now - self.touched_at).s() > FLIES_S;
+            let flies = !still || (self.now - self.touched_at).s() > AIRBORNE_AFTER_S;
             if !touching && flies {
                 self.crashed_since = None;
             }
@@ -156,8 +156,8 @@ impl Sim {
     pub(super) fn update_clearance_and_light(&mut self) {
         let position = self.state.rigid.position_m.enu();
         if self.clearance_due.fire(self.now) {
-            let near = self.site.nearest(position, CLEARANCE_REACH_M, self.now);
-            self.scoring.clearance_m = near.map_or(CLEARANCE_REACH_M, |n| n.distance_m);
+            let near = self.site.nearest(position, CLEARANCE_SEARCH_RADIUS_M, self.now);
+            self.scoring.clearance_m = near.map_or(CLEARANCE_SEARCH_RADIUS_M, |n| n.distance_m);
             self.save_safe_hover();
         }
         if self.lux_due.fire(self.now) {
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_lies_still_or_touches_water_is_respawned_after_three_seconds() {
+    fn exact_motionless_or_wet_vehicle_respawns_after_3_s() {
         let going = Vec3::new(1.5, 0.0, 0.0);
         for (surface, velocity, back) in [
             (Surface::Bridge, Vec3::zero(), true),
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_a_gentle_landing_on_its_feet_is_not_undone() {
+    fn regress_gentle_upright_landing_does_not_respawn() {
         let tipped = Rotation::from_euler(1.2, 0.0, 0.0);
         for (surface, impact_m_s, attitude, back) in [
             (Surface::Terrain, 0.7, None, false),
@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_other_rules_leave_it_where_it_lies_or_end_the_session() {
+    fn exact_other_crash_rules_leave_vehicle_or_end_session() {
         let mut sim = flown(|s| s.rules.after_crash = AfterCrash::Continue);
         touches(&mut sim, Some(Surface::Bridge), 2.0);
         let events = pass(&mut sim, 20_000);
@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_person_or_a_vehicle_ends_the_session_under_every_rule_and_from_any_contact() {
+    fn exact_hitting_person_or_vehicle_always_ends_session() {
         for rule in [AfterCrash::Continue, AfterCrash::Respawn, AfterCrash::End] {
             for surface in [Surface::Person, Surface::Vehicle] {
                 let mut sim = flown(|s| s.rules.after_crash = rule);
@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_an_empty_battery_outranks_being_respawned() {
+    fn exact_empty_battery_prevents_respawn() {
         // One millisecond before the respawn, and exactly at it.
         for ms in [2_999, 3_000] {
             let mut sim = flown(|_| ());
@@ -334,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_vehicle_that_bumped_and_hovered_on_is_not_respawned() {
+    fn exact_vehicle_still_flying_after_contact_is_not_respawned() {
         let mut sim = flown(|_| ());
         touches(&mut sim, Some(Surface::Bridge), 0.2);
         pass(&mut sim, 100);
@@ -348,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_touching_the_pad_is_a_crash_only_above_one_meter_per_second() {
+    fn exact_pad_contact_is_a_crash_only_above_1_m_s() {
         for (impact_m_s, expected) in [(0.99, 0), (1.01, 1), (6.0, 1)] {
             for surface in [Surface::Pad, Surface::Terrain] {
                 let mut sim = flown(|_| ());

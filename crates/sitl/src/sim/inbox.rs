@@ -5,14 +5,14 @@ use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 
 /// Maximum datagrams processed per link and tick. At 1,000 ticks/s this exceeds what any client sends (estimate).
-pub const DATAGRAMS_A_TICK: usize = 8;
+pub const MAX_DATAGRAMS_PER_TICK: usize = 8;
 /// Maximum bytes processed per link and tick, and the maximum datagram length. A frame has at most 280 bytes, and clients send
 /// one or a few per datagram.
-pub const BYTES_A_TICK: usize = 4_096;
+pub const MAX_BYTES_PER_TICK: usize = 4_096;
 /// Maximum queued datagrams per link. With the limits above, the queue drains within about 130 ms.
-const WAITING: usize = 1_024;
+const MAX_QUEUED_DATAGRAMS: usize = 1_024;
 /// Maximum queued bytes per link.
-const WAITING_BYTES: usize = 131_072;
+const MAX_QUEUED_BYTES: usize = 131_072;
 
 /// The receive queues of all links.
 #[derive(Debug, Clone, Default)]
@@ -32,14 +32,14 @@ struct LinkQueue {
 
 impl LinkQueue {
     fn has_room_for(&self, len: usize) -> bool {
-        len <= BYTES_A_TICK && self.datagrams.len() < WAITING && self.bytes + len <= WAITING_BYTES
+        len <= MAX_BYTES_PER_TICK && self.datagrams.len() < MAX_QUEUED_DATAGRAMS && self.bytes + len <= MAX_QUEUED_BYTES
     }
 
     /// Returns the next datagram if it fits in the limits of this tick.
     fn next(&mut self) -> Option<ReceivedDatagram> {
         let len = self.datagrams.front()?.len();
         let (count, bytes) = self.spent;
-        if count >= DATAGRAMS_A_TICK || bytes + len > BYTES_A_TICK {
+        if count >= MAX_DATAGRAMS_PER_TICK || bytes + len > MAX_BYTES_PER_TICK {
             return None;
         }
         self.spent = (count + 1, bytes + len);
@@ -105,34 +105,34 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_flood_gets_its_share_of_a_tick_and_a_calm_link_all_of_its_own() {
+    fn exact_flooding_link_does_not_delay_other_links() {
         let mut inbox = Inbox::default();
         (0..50).for_each(|k| inbox.push(FLOOD, datagram(&[k; 20])));
         inbox.push(CALM, datagram(&[99]));
         let taken = inbox.take(SimTime::from_ms(1));
-        assert_eq!(taken.iter().filter(|(link, _)| *link == FLOOD).count(), DATAGRAMS_A_TICK);
+        assert_eq!(taken.iter().filter(|(link, _)| *link == FLOOD).count(), MAX_DATAGRAMS_PER_TICK);
         assert_eq!(taken.last(), Some(&(CALM, datagram(&[99]))));
         assert!(inbox.take(SimTime::from_ms(1)).is_empty(), "the same tick again");
         assert_eq!(inbox.take(SimTime::from_ms(2))[0], (FLOOD, datagram(&[8; 20])), "in order");
     }
 
     #[test]
-    fn exact_what_waits_is_bounded_by_count_and_by_bytes_and_the_rest_is_counted() {
+    fn exact_queue_is_bounded_and_drops_are_counted() {
         let mut inbox = Inbox::default();
-        (0..WAITING + 7).for_each(|_| inbox.push(FLOOD, datagram(&[0])));
+        (0..MAX_QUEUED_DATAGRAMS + 7).for_each(|_| inbox.push(FLOOD, datagram(&[0])));
         assert_eq!(inbox.dropped(), 7);
-        (0..WAITING_BYTES / BYTES_A_TICK + 3).for_each(|_| inbox.push(CALM, datagram(&[0; BYTES_A_TICK])));
+        (0..MAX_QUEUED_BYTES / MAX_BYTES_PER_TICK + 3).for_each(|_| inbox.push(CALM, datagram(&[0; MAX_BYTES_PER_TICK])));
         assert_eq!(inbox.dropped(), 7 + 3);
-        inbox.push(LinkId(3), datagram(&[0; BYTES_A_TICK + 1]));
+        inbox.push(LinkId(3), datagram(&[0; MAX_BYTES_PER_TICK + 1]));
         assert_eq!(inbox.dropped(), 7 + 3 + 1, "longer than any client's");
         inbox.close(FLOOD);
         assert!(inbox.take(SimTime::from_ms(1)).iter().all(|(link, _)| *link == CALM));
     }
 
     #[test]
-    fn exact_large_datagrams_act_one_a_tick() {
+    fn exact_large_datagrams_are_processed_one_per_tick() {
         let mut inbox = Inbox::default();
-        (0..3).for_each(|_| inbox.push(FLOOD, datagram(&[0; BYTES_A_TICK])));
+        (0..3).for_each(|_| inbox.push(FLOOD, datagram(&[0; MAX_BYTES_PER_TICK])));
         let each: Vec<usize> = (1..=4).map(|ms| inbox.take(SimTime::from_ms(ms)).len()).collect();
         assert_eq!(each, [1, 1, 1, 0]);
     }

@@ -8,7 +8,7 @@ use spandrel_model::time::SimTime;
 use std::sync::Arc;
 
 /// Duration of the transition after an instructor changes the wind.
-const WIND_CHANGES_IN: SimTime = SimTime::from_ms(5_000);
+const WIND_TRANSITION_TIME: SimTime = SimTime::from_ms(5_000);
 
 impl Sim {
     /// Returns true if a link is subject to radio impairment. Payload links and lockstep peers are exempt.
@@ -38,7 +38,7 @@ impl Sim {
         if world.wind != self.instructor_settings.wind {
             let own = &self.config.scenario.wind;
             let (speed_m_s, from_deg) = world.wind.unwrap_or((own.speed_m_s, own.from_deg));
-            self.wind.add_change(self.now, WIND_CHANGES_IN, speed_m_s, from_deg);
+            self.wind.add_change(self.now, WIND_TRANSITION_TIME, speed_m_s, from_deg);
         }
         if world.open != self.instructor_settings.open {
             self.closures.apply_code(BridgeClosures::code(self.now, world.open));

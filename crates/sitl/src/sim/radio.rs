@@ -6,7 +6,7 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Maximum datagrams in flight per direction: one second of fifty busy links.
-const IN_FLIGHT_MAX: usize = 16_384;
+const MAX_DATAGRAMS_IN_FLIGHT: usize = 16_384;
 
 /// Datagrams in flight, packet loss and delay.
 #[derive(Debug, Clone)]
@@ -43,7 +43,7 @@ impl RadioLink {
 
     /// Queues an outgoing datagram unless it is lost.
     pub fn send(&mut self, transmit: Transmit, now: SimTime) {
-        if !self.is_lost() && self.outgoing.len() < IN_FLIGHT_MAX {
+        if !self.is_lost() && self.outgoing.len() < MAX_DATAGRAMS_IN_FLIGHT {
             self.outgoing.push_back((now + self.delay, transmit));
         }
     }
@@ -56,7 +56,7 @@ impl RadioLink {
 
     /// Queues an incoming datagram unless it is lost.
     pub fn receive(&mut self, link: LinkId, bytes: &[u8], now: SimTime) {
-        if !self.is_lost() && self.incoming.len() < IN_FLIGHT_MAX {
+        if !self.is_lost() && self.incoming.len() < MAX_DATAGRAMS_IN_FLIGHT {
             self.incoming.push_back((now + self.delay, link, bytes.to_vec()));
         }
     }

@@ -78,7 +78,7 @@ fn wire_camera_component_rejects_flight_commands() {
 }
 
 #[test]
-fn wire_streams_can_be_requested_once_and_at_a_rate() {
+fn wire_messages_can_be_requested_once_or_at_a_rate() {
     use spandrel_sitl::endpoint::streams::STREAMS;
     let mut station = Station::airborne("two-bridges", 7);
     // Starts an orbit, so that the orbit stream has data.

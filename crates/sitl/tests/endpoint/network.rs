@@ -5,7 +5,7 @@ use spandrel_mavlink::dialect::*;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
-use spandrel_sitl::sim::inbox::{BYTES_A_TICK, DATAGRAMS_A_TICK};
+use spandrel_sitl::sim::inbox::{MAX_BYTES_PER_TICK, MAX_DATAGRAMS_PER_TICK};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::BTreeMap;
 
@@ -93,7 +93,7 @@ fn own(frames: &[ReceivedFrame]) -> Vec<(u32, u8)> {
 /// Returns the maximum number of responses and forwarded frames of one link in a tick.
 fn share_of_a_tick(first: bool) -> usize {
     // The first call processes datagrams at both of its ends.
-    if first { 2 * DATAGRAMS_A_TICK } else { DATAGRAMS_A_TICK }
+    if first { 2 * MAX_DATAGRAMS_PER_TICK } else { MAX_DATAGRAMS_PER_TICK }
 }
 
 /// Runs fifty ground stations besides the first, and a vehicle with and without a flooding peer.
@@ -257,7 +257,7 @@ fn wire_setup_signing_is_never_forwarded() {
 fn wire_oversized_datagram_is_dropped() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let question = Encoder::new(255, 190).encode(&question(1));
-    sim.handle_datagram(GCS, &question.repeat(BYTES_A_TICK / question.len() + 1));
+    sim.handle_datagram(GCS, &question.repeat(MAX_BYTES_PER_TICK / question.len() + 1));
     let answered = run_ms(&mut sim, 5)[&GCS].iter().filter(|f| f.message_id == 111 && f.system_id == 1).count();
     assert_eq!((answered, sim.dropped()), (0, 1));
 }

@@ -146,7 +146,7 @@ fn exact_px4_parameters_change_their_settings() {
         ("NAV_RCL_ACT", 5.0, |t| t.manual_loss == LinkLossAction::Terminate),
         ("RTL_TYPE", 1.0, |t| t.rules.homeward.places == ReturnTargets { home: false, rally: true, mission_landing: true }),
         ("RTL_LAND_DELAY", 12.0, |t| t.rules.homeward.wait_s == 12.0),
-        ("RTL_DESCEND_ALT", 7.0, |t| t.rules.homeward.wait_height_m == Some(7.0)),
+        ("RTL_DESCEND_ALT", 7.0, |t| t.rules.homeward.loiter_height_m == Some(7.0)),
         ("RTL_CONE_ANG", 45.0, |t| (t.rules.homeward.cone_slope - 1.0).abs() < 1e-9),
         ("MPC_ACC_HOR", 2.0, |t| t.rules.envelope.acceleration_m_s2 == 2.0),
         ("MPC_VEL_MANUAL", 3.0, |t| t.rules.envelope.manual_m_s == 3.0),

@@ -271,7 +271,7 @@ fn regress_lockstep_starts_with_the_first_response() {
     };
     sim.handle_timeout(SimTime::from_ms(1_000));
     assert_eq!(
-        (sim.now(), sim.awaits_first_answer()),
+        (sim.now(), sim.awaits_first_response()),
         (SimTime::from_ms(20), Some(false)),
         "time must not advance before the first response"
     );
@@ -281,7 +281,7 @@ fn regress_lockstep_starts_with_the_first_response() {
     let beats = knocked.iter().filter(|m| matches!(m, MavMessage::HEARTBEAT(_))).count();
     let asks = knocked.iter().filter(|m| matches!(m, MavMessage::TIMESYNC(t) if t.ts1 == 20_000_000)).count();
     assert!(beats > 0 && asks == 1, "the vehicle must be discoverable and repeat its request: {knocked:?}");
-    sim.skip_first_answers();
+    sim.skip_first_responses();
     assert!(sim.runs_in_real_time() && !sim.waiting());
     sim.handle_timeout(SimTime::from_ms(1_000));
     assert_eq!(sim.now(), SimTime::from_ms(1_000), "a peer without lockstep must not stop time");
@@ -296,7 +296,7 @@ fn regress_lockstep_starts_with_the_first_response() {
     sim.handle_datagram(PEER, &answer(6, 1_020_000_000));
     sim.handle_timeout(SimTime::from_ms(5_000));
     assert_eq!(sim.now(), SimTime::from_ms(1_040));
-    assert_eq!(sim.awaits_first_answer(), None, "a pending response must not count as the first one");
+    assert_eq!(sim.awaits_first_response(), None, "a pending response must not count as the first one");
 }
 
 #[test]

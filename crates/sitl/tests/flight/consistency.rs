@@ -7,7 +7,7 @@ use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_sitl::autopilot::estimator::align::ROCKING_SHARE;
+use spandrel_sitl::autopilot::estimator::align::ROCKING_BIAS_FRACTION;
 use spandrel_sitl::autopilot::estimator::covariance::{P, THETA, V};
 use spandrel_sitl::autopilot::estimator::{Estimator, SimulatedTruth};
 use spandrel_sitl::physics::{MAX_ROTORS, RigidState};
@@ -102,7 +102,7 @@ impl Run {
         let [x, y, z] = RandomStream::new(seed, "rocking").normal3();
         Self {
             rigid,
-            rocking_rad_s: Vec3::new(x, y, z) * (ROCKING_SHARE * vehicle.sensors.gyro_bias_rad_s),
+            rocking_rad_s: Vec3::new(x, y, z) * (ROCKING_BIAS_FRACTION * vehicle.sensors.gyro_bias_rad_s),
             sensors: Sensors::new(vehicle, true, ORIGIN, seed),
             filter: Estimator::new(&vehicle.sensors, ORIGIN),
             site,

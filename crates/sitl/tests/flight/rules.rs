@@ -4,8 +4,8 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_sitl::autopilot::FenceAction;
 use spandrel_sitl::autopilot::operator_rules::{
-    FailsafeResponse, FenceParts, FenceSwitching, HeadingRule, JOB_BATTERY, LinkLossExceptions, MissionNeeds, OffboardLoss,
-    ReturnTargets,
+    FailsafeResponse, FenceParts, FenceSwitching, HeadingRule, LinkLossExceptions, MissionNeeds, OffboardLoss, ReturnTargets,
+    SCENARIO_BATTERY_ACTIONS,
 };
 use spandrel_sitl::autopilot::{
     AutopilotRequest, FlightMode, LandedState, MissionStep, OffboardSetpoint, RequestOutcome, Sticks, Tuning,
@@ -102,8 +102,8 @@ fn flight_battery_actions_follow_their_settings() {
     let land = Some(FailsafeResponse::Land);
     let cases = [
         ([None; 3], 9.0, FlightMode::Hold),
-        (JOB_BATTERY, 14.0, FlightMode::Return),
-        (JOB_BATTERY, 6.5, FlightMode::Land),
+        (SCENARIO_BATTERY_ACTIONS, 14.0, FlightMode::Return),
+        (SCENARIO_BATTERY_ACTIONS, 6.5, FlightMode::Land),
         ([None, Some(FailsafeResponse::Return), land], 14.0, FlightMode::Hold),
         ([None, Some(FailsafeResponse::Return), land], 6.5, FlightMode::Return),
         ([None, Some(FailsafeResponse::Return), land], 4.0, FlightMode::Land),
@@ -145,7 +145,7 @@ fn flight_return_respects_speed_delay_and_final_height() {
     let mut bench = airborne(|tuning| {
         tuning.return_height_m = 8.0;
         let rules = &mut tuning.rules.homeward;
-        (rules.speed_m_s, rules.wait_height_m, rules.wait_s, rules.final_height_m) = (Some(2.0), None, 4.0, 3.0);
+        (rules.speed_m_s, rules.loiter_height_m, rules.wait_s, rules.final_height_m) = (Some(2.0), None, 4.0, 3.0);
     });
     away(&mut bench, 30.0);
     bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
@@ -169,7 +169,7 @@ fn flight_return_respects_speed_delay_and_final_height() {
 fn flight_negative_delay_keeps_the_return_hovering() {
     let mut bench = airborne(|tuning| {
         tuning.return_height_m = 8.0;
-        (tuning.rules.homeward.wait_height_m, tuning.rules.homeward.wait_s) = (Some(5.0), -1.0);
+        (tuning.rules.homeward.loiter_height_m, tuning.rules.homeward.wait_s) = (Some(5.0), -1.0);
     });
     away(&mut bench, 15.0);
     bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
@@ -184,7 +184,7 @@ fn flight_return_height_follows_cone_and_minimum_climb() {
         let mut bench = airborne(|tuning| {
             tuning.return_height_m = 20.0;
             let rules = &mut tuning.rules.homeward;
-            (rules.cone_slope, rules.climb_min_m, rules.wait_height_m) = (cone_slope, climb_min_m, None);
+            (rules.cone_slope, rules.climb_min_m, rules.loiter_height_m) = (cone_slope, climb_min_m, None);
         });
         away(&mut bench, 20.0);
         bench.ask(AutopilotRequest::SetMode(FlightMode::Return));

@@ -124,7 +124,7 @@ fn drifting_receiver(readings: &mut Readings, now: SimTime) {
 /// The vehicle must follow the height on which two of receiver, barometer and range finder agree, when one of the first
 /// two drifts away.
 #[test]
-fn regress_slowly_drifting_height_is_not_followed() {
+fn regress_slow_altitude_drift_is_not_tracked() {
     // The receiver's height counts as contradicted at five times its error of 0.8 m; up to there, the vehicle follows
     // it, m.
     const FOLLOWED_M: f64 = 4.5;

@@ -139,7 +139,7 @@ mod tests {
     use crate::trainee::Role;
 
     #[test]
-    fn exact_only_instructors_upload_and_file_text_is_escaped() {
+    fn exact_only_instructors_can_upload_and_file_contents_are_escaped() {
         let named = [ScenarioEntry { name: HOSTILE_NAME.into(), title: HOSTILE_NAME.into(), uploaded: true }];
         let text = list(&administrator(), &named, Some(("bad", HOSTILE_NAME))).into_string();
         check(&text);

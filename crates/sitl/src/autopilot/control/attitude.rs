@@ -10,9 +10,9 @@ use spandrel_model::math;
 /// Limit of the rate-error integral, rad/s² of angular acceleration.
 const INTEGRAL_MAX_RAD_S2: f64 = 20.0;
 /// Factor by which yaw rate feedforward may exceed the attitude loop's limit.
-const YAW_RATE_SLACK: f64 = 1.2;
+const YAW_RATE_LIMIT_FACTOR: f64 = 1.2;
 /// Tilt error above which heading control is suspended, rad.
-const HEADING_WAITS_RAD: f64 = 0.9;
+const HEADING_CONTROL_MAX_TILT_RAD: f64 = 0.9;
 
 /// State of the loops.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -36,7 +36,7 @@ impl AttitudeLoop {
         allocated: AllocationStatus,
         dt_s: f64,
     ) -> Vec3<Frd> {
-        let rates = wanted_rates(gains, now.attitude, wanted, yaw_rate);
+        let rates = desired_rates(gains, now.attitude, wanted, yaw_rate);
         self.rate_torque(gains, now, rates, allocated, dt_s)
     }
 
@@ -76,7 +76,7 @@ pub fn within_limits(gains: &Gains, rates: Vec3<Frd>) -> Vec3<Frd> {
 }
 
 /// Body rates that correct the thrust direction first and the heading second.
-fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, yaw_rate: f64) -> Vec3<Frd> {
+fn desired_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, yaw_rate: f64) -> Vec3<Frd> {
     let into_body = attitude.inverse();
     let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
     let aim = into_body * (wanted * z);
@@ -87,10 +87,10 @@ fn wanted_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Fr
     let axis = if sine > 1e-6 { axis / sine } else { Vec3::new(1.0, 0.0, 0.0) };
     let tilt = (axis * (gains.attitude * angle)).limited(gains.rate_max_rad_s);
     let up = into_body * Vec3::<Ned>::new(0.0, 0.0, 1.0);
-    let heading = if angle < HEADING_WAITS_RAD { heading_error(attitude, wanted, axis, angle) } else { 0.0 };
+    let heading = if angle < HEADING_CONTROL_MAX_TILT_RAD { heading_error(attitude, wanted, axis, angle) } else { 0.0 };
     let yaw = (gains.yaw * heading).clamp(-gains.yaw_rate_max_rad_s, gains.yaw_rate_max_rad_s);
     let fed = up * yaw_rate;
-    let limit = gains.yaw_rate_max_rad_s * YAW_RATE_SLACK;
+    let limit = gains.yaw_rate_max_rad_s * YAW_RATE_LIMIT_FACTOR;
     Vec3::new(tilt.forward() + fed.forward(), tilt.right() + fed.right(), (yaw + fed.down()).clamp(-limit, limit))
 }
 
@@ -108,23 +108,23 @@ mod tests {
     use crate::sensors::tests::error_free_sensors;
 
     #[test]
-    fn exact_a_heading_error_asks_for_yaw_alone() {
+    fn exact_heading_error_commands_only_yaw() {
         let gains = Gains::new(&vehicle_with(error_free_sensors()));
-        let rates = wanted_rates(&gains, Rotation::identity(), Rotation::from_euler(0.0, 0.0, 0.1), 0.0);
+        let rates = desired_rates(&gains, Rotation::identity(), Rotation::from_euler(0.0, 0.0, 0.1), 0.0);
         assert!((rates - Vec3::new(0.0, 0.0, 0.1 * gains.yaw)).norm() < 1e-12, "{rates:?}");
     }
 
     #[test]
-    fn exact_a_roll_error_asks_for_roll_alone() {
+    fn exact_roll_error_commands_only_roll() {
         let gains = Gains::new(&vehicle_with(error_free_sensors()));
-        let rates = wanted_rates(&gains, Rotation::identity(), Rotation::from_euler(0.1, 0.0, 0.0), 0.0);
+        let rates = desired_rates(&gains, Rotation::identity(), Rotation::from_euler(0.1, 0.0, 0.0), 0.0);
         assert!((rates - Vec3::new(0.1 * gains.attitude, 0.0, 0.0)).norm() < 1e-12, "{rates:?}");
     }
 
     #[test]
-    fn prop_upside_down_it_rolls_back_at_the_full_rate() {
+    fn prop_inverted_vehicle_rolls_back_at_full_rate() {
         let gains = Gains::new(&vehicle_with(error_free_sensors()));
-        let rates = wanted_rates(&gains, Rotation::from_euler(math::PI, 0.0, 0.0), Rotation::identity(), 0.0);
+        let rates = desired_rates(&gains, Rotation::from_euler(math::PI, 0.0, 0.0), Rotation::identity(), 0.0);
         assert!((rates.norm() - gains.rate_max_rad_s).abs() < 1e-9, "{rates:?}");
     }
 }

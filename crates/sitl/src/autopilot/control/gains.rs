@@ -5,21 +5,21 @@ use spandrel_model::math::{self, GRAVITY_M_S2};
 use spandrel_model::vehicle::Vehicle;
 
 /// Lead factor that compensates for motor lag (first order; a higher factor would amplify gyroscope noise).
-const LEAD: f64 = 2.0;
+const MOTOR_LEAD_FACTOR: f64 = 2.0;
 /// Delay of sampling, filtering and computation, s: one and a half control ticks.
 const DELAY_S: f64 = 0.004;
 /// Product of rate-loop bandwidth and lag; 0.35 gives a damping ratio of 0.85 for an integrator with a first-order lag.
-const RATE_TIMES_LAG: f64 = 0.35;
+const RATE_BANDWIDTH_LAG_PRODUCT: f64 = 0.35;
 /// Maximum bandwidth of the rate loop, rad/s.
-const RATE_MAX: f64 = 22.0;
+const RATE_BANDWIDTH_MAX_RAD_S: f64 = 22.0;
 /// Bandwidth ratio of each outer loop to its inner loop.
-const ATTITUDE_SHARE: f64 = 0.3;
-const VELOCITY_SHARE: f64 = 0.4;
-const POSITION_SHARE: f64 = 0.5;
+const ATTITUDE_BANDWIDTH_RATIO: f64 = 0.3;
+const VELOCITY_BANDWIDTH_RATIO: f64 = 0.4;
+const POSITION_BANDWIDTH_RATIO: f64 = 0.5;
 /// Bandwidth ratio of yaw rate loop to roll and pitch rate loop; rotor drag gives little yaw torque.
-const YAW_SHARE: f64 = 0.3;
+const YAW_BANDWIDTH_RATIO: f64 = 0.3;
 /// Fraction of the acceleration at full tilt that plans may use. The rest is reserved for wind and errors.
-const PLANNED_SHARE: f64 = 0.85;
+const PLANNED_ACCELERATION_FRACTION: f64 = 0.85;
 /// Air density at sea level, kg/m³ (ISA).
 const AIR_DENSITY_KG_M3: f64 = 1.225;
 /// Fraction of the maximum collective thrust reserved for roll and pitch.
@@ -83,10 +83,10 @@ impl Gains {
     #[must_use]
     pub fn new(vehicle: &Vehicle) -> Self {
         let r = &vehicle.rotor;
-        let lag_s = r.time_constant_s / LEAD + DELAY_S;
-        let rate = (RATE_TIMES_LAG / lag_s).min(RATE_MAX);
-        let attitude = ATTITUDE_SHARE * rate;
-        let velocity = VELOCITY_SHARE * attitude;
+        let lag_s = r.time_constant_s / MOTOR_LEAD_FACTOR + DELAY_S;
+        let rate = (RATE_BANDWIDTH_LAG_PRODUCT / lag_s).min(RATE_BANDWIDTH_MAX_RAD_S);
+        let attitude = ATTITUDE_BANDWIDTH_RATIO * rate;
+        let velocity = VELOCITY_BANDWIDTH_RATIO * attitude;
         let climb = 0.5 * attitude;
         let n = vehicle.rotors.len() as f64;
         let hover_n = vehicle.mass_kg * GRAVITY_M_S2;
@@ -96,10 +96,10 @@ impl Gains {
         // Height must be held at full tilt, so the available thrust limits the tilt too.
         let tilt_rad = vehicle.limits.tilt_rad.min(math::acos((1.05 * hover_n / thrust_max_n).min(1.0)));
         let spare = (thrust_max_n / hover_n - 1.0) * GRAVITY_M_S2;
-        let yaw_rate = YAW_SHARE * rate;
+        let yaw_rate = YAW_BANDWIDTH_RATIO * rate;
         Self {
             inertia_kg_m2: vehicle.inertia_kg_m2,
-            lead: LEAD,
+            lead: MOTOR_LEAD_FACTOR,
             rate,
             rate_integral: 0.5 * rate,
             yaw_rate,
@@ -107,13 +107,13 @@ impl Gains {
             yaw: 0.35 * yaw_rate,
             velocity,
             velocity_integral: 0.25 * velocity * velocity,
-            position: POSITION_SHARE * velocity,
+            position: POSITION_BANDWIDTH_RATIO * velocity,
             climb,
             climb_integral: 0.25 * climb * climb,
             height: 0.4 * climb,
             tilt_rad,
             tilt_tangent: math::tan(tilt_rad),
-            acceleration_m_s2: PLANNED_SHARE * GRAVITY_M_S2 * math::tan(tilt_rad),
+            acceleration_m_s2: PLANNED_ACCELERATION_FRACTION * GRAVITY_M_S2 * math::tan(tilt_rad),
             climb_acceleration_m_s2: (0.6 * spare).clamp(1.0, 5.0),
             attitude_lag_s: 1.0 / attitude + lag_s,
             drag: drag(vehicle, hover_n / n),

@@ -7,20 +7,20 @@ use spandrel_model::time::SimTime;
 
 /// Vertical speed that counts as stopped during a commanded descent, m/s, and its minimum duration, s.
 const STOPPED_M_S: f64 = 0.2;
-const STOPPED_S: f64 = 0.3;
+const STOPPED_DURATION_S: f64 = 0.3;
 /// Minimum commanded descent rate, m/s.
 const DESCENT_MIN_M_S: f64 = 0.25;
 /// Time over which the thrust fades out after ground contact, s. The landing is then complete.
-const FADE_S: f64 = 0.5;
+const THRUST_FADE_S: f64 = 0.5;
 /// Maximum range finder reading above its value on the ground that still counts as on the ground, m.
 const RANGE_MARGIN_M: f64 = 0.35;
 /// Minimum cosine of the tilt on the ground (40 degrees).
-const UPRIGHT: f64 = 0.766;
+const MIN_TILT_COSINE: f64 = 0.766;
 /// Height, m, or climb rate, m/s, at which the vehicle counts as off the ground.
 const OFF_GROUND_M: f64 = 0.35;
 const OFF_GROUND_M_S: f64 = 0.4;
 /// Time after which an abandoned take-off ends, s.
-const ABANDONED_S: f64 = 1.0;
+const TAKEOFF_TIMEOUT_S: f64 = 1.0;
 /// Thrust ramp time at take-off, s.
 const SPOOL_UP_S: f64 = 0.6;
 
@@ -118,14 +118,14 @@ impl LandingDetector {
 
     /// Returns the available fraction of the maximum thrust while the motors spool up, 0 to 1.
     #[must_use]
-    pub fn spool_share(&self, now: SimTime) -> f64 {
+    pub fn spool_up_fraction(&self, now: SimTime) -> f64 {
         ((now - self.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0)
     }
 
     /// Returns the remaining thrust fraction as the thrust fades out after ground contact, 0 to 1.
     #[must_use]
-    pub fn thrust_share(&self) -> f64 {
-        1.0 - self.fade_s / FADE_S
+    pub fn thrust_fraction(&self) -> f64 {
+        1.0 - self.fade_s / THRUST_FADE_S
     }
 
     /// Advances by one tick while armed. Returns a change of the phase.
@@ -167,7 +167,7 @@ impl LandingDetector {
             return None;
         }
         self.abandoned_s += input.dt_s;
-        (self.abandoned_s > ABANDONED_S).then(|| {
+        (self.abandoned_s > TAKEOFF_TIMEOUT_S).then(|| {
             self.touch_down(input.now);
             PhaseChange::TakeoffAbandoned
         })
@@ -179,16 +179,16 @@ impl LandingDetector {
         let near = input.range_down_m.is_none_or(|range| range * upright < input.standing_m + RANGE_MARGIN_M);
         let still = estimate.velocity_m_s.down().abs() < STOPPED_M_S;
         let commanded = self.descent_m_s > DESCENT_MIN_M_S;
-        if !(near && still && commanded && upright > UPRIGHT) {
+        if !(near && still && commanded && upright > MIN_TILT_COSINE) {
             self.stopped_s = 0.0;
             self.fade_s = (self.fade_s - input.dt_s).max(0.0);
             return None;
         }
         self.stopped_s += input.dt_s;
-        if self.stopped_s > STOPPED_S {
-            self.fade_s = (self.fade_s + input.dt_s).min(FADE_S);
+        if self.stopped_s > STOPPED_DURATION_S {
+            self.fade_s = (self.fade_s + input.dt_s).min(THRUST_FADE_S);
         }
-        (self.fade_s >= FADE_S).then(|| {
+        (self.fade_s >= THRUST_FADE_S).then(|| {
             self.touch_down(input.now);
             PhaseChange::Landed
         })

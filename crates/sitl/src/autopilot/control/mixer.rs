@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_modest_demand_is_given_exactly() {
+    fn exact_modest_demand_is_allocated_fully() {
         let v = vehicle_with(error_free_sensors());
         let (low, high) = limits(&v);
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(0.1, -0.2, 0.03), thrust_n: 13.0 };
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_yaw_gives_way_before_roll_and_pitch() {
+    fn prop_yaw_is_reduced_before_roll_and_pitch() {
         let v = vehicle_with(error_free_sensors());
         let (low, high) = limits(&v);
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(1.0, 0.0, 2.0), thrust_n: 20.0 };
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_full_thrust_leaves_room_for_roll() {
+    fn prop_full_thrust_keeps_roll_authority() {
         let v = vehicle_with(error_free_sensors());
         let (low, high) = limits(&v);
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(0.5, 0.5, 0.0), thrust_n: 1e3 };

@@ -24,7 +24,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
 /// Minimum voltage fraction that the mixer compensates for.
-const VOLTAGE_SHARE_MIN: f64 = 0.6;
+const MIN_VOLTAGE_FRACTION: f64 = 0.6;
 
 /// Inputs of one tick.
 #[derive(Debug, Clone, Copy)]
@@ -170,8 +170,8 @@ impl Control {
 
     /// Ramps the thrust up at take-off and down after touchdown.
     fn ramp_thrust(&mut self, thrust_n: f64, now: SimTime) -> f64 {
-        let spool = self.landing.spool_share(now);
-        let thrust_n = thrust_n.min(self.gains.thrust_max_n * spool) * self.landing.thrust_share();
+        let spool = self.landing.spool_up_fraction(now);
+        let thrust_n = thrust_n.min(self.gains.thrust_max_n * spool) * self.landing.thrust_fraction();
         self.thrust = thrust_n / self.gains.thrust_max_n;
         thrust_n
     }
@@ -186,7 +186,7 @@ impl Control {
 /// Battery voltage as a fraction of the full voltage.
 fn voltage_share(input: &ControlInput) -> f64 {
     match input.battery {
-        Some(b) if input.airframe.voltage_sags => (b.voltage_v / input.airframe.full_v).clamp(VOLTAGE_SHARE_MIN, 1.0),
+        Some(b) if input.airframe.voltage_sags => (b.voltage_v / input.airframe.full_v).clamp(MIN_VOLTAGE_FRACTION, 1.0),
         _ => 1.0,
     }
 }

@@ -10,7 +10,7 @@ const APPROACH_S: f64 = 0.25;
 /// Time to build up full acceleration, s.
 pub const JERK_S: f64 = 0.15;
 /// Time to build up full horizontal acceleration in a mission or return, s (estimate: about 50 deg/s of tilt).
-pub const CALM_JERK_S: f64 = 0.5;
+pub const AUTO_JERK_S: f64 = 0.5;
 
 /// Limits of shaped motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +63,7 @@ impl MotionShaper {
 
 /// Speed at which to approach a target so that a deceleration stops there: linear near the target, square root farther away.
 #[must_use]
-pub fn closing_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64 {
+pub fn approach_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64 {
     let bend = deceleration_m_s2 / (gain * gain);
     let d = distance_m.abs();
     let speed = if d < bend { gain * d } else { (2.0 * deceleration_m_s2 * (d - 0.5 * bend)).sqrt() };
@@ -76,8 +76,8 @@ pub fn towards(gains: &Gains, from_m: Vec3<Ned>, to_m: Vec3<Ned>, horizontal: f6
     let offset = to_m - from_m;
     let flat = Vec3::<Ned>::new(offset.north(), offset.east(), 0.0);
     let distance = flat.norm();
-    let speed = closing_speed(distance, gains.position, 0.4 * gains.acceleration_m_s2).min(horizontal);
-    let vertical = closing_speed(offset.down(), gains.height, 0.4 * gains.climb_acceleration_m_s2).clamp(-up, down);
+    let speed = approach_speed(distance, gains.position, 0.4 * gains.acceleration_m_s2).min(horizontal);
+    let vertical = approach_speed(offset.down(), gains.height, 0.4 * gains.climb_acceleration_m_s2).clamp(-up, down);
     let flat = if distance > 1e-9 { flat * (speed / distance) } else { Vec3::zero() };
     Vec3::new(flat.north(), flat.east(), vertical)
 }
@@ -104,12 +104,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_closing_speed_is_continuous_and_brakes_in_time() {
+    fn exact_approach_speed_is_continuous_and_brakes_in_time() {
         let (gain, a) = (1.0, 2.0);
         let bend = 2.0;
-        let step = closing_speed(bend + 1e-9, gain, a) - closing_speed(bend - 1e-9, gain, a);
+        let step = approach_speed(bend + 1e-9, gain, a) - approach_speed(bend - 1e-9, gain, a);
         assert!(step.abs() < 1e-8);
-        assert!((closing_speed(-10.0, gain, a) + 36.0_f64.sqrt()).abs() < 1e-12);
+        assert!((approach_speed(-10.0, gain, a) + 36.0_f64.sqrt()).abs() < 1e-12);
     }
 
     #[test]

@@ -7,14 +7,14 @@ use spandrel_model::math;
 /// Averaging time, s.
 pub const ALIGN_S: f64 = 0.5;
 /// Maximum angular rate at rest, rad/s.
-const STILL_RATE_RAD_S: f64 = 0.15;
+const REST_RATE_MAX_RAD_S: f64 = 0.15;
 /// Maximum deviation of the specific force from 1 g at rest, m/s².
-const STILL_FORCE_M_S2: f64 = 1.5;
+const REST_FORCE_TOLERANCE_M_S2: f64 = 1.5;
 /// Mean rates beyond this many standard deviations of the gyroscope bias count as motion.
 const BIAS_SIGMAS: f64 = 5.0;
 /// Residual rocking of a body at rest, as a fraction of the gyroscope bias (1 sigma, estimate). It limits the accuracy of the
 /// bias from the mean rate; the filter estimates the rest in flight.
-pub const ROCKING_SHARE: f64 = 0.1;
+pub const ROCKING_BIAS_FRACTION: f64 = 0.1;
 
 /// Gyroscope characteristics from the data sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,8 +70,8 @@ impl Alignment {
 
     /// Adds an inertial sample. Motion, or a mean rate too large for a bias, restarts the alignment.
     pub fn imu(&mut self, reading: &ImuReading, dt_s: f64) {
-        let moving = reading.rates_rad_s.norm() > STILL_RATE_RAD_S
-            || (reading.specific_force_m_s2.norm() - math::GRAVITY_M_S2).abs() > STILL_FORCE_M_S2;
+        let moving = reading.rates_rad_s.norm() > REST_RATE_MAX_RAD_S
+            || (reading.specific_force_m_s2.norm() - math::GRAVITY_M_S2).abs() > REST_FORCE_TOLERANCE_M_S2;
         let turning = self.time_s >= ALIGN_S && !self.gyro.allows(self.mean_rate(), f64::from(self.samples));
         if moving || turning {
             *self = Self::new(self.gyro);
@@ -94,7 +94,7 @@ impl Alignment {
     }
 
     fn gyro_variance(&self, samples: f64) -> f64 {
-        let least = ROCKING_SHARE * self.gyro.bias_rad_s;
+        let least = ROCKING_BIAS_FRACTION * self.gyro.bias_rad_s;
         self.gyro.sample_rad_s * self.gyro.sample_rad_s / samples + least * least
     }
 
@@ -130,7 +130,7 @@ mod tests {
     const GYRO: GyroSpec = GyroSpec { bias_rad_s: 0.02, sample_rad_s: 0.002 };
 
     #[test]
-    fn regress_a_body_that_rocks_is_not_aligned_and_one_at_rest_does_not_know_its_bias_exactly() {
+    fn regress_rocking_body_is_not_aligned_and_bias_stays_uncertain_at_rest() {
         let gyro = GyroSpec { bias_rad_s: 0.003, sample_rad_s: 0.002 };
         let mut alignment = Alignment::new(gyro);
         let field = Vec3::new(0.2, 0.02, 0.4);
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_alignment_finds_the_attitude_of_a_tilted_body() {
+    fn exact_alignment_recovers_attitude_of_tilted_body() {
         let truth = Rotation::from_euler(0.2, -0.1, 2.0);
         let field = Vec3::new(0.2, 0.02, 0.4);
         let mut alignment = Alignment::new(GYRO);

@@ -6,15 +6,15 @@ use spandrel_model::time::SimTime;
 
 /// Time constant of the average rejection rate, s (estimate: one second of rejected measurements drops a source, single outliers
 /// do not).
-const AVERAGED_S: f64 = 0.5;
+const REJECTION_AVERAGING_S: f64 = 0.5;
 /// Rejection rate above which a source is dropped.
-const DROPPED: f64 = 0.8;
+const DROP_THRESHOLD: f64 = 0.8;
 /// Rejection rate below which a source is used again; reached after 2 s of consistent measurements.
-const BACK: f64 = 0.02;
+const RECOVERY_THRESHOLD: f64 = 0.02;
 /// Maximum interval between measurements in the average, s: one rejection after a long gap does not drop a source.
-const LONGEST_GAP_S: f64 = 0.25;
+const MAX_INTERVAL_S: f64 = 0.25;
 /// Time after which a rejected source is used again if no better one remains, s.
-pub const REFUSED_S: f64 = 3.0;
+pub const REJECTION_TIMEOUT_S: f64 = 3.0;
 
 /// Consistency of one source with the filter.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,11 +27,11 @@ pub struct InnovationCheck {
 impl InnovationCheck {
     /// Records whether a measurement passed its gate. Returns true if it should be fused.
     pub fn admits(&mut self, fits: bool, now: SimTime) -> bool {
-        let gap_s = self.last.map_or(LONGEST_GAP_S, |last| (now - last).s()).min(LONGEST_GAP_S);
+        let gap_s = self.last.map_or(MAX_INTERVAL_S, |last| (now - last).s()).min(MAX_INTERVAL_S);
         self.last = Some(now);
         let refused = if fits { 0.0 } else { 1.0 };
-        self.refused_share += (refused - self.refused_share) * (gap_s / AVERAGED_S);
-        self.dropped = self.refused_share > if self.dropped { BACK } else { DROPPED };
+        self.refused_share += (refused - self.refused_share) * (gap_s / REJECTION_AVERAGING_S);
+        self.dropped = self.refused_share > if self.dropped { RECOVERY_THRESHOLD } else { DROP_THRESHOLD };
         fits && !self.dropped
     }
 
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_second_of_refusals_drops_a_source_and_two_of_agreement_bring_it_back() {
+    fn exact_source_is_dropped_after_1_s_and_recovers_after_2_s() {
         let mut check = InnovationCheck::default();
         let mut at = SimTime::ZERO;
         let mut feed = |fits: bool, ms: i64| {

@@ -236,7 +236,7 @@ mod tests {
         SquareMatrix::from_fn(|i, j| c.m[i][j])
     }
 
-    fn some_covariance() -> Covariance {
+    fn sample_covariance() -> Covariance {
         let root = SquareMatrix::from_fn(|i, j| ((i * 7 + j * 13) % 11) as f64 / 11.0 - 0.4);
         let m = root * root.transpose();
         let mut c = Covariance::diagonal(&[0.0; STATES]);
@@ -273,7 +273,7 @@ mod tests {
                 f[(THETA + i, BG + j)] = -dt * r[(i, j)];
             }
         }
-        let mut c = some_covariance();
+        let mut c = sample_covariance();
         let mut expected = f * full(&c) * f.transpose();
         let keep: f64 = 1.0 - dt / 50.0;
         for i in 0..3 {
@@ -290,7 +290,7 @@ mod tests {
 
     #[test]
     fn exact_a_fused_scalar_equals_the_textbook_update() {
-        let mut c = some_covariance();
+        let mut c = sample_covariance();
         let before = full(&c);
         let mut h = SMatrix::<f64, 1, STATES>::zeros();
         h[(0, P)] = 1.0;
@@ -303,8 +303,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_an_outlier_changes_nothing() {
-        let mut c = some_covariance();
+    fn exact_outlier_leaves_covariance_unchanged() {
+        let mut c = sample_covariance();
         let before = c.clone();
         assert!(c.fuse(&[(P, 1.0)], 1e6, 0.2, 5.0).is_none());
         assert_eq!(c, before);

@@ -2,7 +2,7 @@
 //! reset to it only if no other source contradicts it.
 
 use super::Estimator;
-use super::checks::REFUSED_S;
+use super::checks::REJECTION_TIMEOUT_S;
 use super::covariance::{BA, BARO, BG, DRIFT, FLOW, MAG, P, StateCorrection, THETA, V};
 use crate::sensors::{FlowReading, GnssReading};
 use spandrel_model::frames::{Frd, Ned, Vec3};
@@ -10,10 +10,10 @@ use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
 /// Innovation gate, standard deviations.
-pub(super) const GATE: f64 = 5.0;
+pub(super) const INNOVATION_GATE: f64 = 5.0;
 /// Weight of the reported GNSS variance beyond the open-sky error. That part is mostly multipath, which lasts for seconds (about
 /// twice its time constant times the fix rate, halved because part of it is white).
-const LASTING: f64 = 40.0;
+const MULTIPATH_WEIGHT: f64 = 40.0;
 /// Time after its last fusion for which optical flow counts as an independent velocity source, s.
 const FLOW_FRESH_S: f64 = 1.0;
 /// Time for which a fix counts as current, s (estimate: five fixes at the usual rate).
@@ -21,9 +21,9 @@ const FIX_FRESH_S: f64 = 1.0;
 /// Standard deviations beyond which the barometer contradicts the GNSS drift.
 const DRIFT_SIGMAS: f64 = 4.0;
 /// Standard deviations within which GNSS and filter agree on height.
-const AGREED_SIGMAS: f64 = 1.5;
+const AGREEMENT_SIGMAS: f64 = 1.5;
 /// Standard deviation of the barometer offset after a reset, m (estimate).
-const NEW_OFFSET_M: f64 = 0.3;
+const RESET_OFFSET_SIGMA_M: f64 = 0.3;
 
 /// Non-zero elements of the Jacobian of one measurement.
 type MeasurementJacobian<'a> = &'a [(usize, f64)];
@@ -38,7 +38,7 @@ impl Estimator {
         }
         let white = |claimed: f64, drift: f64, least: f64| {
             let excess = claimed * claimed - drift * drift - least * least;
-            least * least + LASTING * excess.max(0.0)
+            least * least + MULTIPATH_WEIGHT * excess.max(0.0)
         };
         let rh = white(fix.eph_m, n.gnss_drift_m[0], n.gnss_white_m[0]);
         let rv = white(fix.epv_m, n.gnss_drift_m[1], n.gnss_white_m[1]);
@@ -69,9 +69,9 @@ impl Estimator {
         // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, a constant offset is accepted, noise never.
         let off = self.fix_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
-        let steady_s = self.checks.gnss_off.hold_s(flat, GATE * (2.0 * variance).sqrt(), now);
+        let steady_s = self.checks.gnss_off.hold_s(flat, INNOVATION_GATE * (2.0 * variance).sqrt(), now);
         let flow_is_fresh = (now - self.last_fused.flow).s() < FLOW_FRESH_S;
-        if steady_s > REFUSED_S && !flow_is_fresh {
+        if steady_s > REJECTION_TIMEOUT_S && !flow_is_fresh {
             self.reset_place(Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down()));
             self.covariance.reset(P, 2, fix.eph_m * fix.eph_m);
             self.checks.gnss.clear();
@@ -95,7 +95,7 @@ impl Estimator {
             self.last_fused.height = now;
         }
         let apart = (fix.position_m.down() - self.position_m.down()).abs();
-        if apart < AGREED_SIGMAS * math::hypot(slow, variance.sqrt()) {
+        if apart < AGREEMENT_SIGMAS * math::hypot(slow, variance.sqrt()) {
             self.ground.samples_agree(self.position_m.down(), fix.position_m.down());
         }
         // With another height reference, the GNSS height may have a permanent offset.
@@ -121,7 +121,7 @@ impl Estimator {
     /// cannot decide.
     fn resolve_height_conflict(&mut self, fix: &GnssReading, now: SimTime) {
         let alone = self.checks.baro.dropped();
-        if alone && (now - self.last_fused.height).s() <= REFUSED_S {
+        if alone && (now - self.last_fused.height).s() <= REJECTION_TIMEOUT_S {
             return;
         }
         let sides = || self.ground.agrees_with_filter(self.position_m.down(), fix.position_m.down());
@@ -164,7 +164,7 @@ impl Estimator {
         self.checks.gnss_velocity.admits(taken, now);
         if taken {
             self.last_fused.velocity = now;
-        } else if (now - self.last_fused.velocity).s() > REFUSED_S {
+        } else if (now - self.last_fused.velocity).s() > REJECTION_TIMEOUT_S {
             self.velocity_m_s = fix.velocity_m_s;
             self.covariance.reset(V, 3, 4.0 * variance);
             self.last_fused.velocity = now;
@@ -191,16 +191,16 @@ impl Estimator {
     /// Recovers when no height source fits the filter: resets to GNSS, or otherwise continues from the current height with the
     /// barometer if its offset is constant.
     fn recover_height(&mut self, innovation_m: f64, now: SimTime) {
-        let tolerance_m = GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();
+        let tolerance_m = INNOVATION_GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();
         let steady_s = self.checks.baro_off.hold_s(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
-        if (now - self.last_fused.height).s() <= REFUSED_S {
+        if (now - self.last_fused.height).s() <= REJECTION_TIMEOUT_S {
             return;
         }
         match self.latest_fix {
             Some((fix, at)) if (now - at).s() < FIX_FRESH_S && !self.checks.gnss.dropped() => self.set_height(&fix, now),
-            _ if steady_s > REFUSED_S => {
+            _ if steady_s > REJECTION_TIMEOUT_S => {
                 self.baro_offset_m -= innovation_m;
-                self.covariance.reset(BARO, 1, NEW_OFFSET_M * NEW_OFFSET_M);
+                self.covariance.reset(BARO, 1, RESET_OFFSET_SIGMA_M * RESET_OFFSET_SIGMA_M);
                 self.checks.baro.clear();
                 self.checks.baro_off.clear();
                 self.last_fused.height = now;
@@ -232,7 +232,9 @@ impl Estimator {
         }
         if fits {
             self.last_fused.heading = now;
-        } else if (now - self.last_fused.heading).s() > REFUSED_S && (self.parked || self.checks.gnss_velocity.dropped()) {
+        } else if (now - self.last_fused.heading).s() > REJECTION_TIMEOUT_S
+            && (self.parked || self.checks.gnss_velocity.dropped())
+        {
             // In flight the gyroscopes are the better heading source, unless the velocities contradict it too.
             let measured = self.attitude * gauss;
             let error = math::atan2(field.east(), field.north()) - math::atan2(measured.east(), measured.north());
@@ -263,7 +265,7 @@ impl Estimator {
         if a && b {
             self.last_fused.velocity = now;
             self.last_fused.flow = now;
-        } else if (now - self.last_fused.velocity).s() > REFUSED_S {
+        } else if (now - self.last_fused.velocity).s() > REJECTION_TIMEOUT_S {
             let (f, r) = (reading.forward_m_s / k, reading.right_m_s / k);
             self.velocity_m_s = Vec3::new(c * f - s * r, s * f + c * r, v.down());
             self.covariance.reset(V, 2, 4.0 * variance);
@@ -272,11 +274,11 @@ impl Estimator {
     }
 
     pub(super) fn accepts(&self, slopes: MeasurementJacobian, innovation: f64, variance: f64) -> bool {
-        self.covariance.accepts(slopes, innovation, variance, GATE)
+        self.covariance.accepts(slopes, innovation, variance, INNOVATION_GATE)
     }
 
     pub(super) fn fuse(&mut self, slopes: MeasurementJacobian, innovation: f64, variance: f64) -> bool {
-        match self.covariance.fuse(slopes, innovation, variance, GATE) {
+        match self.covariance.fuse(slopes, innovation, variance, INNOVATION_GATE) {
             Some(correction) => {
                 self.correct(&correction);
                 true

@@ -2,7 +2,7 @@
 
 /// Decision threshold, as a fraction of the height difference: the ground level moves less than this with one height and more
 /// than the rest with the other.
-const CLEAR_SHARE: f64 = 0.3;
+const DECISION_FRACTION: f64 = 0.3;
 
 /// Ground level from the range finder, relative to each height, m down.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -32,7 +32,7 @@ impl GroundEstimate {
         let by_filter = (filter_down_m + range - filter_then).abs();
         let by_receiver = (receiver_down_m + range - receiver_then).abs();
         let apart = (by_filter - by_receiver).abs();
-        by_filter < CLEAR_SHARE * apart && by_receiver > (1.0 - CLEAR_SHARE) * apart
+        by_filter < DECISION_FRACTION * apart && by_receiver > (1.0 - DECISION_FRACTION) * apart
     }
 }
 
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_height_that_keeps_the_ground_in_place_is_believed() {
+    fn exact_height_with_constant_ground_level_is_selected() {
         let mut ground = GroundEstimate::default();
         ground.add_measurement(5.0);
         ground.samples_agree(-5.0, -5.2);

@@ -2,9 +2,9 @@
 //! reference falls silent or contradicts the filter, GNSS takes over and the height converges to it.
 
 use super::Estimator;
-use super::checks::REFUSED_S;
+use super::checks::REJECTION_TIMEOUT_S;
 use super::covariance::{BARO, P};
-use super::fuse::GATE;
+use super::fuse::INNOVATION_GATE;
 use super::height_reference::HeightReference;
 use crate::sensors::baro;
 use spandrel_model::frames::Vec3;
@@ -12,11 +12,11 @@ use spandrel_model::time::SimTime;
 
 /// Height uncertainty of a sensor that is not the reference, m (1 sigma; estimate: a pressure change of 1 hPa corresponds to 8
 /// m).
-const LOOSE_M: f64 = 10.0;
+const NON_REFERENCE_SIGMA_M: f64 = 10.0;
 /// Timeout of a height reference, s (estimate: ten readings of a range finder at 10 Hz).
 const SILENT_S: f64 = 1.0;
 /// Roughness of the ground below the range finder, m (1 sigma; estimate: grass, gravel).
-const ROUGH_M: f64 = 0.05;
+const GROUND_ROUGHNESS_M: f64 = 0.05;
 
 impl Estimator {
     /// Returns true if GNSS is the configured reference.
@@ -35,7 +35,7 @@ impl Estimator {
         let reference = if works { self.wanted_reference } else { HeightReference::Gnss };
         if reference != self.height_reference.reference {
             self.height_reference.reference = reference;
-            self.weigh_heights(reference);
+            self.set_height_weights(reference);
             if self.follows_gnss() {
                 self.move_height_to_gnss();
             }
@@ -53,8 +53,8 @@ impl Estimator {
     }
 
     /// Sets the height error model of each sensor for a reference. Does not change the height.
-    fn weigh_heights(&mut self, reference: HeightReference) {
-        let loose = LOOSE_M * LOOSE_M;
+    fn set_height_weights(&mut self, reference: HeightReference) {
+        let loose = NON_REFERENCE_SIGMA_M * NON_REFERENCE_SIGMA_M;
         let usual = self.noise.gnss_drift_m[1] * self.noise.gnss_drift_m[1];
         let loose_walk = loose / self.process.drift_time_s;
         let start = baro::START_OFFSET_M * baro::START_OFFSET_M;
@@ -79,7 +79,7 @@ impl Estimator {
         let down_m = self.position_m.down();
         let ground_m = *self.height_reference.ground_down_m.get_or_insert(down_m + below_m);
         let innovation_m = ground_m - below_m - down_m;
-        let variance = self.noise.range_m * self.noise.range_m + ROUGH_M * ROUGH_M;
+        let variance = self.noise.range_m * self.noise.range_m + GROUND_ROUGHNESS_M * GROUND_ROUGHNESS_M;
         let slopes = [(P + 2, 1.0)];
         let fits = self.accepts(&slopes, innovation_m, variance);
         if self.height_reference.check.admits(fits, now) {
@@ -88,8 +88,11 @@ impl Estimator {
         }
         if fits {
             self.height_reference.off.clear();
-        } else if self.height_reference.off.hold_s(Vec3::new(0.0, 0.0, innovation_m), GATE * (2.0 * variance).sqrt(), now)
-            > REFUSED_S
+        } else if self.height_reference.off.hold_s(
+            Vec3::new(0.0, 0.0, innovation_m),
+            INNOVATION_GATE * (2.0 * variance).sqrt(),
+            now,
+        ) > REJECTION_TIMEOUT_S
         {
             self.height_reference.clear_ground();
         }

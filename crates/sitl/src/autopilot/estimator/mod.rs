@@ -34,17 +34,17 @@ const COVARIANCE_PERIOD_S: f64 = 0.0099;
 const USABLE_VELOCITY_M_S: f64 = 0.7;
 const USABLE_POSITION_M: f64 = 12.0;
 /// Fraction of these limits that must be reached to regain validity.
-const REGAIN_SHARE: f64 = 0.5;
+const REGAIN_FRACTION: f64 = 0.5;
 /// Specific force above which the sampling blurs the direction of a shock, m/s², and the fraction of it treated as uncertain.
 const SHOCK_M_S2: f64 = 40.0;
-const SHOCK_SHARE: f64 = 0.1;
+const SHOCK_UNCERTAIN_FRACTION: f64 = 0.1;
 /// Averaging time of fixes before the origin of the local frame is set, s (estimate; PX4 requires 10 s of good fixes,
 /// EKF2_REQ_GPS_H).
 const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
 
 /// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water an aircraft often has neither GNSS nor optical
 /// flow, and this estimator's drift stays within its limits for about this long (`crates/sitl/tests/flight`).
-pub const NO_AID_S: f64 = 60.0;
+pub const DEAD_RECKONING_LIMIT_S: f64 = 60.0;
 
 /// Measurement noise from the sensors' data sheets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -201,7 +201,7 @@ impl Estimator {
             latest_fix: None,
             multipath_m2: 0.0,
             parked: true,
-            no_aid_s: NO_AID_S,
+            no_aid_s: DEAD_RECKONING_LIMIT_S,
             wanted_reference: HeightReference::default(),
             height_reference: HeightReferenceState::default(),
             place_step_m: None,
@@ -234,7 +234,7 @@ impl Estimator {
         if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
             self.propagate_covariance();
             self.fuse_gnss(fix, now);
-            self.place_local_origin(now);
+            self.set_local_origin(now);
         }
         if let Some(up_m) = readings.baro_up_m {
             self.fuse_baro(up_m, now);
@@ -248,7 +248,7 @@ impl Estimator {
     }
 
     /// Sets the origin of the local frame to the vehicle position once the first fixes are averaged.
-    fn place_local_origin(&mut self, now: SimTime) {
+    fn set_local_origin(&mut self, now: SimTime) {
         let first = *self.first_fix.get_or_insert(now);
         if !self.local_origin_set {
             self.local_origin_m = self.position_m;
@@ -336,7 +336,7 @@ impl Estimator {
         self.unpropagated_s += dt_s;
         let shock = force.norm();
         if shock > SHOCK_M_S2 {
-            self.shock_variance += (SHOCK_SHARE * shock * dt_s) * (SHOCK_SHARE * shock * dt_s);
+            self.shock_variance += (SHOCK_UNCERTAIN_FRACTION * shock * dt_s) * (SHOCK_UNCERTAIN_FRACTION * shock * dt_s);
         }
         if self.unpropagated_s >= COVARIANCE_PERIOD_S {
             self.propagate_covariance();
@@ -359,7 +359,7 @@ impl Estimator {
     }
 
     fn update_validity(&mut self, now: SimTime) {
-        let share = if self.usable { 1.0 } else { REGAIN_SHARE };
+        let share = if self.usable { 1.0 } else { REGAIN_FRACTION };
         let (v, p) = (self.velocity_sigma_m_s(), self.horizontal_sigma_m());
         let aided = (now - self.last_fused.velocity).s() < self.no_aid_s;
         self.usable = self.located && aided && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
@@ -393,20 +393,20 @@ impl Estimator {
     }
 
     /// Returns the accumulated position reset to GNSS since the last call, m.
-    pub fn take_place_step(&mut self) -> Option<Vec3<Ned>> {
+    pub fn take_position_reset(&mut self) -> Option<Vec3<Ned>> {
         let step_m = self.place_step_m.take();
         self.position_resets += u32::from(step_m.is_some());
         step_m
     }
 
-    /// Returns the number of position resets to GNSS that [`Self::take_place_step`] has returned.
+    /// Returns the number of position resets to GNSS that [`Self::take_position_reset`] has returned.
     #[must_use]
     pub fn position_resets(&self) -> u32 {
         self.position_resets
     }
 
     /// Resets the filter to a known pose, for example after a respawn. Keeps the biases.
-    pub fn reinitialise(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
+    pub fn reset_to_pose(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
         self.position_m = position_m;
         self.velocity_m_s = velocity_m_s;
         self.attitude = attitude;

@@ -12,7 +12,7 @@ const CENTERED: f64 = 0.2;
 /// Minimum cosine of the tilt for arming (20 degrees).
 const LEVEL: f64 = 0.94;
 /// Minimum clearance above for arming, m.
-const HEADROOM_M: f64 = 1.0;
+const MIN_OVERHEAD_CLEARANCE_M: f64 = 1.0;
 /// Maximum horizontal position error for arming, m (1 sigma).
 const ARMING_ACCURACY_M: f64 = 5.0;
 
@@ -105,7 +105,7 @@ impl ArmingCheck<'_> {
         if estimate.position_valid && fence.breach_at(estimate.position_m).is_some() {
             out.push("Outside the geofence".into());
         }
-        if flight.range_up_m.is_some_and(|range| range < HEADROOM_M) {
+        if flight.range_up_m.is_some_and(|range| range < MIN_OVERHEAD_CLEARANCE_M) {
             out.push("Obstacle above vehicle".into());
         }
         out

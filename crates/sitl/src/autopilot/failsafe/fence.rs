@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_areas_hold_what_lies_within() {
+    fn exact_zones_contain_interior_points() {
         let notched = FenceOutline::Polygon(vec![(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.0, 5.0), (0.0, 10.0)]);
         for (place, within) in
             [((2.0, 2.0), true), ((5.0, 4.0), true), ((5.0, 6.0), false), ((-1.0, 5.0), false), ((11.0, 1.0), false)]
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_way_is_allowed_only_where_all_of_it_is() {
+    fn exact_path_is_allowed_only_if_entirely_inside() {
         let zone = |outline, inclusion| FenceZone { outline, inclusion };
         let circle = |n, radius_m| FenceOutline::Circle { center_m: (n, 0.0), radius_m };
         let fence = Fence {
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_flight_is_allowed_in_any_inclusion_and_in_no_exclusion() {
+    fn exact_flight_needs_an_inclusion_zone_and_no_exclusion_zone() {
         let zone = |outline, inclusion| FenceZone { outline, inclusion };
         let circle = |n, radius_m| FenceOutline::Circle { center_m: (n, 0.0), radius_m };
         let fence =

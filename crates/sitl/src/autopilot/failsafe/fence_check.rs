@@ -11,7 +11,7 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
 /// Number of polygon sides used to check a circle.
-const RING_SIDES: usize = 36;
+const CIRCLE_POLYGON_SIDES: usize = 36;
 
 /// The geofence with its settings and home.
 #[derive(Debug, Clone, Copy)]
@@ -64,7 +64,7 @@ impl<'a> FenceCheck<'a> {
 
     /// Returns true if the straight path between two allowed positions leaves the fence.
     #[must_use]
-    pub fn leaves_between(&self, from: Vec3<Ned>, to: Vec3<Ned>) -> bool {
+    pub fn path_leaves_fence(&self, from: Vec3<Ned>, to: Vec3<Ned>) -> bool {
         self.is_active()
             && self.tuning.rules.fence.areas
             && !self.fence.allows_path((from.north(), from.east()), (to.north(), to.east()))
@@ -72,12 +72,12 @@ impl<'a> FenceCheck<'a> {
 
     /// Returns true if a circle leaves the fence.
     #[must_use]
-    pub fn ring_leaves(&self, center_m: Vec3<Ned>, radius_m: f64) -> bool {
+    pub fn circle_leaves_fence(&self, center_m: Vec3<Ned>, radius_m: f64) -> bool {
         let at = |k: usize| {
-            let (s, c) = math::sin_cos(k as f64 * 2.0 * math::PI / RING_SIDES as f64);
+            let (s, c) = math::sin_cos(k as f64 * 2.0 * math::PI / CIRCLE_POLYGON_SIDES as f64);
             center_m + Vec3::new(radius_m * c, radius_m * s, 0.0)
         };
-        (0..RING_SIDES).any(|k| self.breach_at(at(k)).is_some() || self.leaves_between(at(k), at(k + 1)))
+        (0..CIRCLE_POLYGON_SIDES).any(|k| self.breach_at(at(k)).is_some() || self.path_leaves_fence(at(k), at(k + 1)))
     }
 
     /// Returns the reason to reject a target, or `None` if it is allowed. `from_m` is the vehicle position, if known.
@@ -87,7 +87,7 @@ impl<'a> FenceCheck<'a> {
             return Some("Target outside geofence");
         }
         // A vehicle outside the fence may fly back in.
-        let leaves = from_m.is_some_and(|from| self.breach_at(from).is_none() && self.leaves_between(from, target_m));
+        let leaves = from_m.is_some_and(|from| self.breach_at(from).is_none() && self.path_leaves_fence(from, target_m));
         leaves.then_some("Path to target leaves geofence")
     }
 }

@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_sticks_have_a_dead_band_and_keep_their_full_travel() {
+    fn exact_stick_deadband_preserves_full_deflection() {
         assert_eq!(stick(0.05, 0.05), 0.0);
         assert_eq!(stick(-1.0, 0.05), -1.0);
         assert_eq!(stick(f64::NAN, 0.05), 0.0);

@@ -10,7 +10,7 @@ use crate::autopilot::tuning::LinkLossAction;
 use spandrel_model::time::SimTime;
 
 /// Time without position after which an automatic mode is aborted, s.
-const NO_POSITION_S: f64 = 1.0;
+const POSITION_LOSS_TIMEOUT_S: f64 = 1.0;
 
 /// A possible loss, in the order of the checks. The first one that needs another mode ends the checks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,7 +74,7 @@ impl LossMonitor {
             return None;
         }
         let since = *self.no_position_since.get_or_insert(input.now);
-        let lasting = (input.now - since).s() > NO_POSITION_S;
+        let lasting = (input.now - since).s() > POSITION_LOSS_TIMEOUT_S;
         let pilot_flies = sticks_fresh(links, input) && !input.tuning.rules.responses.blind_lands;
         if pilot_flies {
             (intended.is_manual() || lasting).then_some((FlightMode::Altitude, "position lost, holding height only"))

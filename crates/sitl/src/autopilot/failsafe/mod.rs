@@ -160,7 +160,7 @@ impl Failsafe {
     }
 
     /// Reports the start or end of a failsafe after all losses have been checked. Returns the mode change request.
-    pub fn conclude_losses(&mut self, flown: Option<LossMode>, input: &FailsafeInput) -> Option<FailsafeRequest> {
+    pub fn finish_loss_checks(&mut self, flown: Option<LossMode>, input: &FailsafeInput) -> Option<FailsafeRequest> {
         self.losses.conclude(flown, input, &mut self.events)
     }
 

@@ -1,7 +1,7 @@
 //! Operator settings beyond speeds and thresholds: failsafe actions, return, and limits for manual and automatic flight. The
 //! endpoint maps parameters to these fields; each comment names them (PX4; ArduPilot).
 
-use crate::autopilot::estimator::NO_AID_S;
+use crate::autopilot::estimator::DEAD_RECKONING_LIMIT_S;
 pub use crate::autopilot::estimator::height_reference::HeightReference;
 use crate::autopilot::flight_state::FlightMode;
 
@@ -82,7 +82,7 @@ impl OffboardLoss {
 /// Failsafe actions for low, critical and emergency battery levels.
 pub type BatteryResponses = [Option<FailsafeResponse>; 3];
 /// Rule of the scenario: return at low level, land at critical level.
-pub const JOB_BATTERY: BatteryResponses = [Some(FailsafeResponse::Return), Some(FailsafeResponse::Land), None];
+pub const SCENARIO_BATTERY_ACTIONS: BatteryResponses = [Some(FailsafeResponse::Return), Some(FailsafeResponse::Land), None];
 
 /// Failsafe actions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -211,7 +211,7 @@ pub struct ReturnRules {
     /// `RTL_MIN_DIST`: distance below which the vehicle does not climb, m.
     pub near_m: f64,
     /// `RTL_DESCEND_ALT`: height above the destination at which the vehicle waits, m; `None` for the arrival height.
-    pub wait_height_m: Option<f64>,
+    pub loiter_height_m: Option<f64>,
     /// `RTL_LAND_DELAY`; `RTL_LOIT_TIME`: waiting time, s; negative to wait forever.
     pub wait_s: f64,
     /// A rally point's height is the return height (ArduPilot).
@@ -401,7 +401,7 @@ impl Default for OperatorRules {
                 climb_min_m: 0.0,
                 cone_slope: 0.0,
                 near_m: 5.0,
-                wait_height_m: Some(10.0),
+                loiter_height_m: Some(10.0),
                 wait_s: 0.0,
                 rally_height: false,
                 turns_back: false,
@@ -417,7 +417,7 @@ impl Default for OperatorRules {
             orbit_radius_m: 5.0,
             guided: GuidedOptions::default(),
             height_reference: HeightReference::default(),
-            no_aid_s: NO_AID_S,
+            no_aid_s: DEAD_RECKONING_LIMIT_S,
         }
     }
 }

@@ -9,7 +9,7 @@ use spandrel_model::vehicle;
 const SILENT_S: f64 = 0.5;
 /// Time of identical readings after which a sensor counts as stuck, s (ArduPilot's barometer: 2 s; PX4: 100 equal values, 2 s at
 /// 50 Hz).
-const STUCK_S: f64 = 2.0;
+const STUCK_TIMEOUT_S: f64 = 2.0;
 
 /// Sensor and control health for telemetry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -117,7 +117,7 @@ impl<T: Copy + PartialEq> SensorMonitor<T> {
     fn update_fault(&mut self, may_be_silent: bool, dropped: bool, now: SimTime) -> bool {
         let since = |at: Option<SimTime>| at.map_or(0.0, |at| (now - at).s());
         let silent = !may_be_silent && since(self.received) > SILENT_S;
-        let stuck = since(self.changed) - since(self.received) > STUCK_S;
+        let stuck = since(self.changed) - since(self.received) > STUCK_TIMEOUT_S;
         let fault = match (silent, stuck, dropped) {
             (true, ..) => Some(SensorFault::Silent),
             (_, true, _) => Some(SensorFault::Stuck),
@@ -216,7 +216,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_repeated_value_is_no_measurement_and_after_two_seconds_a_fault() {
+    fn exact_repeated_value_is_ignored_and_is_a_fault_after_2_s() {
         let mut watched = SensorMonitor::new(true);
         let mut feed = |value: f64, from_ms: i64, until_ms: i64| {
             let mut used = 0;
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_sensor_without_noise_may_repeat_itself() {
+    fn exact_noiseless_sensor_may_repeat_values() {
         let mut watched = SensorMonitor::new(false);
         let used = (0..500).filter(|k| watched.accept(Some(1.0), SimTime::from_ms(20 * k)).is_some()).count();
         watched.update_fault(false, false, SimTime::from_ms(10_000));

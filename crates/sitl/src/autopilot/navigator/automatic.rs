@@ -5,7 +5,7 @@ use super::input::NavigatorInput;
 use super::mission_step::MissionStep;
 use crate::autopilot::control::landed::FlightPhase;
 use crate::autopilot::control::setpoint::Setpoint;
-use crate::autopilot::control::shaper::{CALM_JERK_S, JERK_S, MotionLimits, heading_of, towards};
+use crate::autopilot::control::shaper::{AUTO_JERK_S, JERK_S, MotionLimits, heading_of, towards};
 use crate::autopilot::control::velocity::VelocitySetpoint;
 use crate::autopilot::failsafe::operator_rules::HeadingRule;
 use crate::autopilot::flight_state::{FlightMode, LandedState};
@@ -16,11 +16,11 @@ pub(super) const HEIGHT_REACHED_M: f64 = 0.4;
 /// Height above ground up to which a take-off uses its own climb rate, m (PX4: MPC_LAND_ALT1).
 const TAKEOFF_SLOW_BELOW_M: f64 = 10.0;
 /// Minimum climb of a take-off from the ground, m (ArduCopter's AUTO).
-const TAKEOFF_LEAST_M: f64 = 1.0;
+const TAKEOFF_MIN_M: f64 = 1.0;
 /// Distance to the target above which the nose turns toward it, m.
-pub(super) const TURN_BEYOND_M: f64 = 2.0;
+pub(super) const TURN_MIN_DISTANCE_M: f64 = 2.0;
 /// Speed above which the nose turns along the path, m/s (estimate: well above the estimator's noise).
-const TURN_ABOVE_M_S: f64 = 1.0;
+const TURN_MIN_SPEED_M_S: f64 = 1.0;
 /// Distance below which the heading to a region of interest is not updated, m.
 const TOO_NEAR_M: f64 = 0.5;
 /// Maximum speed of a correction toward the landing position, m/s.
@@ -41,7 +41,7 @@ impl Navigator {
     /// `stopping_point` assumes.
     fn travel_limits(&self, input: &NavigatorInput) -> MotionLimits {
         let calm = matches!(self.modes.active, FlightMode::Mission | FlightMode::Return) && self.paused.is_none();
-        MotionLimits { build_up_s: if calm { CALM_JERK_S } else { JERK_S }, ..self.auto_limits(input) }
+        MotionLimits { build_up_s: if calm { AUTO_JERK_S } else { JERK_S }, ..self.auto_limits(input) }
     }
 
     /// Flies to the navigator's target and holds there.
@@ -61,7 +61,7 @@ impl Navigator {
         self.report.target_m = Some(target);
         let heading = self.heading_by_rule(target, input);
         let turns = speed.is_some() || self.modes.active != FlightMode::Hold;
-        let yaw = self.look_rad(input).or(self.heading.target_rad).or(heading.filter(|_| turns));
+        let yaw = self.region_of_interest_heading_rad(input).or(self.heading.target_rad).or(heading.filter(|_| turns));
         self.heading.turn_to(yaw, self.modes.active, input);
         let velocity_m_s = towards(input.gains, here, target, cruise, up, down);
         self.shaper.advance(velocity_m_s, &self.travel_limits(input), input.dt_s);
@@ -76,10 +76,10 @@ impl Navigator {
             || self.modes.active == FlightMode::Mission && self.mission.step() == Some(MissionStep::Return);
         match input.tuning.rules.heading {
             HeadingRule::TargetExceptReturn if returning => None,
-            HeadingRule::Target | HeadingRule::TargetExceptReturn => heading_of(target_m - here, TURN_BEYOND_M),
-            HeadingRule::Home => heading_of(home - here, TURN_BEYOND_M),
-            HeadingRule::AwayFromHome => heading_of(here - home, TURN_BEYOND_M),
-            HeadingRule::Path => heading_of(input.estimate.velocity_m_s, TURN_ABOVE_M_S),
+            HeadingRule::Target | HeadingRule::TargetExceptReturn => heading_of(target_m - here, TURN_MIN_DISTANCE_M),
+            HeadingRule::Home => heading_of(home - here, TURN_MIN_DISTANCE_M),
+            HeadingRule::AwayFromHome => heading_of(here - home, TURN_MIN_DISTANCE_M),
+            HeadingRule::Path => heading_of(input.estimate.velocity_m_s, TURN_MIN_SPEED_M_S),
             HeadingRule::Fixed => None,
         }
     }
@@ -111,7 +111,7 @@ impl Navigator {
     /// Returns the take-off height, m above the origin. From the ground it is at least high enough to lift off.
     pub(super) fn above_ground(&self, up_m: f64, input: &NavigatorInput) -> f64 {
         let standing = input.phase != FlightPhase::InAir;
-        if standing { up_m.max(TAKEOFF_LEAST_M - input.here().down()) } else { up_m }
+        if standing { up_m.max(TAKEOFF_MIN_M - input.here().down()) } else { up_m }
     }
 
     /// Default take-off height, m above the origin.
@@ -176,7 +176,7 @@ impl Navigator {
     }
 
     /// Heading toward the region of interest, rad. `None` without one or directly above it.
-    pub(super) fn look_rad(&self, input: &NavigatorInput) -> Option<f64> {
+    pub(super) fn region_of_interest_heading_rad(&self, input: &NavigatorInput) -> Option<f64> {
         let to = self.commanded.look_at_m? - input.here();
         heading_of(to, TOO_NEAR_M)
     }

@@ -17,7 +17,7 @@ const CLOSE_IN_PER_S: f64 = 0.6;
 const TRIM_PER_S2: f64 = 0.14;
 const TRIM_MAX_M_S: f64 = 2.0;
 /// Fraction of the available acceleration that circling may use.
-const TURN_SHARE: f64 = 0.5;
+const CIRCLE_ACCELERATION_FRACTION: f64 = 0.5;
 /// Allowed radii, m.
 const RADII_M: std::ops::RangeInclusive<f64> = 1.0..=1_000.0;
 /// Default speed, m/s.
@@ -50,7 +50,7 @@ impl Navigator {
         }
         let (n, e) = request.center_m.unwrap_or((here.north(), here.east()));
         let center_m = Vec3::new(n, e, request.up_m.map_or(here.down(), |up| -up));
-        if self.fence_check(input).ring_leaves(center_m, radius.abs()) {
+        if self.fence_check(input).circle_leaves_fence(center_m, radius.abs()) {
             return RequestOutcome::Denied("Circle leaves geofence".into());
         }
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
@@ -88,7 +88,7 @@ impl Navigator {
 
     /// Maximum speed on a circle, m/s.
     fn max_speed_on(&self, radius_m: f64, input: &NavigatorInput) -> f64 {
-        let turn = (TURN_SHARE * input.gains.acceleration_m_s2 * radius_m).sqrt();
+        let turn = (CIRCLE_ACCELERATION_FRACTION * input.gains.acceleration_m_s2 * radius_m).sqrt();
         turn.min(input.tuning.horizontal_speed_max_m_s).min(input.airframe.limits.forward_m_s)
     }
 
@@ -129,7 +129,11 @@ impl Navigator {
         let climb = CLOSE_IN_PER_S * (orbit.center_m.down() - here.down());
         let velocity_m_s = Vec3::new(flat.north(), flat.east(), climb.clamp(-input.tuning.climb_m_s, input.tuning.descend_m_s));
         match orbit.yaw {
-            OrbitYaw::Centre => self.heading.turn_to(self.look_rad(input).or(heading(away * -1.0)), self.modes.active, input),
+            OrbitYaw::Centre => self.heading.turn_to(
+                self.region_of_interest_heading_rad(input).or(heading(away * -1.0)),
+                self.modes.active,
+                input,
+            ),
             OrbitYaw::Tangent => self.heading.turn_to(heading(along * orbit.speed_m_s.signum()), self.modes.active, input),
             OrbitYaw::Keep => self.heading.turn_to(None, self.modes.active, input),
             OrbitYaw::Stick => self.heading.turn_by_stick(input),

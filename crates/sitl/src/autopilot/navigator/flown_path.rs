@@ -5,9 +5,9 @@ use spandrel_model::frames::{Ned, Vec3};
 /// Distance between recorded points. Path sections closer than this form a loop, m (ArduCopter: SRTL_ACCURACY).
 const ACCURACY_M: f64 = 2.0;
 /// Maximum number of points (ArduCopter: SRTL_POINTS).
-const POINTS_MAX: usize = 300;
+const MAX_POINTS: usize = 300;
 /// Maximum deviation of the simplified path from the recorded one, m (ArduCopter: half the accuracy).
-const SIMPLIFIED_WITHIN_M: f64 = 0.5 * ACCURACY_M;
+const SIMPLIFY_TOLERANCE_M: f64 = 0.5 * ACCURACY_M;
 /// Acceptance radius of points, m.
 const REACHED_M: f64 = 1.0;
 
@@ -41,8 +41,8 @@ impl FlownPath {
             self.points.truncate(leg + 1);
         }
         self.points.push(place_m);
-        let mut within_m = SIMPLIFIED_WITHIN_M;
-        while self.points.len() >= POINTS_MAX {
+        let mut within_m = SIMPLIFY_TOLERANCE_M;
+        while self.points.len() >= MAX_POINTS {
             self.simplify(within_m);
             within_m *= 2.0;
         }
@@ -59,7 +59,7 @@ impl FlownPath {
 
     /// Simplifies the path for a return.
     pub fn simplify_for_return(&mut self) {
-        self.simplify(SIMPLIFIED_WITHIN_M);
+        self.simplify(SIMPLIFY_TOLERANCE_M);
     }
 
     /// Returns the next point on the way back, and whether it is the take-off point. Removes a point that is reached.
@@ -106,20 +106,20 @@ mod tests {
     }
 
     #[test]
-    fn exact_straight_legs_keep_their_ends_and_loops_are_cut_out() {
+    fn exact_straight_legs_keep_endpoints_and_loops_are_removed() {
         let mut trail = FlownPath::default();
         trail.begin(at(0.0, 0.0, 0.0));
         // North 40 m, east 40 m, and back to the middle of the first leg.
         (1..=20).for_each(|k| trail.record(at(2.0 * f64::from(k), 0.0, 0.0)));
         (1..=20).for_each(|k| trail.record(at(40.0, 2.0 * f64::from(k), 0.0)));
-        trail.simplify(SIMPLIFIED_WITHIN_M);
+        trail.simplify(SIMPLIFY_TOLERANCE_M);
         assert_eq!(trail.points, [at(0.0, 0.0, 0.0), at(40.0, 0.0, 0.0), at(40.0, 40.0, 0.0)]);
         trail.record(at(20.0, 1.0, 0.0));
         assert_eq!(trail.points, [at(0.0, 0.0, 0.0), at(20.0, 1.0, 0.0)]);
     }
 
     #[test]
-    fn exact_a_path_of_any_length_stays_within_its_points() {
+    fn exact_long_path_respects_point_limit() {
         let mut trail = FlownPath::default();
         trail.begin(at(0.0, 0.0, 0.0));
         // A rising spiral has no straight legs and never meets itself.
@@ -127,7 +127,7 @@ mod tests {
             let angle = 0.05 * f64::from(k);
             let (s, c) = spandrel_model::math::sin_cos(angle);
             trail.record(at(50.0 * c, 50.0 * s, -3.0 * angle));
-            assert!(trail.points.len() < POINTS_MAX);
+            assert!(trail.points.len() < MAX_POINTS);
         }
         assert_eq!(trail.points[0], at(0.0, 0.0, 0.0));
     }

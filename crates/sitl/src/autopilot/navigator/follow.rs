@@ -8,9 +8,9 @@ use spandrel_model::time::SimTime;
 /// Timeout of target reports, s (PX4 and ArduCopter: 3 s).
 const LOST_S: f64 = 3.0;
 /// Minimum target speed for a valid course, m/s (PX4: 1 m/s).
-const MOVES_M_S: f64 = 1.0;
+const MIN_COURSE_SPEED_M_S: f64 = 1.0;
 /// Minimum time between positions for a velocity estimate, s; noise would dominate shorter intervals (estimate).
-const LEAST_APART_S: f64 = 0.2;
+const MIN_REPORT_INTERVAL_S: f64 = 0.2;
 /// Distance below which the heading does not track the target, m.
 const TOO_NEAR_M: f64 = 0.5;
 
@@ -89,7 +89,7 @@ impl Follower {
     pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
         let recent = self.latest.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= LOST_S);
         match recent {
-            Some((before, age_s)) if age_s >= LEAST_APART_S => (position_m - before.position_m) * (1.0 / age_s),
+            Some((before, age_s)) if age_s >= MIN_REPORT_INTERVAL_S => (position_m - before.position_m) * (1.0 / age_s),
             Some((before, _)) => before.velocity_m_s,
             None => Vec3::zero(),
         }
@@ -102,7 +102,7 @@ impl Follower {
         let smooth = rule.smoothing.clamp(0.0, 0.99);
         let velocity_m_s = before * smooth + target.velocity_m_s * (1.0 - smooth);
         self.latest = Some((FollowTarget { velocity_m_s, ..target }, now));
-        let moving = target.velocity_m_s.horizontal_norm() > MOVES_M_S;
+        let moving = target.velocity_m_s.horizontal_norm() > MIN_COURSE_SPEED_M_S;
         let course = moving.then(|| heading_of(target.velocity_m_s, 0.0)).flatten();
         self.course_rad = target.heading_rad.or(course).or(self.course_rad);
     }
@@ -119,7 +119,7 @@ impl Follower {
     }
 
     /// Returns the desired vehicle position for a target, m.
-    pub fn place_near(
+    pub fn position_near(
         &mut self,
         target: &FollowTarget,
         rule: &FollowRule,

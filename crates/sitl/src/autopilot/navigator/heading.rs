@@ -14,12 +14,12 @@ const TURNING_RAD_S: f64 = 0.1;
 const TURNING_LEAD_RAD: f64 = 0.08;
 /// Yaw rate below which the heading is captured, rad/s. With the yaw loop's lag of a few tenths of a second, it then moves by
 /// less than half a degree.
-const CAPTURED_RAD_S: f64 = 0.02;
+const CAPTURE_RATE_RAD_S: f64 = 0.02;
 /// Fraction of the full yaw rate used in automatic modes, and the gain on heading errors, 1/s.
-const AUTO_YAW_SHARE: f64 = 0.7;
+const AUTO_YAW_RATE_FRACTION: f64 = 0.7;
 const AUTO_YAW_GAIN: f64 = 1.5;
 /// Remaining turn that always takes the shorter direction, rad (5 degrees, estimate: more than the heading overshoots).
-const NEARLY_TURNED_RAD: f64 = 0.087;
+const SHORTEST_TURN_RAD: f64 = 0.087;
 
 /// Heading setpoint and commanded turns.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -80,7 +80,7 @@ impl Heading {
         let turning = (input.estimate.attitude * input.estimate.rates_rad_s).down();
         if rate_rad_s != 0.0 {
             self.free = true;
-        } else if turning.abs() < CAPTURED_RAD_S && self.rate_rad_s.abs() < CAPTURED_RAD_S {
+        } else if turning.abs() < CAPTURE_RATE_RAD_S && self.rate_rad_s.abs() < CAPTURE_RATE_RAD_S {
             self.free = false;
         }
         let before = self.rate_rad_s;
@@ -130,17 +130,18 @@ impl Heading {
             self.turn_at(0.0, input);
             return;
         };
-        let limit = turn.and_then(|turn| turn.rate_rad_s).map_or(AUTO_YAW_SHARE * full_rad_s, |rate| rate.min(full_rad_s));
+        let limit =
+            turn.and_then(|turn| turn.rate_rad_s).map_or(AUTO_YAW_RATE_FRACTION * full_rad_s, |rate| rate.min(full_rad_s));
         let left = math::wrap_pi(yaw_rad - self.yaw_rad);
-        let left = turn.map_or(left, |turn| self.left_in_direction(turn, left));
+        let left = turn.map_or(left, |turn| self.remaining_turn(turn, left));
         self.free = false;
         self.advance((AUTO_YAW_GAIN * left).clamp(-limit, limit), input);
     }
 
     /// Remaining turn in the commanded direction, rad. Close to the target heading, the shorter direction applies.
-    fn left_in_direction(&mut self, turn: TurnCommand, left: f64) -> f64 {
+    fn remaining_turn(&mut self, turn: TurnCommand, left: f64) -> f64 {
         let long_way = turn.clockwise.is_some_and(|clockwise| clockwise != (left > 0.0));
-        if left.abs() < NEARLY_TURNED_RAD {
+        if left.abs() < SHORTEST_TURN_RAD {
             self.turn = Some(TurnCommand { clockwise: None, ..turn });
             return left;
         }

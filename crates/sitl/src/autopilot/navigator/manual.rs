@@ -12,11 +12,11 @@ use spandrel_model::frames::{Ned, Rotation, Vec3};
 use spandrel_model::math;
 
 /// Speed below which the position is locked with the sticks centered, m/s.
-const LOCK_M_S: f64 = 0.15;
+const LOCK_MAX_SPEED_M_S: f64 = 0.15;
 /// Tilt in manual flight without position, as a fraction of the maximum.
-const BLIND_TILT_SHARE: f64 = 0.6;
+const NO_POSITION_TILT_FRACTION: f64 = 0.6;
 /// Fraction of the slow-down time in which the plan stops. The loop lag takes the rest.
-const SLOW_DOWN_SHARE: f64 = 0.55;
+const SLOW_DOWN_FRACTION: f64 = 0.55;
 /// Maximum correction speed toward a lock, m/s.
 const LOCK_SPEED_M_S: f64 = 2.0;
 /// Leveling gain, 1/s, and the maximum lean angle it counts, rad (ArduCopter: ACRO_BAL_ROLL 1, ACRO_LEVEL_MAX_ANGLE 30 degrees).
@@ -78,11 +78,16 @@ impl Navigator {
     /// Sticks control roll, pitch, yaw rate and climb rate.
     pub(super) fn altitude(&mut self, input: &NavigatorInput) -> Setpoint {
         self.heading.turn_by_stick(input);
-        let share = if self.modes.active == FlightMode::Altitude { 1.0 } else { BLIND_TILT_SHARE };
+        let share = if self.modes.active == FlightMode::Altitude { 1.0 } else { NO_POSITION_TILT_FRACTION };
         let tilt = self.stick_tilt(share, input);
         let limits = self.stick_limits(input);
-        let velocity =
-            self.with_locks(Vec3::new(0.0, 0.0, self.stick_climb(input)), false, input.links.sticks.up == 0.0, &limits, input);
+        let velocity = self.apply_position_locks(
+            Vec3::new(0.0, 0.0, self.stick_climb(input)),
+            false,
+            input.links.sticks.up == 0.0,
+            &limits,
+            input,
+        );
         self.locks.horizontal = None;
         Setpoint::Level { motion: self.motion(velocity), tilt }
     }
@@ -97,7 +102,7 @@ impl Navigator {
         let wanted_m_s = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb(input));
         let limits = self.stick_limits(input);
         let centered = s.forward == 0.0 && s.right == 0.0;
-        let velocity = self.with_locks(wanted_m_s, centered, s.up == 0.0, &limits, input);
+        let velocity = self.apply_position_locks(wanted_m_s, centered, s.up == 0.0, &limits, input);
         if let (Some((n, e)), Some(d)) = (self.locks.horizontal, self.locks.height_down_m) {
             self.report.target_m = Some(Vec3::new(n, e, d));
         }
@@ -107,7 +112,7 @@ impl Navigator {
     /// Motion limits in manual flight.
     fn stick_limits(&self, input: &NavigatorInput) -> MotionLimits {
         let l = &input.airframe.limits;
-        let plan_s = (SLOW_DOWN_SHARE * l.slow_down_time_s).max(0.1);
+        let plan_s = (SLOW_DOWN_FRACTION * l.slow_down_time_s).max(0.1);
         MotionLimits {
             horizontal_m_s2: (l.forward_m_s.max(l.sideward_m_s) / plan_s).min(input.gains.acceleration_m_s2),
             vertical_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(input.gains.climb_acceleration_m_s2),
@@ -116,7 +121,7 @@ impl Navigator {
     }
 
     /// Shapes a velocity from the sticks. With centered sticks and low speed, position and height are locked.
-    fn with_locks(
+    fn apply_position_locks(
         &mut self,
         wanted_m_s: Vec3<Ned>,
         flat_free: bool,
@@ -131,12 +136,12 @@ impl Navigator {
         let locks = &mut self.locks;
         if !flat_free {
             locks.horizontal = None;
-        } else if locks.horizontal.is_none() && planned.horizontal_norm() < LOCK_M_S {
+        } else if locks.horizontal.is_none() && planned.horizontal_norm() < LOCK_MAX_SPEED_M_S {
             locks.horizontal = Some((rest.north(), rest.east()));
         }
         if !down_free {
             locks.height_down_m = None;
-        } else if locks.height_down_m.is_none() && planned.down().abs() < LOCK_M_S {
+        } else if locks.height_down_m.is_none() && planned.down().abs() < LOCK_MAX_SPEED_M_S {
             locks.height_down_m = Some(rest.down());
         }
         let mut velocity = self.shaper.velocity_m_s;

@@ -9,8 +9,8 @@ use spandrel_model::time::SimTime;
 /// Maximum consecutive items without flight processed per tick. Others follow in the next tick.
 const STEPS_PER_TICK_MAX: usize = 64;
 /// Planning horizon of a trajectory, m, and its maximum number of waypoints; longer than any stopping distance.
-const AHEAD_M: f64 = 80.0;
-const AHEAD_MAX: usize = 24;
+const PLANNING_HORIZON_M: f64 = 80.0;
+const PLANNING_MAX_WAYPOINTS: usize = 24;
 
 /// Saved state of an interrupted item. Take-off, landing and return continue from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -180,7 +180,7 @@ impl Mission {
                     length_m += ahead.last().map_or(0.0, |last: &Waypoint| (position_m - last.position_m).norm());
                     let accept_m = if own_m > 0.0 { own_m } else { accept_m };
                     ahead.push(Waypoint { position_m, speed_m_s: leg_speed.take().unwrap_or(speed), accept_m });
-                    if hold_s > 0.0 || ahead.len() >= AHEAD_MAX || length_m > AHEAD_M {
+                    if hold_s > 0.0 || ahead.len() >= PLANNING_MAX_WAYPOINTS || length_m > PLANNING_HORIZON_M {
                         break;
                     }
                 }
@@ -338,7 +338,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_jump_repeats_as_often_as_it_says() {
+    fn exact_jump_repeats_the_given_number_of_times() {
         let wait = MissionStep::Delay(1.0);
         let mut mission = Mission::new(vec![wait, MissionStep::Jump { to: 0, times: 2 }, wait]);
         let mut visits = Vec::new();
@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_jumps_in_a_ring_stop_no_tick() {
+    fn exact_jump_loops_do_not_block_a_tick() {
         let mut mission = Mission::new(vec![MissionStep::Jump { to: 0, times: u32::MAX }]);
         // Limited per tick; the endpoint rejects such a list.
         assert!(mission.skip(SimTime::ZERO));
@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_long_row_of_steps_without_flight_is_passed_in_several_ticks_and_restarted_as_it_was() {
+    fn exact_many_non_flight_items_take_several_ticks_and_can_restart() {
         let mut steps = vec![MissionStep::Payload; 3 * STEPS_PER_TICK_MAX];
         steps[5] = MissionStep::Speed(Some(7.0));
         steps.push(MissionStep::Delay(1.0));

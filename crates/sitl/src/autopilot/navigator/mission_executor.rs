@@ -1,7 +1,7 @@
 //! Execution of mission items.
 
 use super::Navigator;
-use super::automatic::{HEIGHT_REACHED_M, TURN_BEYOND_M};
+use super::automatic::{HEIGHT_REACHED_M, TURN_MIN_DISTANCE_M};
 use super::input::NavigatorInput;
 use super::mission::SuspendedStep;
 use super::mission_step::MissionStep;
@@ -18,15 +18,15 @@ use spandrel_model::time::SimTime;
 
 /// Distance to the interruption point at which a mission continues, m (estimate: less than the smallest path tolerance of a
 /// task).
-const BACK_WITHIN_M: f64 = 0.8;
+const ROUTE_REJOIN_DISTANCE_M: f64 = 0.8;
 /// Heading tolerance of a turn, rad (3 degrees, estimate).
-const TURNED_RAD: f64 = 0.052;
+const HEADING_TOLERANCE_RAD: f64 = 0.052;
 /// Distance to the landing position at which the descent begins, m.
-const OVER_PLACE_M: f64 = 0.7;
+const LANDING_POSITION_TOLERANCE_M: f64 = 0.7;
 /// Maximum speed of corrections toward the planned position, horizontal and vertical, m/s (estimate: wind and a late start).
-const CATCH_UP_M_S: (f64, f64) = (1.5, 1.0);
+const MAX_CORRECTION_SPEED_M_S: (f64, f64) = (1.5, 1.0);
 /// Maximum tracking error for a passed waypoint to count as reached, m (estimate: the effect of a gust).
-const NEAR_PLAN_M: f64 = 1.0;
+const MAX_TRACKING_ERROR_M: f64 = 1.0;
 
 impl Navigator {
     /// Flies the current mission item.
@@ -132,22 +132,26 @@ impl Navigator {
         };
         let planned = self.trajectory.as_mut()?.advance(&speeds, behind.norm(), input.dt_s);
         self.report.target_m = Some(self.target_m);
-        let heading = heading_of(self.target_m - input.here(), TURN_BEYOND_M);
-        self.heading.turn_to(self.look_rad(input).or(self.heading.target_rad).or(heading), self.modes.active, input);
+        let heading = heading_of(self.target_m - input.here(), TURN_MIN_DISTANCE_M);
+        self.heading.turn_to(
+            self.region_of_interest_heading_rad(input).or(self.heading.target_rad).or(heading),
+            self.modes.active,
+            input,
+        );
         // The next mode or item starts from the planned velocity and acceleration.
         self.shaper.velocity_m_s = planned.velocity_m_s;
         self.shaper.acceleration_m_s2 = planned.acceleration_m_s2;
         let behind = self.tracking_error(&planned, input);
         let flat = Vec3::<Ned>::new(behind.north(), behind.east(), 0.0) * input.gains.position;
-        let flat = flat.limited(CATCH_UP_M_S.0);
-        let down = (input.gains.height * behind.down()).clamp(-CATCH_UP_M_S.1, CATCH_UP_M_S.1);
+        let flat = flat.limited(MAX_CORRECTION_SPEED_M_S.0);
+        let down = (input.gains.height * behind.down()).clamp(-MAX_CORRECTION_SPEED_M_S.1, MAX_CORRECTION_SPEED_M_S.1);
         Some(Setpoint::Velocity(self.motion(planned.velocity_m_s + flat + Vec3::new(0.0, 0.0, down))))
     }
 
     /// Returns true if the plan has passed the current waypoint and the vehicle is close to the plan.
     fn has_passed(&self, input: &NavigatorInput) -> bool {
         let passed = |plan: &Trajectory| {
-            plan.has_passed(self.target_m) && self.tracking_error(&plan.planned(), input).norm() < NEAR_PLAN_M
+            plan.has_passed(self.target_m) && self.tracking_error(&plan.planned(), input).norm() < MAX_TRACKING_ERROR_M
         };
         self.trajectory.as_ref().is_some_and(passed)
     }
@@ -237,7 +241,7 @@ impl Navigator {
     /// Flies to the interruption point, then continues.
     fn return_to_route(&mut self, place_m: Vec3<Ned>, input: &NavigatorInput) -> Setpoint {
         self.target_m = place_m;
-        if (place_m - input.here()).norm() < BACK_WITHIN_M {
+        if (place_m - input.here()).norm() < ROUTE_REJOIN_DISTANCE_M {
             self.mission.suspended_at_m = None;
             self.events.push(Severity::Info, "Mission resumed from interruption point");
         }
@@ -336,7 +340,7 @@ impl Navigator {
             return self.go_home(input);
         }
         let away = (self.target_m - input.here()).horizontal_norm();
-        if away < OVER_PLACE_M {
+        if away < LANDING_POSITION_TOLERANCE_M {
             self.returning.phase = ReturnPhase::Land;
         }
         if self.returning.phase == ReturnPhase::Land { self.land(input) } else { self.go(self.mission.speed_m_s, input) }
@@ -359,7 +363,7 @@ impl Navigator {
             MissionStep::Near(within_m) => left.norm() < within_m || self.mission.next_position().is_none(),
             MissionStep::Turn { .. } => {
                 let yaw = input.estimate.attitude.yaw_rad();
-                self.heading.target_rad.is_none_or(|wanted| math::wrap_pi(wanted - yaw).abs() < TURNED_RAD)
+                self.heading.target_rad.is_none_or(|wanted| math::wrap_pi(wanted - yaw).abs() < HEADING_TOLERANCE_RAD)
             }
             MissionStep::Land { .. }
             | MissionStep::Return

@@ -13,7 +13,7 @@ use crate::autopilot::flight_state::FlightMode;
 use spandrel_model::frames::Vec3;
 
 /// Stick position above which the throttle counts as raised (ArduPilot: RC3_DZ, 30 us).
-const THROTTLE_UP: f64 = -0.94;
+const RAISED_THROTTLE_THRESHOLD: f64 = -0.94;
 
 impl Navigator {
     /// Starts or restarts a mode. Suspends an interrupted mission.
@@ -97,7 +97,7 @@ impl Navigator {
             FlightMode::Takeoff => true,
             FlightMode::Mission => {
                 use MissionStep as S;
-                let least = if input.tuning.mission_mode_stays { THROTTLE_UP } else { 0.1 };
+                let least = if input.tuning.mission_mode_stays { RAISED_THROTTLE_THRESHOLD } else { 0.1 };
                 let raised = input.links.sticks.up > least && input.sticks_fresh();
                 let go = input.tuning.rules.mission_starts_armed || self.mission_status.started || raised;
                 go && matches!(self.mission.step(), Some(S::Takeoff { .. } | S::Waypoint { .. } | S::Circle { .. } | S::Near(_)))
@@ -115,7 +115,7 @@ impl Navigator {
     /// Returns the setpoint of the active mode.
     pub fn setpoint(&mut self, input: &NavigatorInput) -> Setpoint {
         self.report.target_m = None;
-        self.report.setpoint = self.setpoint_flown(input);
+        self.report.setpoint = self.active_setpoint(input);
         self.report.climbing_out = false;
         if input.phase == FlightPhase::OnGround {
             return Setpoint::Idle;

@@ -16,7 +16,7 @@ const DESCENT_THRUST: f64 = 0.1;
 
 impl Navigator {
     /// The external setpoint, if the mode uses it and it has not timed out.
-    pub(super) fn setpoint_flown(&self, input: &NavigatorInput) -> Option<OffboardSetpoint> {
+    pub(super) fn active_setpoint(&self, input: &NavigatorInput) -> Option<OffboardSetpoint> {
         let fresh = self.modes.active == FlightMode::Offboard && input.offboard_fresh();
         input.links.offboard.filter(|_| fresh).map(|(setpoint, _)| setpoint)
     }
@@ -36,7 +36,7 @@ impl Navigator {
 
     /// Tracks the external setpoint. Without one, stops.
     pub(super) fn fly_setpoint(&mut self, input: &NavigatorInput) -> Setpoint {
-        let Some(setpoint) = self.setpoint_flown(input) else {
+        let Some(setpoint) = self.active_setpoint(input) else {
             return if input.estimate.position_valid { self.go(None, input) } else { self.descend_without_position(input) };
         };
         match setpoint.yaw_rate_rad_s {
@@ -147,10 +147,10 @@ impl Navigator {
             return self.go(None, input);
         };
         let here = input.here();
-        let place = self.follower.place_near(&target, &input.tuning.follow, here, self.home.place_m);
+        let place = self.follower.position_near(&target, &input.tuning.follow, here, self.home.place_m);
         // If the target is lost, the vehicle holds here.
         self.target_m = here;
-        let yaw = self.look_rad(input).or_else(|| heading_of(target.position_m - here, TOO_NEAR_M));
+        let yaw = self.region_of_interest_heading_rad(input).or_else(|| heading_of(target.position_m - here, TOO_NEAR_M));
         self.heading.turn_to(yaw, self.modes.active, input);
         let setpoint = OffboardSetpoint {
             position_m: place.array().map(Some),

@@ -11,7 +11,7 @@ use crate::autopilot::request::{AutopilotRequest, RequestOutcome, TurnCommand};
 use spandrel_model::frames::{Ned, Vec3};
 
 /// Limit beyond which heights and distances are rejected as errors, m.
-const FAR_M: f64 = 20_000.0;
+const MAX_DISTANCE_M: f64 = 20_000.0;
 /// Throttle stick position above which thrust exceeds half of the hover thrust (ArduPilot: get_non_takeoff_throttle).
 const HALF_HOVER_THROTTLE: f64 = -0.5;
 
@@ -143,7 +143,7 @@ impl Navigator {
     }
 
     fn request_takeoff(&mut self, height_m: Option<f64>, input: &NavigatorInput) -> RequestOutcome {
-        if height_m.is_some_and(|h| !h.is_finite() || h.abs() > FAR_M) {
+        if height_m.is_some_and(|h| !h.is_finite() || h.abs() > MAX_DISTANCE_M) {
             return RequestOutcome::Denied("Takeoff height out of range".into());
         }
         let here = input.here();
@@ -179,7 +179,7 @@ impl Navigator {
         input: &NavigatorInput,
     ) -> RequestOutcome {
         let given = [north_east_m.map(|p| p.0), north_east_m.map(|p| p.1), up_m, yaw_rad, speed_m_s];
-        if given.iter().flatten().any(|v| !v.is_finite() || v.abs() > FAR_M) {
+        if given.iter().flatten().any(|v| !v.is_finite() || v.abs() > MAX_DISTANCE_M) {
             return RequestOutcome::Denied("Target out of range".into());
         }
         if !input.is_flying() {
@@ -260,7 +260,7 @@ impl Navigator {
     }
 
     fn set_home(&mut self, home_m: Vec3<Ned>) -> RequestOutcome {
-        if !home_m.is_finite() || home_m.norm() > FAR_M {
+        if !home_m.is_finite() || home_m.norm() > MAX_DISTANCE_M {
             return RequestOutcome::Denied("Home out of range".into());
         }
         self.move_home(home_m);
@@ -303,7 +303,7 @@ impl Navigator {
             let outside = format!("Mission item {number} outside geofence");
             let to = match step {
                 MissionStep::Waypoint { position_m, .. } | MissionStep::Land { position_m: Some(position_m) } => position_m,
-                MissionStep::Circle { center_m, radius_m, .. } if fence.ring_leaves(center_m, radius_m.abs()) => {
+                MissionStep::Circle { center_m, radius_m, .. } if fence.circle_leaves_fence(center_m, radius_m.abs()) => {
                     return Some(outside);
                 }
                 MissionStep::Circle { center_m, .. } => center_m,
@@ -328,13 +328,13 @@ impl Navigator {
             if fence.breach_at(to).is_some() {
                 return Some(outside);
             }
-            if from.is_some_and(|from| fence.leaves_between(from, to)) {
+            if from.is_some_and(|from| fence.path_leaves_fence(from, to)) {
                 return Some(format!("Path to mission item {number} leaves geofence"));
             }
             from = Some(to);
         }
         let back = self.mission.suspended_at_m.filter(|_| flying && fence.breach_at(here).is_none());
-        let cut_off = back.is_some_and(|place| fence.leaves_between(here, place));
+        let cut_off = back.is_some_and(|place| fence.path_leaves_fence(here, place));
         cut_off.then(|| "Return path to mission leaves geofence".into())
     }
 }

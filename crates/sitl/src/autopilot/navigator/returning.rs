@@ -15,7 +15,7 @@ use spandrel_model::time::SimTime;
 const ARRIVED_M: f64 = 0.5;
 const ARRIVED_M_S: f64 = 0.5;
 /// Height above the take-off point at which the landing of a smart return begins, m (ArduCopter: pre-land position).
-const LANDING_FROM_M: f64 = 2.0;
+const SMART_RETURN_LANDING_HEIGHT_M: f64 = 2.0;
 
 impl Navigator {
     /// Starts a return to the nearest allowed destination.
@@ -53,7 +53,7 @@ impl Navigator {
         if rules.cone_slope <= 0.0 {
             return input.tuning.return_height_m;
         }
-        let least_m = rules.wait_height_m.unwrap_or(0.0);
+        let least_m = rules.loiter_height_m.unwrap_or(0.0);
         (away_m * rules.cone_slope).max(least_m).min(input.tuning.return_height_m)
     }
 
@@ -92,7 +92,7 @@ impl Navigator {
         self.events.push(Severity::Info, format!("{place} reached, {}", if waits { "waiting" } else { "landing" }));
         self.returning.phase = if waits { ReturnPhase::Wait } else { ReturnPhase::Land };
         self.returning.wait_until = None;
-        if let Some(height_m) = rules.wait_height_m.filter(|_| waits) {
+        if let Some(height_m) = rules.loiter_height_m.filter(|_| waits) {
             let down = input.here().down().max(home.down() - height_m);
             self.target_m = Vec3::new(home.north(), home.east(), down);
         }
@@ -143,7 +143,7 @@ impl Navigator {
         }
         let here = input.here();
         let Some((next, last)) = self.flown_path.next_back(here) else { return self.go(None, input) };
-        self.target_m = if last { next - Vec3::new(0.0, 0.0, LANDING_FROM_M) } else { next };
+        self.target_m = if last { next - Vec3::new(0.0, 0.0, SMART_RETURN_LANDING_HEIGHT_M) } else { next };
         let left = self.target_m - here;
         let slow = input.estimate.velocity_m_s.norm() < ARRIVED_M_S;
         if last && left.norm() < ARRIVED_M && slow {

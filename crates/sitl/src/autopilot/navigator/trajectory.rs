@@ -16,19 +16,19 @@ const CORNER_JERK_M_S3: f64 = 2.5;
 /// Time constant of the speed relative to its limit, s.
 const APPROACH_S: f64 = 0.25;
 /// Maximum corner cut, as a fraction of the acceptance radius, and absolute, m.
-const CUT_SHARE: f64 = 0.5;
-const CUT_MAX_M: f64 = 2.0;
+const CORNER_CUT_FRACTION: f64 = 0.5;
+const MAX_CORNER_CUT_M: f64 = 2.0;
 /// Corner cut per meter of reach and unit of direction change: 3/16 for the cubic blend below.
 const CUT_PER_REACH: f64 = 0.1875;
 /// Sine of the slope above which a leg is flown at climb or descent speed (60 degrees).
-const STEEP: f64 = 0.866;
+const STEEP_SLOPE_SINE: f64 = 0.866;
 /// Distance below which waypoints count as identical, m.
-const SAME_PLACE_M: f64 = 0.01;
+const COINCIDENT_DISTANCE_M: f64 = 0.01;
 /// Decay rate of the initial cross-track velocity, 1/s (estimate: its jerk at 1 m/s is below 7 m/s³).
-const JOIN_PER_S: f64 = 1.5;
+const JOIN_DECAY_PER_S: f64 = 1.5;
 /// Tracking errors at which the plan starts to slow down and at which it stops, m (estimate).
-const FREE_M: f64 = 1.0;
-const WAITS_M: f64 = 3.0;
+const SLOWDOWN_ERROR_M: f64 = 1.0;
+const STOP_ERROR_M: f64 = 3.0;
 
 /// A position to fly to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,7 +140,7 @@ impl Trajectory {
         let now = self.leg_at(self.along_m);
         // A corner in progress still needs its incoming leg.
         let keep = if now > 0 && self.along_m < self.legs[now].start_m + self.legs[now - 1].reach_m { now - 1 } else { now };
-        let leads_there = |leg: &Segment| (leg.to.position_m - first.position_m).norm() < SAME_PLACE_M;
+        let leads_there = |leg: &Segment| (leg.to.position_m - first.position_m).norm() < COINCIDENT_DISTANCE_M;
         let Some(next) = (keep..self.legs.len()).find(|k| leads_there(&self.legs[*k])) else { return false };
         let start = self.legs[keep];
         let kept = self.legs[keep..next].iter().map(|leg| leg.to);
@@ -154,12 +154,12 @@ impl Trajectory {
     #[must_use]
     pub fn has_passed(&self, place_m: Vec3<Ned>) -> bool {
         let through = self.legs.iter().rev().skip(1);
-        through.filter(|leg| (leg.to.position_m - place_m).norm() < SAME_PLACE_M).any(|leg| self.along_m >= leg.end_m())
+        through.filter(|leg| (leg.to.position_m - place_m).norm() < COINCIDENT_DISTANCE_M).any(|leg| self.along_m >= leg.end_m())
     }
 
     /// Advances the plan by one step. `behind_m` is the aircraft's tracking error.
     pub fn advance(&mut self, speeds: &SpeedLimits, behind_m: f64, dt_s: f64) -> TrajectoryPoint {
-        let waits = ((WAITS_M - behind_m) / (WAITS_M - FREE_M)).clamp(0.0, 1.0);
+        let waits = ((STOP_ERROR_M - behind_m) / (STOP_ERROR_M - SLOWDOWN_ERROR_M)).clamp(0.0, 1.0);
         let allowed = self.allowed_m_s(speeds) * waits;
         let max_m_s2 = self.legs[self.leg_at(self.along_m)].max_m_s2;
         let wanted = ((allowed - self.speed_m_s) / APPROACH_S).clamp(-max_m_s2, max_m_s2);
@@ -175,7 +175,7 @@ impl Trajectory {
 
     /// Third-order critically damped decay, which keeps the acceleration continuous.
     fn settle(&mut self, dt_s: f64) {
-        let (k, off) = (JOIN_PER_S, &mut self.joining);
+        let (k, off) = (JOIN_DECAY_PER_S, &mut self.joining);
         let jerk = off.acceleration_m_s2 * (-3.0 * k) + off.velocity_m_s * (-3.0 * k * k) + off.position_m * (-k * k * k);
         off.acceleration_m_s2 += jerk * dt_s;
         off.velocity_m_s += off.acceleration_m_s2 * dt_s;
@@ -246,7 +246,7 @@ impl Segment {
         let vertical = if down < 0.0 { speeds.up_m_s } else { speeds.down_m_s };
         let climb = vertical / down.abs().max(1e-9);
         let wanted = self.to.speed_m_s.unwrap_or(speeds.default_m_s).min(speeds.max_m_s).max(0.1);
-        if down.abs() > STEEP { climb.min(wanted / flat.max(1e-9)) } else { climb.min(wanted) }
+        if down.abs() > STEEP_SLOPE_SINE { climb.min(wanted / flat.max(1e-9)) } else { climb.min(wanted) }
     }
 
     /// Blend into the next leg: the direction follows the cubic 3x² - 2x³.
@@ -277,7 +277,7 @@ fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &AccelerationLimits) 
         let offset = to.position_m - at;
         let length_m = offset.norm();
         // A single waypoint at the current position is still a valid trajectory.
-        if length_m < SAME_PLACE_M && (!legs.is_empty() || k + 1 < waypoints.len()) {
+        if length_m < COINCIDENT_DISTANCE_M && (!legs.is_empty() || k + 1 < waypoints.len()) {
             continue;
         }
         let start_m = legs.last().map_or(0.0, Segment::end_m);
@@ -309,7 +309,7 @@ fn corner(leg: &Segment, next: &Segment, bounds: &AccelerationLimits) -> (f64, f
     if bend < 1e-6 || room <= 0.0 {
         return (0.0, f64::INFINITY);
     }
-    let cut_m = (CUT_SHARE * leg.to.accept_m).min(CUT_MAX_M);
+    let cut_m = (CORNER_CUT_FRACTION * leg.to.accept_m).min(MAX_CORNER_CUT_M);
     let reach = room.min(cut_m / (CUT_PER_REACH * bend));
     let by_acceleration = (bounds.along(turn) * 2.0 * reach / (1.5 * bend)).sqrt();
     let by_jerk = math::cbrt(CORNER_JERK_M_S3 * 4.0 * reach * reach / (6.0 * bend));

@@ -12,7 +12,7 @@ use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavResult, MavSeverity, RC_
 /// Applies stick input. In the mode that accepts go-to commands, the yaw stick does not take over.
 fn fly_by_sticks(v: &VehicleLink, sticks: Sticks, a: &mut InboundMessage) {
     let is_guided = v.is_guided(a.autopilot);
-    a.autopilot.note_errands(is_guided);
+    a.autopilot.set_sticks_in_guided(is_guided);
     a.autopilot.sticks(sticks, a.now());
 }
 

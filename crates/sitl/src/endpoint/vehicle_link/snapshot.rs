@@ -11,7 +11,7 @@ use crate::endpoint::payload::camera::CameraSummary;
 use crate::endpoint::payload::gimbal::GimbalState;
 use crate::endpoint::payload::lamp::LampState;
 use crate::endpoint::payload::{Payload, ScoringTruth};
-use crate::physics::{Actuators, RigidState, BatteryState};
+use crate::physics::{Actuators, BatteryState, RigidState};
 use crate::sensors::Readings;
 use spandrel_model::frames::{Frd, LocalNed, Ned, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};

@@ -3,7 +3,7 @@
 use super::Params;
 use crate::autopilot::operator_rules::{
     BatteryResponses, FailsafeResponse, FenceParts, FenceSwitching, FlightEnvelope, GuidedOptions, HeadingRule, HeightReference,
-    JOB_BATTERY, LinkLossExceptions, MissionNeeds, OffboardLoss, OperatorRules, ReturnRules, ReturnTargets,
+    LinkLossExceptions, MissionNeeds, OffboardLoss, OperatorRules, ReturnRules, ReturnTargets, SCENARIO_BATTERY_ACTIONS,
 };
 
 /// Bits of ArduPilot's `FS_OPTIONS`.
@@ -105,7 +105,7 @@ impl Params {
             return [action("BATT_FS_LOW_ACT"), action("BATT_FS_CRT_ACT"), None];
         }
         match self.integer("COM_LOW_BAT_ACT") {
-            1 => JOB_BATTERY,
+            1 => SCENARIO_BATTERY_ACTIONS,
             2 => [None, Some(FailsafeResponse::Land), Some(FailsafeResponse::Land)],
             3 => [None, Some(FailsafeResponse::Return), Some(FailsafeResponse::Land)],
             _ => [None; 3],
@@ -120,7 +120,7 @@ impl Params {
             climb_min_m: 0.0,
             cone_slope: if angle_rad > 0.0 { 1.0 / spandrel_model::math::tan(angle_rad) } else { 0.0 },
             near_m: self.number("RTL_MIN_DIST"),
-            wait_height_m: Some(self.number("RTL_DESCEND_ALT")),
+            loiter_height_m: Some(self.number("RTL_DESCEND_ALT")),
             wait_s: self.number("RTL_LAND_DELAY"),
             rally_height: false,
             turns_back: false,
@@ -135,7 +135,7 @@ impl Params {
             climb_min_m: self.number("RTL_CLIMB_MIN") / 100.0,
             cone_slope: self.number("RTL_CONE_SLOPE"),
             near_m: OperatorRules::default().homeward.near_m,
-            wait_height_m: None,
+            loiter_height_m: None,
             wait_s: self.number("RTL_LOIT_TIME") / 1000.0,
             rally_height: true,
             turns_back: matches!(self.integer("WP_YAW_BEHAVIOR"), 1 | 3),
