@@ -93,7 +93,7 @@ impl Inspect {
         let rigid = &sim.truth().rigid;
         let payload = sim.payload();
         let here = Pose { position_m: rigid.position_m.enu(), ned_from_frd: rigid.attitude };
-        let pose = CameraPose::on(&aircraft.camera, here, payload.gimbal.pitch_rad, payload.lamp.on);
+        let pose = CameraPose::on_aircraft(&aircraft.camera, here, payload.gimbal.pitch_rad, payload.lamp.on);
         let shown = SiteSurvey::view_defects(sim.site(), &pose, &aircraft.camera, &aircraft.lamp, sim.now());
         self.found.extend(shown.iter().filter(|view| view.hit).map(|view| view.defect_id));
     }
