@@ -196,13 +196,13 @@ def mavproxy_get(bench):
 
 
 TASKS = {
-    "Mission of 200 items, upload": mission,
-    "All parameters": parameters,
+    "Upload of a 200-item mission": mission,
+    "Download of all parameters": parameters,
     "Arm, take off, land": flight,
-    "FTP, 50 kB, burst": lambda bench: download(bench, True),
-    "FTP, 50 kB, plain reads": lambda bench: download(bench, False),
-    "FTP, 50 kB, MAVProxy": mavproxy_get,
-    "Log of 50 kB": log,
+    "FTP download of 50 kB, burst reads": lambda bench: download(bench, True),
+    "FTP download of 50 kB, plain reads": lambda bench: download(bench, False),
+    "FTP download of 50 kB, MAVProxy": mavproxy_get,
+    "Download of a 50 kB log": log,
 }
 
 

@@ -9,11 +9,11 @@ import relay
 # Tasks that succeed at this loss with a probability of more than 99.9 % (because of the clients' own retries,
 # docs/src/measured/bad-link.md).
 RELIABLE_TASKS = [
-    ("Mission of 200 items, upload", relay.LOSS_10),
-    ("All parameters", relay.LOSS_30),
-    ("FTP, 50 kB, burst", relay.LOSS_30),
-    ("FTP, 50 kB, MAVProxy", relay.LOSS_10),
-    ("Log of 50 kB", relay.LOSS_10),
+    ("Upload of a 200-item mission", relay.LOSS_10),
+    ("Download of all parameters", relay.LOSS_30),
+    ("FTP download of 50 kB, burst reads", relay.LOSS_30),
+    ("FTP download of 50 kB, MAVProxy", relay.LOSS_10),
+    ("Download of a 50 kB log", relay.LOSS_10),
 ]
 
 
@@ -26,7 +26,15 @@ def test_wire_stock_clients_succeed_over_a_bad_link(name, link, measured):
 
 @pytest.mark.skipif(not px4.BUILD, reason="SPANDREL_PX4 names no build folder of PX4")
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("name", ["Mission of 200 items, upload", "All parameters", "FTP, 50 kB, burst", "Log of 50 kB"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "Upload of a 200-item mission",
+        "Download of all parameters",
+        "FTP download of 50 kB, burst reads",
+        "Download of a 50 kB log",
+    ],
+)
 def test_wire_stock_clients_succeed_with_a_real_px4(name, measured):
     """Basis of the comparison in docs/src/measured/bad-link.md: without losses, the clients succeed with both
     vehicles."""
