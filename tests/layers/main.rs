@@ -42,7 +42,7 @@ fn exact_every_import_follows_the_layer_rules() {
 }
 
 #[test]
-fn exact_the_picture_of_the_rooms_shows_the_imports_of_the_code() {
+fn exact_layer_diagram_matches_the_imports() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut imports = picture::Imports::new();
     for path in all_sources(root) {
