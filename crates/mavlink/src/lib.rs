@@ -19,7 +19,7 @@
 //! assert_eq!(frames[0].system_id, 255);
 //! assert!(matches!(frames[0].message, Some(MavMessage::HEARTBEAT(_))));
 //!
-//! Invalid bytes are skipped and counted.
+//! // Invalid bytes are skipped and counted.
 //! assert!(decoder.datagram(b"no frame").is_empty());
 //! assert_eq!(decoder.bad_bytes(), 8);
 //! ```
