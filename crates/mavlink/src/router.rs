@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// Message ID of SETUP_SIGNING, which carries a key and is therefore never forwarded.
 const SETUP_SIGNING: u32 = 256;
-/// Maximum number of senders stored, so that a link with thousands of spoofed senders cannot exhaust the memory.
+/// Maximum number of senders stored, so that a link with thousands of spoofed senders cannot exhaust memory.
 const MAX_SENDERS: usize = 1_024;
 
 /// Routing table: the links on which each sender was seen. `L` identifies a link.

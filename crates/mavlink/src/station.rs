@@ -1,4 +1,4 @@
-//! Messages that ground station clients send: heartbeats, commands, and the selection of position mode.
+//! Messages sent by ground station clients: heartbeats, commands, and the selection of position mode.
 
 use super::dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavFrame, MavMessage, MavModeFlag,
@@ -23,8 +23,8 @@ pub fn heartbeat() -> MavMessage {
     })
 }
 
-/// Creates the heartbeat of a companion that does not control the vehicle, such as the monitor or an observer. The dialect's
-/// default cannot be used, because it reports an armed vehicle.
+/// Creates the heartbeat of a companion component that does not control the vehicle, such as the monitor or an
+/// observer. The dialect's default cannot be used, because it reports an armed vehicle.
 #[must_use]
 pub fn companion_heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {

@@ -1,4 +1,4 @@
-//! Wind and the position estimated by the autopilot. They are read only for exports; scoring does not use them.
+//! Wind and position estimated by the autopilot, for exports only. Scoring does not use them.
 
 use super::frame::MAX_INTERPOLATED_GAP;
 use super::sample::FrameHeader;

@@ -29,17 +29,17 @@ pub struct Scenario {
     pub tasks: Vec<Task>,
     /// Number, size and types of the defects.
     pub defects: DefectSpec,
-    /// Numbers and speed of vehicles and pedestrians.
+    /// Number of vehicles and pedestrians, and speed of vehicles.
     pub traffic: TrafficSpec,
     /// Wind model, mean wind and gusts.
     pub wind: WindSpec,
     /// Sun, cloud cover and surface reflection.
     pub light: LightSpec,
-    /// Session rules: crashes, battery and GNSS.
+    /// Session rules for crashes, battery and GNSS.
     pub rules: SessionRules,
     /// Thresholds of the in-flight feedback.
     pub feedback: FeedbackThresholds,
-    /// Parameters of the scoring formulas.
+    /// Scoring parameters.
     pub scoring: ScoringParams,
     /// CRC-32 (IEEE) of the file without seed and placed defects, sent as `scn_crc`.
     pub crc: u32,
@@ -101,7 +101,7 @@ pub struct GroundTeam {
     pub truck_m: Vec3<Enu>,
     /// Truck heading, degrees clockwise from north.
     pub truck_heading_deg: f64,
-    /// Maximum horizontal distance from the center of the pad at which a landing counts as at home, m.
+    /// Maximum horizontal distance from the center of the pad for a landing to count as at home, m.
     pub home_radius_m: f64,
 }
 
@@ -253,12 +253,12 @@ pub struct LightSpec {
     pub ground_albedo: f64,
 }
 
-/// Rules of a session: crashes, battery and GNSS.
+/// Session rules for crashes, battery and GNSS.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionRules {
     /// Action after a survivable crash.
     pub after_crash: AfterCrash,
-    /// Battery model in use.
+    /// Battery model of the session.
     pub battery: BatteryModel,
     /// True if the vehicle returns to launch at low battery. False in the job of the TASBID paper.
     pub low_battery_return: bool,
@@ -283,7 +283,7 @@ pub enum AfterCrash {
     End,
 }
 
-/// Model of the battery.
+/// Battery model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BatteryModel {
     /// Discharges linearly from 100 % at lift-off to 0 % over the aircraft's `paper_endurance_s`.
@@ -301,9 +301,9 @@ pub struct FeedbackThresholds {
     pub too_close_clear_m: f64,
     /// Outer limit of the off-path band, m.
     pub off_path_max_m: f64,
-    /// Time off path after which the cue appears.
+    /// Time off the path before the cue appears.
     pub off_path_after: SimTime,
-    /// Minimum time for which the cue stays visible.
+    /// Minimum time that the cue stays visible.
     pub off_path_hold: SimTime,
     /// Minimum battery level that is displayed in green, %.
     pub battery_green_pct: f64,
@@ -313,7 +313,7 @@ pub struct FeedbackThresholds {
     pub text_interval: SimTime,
 }
 
-/// Parameters of the scoring formulas.
+/// Scoring parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScoringParams {
     /// Frame rate f of the scoring formulas, Hz.

@@ -142,7 +142,8 @@ impl HeightGrid {
             return None;
         }
         let below = above < 0.0;
-        // The ground directly above or below the point limits the search: points farther away cannot be the nearest.
+        // The ground directly above or below the point limits the search, because points farther away cannot be
+        // nearest.
         let reach = if below { -above } else { above.min(max_m) };
         let mut best = (reach * reach, Vec3::new(p.east(), p.north(), height));
         let mut found = below || above <= max_m;

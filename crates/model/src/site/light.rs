@@ -21,7 +21,8 @@ pub type RayCast<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit>;
 const RAY_COUNT: usize = 64;
 /// Number of rays in the upper hemisphere that measure the open sky.
 const SKY_RAY_COUNT: usize = 64;
-/// Maximum distance at which a structure obstructs the sky, m (estimate: a structure farther away covers less than one ray).
+/// Maximum distance at which a structure obstructs the sky, m (estimate: a structure farther away covers less than the
+/// solid angle of one ray).
 const SKY_REACH_M: f64 = 250.0;
 /// Maximum length of a shadow, m (estimate).
 const SHADOW_REACH_M: f64 = 600.0;

@@ -104,7 +104,7 @@ pub fn evaluate_defect(
     let incidence_rad = math::acos(-to.dot(defect.normal) / distance_m.max(1e-9));
     let samples = SAMPLE_OFFSETS.map(|s| defect.position_m + defect.along * (s * defect.length_m));
     let seen = samples.map(|p| has_line_of_sight(pose.position_m, p + defect.normal * SURFACE_OFFSET_M, cast));
-    // A majority must be visible: three of five sample points.
+    // A majority of the sample points must be visible: three of five.
     let unoccluded = 2 * seen.iter().filter(|s| **s).count() > SAMPLE_OFFSETS.len();
     // A hidden defect fails only the occlusion condition, not the size condition as well.
     let counted = if unoccluded { seen } else { [true; SAMPLE_OFFSETS.len()] };

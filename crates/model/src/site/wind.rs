@@ -39,8 +39,8 @@ pub struct MeanWind {
     pub from_rad: f64,
 }
 
-/// Wind at the position of one vehicle. Call [`WindField::update`] as simulation time advances, then [`WindField::air_velocity`]
-/// as often as the physics needs it.
+/// Wind at the position of one vehicle. Call [`WindField::update`] as simulation time advances, then
+/// [`WindField::air_velocity`] whenever the physics needs it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindField {
     wind: WindSpec,
@@ -97,8 +97,8 @@ impl WindField {
         self.over_ground = over_ground;
     }
 
-    /// Changes the mean wind linearly, starting at `at` and over the duration `over`, to a speed at 20 ft, m/s, and a direction
-    /// from which it blows, degrees clockwise from north. Affects only the `physical` model.
+    /// Changes the mean wind linearly, starting at `at` and over the duration `over`, to a speed at 20 ft, m/s, and a
+    /// direction that it blows from, degrees clockwise from north. Affects only the `physical` model.
     pub fn add_change(&mut self, at: SimTime, over: SimTime, speed_m_s: f64, from_deg: f64) {
         self.wind.events.push(WindEvent::Change { at, over, speed_m_s, from_deg });
     }
