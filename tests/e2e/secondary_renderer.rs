@@ -1,4 +1,4 @@
-//! A secondary view with its own graphics device.
+//! Tests of a secondary view with its own graphics device.
 
 use spandrel::secondary_renderer::SecondaryRenderer;
 use spandrel_model::time::SimTime;

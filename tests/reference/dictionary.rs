@@ -1,5 +1,4 @@
-//! Reference page of the data dictionary: columns of the frames export, fields of the assessment, columns of the
-//! cohort's tables.
+//! Data dictionary page: columns of the frames export, fields of the assessment, columns of the cohort tables.
 
 use crate::table::{code, table};
 use crate::{check, head};
@@ -71,8 +70,8 @@ fn exact_data_dictionary_matches_the_code() {
     check("data-dictionary.md", &page);
 }
 
-/// Collects the paths of all values; a map whose keys are numbers or tasks appears as `*`. Empty lists and nulls have
-/// no paths.
+/// Collects the paths of all values. The keys of a map appear as `*` if they are numbers or tasks. Empty lists and
+/// nulls have no paths.
 fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
     match value {
         Value::Object(map) => {
@@ -91,8 +90,8 @@ fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
     }
 }
 
-/// A flight with a crash, a picture that shows a defect and one that does not; and a flight that never gets near its
-/// task.
+/// Compares the page with two flights: one with a crash, a photo that shows a defect and a photo that does not, and one
+/// that never gets near its task.
 #[test]
 fn exact_data_dictionary_covers_exactly_the_assessment_fields() {
     let mut full = Tape::new();

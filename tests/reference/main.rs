@@ -2,7 +2,7 @@
 //! them with `SPANDREL_REFERENCE=write` to rewrite the pages.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
-// Options of the window and of gamepads depend on features.
+// Window and gamepad options depend on features.
 #[cfg(all(feature = "view", feature = "gamepad"))]
 mod commands;
 mod contract;
@@ -13,7 +13,7 @@ mod table;
 
 use std::path::Path;
 
-/// Returns the first lines of every page: the title, and a note that the page is generated.
+/// Returns the head of a page: the title, a note that the page is generated, and an introduction.
 fn head(title: &str, about: &str) -> String {
     format!("# {title}\n\n<!-- Generated from the code: SPANDREL_REFERENCE=write cargo test --test reference -->\n\n{about}\n")
 }

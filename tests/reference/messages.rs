@@ -1,4 +1,4 @@
-//! Reference page of messages: streams with their rates, and handled messages.
+//! Message reference page: streams with their rates, and handled messages.
 
 use crate::table::table;
 use crate::{check, head};
