@@ -1,4 +1,4 @@
-"""The Gymnasium environments."""
+"""Tests of the Gymnasium environments."""
 
 import warnings
 
@@ -15,7 +15,7 @@ SEED = 5
 
 
 def velocity_toward_target(observation, limit):
-    """Returns a velocity toward the point at the start of an observation, m/s: 1/s times the distance."""
+    """Returns a velocity toward the point at the start of an observation, m/s: the distance times 1/s."""
     return np.clip(observation[:3], -limit, limit)
 
 
@@ -36,7 +36,7 @@ def inspect_action(observation, snapshot):
 @pytest.mark.parametrize("name", [HOVER, INSPECT])
 def test_environments_pass_the_gymnasium_checker(name):
     with warnings.catch_warnings():
-        # A recommendation only: actions and observations are in SI units, not normalized.
+        # Only a recommendation: actions and observations are in SI units, not normalized.
         warnings.filterwarnings("ignore", message=".*(symmetric and normalized|infinity).*")
         check_env(gymnasium.make(name).unwrapped)
 

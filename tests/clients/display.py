@@ -1,4 +1,4 @@
-"""A virtual display with screenshots and key presses."""
+"""A virtual display that takes screenshots and sends key presses."""
 
 import os
 import pathlib
@@ -9,7 +9,7 @@ from Xlib import X, XK
 from Xlib import display as xdisplay
 from Xlib.ext import xtest
 
-# Descriptions of the software driver for any processor.
+# Driver manifests of the software driver, for any processor.
 DRIVERS = sorted(pathlib.Path("/usr/share/vulkan/icd.d").glob("lvp_icd*.json"))
 
 

@@ -1,5 +1,5 @@
 //! Reference pages that are generated from the code. Each test compares a committed page with newly generated text; run
-//! them with `SPANDREL_REFERENCE=write` to rewrite the pages.
+//! the tests with `SPANDREL_REFERENCE=write` to regenerate the pages.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 // Window and gamepad options depend on features.
@@ -28,7 +28,7 @@ fn check(page: &str, text: &str) {
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
     let differs = committed.lines().zip(text.lines()).position(|(a, b)| a != b).unwrap_or(committed.lines().count());
     let now = text.lines().nth(differs).unwrap_or_default();
-    assert!(committed == text, "{page}, line {}: expected `{now}`; rewrite the page with SPANDREL_REFERENCE=write", differs + 1);
+    assert!(committed == text, "{page}, line {}: expected `{now}`; regenerate the page with SPANDREL_REFERENCE=write", differs + 1);
 }
 
 /// The tables of scenario and vehicle keys are stored next to the files; the pages must include them.

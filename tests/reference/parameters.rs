@@ -60,8 +60,8 @@ fn rows(parameters: &[Value], acts: bool) -> String {
 
 #[test]
 fn exact_parameters_page_matches_the_code() {
-    let about = "Names, units, ranges and defaults as the vehicle describes them to ground stations (MAVLink component metadata). Stored \
-                 parameters have no effect: clients expect them, and their values are kept.";
+    let about = "Names, units, ranges and defaults, as in the metadata that the vehicle sends to ground stations (MAVLink component metadata). Stored \
+                 parameters have no effect. They exist because clients expect them, and they keep the values that clients set.";
     let mut page = head("Parameters", about);
     for (title, face) in [("PX4 and generic interface", &PX4), ("ArduPilot interface", &COPTER)] {
         let parameters = described(face);

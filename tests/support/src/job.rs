@@ -1,4 +1,4 @@
-//! A small job, a site with predefined query results, and a recorder of datagrams in the form that a vehicle sends.
+//! A small job, a site with predefined query results, and a recorder of datagrams as sent by a vehicle.
 
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::*;
@@ -197,7 +197,7 @@ pub fn vehicle() -> Vehicle {
     }
 }
 
-/// A site on which defect k (from 1) is visible to every camera within one meter of 10 k m east.
+/// A site where defect k (from 1) is visible to every camera within one meter of 10 k m east.
 #[derive(Debug)]
 pub struct Fence {
     pub defects: Vec<PlacedDefect>,
@@ -287,7 +287,7 @@ impl Tape {
         Self::starting_at(0, job)
     }
 
-    /// Creates a tape like [`Self::of`] for a simulator that has already run for `epoch_ms`, ms.
+    /// Creates a tape like [`Self::of`] for a simulator that has already run for `epoch_ms`.
     pub fn starting_at(epoch_ms: u64, job: &Scenario) -> Self {
         let plane = LocalPlane::new(job.origin);
         let at_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 0.15);
@@ -413,7 +413,7 @@ impl Tape {
         }
     }
 
-    /// Records nothing for `ms` while the drone holds position.
+    /// Holds position for `ms` without recording.
     pub fn silence(&mut self, ms: u32) {
         self.now_ms += ms;
     }
