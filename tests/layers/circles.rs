@@ -42,7 +42,7 @@ impl CrateFiles {
         Self { modules }
     }
 
-    /// Returns the import cycles, each as lines `file -> imported files in the same cycle`.
+    /// Returns the import cycles, each as lines `file -> files in the same cycle that it imports`.
     pub fn circles(&self) -> Vec<Vec<String>> {
         let edges: Edges = self.modules.keys().map(|path| (path.clone(), self.imported(path))).collect();
         let reachable: Edges = edges.keys().map(|path| (path.clone(), reachable(path, &edges))).collect();

@@ -77,7 +77,7 @@ fn raw_string(text: &[char], at: usize) -> usize {
     (k + 1..text.len()).find(|k| closes(*k)).map_or(text.len(), |k| k + 1 + hashes)
 }
 
-/// Returns the end of a character literal. Does not skip lifetimes.
+/// Returns the end of a character literal. Returns `at` for a lifetime.
 fn character(text: &[char], at: usize) -> usize {
     match (text.get(at + 1), text.get(at + 2)) {
         (Some('\\'), _) => (at + 3..text.len()).find(|k| text[*k] == '\'').map_or(text.len(), |k| k + 1),

@@ -18,7 +18,7 @@ const MARGIN: usize = 30;
 /// One fill color for each crate and one for the program, in the order of their first layers.
 const COLORS: [&str; 8] = ["#e8eef7", "#e5f3ee", "#f8ecdf", "#f3e9f5", "#fbf3d6", "#e9f2dc", "#dff0f6", "#f0f0f0"];
 
-/// Draws layers as boxes in rows, each above the layers that it imports from. Arrows show direct imports, with the
+/// Draws layers as boxes in rows, each above the layers that it imports from. Arrows show imports, with the
 /// number of imported names. An import that is also reachable through an intermediate layer has no arrow.
 pub fn svg(imports: &Imports) -> String {
     let rows = rows(imports);
