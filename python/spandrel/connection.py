@@ -29,7 +29,7 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
 
     @property
     def endpoint(self) -> tuple[str, int]:
-        """Host and port to which the vehicle sends."""
+        """Host and port that the vehicle sends to."""
         host, port = self.port.getsockname()
         return host, port
 

@@ -20,7 +20,7 @@ NS = 1_000_000_000
 TICK_NS = 1_000_000
 """Physics time step, ns."""
 POLL_INTERVAL_NS = 20_000_000
-"""Interval at which conditions are checked and datagrams exchanged, ns of simulation time."""
+"""Interval for checking conditions and exchanging datagrams, ns of simulation time."""
 COMMAND_TIMEOUT_NS = NS
 """Timeout for the reply to a command, ns of simulation time."""
 ARM_RETRY_INTERVAL_NS = NS // 2

@@ -54,7 +54,7 @@ def test_exact_same_seed_is_bit_identical(name):
 
 
 def test_exact_new_and_reused_environments_are_bit_identical():
-    """The cached start of the latest seed does not change results."""
+    """The cached initial state of the latest seed must not change the results."""
     kept, digests = gymnasium.make(HOVER), []
     for env in (kept, kept, gymnasium.make(HOVER)):
         env.reset(seed=SEED)

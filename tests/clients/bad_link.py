@@ -170,7 +170,7 @@ def download(bench, burst):
     down.mkdir()
     ended(Ftp(bench.system).download_async, "/survey.bin", str(down), burst, next_result=FtpResult.NEXT, success=FtpResult.SUCCESS)
     if (down / "survey.bin").read_bytes() != content(FILE_BYTES):
-        raise Failed("another content")
+        raise Failed("wrong content")
 
 
 def log(bench):
@@ -183,7 +183,7 @@ def log(bench):
     down = bench.folder / "down.ulg"
     ended(logs.download_log_file_async, old, str(down), next_result=LogFilesResult.NEXT, success=LogFilesResult.SUCCESS)
     if down.read_bytes() != content(LOG_BYTES):
-        raise Failed("another content")
+        raise Failed("wrong content")
 
 
 def mavproxy_get(bench):
@@ -191,7 +191,7 @@ def mavproxy_get(bench):
     try:
         bench.console.say("ftp get /survey.bin down.bin", f"Wrote {FILE_BYTES} bytes to down.bin")
     except AssertionError:
-        raise Failed("never ended") from None
+        raise Failed("the download did not finish") from None
     settled("the content", lambda: (bench.folder / "down.bin").read_bytes() == content(FILE_BYTES), 10)
 
 

@@ -39,7 +39,7 @@ class Display:
         return kept | {"DISPLAY": self.name, "VK_DRIVER_FILES": str(DRIVERS[0])}
 
     def photograph(self):
-        """Returns a screenshot: rows of pixels with red, green, blue."""
+        """Returns a screenshot as rows of RGB pixels."""
         width, height = self.size
         image = self.root.get_image(0, 0, width, height, X.ZPixmap, 0xFFFFFFFF)
         pixels = numpy.frombuffer(image.data, dtype=numpy.uint8).reshape(height, width, 4)

@@ -12,7 +12,7 @@ import time
 # Minimum and maximum delay of a reordered datagram, wall seconds; later datagrams overtake it (estimate: Wi-Fi
 # retransmissions).
 REORDER_DELAY_S = (0.005, 0.05)
-# Interval at which the relay checks whether to stop, wall seconds.
+# Interval for checking whether to stop, wall seconds.
 LOOK_S = 0.1
 
 

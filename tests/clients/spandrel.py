@@ -103,4 +103,4 @@ def wait_for(what, predicate, limit_s=FLIGHT_LIMIT_S):
         if value:
             return value
         time.sleep(0.01)
-    raise AssertionError(f"never happened: {what}")
+    raise AssertionError(f"timed out waiting for: {what}")

@@ -184,7 +184,7 @@ def test_val_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
         assert len(list(StreamReader(file, validate_crcs=True).records)) > 0
     frames = read_recording(whole)["/tf", "foxglove.FrameTransforms"]
     ups = [t["translation"]["z"] for f in frames for t in f["transforms"] if t["child_frame_id"] == "drone"]
-    # It was two meters up when it was killed, climbing at 1.5 m/s; at most a second is lost.
+    # The vehicle was at two meters and climbing at 1.5 m/s when the simulator was killed. At most one second is lost.
     assert max(ups) - ups[0] > 0.4
     assert pathlib.Path(broken).stat().st_size > 0
 

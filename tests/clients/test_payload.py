@@ -118,7 +118,7 @@ def rig(tmp_path):
 
 
 def found(rig):
-    """Returns the camera's component ID when MAVSDK has found it."""
+    """Returns the camera's component ID once MAVSDK has found it."""
     cameras = wait_for("camera", lambda: rig.camera.camera_list().cameras)
     assert [(c.component_id, c.vendor_name) for c in cameras] == [(CAMERA, "Spandrel")]
     assert (cameras[0].horizontal_resolution_px, cameras[0].vertical_resolution_px) == (4000, 3000)
@@ -241,12 +241,12 @@ def test_wire_mavsdk_zoom_changes_are_broadcast(rig):
 
     rig.camera.zoom_range(camera, 40.0)
     station.wait("zoom 40", lambda: abs(level() - 40.0) < 0.01)
-    station.wait("its field of view", lambda: abs(field() - seen(40.0)) < 0.01)
+    station.wait("field of view at zoom 40", lambda: abs(field() - seen(40.0)) < 0.01)
     rig.camera.zoom_in_start(camera)
     station.wait("telephoto", lambda: level() == 100.0)
     station.wait("a narrow field of view", lambda: abs(field() - seen(100.0)) < 0.01)
     rig.camera.zoom_out_start(camera)
-    # The distance covered before the stop depends on the load of the machine.
+    # The zoom change before the stop depends on the load of the machine.
     station.wait("zooming", lambda: level() < 100.0)
     rig.camera.zoom_stop(camera)
     rig.camera.reset_settings(camera)

@@ -18,7 +18,7 @@ MOST_BYTES, ALL_BYTES = 400_000, 4_000_000
 SIZE = (640, 480)
 # A wider size; pictures must keep the sensor's aspect ratio.
 WITHIN = (800, 480)
-# A hundred-thousandth of a degree is a meter; EXIF stores a ten-thousandth of a second, 3 mm.
+# A hundred-thousandth of a degree is about a meter. EXIF has a resolution of a ten-thousandth of an arcsecond, 3 mm.
 PLACE_DEG = 1e-7
 
 

@@ -61,7 +61,8 @@ def test_wire_mavsdk_flies_a_mission_to_its_end(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_with_setpoints_and_points_the_gimbal(vehicle):
-    """A position, a body velocity, a turn rate; the gimbal up and down; valid and invalid parameters."""
+    """Sends a position, a body velocity and a yaw rate, moves the gimbal up and down, and sets valid and invalid
+    parameters."""
     system, telemetry = vehicle
     action, offboard, gimbal, param = Action(system), Offboard(system), Gimbal(system), Param(system)
     param.set_param_float("MIS_TAKEOFF_ALT", 4.0)

@@ -221,7 +221,7 @@ def set_current_item_to_jump(t):
 
 
 def follow(stream_velocity):
-    """A target moves north at 2 m/s; the vehicle stays behind, in front of and on both sides of it."""
+    """A target moves north at 2 m/s; the vehicle follows it from behind, in front and both sides."""
 
     def flow(t):
         t.wait_until_ready()

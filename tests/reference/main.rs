@@ -13,7 +13,7 @@ mod table;
 
 use std::path::Path;
 
-/// Returns the head of a page: the title, a note that the page is generated, and an introduction.
+/// Returns the beginning of a page: the title, a note that the page is generated, and an introduction.
 fn head(title: &str, about: &str) -> String {
     format!("# {title}\n\n<!-- Generated from the code: SPANDREL_REFERENCE=write cargo test --test reference -->\n\n{about}\n")
 }

@@ -164,7 +164,7 @@ struct Observed {
 }
 
 const SIDECAR: LinkId = LinkId(2);
-/// Height above the pad from which rates are measured, m; below it, the feet touch the ground.
+/// Minimum height above the pad for rate measurements, m; below it, the feet touch the ground.
 const FLYING_M: f64 = 1.0;
 /// Interval between rate measurements.
 const EVERY: SimTime = SimTime::from_ms(10);

@@ -1,5 +1,5 @@
-//! Messages of the ArduPilot dialect that the codec lacks. Each definition has an ID, a name and fields, from which the
-//! wire order and CRC_EXTRA are derived (MAVLink guide, "Serialization").
+//! Messages of the ArduPilot dialect that the codec lacks. Each definition has an ID, a name and fields. The wire order
+//! and CRC_EXTRA are derived from them (MAVLink guide, "Serialization").
 
 use super::codec::{Encodable, Encoder};
 

@@ -110,7 +110,7 @@ impl Decoder {
     }
 }
 
-/// Parses the first frame in `bytes`, or determines how many bytes to skip.
+/// Parses the first frame in `bytes`, or determines the number of bytes to skip.
 fn next(bytes: &[u8]) -> ParseStep {
     let Some(start) = bytes.iter().position(|b| *b == STX_V1 || *b == STX_V2) else {
         return if bytes.is_empty() { ParseStep::NeedMore } else { ParseStep::Skip(bytes.len()) };

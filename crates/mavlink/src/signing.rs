@@ -25,7 +25,7 @@ const MAX_NEW_STREAM_LAG: u64 = 6_000_000;
 const MAX_TIMESTAMP_LEAD: u64 = 8_640_000_000;
 /// Timestamp of 2024-01-01T00:00:00Z. An earlier clock has not been set.
 const MIN_VALID_CLOCK: u64 = 28_401_840_000_000;
-/// Maximum number of streams (system, component, link ID) for which the last timestamp is stored.
+/// Maximum number of streams (system, component, link ID) with a stored last timestamp.
 const MAX_STREAMS: usize = 512;
 /// Epoch of signing timestamps: 2015-01-01T00:00:00Z in Unix time, µs.
 const SIGNING_EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;

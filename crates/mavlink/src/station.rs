@@ -80,8 +80,8 @@ pub fn params<const N: usize>(given: &[f32]) -> [f32; N] {
     std::array::from_fn(|k| given.get(k).copied().unwrap_or(0.0))
 }
 
-/// Returns the command that selects position mode, in which the sticks command velocity. PX4 and ArduPilot have their own mode
-/// numbers; other autopilots get the standard mode.
+/// Returns the command that selects position mode, where the sticks command velocity. Uses the mode numbers of PX4 and
+/// ArduPilot, and the standard mode for other autopilots.
 #[must_use]
 pub fn position_mode(autopilot: Option<MavAutopilot>) -> (MavCmd, [f32; 7]) {
     let (command, [a, b]) = match autopilot {

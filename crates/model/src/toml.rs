@@ -409,7 +409,7 @@ impl Section<'_> {
         if self.path.is_empty() { key.to_string() } else { format!("{}.{key}", self.path) }
     }
 
-    /// Returns the line at which the table starts, from 1.
+    /// Returns the line number where the table starts, from 1.
     #[must_use]
     pub fn line(&self) -> usize {
         self.line

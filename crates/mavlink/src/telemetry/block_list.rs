@@ -4,7 +4,7 @@
 /// Number of rows per block.
 const ROWS_PER_BLOCK: usize = 1_024;
 
-/// Rows in the order in which they were added.
+/// Rows in insertion order.
 #[derive(Debug, Clone)]
 pub struct BlockList<T> {
     /// Blocks of rows. All except the last are full.

@@ -17,12 +17,12 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 use std::ops::ControlFlow;
 
-/// Maximum difference between a message's own timestamp and truth time at which the timestamp is used.
+/// Maximum difference between a message's own timestamp and truth time for the timestamp to be used.
 const MAX_CLOCK_DIFFERENCE: SimTime = SimTime::from_ms(2_000);
 /// Maximum difference between the time found by sequence number and the time of arrival.
 const MAX_SEQUENCE_TIME_DIFFERENCE: SimTime = SimTime::from_ms(500);
-/// Maximum number of sequence numbers by which a late frame can lag. Larger differences indicate a large loss, because
-/// the numbers wrap at 256.
+/// Maximum lag of a late frame, in sequence numbers. Larger differences indicate a large loss, because the numbers wrap
+/// at 256.
 const MAX_LATE_FRAMES: i64 = 64;
 /// Component ID of the monitor, whose own messages are ignored.
 const MONITOR_COMPONENT: u8 = 191;
@@ -96,7 +96,7 @@ impl SequenceUnwrapper {
     }
 }
 
-/// A sample with the data from which its time is determined.
+/// A sample with the data needed to determine its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TimedSample {
     value: SampleValue,

@@ -86,7 +86,7 @@ pub enum TerrainSource {
     },
 }
 
-/// Positions of the ground crew and of the level landing pad, from which the drone takes off and on which it lands.
+/// Positions of the ground crew and of the level landing pad, where the drone takes off and lands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundTeam {
     /// Center of the upper surface of the landing pad, m.
@@ -194,7 +194,7 @@ pub struct WindSpec {
     pub speed_m_s: f64,
     /// Constant force of the `paper` model, N.
     pub paper_force_n: f64,
-    /// Direction from which the wind blows, degrees clockwise from north.
+    /// Direction that the wind blows from, degrees clockwise from north.
     pub from_deg: f64,
     /// Vertical wind component, m/s, positive up.
     pub up_m_s: f64,
@@ -224,7 +224,7 @@ pub enum WindEvent {
         duration: SimTime,
         /// Peak speed, m/s.
         peak_m_s: f64,
-        /// Direction from which the gust blows, degrees clockwise from north.
+        /// Direction that the gust blows from, degrees clockwise from north.
         from_deg: f64,
     },
     /// A linear change of the mean wind.
@@ -235,7 +235,7 @@ pub enum WindEvent {
         over: SimTime,
         /// New mean wind speed at 20 ft, m/s.
         speed_m_s: f64,
-        /// New direction from which the wind blows, degrees clockwise from north.
+        /// New direction that the wind blows from, degrees clockwise from north.
         from_deg: f64,
     },
 }
@@ -262,11 +262,11 @@ pub struct SessionRules {
     pub battery: BatteryModel,
     /// True if the vehicle returns to launch at low battery. False in the job of the TASBID paper.
     pub low_battery_return: bool,
-    /// Low battery level, %, which triggers the warning and, if enabled, the return to launch.
+    /// Low battery level, %, that triggers the warning and, if enabled, the return to launch.
     pub low_battery_pct: f64,
-    /// Critical battery level, %, at which the vehicle lands if `low_battery_return` is true.
+    /// Critical battery level, %, that triggers a landing if `low_battery_return` is true.
     pub critical_battery_pct: f64,
-    /// True if structures block GNSS satellites; the fraction of open sky determines how many are visible.
+    /// True if structures block GNSS satellites; the fraction of open sky determines the number of visible satellites.
     pub gnss_shadow: bool,
     /// Simulation time before a crashed drone is respawned.
     pub respawn_after: SimTime,
@@ -297,7 +297,7 @@ pub enum BatteryModel {
 pub struct FeedbackThresholds {
     /// Minimum distance from the center of the drone to any surface, m.
     pub too_close_m: f64,
-    /// Distance at which the too-close warning clears, m.
+    /// Distance where the too-close warning clears, m.
     pub too_close_clear_m: f64,
     /// Outer limit of the off-path band, m.
     pub off_path_max_m: f64,

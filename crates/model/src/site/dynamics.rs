@@ -92,7 +92,7 @@ mod tests {
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
     use crate::scenario::*;
 
-    /// Number of seeds for which the placement is checked.
+    /// Number of seeds to check the placement with.
     const SEED_COUNT: u64 = 50;
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 
