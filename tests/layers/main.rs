@@ -54,7 +54,10 @@ fn exact_the_picture_of_the_rooms_shows_the_imports_of_the_code() {
         std::fs::write(&path, &drawn).unwrap();
     }
     let same = std::fs::read_to_string(&path).is_ok_and(|committed| committed == drawn);
-    assert!(same, "docs/src/images/layers.svg does not match the imports in the code; regenerate it with SPANDREL_REFERENCE=write");
+    assert!(
+        same,
+        "docs/src/images/layers.svg does not match the imports in the code; regenerate it with SPANDREL_REFERENCE=write"
+    );
 }
 
 #[test]

@@ -129,7 +129,9 @@ fn layer_of(folder: &str, module: Option<&str>) -> Option<&'static str> {
 
 /// Returns all rule violations in a file, given by its path in the workspace.
 pub fn violations(file: &str, source: &str) -> Vec<String> {
-    let Some((folder, module)) = module_of(file) else { return vec![format!("{file}: not in a crate listed in tests/layers/rules.rs")] };
+    let Some((folder, module)) = module_of(file) else {
+        return vec![format!("{file}: not in a crate listed in tests/layers/rules.rs")];
+    };
     let layer = layer_of(folder, module.first().map(String::as_str)).unwrap_or_default();
     let code = code_only(source);
     let mut found: Vec<String> = named(&code, &module, ROOTS)
@@ -176,7 +178,11 @@ fn target_of(folder: &str, path: &[&str]) -> Option<&'static str> {
 fn clock_readings(folder: &str, file: &str, code: &str) -> Vec<String> {
     let reads = |line: &str| folder != PROGRAM && line.contains("::now()");
     let lines = code.lines().enumerate().filter(|(_, line)| reads(line));
-    lines.map(|(k, line)| format!("{file}:{}: {}: ONLY THE PROGRAM AND THE PYTHON PACKAGE TOUCH THE OUTSIDE WORLD", k + 1, line.trim())).collect()
+    lines
+        .map(|(k, line)| {
+            format!("{file}:{}: {}: ONLY THE PROGRAM AND THE PYTHON PACKAGE TOUCH THE OUTSIDE WORLD", k + 1, line.trim())
+        })
+        .collect()
 }
 
 /// Returns the crate and module of a file: `crates/sitl/src/autopilot/core.rs` is the module `autopilot::core` of the
