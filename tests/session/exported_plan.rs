@@ -147,7 +147,7 @@ struct Flown {
     fastest_at: String,
     /// Bit mask of all cues during the flight.
     cues: i32,
-    /// Texts and tasks with their times.
+    /// Status texts and tasks, with their times.
     log: Vec<String>,
 }
 

@@ -7,7 +7,7 @@ use super::dialect::MavMessage;
 use mavlink::{MavlinkVersion, Message};
 use std::collections::BTreeMap;
 
-/// Message ID of SETUP_SIGNING, which carries a key and is therefore never forwarded.
+/// Message ID of SETUP_SIGNING, which contains a key and is therefore never forwarded.
 const SETUP_SIGNING: u32 = 256;
 /// Maximum number of senders stored, so that a link with thousands of spoofed senders cannot exhaust memory.
 const MAX_SENDERS: usize = 1_024;

@@ -7,7 +7,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ControlSource {
-    /// A pilot with sticks.
+    /// A pilot using sticks.
     Pilot,
     /// An uploaded mission.
     Mission,

@@ -116,7 +116,7 @@ pub struct Task {
     pub bridge: Option<usize>,
     /// Path type: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, or `free`.
     pub kind: TaskKind,
-    /// On-path threshold, m (< 8).
+    /// On-path threshold, m; less than 8.
     pub threshold_m: f64,
     /// True if the path returns to its start.
     pub closed: bool,

@@ -181,7 +181,7 @@ mod tests {
         gaps.clear();
         let across = HullProbe::Capsule { a_m: Vec3::new(8.5, -3.0, 1.0), b_m: Vec3::new(8.5, 3.0, 1.0), radius_m: 0.05 };
         b.contacts(&across, 0.1, |gap, _, _| gaps.push(gap));
-        // The edge at east 10 - √2 = 8.586 lies 0.086 from the axis.
+        // The edge at east 10 - √2 = 8.586 is 0.086 from the axis.
         assert_eq!(gaps.len(), 1);
         assert!((gaps[0] - (1.5 - 2.0_f64.sqrt() - 0.05)).abs() < 1e-6, "{gaps:?}");
     }
