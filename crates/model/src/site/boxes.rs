@@ -76,8 +76,8 @@ impl OrientedBox {
         (enter <= leave).then_some((enter, normal))
     }
 
-    /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe. A ball has one contact. A capsule
-    /// has contacts at its deepest point and at both ends, so that a capsule lying on a face rests on two points.
+    /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe. A ball has one contact.
+    /// A capsule has contacts at its deepest point and at both ends, so a capsule lying on a face rests on two points.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, mut found: impl FnMut(f64, Vec3<Enu>, Vec3<Enu>)) {
         let mut test = |center: Vec3<Enu>, radius: f64| {
             let (distance, point, normal) = self.nearest(center);
@@ -101,8 +101,8 @@ impl OrientedBox {
         }
     }
 
-    /// Returns the fraction of the segment from `a` to `b` at which the signed distance is minimal. The distance is convex along
-    /// a line, so a golden-section search finds the minimum.
+    /// Returns the fraction of the segment from `a` to `b` where the signed distance is minimal. The distance is convex
+    /// along a line, so a golden-section search finds the minimum.
     fn closest_fraction(&self, a_m: Vec3<Enu>, b_m: Vec3<Enu>) -> f64 {
         let at = |t: f64| self.nearest(a_m.lerp(b_m, t)).0;
         let (mut low, mut high) = (0.0, 1.0);
@@ -181,7 +181,7 @@ mod tests {
         gaps.clear();
         let across = HullProbe::Capsule { a_m: Vec3::new(8.5, -3.0, 1.0), b_m: Vec3::new(8.5, 3.0, 1.0), radius_m: 0.05 };
         b.contacts(&across, 0.1, |gap, _, _| gaps.push(gap));
-        // The edge at east 10 - √2 = 8.586 lies 0.086 from the axis.
+        // The edge at east 10 - √2 = 8.586 is 0.086 from the axis.
         assert_eq!(gaps.len(), 1);
         assert!((gaps[0] - (1.5 - 2.0_f64.sqrt() - 0.05)).abs() < 1e-6, "{gaps:?}");
     }
