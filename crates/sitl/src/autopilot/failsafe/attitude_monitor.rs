@@ -1,4 +1,4 @@
-//! Loss of attitude control and crash detection.
+//! Detection of attitude control loss and crashes.
 
 use super::input::FailsafeInput;
 use super::response::{FailsafeRequest, respond};
@@ -11,10 +11,10 @@ const UPSET_COSINE: f64 = 0.766;
 const UPSET_S: f64 = 2.5;
 /// Speed above which crash detection waits for a possible recovery, m/s.
 const UPSET_SPEED_M_S: f64 = 1.5;
-/// Duration of the same attitude error that counts as loss of control, s (PX4: FD_FAIL_R_TTRI).
+/// Duration of the same attitude error after which control counts as lost, s (PX4: FD_FAIL_R_TTRI).
 const CONTROL_LOST_S: f64 = 0.3;
 
-/// State of attitude supervision.
+/// State of the attitude monitor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AttitudeMonitor {
     /// Whether the vehicle tracks its attitude setpoint.

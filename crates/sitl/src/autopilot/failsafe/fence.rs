@@ -1,4 +1,4 @@
-//! Geofence: allowed areas and the state for telemetry.
+//! Geofence: zones, and the state for telemetry.
 
 use spandrel_model::time::SimTime;
 
@@ -25,7 +25,7 @@ impl FenceOutline {
                 let (dn, de) = (n - center_m.0, e - center_m.1);
                 dn * dn + de * de <= radius_m * radius_m
             }
-            // A ray to the east crosses the outline an odd number of times from inside.
+            // From a point inside, a ray to the east crosses the outline an odd number of times.
             Self::Polygon(corners) => {
                 let last = corners.len().saturating_sub(1);
                 let sides = corners.iter().enumerate().map(|(k, to)| (corners[if k == 0 { last } else { k - 1 }], *to));
@@ -71,7 +71,7 @@ pub struct FenceZone {
     pub inclusion: bool,
 }
 
-/// Breached limit, numbered as MAVLink's FENCE_BREACH.
+/// Breached limit, with the values of MAVLink's FENCE_BREACH.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Breach {
     /// Minimum height above home (1).
@@ -82,7 +82,7 @@ pub enum Breach {
     Boundary,
 }
 
-/// State of the geofence for telemetry.
+/// Geofence state for telemetry.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FenceState {
     /// Whether any limit is active.
@@ -97,7 +97,7 @@ pub struct FenceState {
     pub at: SimTime,
 }
 
-/// The zones of the geofence.
+/// Geofence zones.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fence {
     zones: Vec<FenceZone>,

@@ -22,7 +22,7 @@ pub struct FenceCheck<'a> {
 }
 
 impl<'a> FenceCheck<'a> {
-    /// Creates a check. Without home, the origin counts as home.
+    /// Creates a check. If there is no home, the origin is used as home.
     #[must_use]
     pub fn new(fence: &'a Fence, tuning: &'a Tuning, home_m: Option<Vec3<Ned>>) -> Self {
         Self { fence, tuning, home_m: home_m.unwrap_or_default() }
@@ -92,7 +92,7 @@ impl<'a> FenceCheck<'a> {
     }
 }
 
-/// State of fence supervision.
+/// Geofence state failsafe.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FenceMonitor {
     /// State for telemetry.
@@ -112,7 +112,8 @@ impl FenceMonitor {
         self.state.set = fence.is_set();
     }
 
-    /// Returns the request of the fence action when a breach begins. It acts once per breach so that the pilot can fly back in.
+    /// Returns the fence action request when a breach begins. The action triggers once per breach so that the pilot can
+    /// fly back in.
     pub fn enforce(&mut self, fence: &FenceCheck, input: &FailsafeInput, events: &mut EventQueue) -> Option<FailsafeRequest> {
         if !input.estimate.position_valid {
             return None;
