@@ -141,7 +141,9 @@ impl VehicleBuilder {
     /// # Errors
     /// Returns all problems in the scenario or, if the scenario is valid, in the vehicle, each with its line and key.
     pub fn build(self) -> Result<Vehicle, Problems> {
-        let job = scenario::read("scenario.toml", &self.scenario, &|file| Err(format!("{file}: not loaded here")))?;
+        let job = scenario::read("scenario.toml", &self.scenario, &|file| {
+            Err(format!("{file}: the builder does not load referenced files"))
+        })?;
         let aircraft = vehicle::read("vehicle.toml", &self.vehicle)?;
         Ok(self.build_from(job, aircraft))
     }

@@ -528,7 +528,7 @@ impl Autopilot {
                 self.touch_down(tick);
             }
             Some(PhaseChange::StandingTimeout { flown }) => {
-                self.disarm(if flown { "Disarmed by landing" } else { "Disarmed: no take-off" }, tick);
+                self.disarm(if flown { "Disarmed by landing" } else { "Disarmed: no takeoff" }, tick);
             }
         }
     }

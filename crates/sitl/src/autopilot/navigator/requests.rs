@@ -261,7 +261,7 @@ impl Navigator {
 
     fn set_home(&mut self, home_m: Vec3<Ned>) -> RequestOutcome {
         if !home_m.is_finite() || home_m.norm() > MAX_DISTANCE_M {
-            return RequestOutcome::Denied("Home out of range".into());
+            return RequestOutcome::Denied("Home position out of range".into());
         }
         self.move_home(home_m);
         self.home.set_by_command = true;
