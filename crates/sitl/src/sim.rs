@@ -68,9 +68,9 @@ impl SimConfig {
 /// An event for the session log.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SimEvent {
-    /// First liftoff.
+    /// The vehicle lifted off for the first time.
     LiftOff,
-    /// A crash.
+    /// The vehicle crashed.
     Crash {
         /// Name of the object hit.
         what: String,
@@ -83,7 +83,7 @@ pub enum SimEvent {
     BatteryEmpty,
     /// The flight has ended.
     Ended {
-        /// The reason.
+        /// Reason why the flight ended.
         reason: String,
     },
 }

@@ -48,9 +48,9 @@ pub enum MissedExpectation {
     /// The command was not accepted.
     #[error("{command:?} was rejected with {result:?}; last status text: {said}")]
     Refused {
-        /// The command.
+        /// The rejected command.
         command: MavCmd,
-        /// The result.
+        /// The result that the vehicle returned.
         result: MavResult,
         /// The vehicle's latest status text.
         said: String,

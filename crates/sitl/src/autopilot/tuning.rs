@@ -111,7 +111,8 @@ pub struct Tuning {
     /// Arming requires stick input and a position only if the mode needs them. Stick checks run when motors are armed,
     /// not before (ArduPilot).
     pub arms_by_mode: bool,
-    /// A completed mission keeps its mode, and takes off again once the throttle is raised (ArduPilot).
+    /// After a completed mission, the vehicle stays in mission mode and takes off again once the throttle is raised
+    /// (ArduPilot).
     pub mission_mode_stays: bool,
     /// Displayed number of the first mission item: 1 if home is item 0 (ArduPilot).
     pub first_item: usize,

@@ -20,7 +20,7 @@ const MASK_RAD: f64 = 0.174_533;
 const MIN_SATELLITES: usize = 5;
 /// Maximum horizontal dilution of precision for a fix (estimate: receivers flag larger values as unusable).
 const MAX_HDOP: f64 = 8.0;
-/// Range within which structures hide satellites, m (the sites are smaller than that).
+/// Range within which structures hide satellites, m (larger than any site).
 const REACH_M: f64 = 400.0;
 /// Slowly drifting fraction of the position noise; the white fraction accounts for the remaining variance.
 pub const DRIFT_SHARE: f64 = 0.8;

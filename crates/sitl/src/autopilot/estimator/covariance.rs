@@ -76,7 +76,7 @@ impl Covariance {
         self.m[i][i]
     }
 
-    /// One element.
+    /// Returns one element.
     #[must_use]
     pub fn at(&self, i: usize, j: usize) -> f64 {
         self.m[i][j]

@@ -1,5 +1,6 @@
-//! Height reference selection. The other height sensors get large, slow errors so that they contribute only to fast
-//! changes. If the reference times out or contradicts the filter, GNSS takes over and the height converges to it.
+//! Height reference selection. The other height sensors are assigned large, slowly varying errors, so that they
+//! contribute only to fast changes. If the reference times out or contradicts the filter, GNSS takes over and the
+//! height converges to it.
 
 use super::Estimator;
 use super::checks::REJECTION_TIMEOUT_S;

@@ -32,12 +32,12 @@ impl Default for AttitudeMonitor {
 }
 
 impl AttitudeMonitor {
-    /// Starts a flight.
+    /// Resets the monitor at the start of a flight.
     pub fn begin_flight(&mut self) {
         (self.tracks_attitude, self.upset_since) = (true, None);
     }
 
-    /// Ends a flight.
+    /// Resets the monitor at the end of a flight.
     pub fn end_flight(&mut self) {
         self.upset_since = None;
     }

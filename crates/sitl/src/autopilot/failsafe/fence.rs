@@ -9,7 +9,7 @@ pub enum FenceOutline {
     Polygon(Vec<(f64, f64)>),
     /// A circle.
     Circle {
-        /// Center.
+        /// Center, north and east, m.
         center_m: (f64, f64),
         /// Radius, m.
         radius_m: f64,
@@ -64,7 +64,7 @@ impl FenceOutline {
 /// One zone of the geofence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FenceZone {
-    /// Outline.
+    /// Outline of the zone.
     pub outline: FenceOutline,
     /// Inclusion or exclusion zone. Flight is allowed inside at least one inclusion zone, if there are any, and outside all
     /// exclusion zones.

@@ -92,7 +92,7 @@ impl<'a> FenceCheck<'a> {
     }
 }
 
-/// Geofence state failsafe.
+/// State of the geofence failsafe.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FenceMonitor {
     /// State for telemetry.
@@ -102,12 +102,12 @@ pub struct FenceMonitor {
 }
 
 impl FenceMonitor {
-    /// Starts a flight.
+    /// Resets the monitor at the start of a flight.
     pub fn begin_flight(&mut self) {
         self.above_floor = false;
     }
 
-    /// Updates whether any limit is active.
+    /// Updates the flag that shows whether any limit is active.
     pub fn update_set(&mut self, fence: &FenceCheck) {
         self.state.set = fence.is_set();
     }

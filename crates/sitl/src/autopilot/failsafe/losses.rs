@@ -15,11 +15,11 @@ const POSITION_LOSS_TIMEOUT_S: f64 = 1.0;
 /// A possible loss, in the order of the checks. The first one that requires a different mode ends the checks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Loss {
-    /// Position.
+    /// Loss of position.
     Position,
-    /// Manual control.
+    /// Loss of manual control.
     Manual,
-    /// External setpoints or ground station.
+    /// Loss of external setpoints or of the ground station.
     Link,
 }
 

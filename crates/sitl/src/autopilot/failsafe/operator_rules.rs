@@ -1,5 +1,5 @@
 //! Operator settings other than speeds and thresholds: failsafe actions, returns, and limits for manual and automatic
-//! flight. The endpoint maps parameters to these fields; each comment names them (PX4; ArduPilot).
+//! flight. The endpoint maps parameters to these fields; each comment names the parameters (PX4; ArduPilot).
 
 use crate::autopilot::estimator::DEAD_RECKONING_LIMIT_S;
 pub use crate::autopilot::estimator::height_reference::HeightReference;

@@ -14,7 +14,7 @@ pub enum FailsafeRequest {
     EndOverride,
     /// Change the requested mode. The pilot can change it again.
     SetMode {
-        /// The mode.
+        /// The mode to switch to.
         mode: FlightMode,
         /// Whether this ends an override.
         ends_override: bool,

@@ -65,7 +65,7 @@ pub enum SensorFault {
 /// A change in a sensor's health.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SensorChange {
-    /// The sensor.
+    /// The sensor whose health changed.
     pub sensor: MonitoredSensor,
     /// Its current fault; `None` if it works again.
     pub fault: Option<SensorFault>,

@@ -133,8 +133,7 @@ impl Follower {
         };
         match rule.place {
             FollowPosition::Around { distance_m, angle_rad, height_m, over_target } => {
-                // Until the target moves, its course is assumed such that the vehicle is already at the configured
-                // angle.
+                // Until the target moves, assume a course for which the vehicle is already at the configured angle.
                 let bearing = heading_of(here_m - there, TOO_NEAR_M).unwrap_or(0.0);
                 let course = *self.course_rad.get_or_insert(math::wrap_pi(bearing - angle_rad));
                 let flat = turned(course + angle_rad, [distance_m, 0.0, 0.0]);

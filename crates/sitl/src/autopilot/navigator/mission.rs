@@ -51,7 +51,7 @@ pub struct Mission {
     deferred: Vec<DeferredFields>,
     /// Vehicle position at the start of the current item with deferred fields, m.
     began_m: Option<Vec3<Ned>>,
-    /// Increase in the height of home since the mission was set, m.
+    /// Increase in home height since the mission was set, m.
     home_rise_m: f64,
     jumps_done: Vec<u32>,
     /// Current item, zero-based.
@@ -100,7 +100,7 @@ impl Mission {
         self.began_m.get_or_insert(here_m);
     }
 
-    /// Accounts for an increase in the height of home, m.
+    /// Accounts for an increase in home height, m.
     pub fn raise_home(&mut self, up_m: f64) {
         self.home_rise_m += up_m;
     }
@@ -354,7 +354,7 @@ mod tests {
     #[test]
     fn exact_jump_loops_do_not_block_a_tick() {
         let mut mission = Mission::new(vec![MissionStep::Jump { to: 0, times: u32::MAX }]);
-        // The number per tick is limited; the endpoint rejects such a list.
+        // The number of items per tick is limited; the endpoint rejects such a mission.
         assert!(mission.skip(SimTime::ZERO));
         assert_eq!(mission.reached.len(), STEPS_PER_TICK_MAX);
     }

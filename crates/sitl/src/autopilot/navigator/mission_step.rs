@@ -38,7 +38,7 @@ pub enum MissionStep {
     Jump {
         /// Item index.
         to: usize,
-        /// Repetitions.
+        /// Number of repetitions.
         times: u32,
     },
     /// From now on, point the nose at a position, m. `None` stops this.
@@ -130,7 +130,7 @@ impl MissionStep {
         matches!(self, Self::Waypoint { .. } | Self::Near(_) | Self::Delay(_) | Self::Turn { .. })
     }
 
-    /// Returns true if the item takes time and can be continued after an interruption.
+    /// Returns true if the item takes time and can resume after an interruption.
     pub fn continues(&self) -> bool {
         use MissionStep as S;
         match self {

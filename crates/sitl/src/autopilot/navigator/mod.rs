@@ -112,7 +112,7 @@ pub struct NavigatorReport {
 /// Navigator state.
 #[derive(Debug, Clone)]
 pub struct Navigator {
-    /// Modes.
+    /// Active and requested mode.
     pub modes: ModeState,
     /// Home and rally points.
     pub home: Home,

@@ -22,7 +22,7 @@ pub enum ReturnPhase {
 /// Phase, destination and wait of a return.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ReturnState {
-    /// Phase.
+    /// Phase of the return.
     pub phase: ReturnPhase,
     /// Destination, m.
     pub target_m: Option<Vec3<Ned>>,

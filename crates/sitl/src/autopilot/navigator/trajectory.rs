@@ -217,7 +217,7 @@ impl Trajectory {
         (leg.from_m + leg.unit * (along_m - leg.start_m), leg.unit, Vec3::zero())
     }
 
-    /// Speed limit here from the leg and the corners ahead, m/s.
+    /// Speed limit at this point from the leg and the corners ahead, m/s.
     fn allowed_m_s(&self, speeds: &SpeedLimits) -> f64 {
         let now = self.leg_at(self.along_m);
         let mut allowed = self.legs[now].speed_m_s(speeds);
