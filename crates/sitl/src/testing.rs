@@ -352,7 +352,7 @@ impl Vehicle {
     /// Returns an error if the command was rejected.
     pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), MissedExpectation> {
         let command = MavCmd::MAV_CMD_DO_REPOSITION;
-        // Bit 0 of parameter 2 changes to a mode that can fly there.
+        // Bit 0 of parameter 2 requests a change to a mode that can fly there.
         self.request(command, &self.command_at(command, place_m, [-1.0, 1.0, 0.0, f32::NAN]))
     }
 

@@ -51,7 +51,7 @@ impl UnfusedReadings {
     }
 }
 
-/// The time of a call and the time since the last step, s.
+/// Time of a call, and time since the last step, s.
 #[derive(Debug, Clone, Copy)]
 struct Tick {
     now: SimTime,
@@ -59,7 +59,7 @@ struct Tick {
 }
 
 impl Tick {
-    /// Returns the time of a call between two steps.
+    /// Returns the tick for a call between two steps.
     fn between_steps(now: SimTime) -> Self {
         Self { now, dt_s: 0.0 }
     }

@@ -19,7 +19,7 @@ pub struct RadioLink {
 }
 
 impl RadioLink {
-    /// Creates a radio without loss or delay.
+    /// Creates a radio link without loss or delay.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let stream = RandomStream::new(seed, "radio");

@@ -91,7 +91,7 @@ impl VelocityLoop {
     }
 
     fn climb(&mut self, gains: &Gains, error: f64, free: bool, dt_s: f64) {
-        // At a thrust limit the integral may only decrease in magnitude.
+        // At a thrust limit, the integral can only decrease in magnitude.
         if free || error * self.integral.down() < 0.0 {
             self.integral += Vec3::new(0.0, 0.0, gains.climb_integral * error * dt_s);
         }

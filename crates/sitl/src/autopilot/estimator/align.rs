@@ -98,7 +98,7 @@ impl Alignment {
         self.gyro.sample_rad_s * self.gyro.sample_rad_s / samples + least * least
     }
 
-    /// Returns the result once enough samples have been averaged. `field` is the earth's magnetic field at the site.
+    /// Returns the result once enough samples have been averaged. `field` is the Earth's magnetic field at the site.
     #[must_use]
     pub fn done(&self, field: Vec3<Ned>) -> Option<AlignmentResult> {
         if self.time_s < ALIGN_S || self.mag_samples == 0 {

@@ -324,7 +324,7 @@ impl Estimator {
         let rates = reading.rates_rad_s - self.gyro_bias;
         let force = reading.specific_force_m_s2 - self.accel_bias;
         let turn = rates * dt_s;
-        // Half of the rotation is applied so that the force refers to the middle of the interval.
+        // Applying half of the rotation evaluates the force at the middle of the interval.
         let gained = self.attitude * ((force + turn.cross(force) * 0.5) * dt_s);
         let dv = gained + Vec3::new(0.0, 0.0, math::GRAVITY_M_S2 * dt_s);
         self.position_m += (self.velocity_m_s + dv * 0.5) * dt_s;

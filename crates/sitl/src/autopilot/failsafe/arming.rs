@@ -65,7 +65,7 @@ impl ArmingCheck<'_> {
         }
     }
 
-    /// Returns true if arming needs a position: for the mode, for hold without a pilot, or for the geofence.
+    /// Returns true if arming requires a position: for the mode, for hold without a pilot, or for the geofence.
     fn needs_position(&self) -> bool {
         let intended = self.input.flight.intended;
         !self.input.tuning.arms_by_mode || !self.sticks_fresh() || intended.needs_position() || self.fence_set
@@ -81,7 +81,7 @@ impl ArmingCheck<'_> {
             return out;
         }
         if !self.needs_position() {
-            // The mode does not need a position estimate.
+            // No position estimate is required.
         } else if !flight.located {
             out.push("No GNSS fix".into());
         } else if !estimate.position_valid || estimate.horizontal_m > ARMING_ACCURACY_M {

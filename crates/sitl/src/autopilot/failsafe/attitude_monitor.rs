@@ -1,4 +1,4 @@
-//! Detection of attitude control loss and crashes.
+//! Detects loss of attitude control and crashes.
 
 use super::input::FailsafeInput;
 use super::response::{FailsafeRequest, respond};

@@ -115,7 +115,7 @@ impl Fence {
         self.zones.is_empty()
     }
 
-    /// Returns true if a position is allowed by all zones.
+    /// Returns true if all zones allow a position.
     #[must_use]
     pub fn allows(&self, place_m: (f64, f64)) -> bool {
         let mut inclusions = self.zones.iter().filter(|zone| zone.inclusion).peekable();
@@ -123,14 +123,14 @@ impl Fence {
         within && !self.zones.iter().any(|zone| !zone.inclusion && zone.outline.holds(place_m))
     }
 
-    /// Returns true if an entire straight path is allowed by all zones.
+    /// Returns true if all zones allow an entire straight path.
     #[must_use]
     pub fn allows_path(&self, from_m: (f64, f64), to_m: (f64, f64)) -> bool {
         let mut cuts: Vec<f64> = self.zones.iter().flat_map(|zone| zone.outline.crossings(from_m, to_m)).collect();
         cuts.retain(|cut| (0.0..1.0).contains(cut));
         cuts.extend([0.0, 1.0]);
         cuts.sort_by(f64::total_cmp);
-        // Between two intersections a path is entirely inside or outside.
+        // Between two intersections, a path is entirely inside or outside.
         cuts.windows(2).filter(|pair| pair[1] - pair[0] > 1e-9).all(|pair| {
             let middle = 0.5 * (pair[0] + pair[1]);
             let at = |a: f64, b: f64| a + middle * (b - a);

@@ -86,7 +86,7 @@ impl<'a> FenceCheck<'a> {
         if self.breach_at(target_m).is_some() || self.below_floor(target_m) {
             return Some("Target outside geofence");
         }
-        // A vehicle outside the fence may fly back in.
+        // A vehicle outside the fence is allowed to fly back in.
         let leaves = from_m.is_some_and(|from| self.breach_at(from).is_none() && self.path_leaves_fence(from, target_m));
         leaves.then_some("Path to target leaves geofence")
     }

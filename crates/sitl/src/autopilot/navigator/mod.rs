@@ -126,7 +126,7 @@ pub struct Navigator {
     pub report: NavigatorReport,
     /// Events that the autopilot has not collected yet.
     pub events: EventQueue,
-    /// A request to enable or disable the geofence that the autopilot has not carried out yet.
+    /// A pending request to enable or disable the geofence.
     pub fence_switch: Option<bool>,
     heading: Heading,
     commanded: Commanded,

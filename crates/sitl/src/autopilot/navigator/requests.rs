@@ -33,7 +33,7 @@ impl Navigator {
                 self.switch_fence(enabled);
                 RequestOutcome::Accepted
             }
-            // Arming and disarming are handled by the autopilot object.
+            // The autopilot object handles arming and disarming.
             AutopilotRequest::Arm { .. } | AutopilotRequest::Disarm { .. } => RequestOutcome::Unsupported,
             AutopilotRequest::Orbit(request) => self.request_orbit(request, input),
             AutopilotRequest::CircleAhead => self.request_circle_ahead(input),
