@@ -1,5 +1,5 @@
 //! Requests for messages and message rates, by the current commands and by the superseded ones that clients still send.
-#![allow(deprecated, reason = "clients still send the superseded commands")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::component_ids::{AUTOPILOT, CAMERA};
 use super::inputs::{StreamInputs, payload_input};

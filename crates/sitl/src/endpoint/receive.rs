@@ -1,5 +1,5 @@
 //! Received datagrams: each frame is routed, and those addressed to this vehicle are handled by the half that they concern.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::component_ids::{AUTOPILOT, CAMERA};
 use super::inputs::{StreamInputs, payload_input};

@@ -40,7 +40,7 @@ enum MessageSource {
 
 /// An outgoing message.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "it lives for one call; a box would cost an allocation for each message")]
+#[expect(clippy::large_enum_variant, reason = "the value is short-lived; boxing would allocate for every message")]
 pub enum OutgoingMessage {
     /// A message of the common dialect.
     Common(MavMessage),

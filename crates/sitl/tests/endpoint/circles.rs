@@ -78,7 +78,7 @@ fn flight_mission_heading_follows_the_region_of_interest_until_cleared() {
     let east = 3_000.0 * 1e-7 * 40_000_000.0 / 360.0 * 46.7f32.to_radians().cos();
     let p = station.place();
     let wanted = (east - p[1]).atan2(home as f32 + 20.0 - p[0]);
-    assert!(angle_between(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} not {wanted} at {p:?}", yaw(&station));
+    assert!(angle_between(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} instead of {wanted} at {p:?}", yaw(&station));
     assert!(station.run_until(60.0, |s| s.mode() == Some(3 << 24 | 4 << 16)));
     assert!(
         angle_between(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE,

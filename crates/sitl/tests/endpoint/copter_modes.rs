@@ -299,7 +299,7 @@ fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
     assert!((station.place()[0] - home - 4.0).abs() < 1.5, "the vehicle must wait: {:?}", station.place());
     assert!(
         station.run_until(12.0, |s| s.place()[0] > home + 8.0),
-        "the vehicle must continue at the set time: {:?}",
+        "the vehicle must continue at the planned time: {:?}",
         station.place()
     );
     let pause = MavCmd::MAV_CMD_DO_PAUSE_CONTINUE;
@@ -379,7 +379,7 @@ fn regress_follow_mode_keeps_its_offset() {
     let here = station.place();
     // The target is 8 m south of the person and 4 m above.
     let (n, e) = (here[0] - home[0] - 2.0, f64::from(here[1] - home[1]) - east);
-    assert!(n.abs() < 1.5 && e.abs() < 2.5, "{n} m north, {e} m east of the target");
+    assert!(n.abs() < 1.5 && e.abs() < 2.5, "{n} m north and {e} m east of the target");
     assert_eq!(next_beat(&mut station).custom_mode, 23);
 }
 

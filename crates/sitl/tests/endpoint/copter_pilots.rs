@@ -299,7 +299,7 @@ fn flight_return_uses_the_rally_points_height_and_restores_the_heading() {
     assert!((highest - 12.0).abs() < HEIGHT_M, "{highest} m");
     station.run_ms(4_500);
     let off = (heading(&mut station) - armed + 540.0).rem_euclid(360.0) - 180.0;
-    assert!(off.abs() < HEADING_DEG, "{off} degrees from the heading at arming");
+    assert!(off.abs() < HEADING_DEG, "heading {off} degrees off the one at arming");
 }
 
 /// Tolerances of the height, m, and of the heading, degrees, during a return (ArduPilot's autotest: 5 degrees).

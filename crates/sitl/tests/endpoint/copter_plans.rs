@@ -89,7 +89,7 @@ fn flight_fence_breach_ends_guided_flight() {
 }
 
 #[test]
-#[expect(clippy::too_many_lines, reason = "one flight from start to end")]
+#[expect(clippy::too_many_lines, reason = "one complete flight")]
 fn wire_mission_item_0_is_home() {
     let mut station = copter();
     let accepted = MavMissionResult::MAV_MISSION_ACCEPTED;
@@ -140,7 +140,7 @@ fn wire_mission_item_0_is_home() {
     };
     assert_eq!(station.ask(&part(2, 2), answer), Some(Ok(2)));
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(item(2, place, 30.0, 6.0)), answer), Some(Err(accepted)));
-    assert_eq!(station.ask(&part(0, 1), answer), Some(Ok(0)), "item 0 may also be replaced, without effect");
+    assert_eq!(station.ask(&part(0, 1), answer), Some(Ok(0)), "replacing item 0 must be accepted, without effect");
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(items[0].clone()), answer), Some(Ok(1)));
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(item(1, place, 12.0, 7.0)), answer), Some(Err(accepted)));
     let heights: Vec<f32> = (1..=3).map(|seq| fetch(&mut station, seq).unwrap().z).collect();
@@ -180,7 +180,7 @@ fn flight_mission_uses_copters_item_numbers() {
     ];
     assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
-    assert_eq!(station.command(1, ARM, one(1.0)), FAILED, "AUTO is not armable");
+    assert_eq!(station.command(1, ARM, one(1.0)), FAILED, "AUTO must not be armable");
     station.command(1, SET_MODE, mode(GUIDED));
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, one(0.0)), ACCEPTED);

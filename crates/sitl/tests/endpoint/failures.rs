@@ -237,7 +237,7 @@ fn flight_motor_failure_changes_attitude_and_is_reported() {
         (tilt, turn) = (tilt.max(now.roll.abs().max(now.pitch.abs())), turn.max(now.yawspeed.abs()));
         has_text(s, "Attitude lost: motor or propeller failure?")
     });
-    assert!(told && tilt > 0.7 && turn > 0.5, "reported {told}, tilted {tilt} rad, turned at {turn} rad/s");
+    assert!(told && tilt > 0.7 && turn > 0.5, "reported {told}, tilt {tilt} rad, turn rate {turn} rad/s");
     let obeys = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION;
     assert!(station.run_until(1.0, |s| health(s).is_some_and(|health| !health.contains(obeys))));
 }
@@ -314,7 +314,7 @@ fn flight_instructor_wind_takes_effect() {
         f64::from(station.last_message(|m| if let MavMessage::WIND_COV(w) = m { Some(w.wind_y) } else { None }).unwrap())
     });
     let east = mean.sum::<f64>() / 50.0;
-    assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "west wind: {east} m/s to the east");
+    assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "west wind: {east} m/s eastward");
 }
 
 #[test]
@@ -342,7 +342,7 @@ fn wire_telemetry_reproduces_traffic_on_closed_bridges() {
         let (here, there) = (station.sim.site().traffic().solids(now), theirs.traffic().solids(now));
         assert_eq!(here, there);
         let driving = here.iter().filter(|(object, surface, _)| *surface == Surface::Vehicle && *object != CREW_TRUCK).count();
-        assert_eq!(driving > 0, open == 1, "{driving} vehicle parts after 90 s");
+        assert_eq!(driving > 0, open == 1, "{driving} vehicle parts on the bridges after 90 s");
     }
 }
 

@@ -182,7 +182,7 @@ fn wire_parameters_are_read_and_set_over_a_bad_link() {
             }
         }
     }
-    let total = total.expect("a part of the list must arrive");
+    let total = total.expect("part of the list must arrive");
     assert!(seen.len() < usize::from(total), "the link must lose some parameters");
     for index in (0..total).filter(|index| !seen.contains(index)) {
         let read =

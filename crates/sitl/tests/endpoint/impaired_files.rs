@@ -178,7 +178,7 @@ fn wire_burst_download_survives_a_bad_link() {
     let (file, bursts) = ftp.read_in_bursts("/survey.bin");
     assert!(file == long, "{} of {} bytes", file.len(), long.len());
     // Without losses, 100 kB take four bursts.
-    assert!(bursts > 4, "{bursts} bursts: the link must lose some parts");
+    assert!(bursts > 4, "{bursts} bursts: the link must lose some packets");
     let (shipped, _) = ftp.read_in_bursts(PARAMETER_FILE);
     assert!(shipped == metadata::files(&param_view::PX4).parameter.bytes.to_vec());
 }

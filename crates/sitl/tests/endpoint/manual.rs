@@ -38,7 +38,7 @@ fn wire_rc_override_acts_like_sticks_with_transmitter_pitch() {
         station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap(),
     );
     let forward = v[0] * yaw.cos() + v[1] * yaw.sin();
-    assert!(forward > 2.0, "a pitch channel below its middle flies forward: {forward}");
+    assert!(forward > 2.0, "a pitch pulse below center must fly forward: {forward}");
 }
 
 /// Returns the echoed channels 1 to 4 on each link after `send`.
@@ -85,7 +85,7 @@ fn wire_stick_echo_matches_the_input_on_each_link() {
         let again = [65.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, again), MavResult::MAV_RESULT_ACCEPTED);
         let asked = station.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan2_raw) } else { None });
-        assert_eq!(asked, Some(1300), "{}: requested by the ground station", flavour.name);
+        assert_eq!(asked, Some(1300), "{}: response to the ground station's request", flavour.name);
     }
 }
 
@@ -132,7 +132,7 @@ fn wire_negative_throttle_selects_the_symmetric_range() {
     for (z, us) in [(500, 1500), (0, 1000), (1000, 2000), (-2000, 1500), (500, 1500)] {
         assert_eq!(up(&mut station, z), us, "{z}");
     }
-    let told = |s: &Station| texts(s).iter().filter(|text| text.ends_with("throttle is -1000 to 1000")).count();
+    let told = |s: &Station| texts(s).iter().filter(|text| text.ends_with("throttle range -1000 to 1000")).count();
     assert_eq!(told(&station), 0);
     for (z, us) in [(-1, 1500), (-1000, 1000), (0, 1500), (500, 1750), (1000, 2000), (i16::MAX, 1500), (-500, 1250)] {
         assert_eq!(up(&mut station, z), us, "{z}");
@@ -140,7 +140,7 @@ fn wire_negative_throttle_selects_the_symmetric_range() {
     assert_eq!(told(&station), 1, "once: {:?}", texts(&station));
     station.run_ms(600);
     station.send_as(254, 190);
-    assert_eq!(up(&mut station, 0), 1000, "the center for another sender must be 500");
+    assert_eq!(up(&mut station, 0), 1000, "another sender's center must be 500");
 }
 
 #[test]
@@ -206,7 +206,10 @@ fn wire_client_timeouts_scale_with_the_speed_without_lockstep() {
     // COM_RC_LOSS_T is 0.5 s; the failsafe check runs every 50 ms.
     for (pace, lockstep, expected_s) in [(1.0, false, 0.5), (8.0, false, 4.0), (8.0, true, 0.5), (0.5, false, 0.5)] {
         let s = timeout_s(pace, lockstep);
-        assert!((expected_s..expected_s + 0.15).contains(&s), "pace {pace}, lockstep {lockstep}: {s} s for {expected_s} s");
+        assert!(
+            (expected_s..expected_s + 0.15).contains(&s),
+            "pace {pace}, lockstep {lockstep}: {s} s instead of {expected_s} s"
+        );
     }
     let mut station = Station::new("drill-hover", 7);
     station.sim.set_speed_factor(8.0);
@@ -315,7 +318,7 @@ fn wire_first_sender_keeps_the_sticks_until_its_timeout() {
         send_from_other_link(&mut station, 1000);
         station.run_ms(20);
     }
-    assert_eq!(roll_echo(&station), 2000, "control must pass on when the first sender stops");
+    assert_eq!(roll_echo(&station), 2000, "the second sender must take control when the first stops");
     assert!(texts(&station).iter().any(|text| text.contains("took control of the sticks")), "{:?}", texts(&station));
 }
 
@@ -384,5 +387,5 @@ fn wire_buttons_trigger_their_configured_action_once_per_press() {
     assert_eq!(station.last_message(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
     let pitch = station
         .last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None });
-    assert!(pitch.unwrap() < -0.5, "the gimbal's axis points down: {pitch:?}");
+    assert!(pitch.unwrap() < -0.5, "the gimbal must point down: {pitch:?}");
 }

@@ -79,7 +79,7 @@ fn wire_gimbal_follows_manager_messages() {
     ] {
         station.send(&message);
         station.run_ms(GIMBAL_MOVE_MS);
-        assert!((pitch(&station) - expected).abs() < 2.0 * NEAR, "{message:?}: {} for {expected}", pitch(&station));
+        assert!((pitch(&station) - expected).abs() < 2.0 * NEAR, "{message:?}: {} instead of {expected}", pitch(&station));
     }
 }
 

@@ -78,9 +78,9 @@ fn reported_range(station: &Station, orientation: MavSensorOrientation) -> (f64,
 fn assert_range(told: f64, there: Option<f64>, what: &str) {
     match there {
         Some(distance) if distance < REACH_M - TOLERANCE_M => {
-            assert!((told - distance).abs() < TOLERANCE_M, "{what}: {told} for {distance}");
+            assert!((told - distance).abs() < TOLERANCE_M, "{what}: {told} instead of {distance}");
         }
-        Some(_) => assert!(told > REACH_M - 2.0 * TOLERANCE_M, "{what}: {told} near the reach"),
+        Some(_) => assert!(told > REACH_M - 2.0 * TOLERANCE_M, "{what}: {told} near the maximum range"),
         None => assert!(told > REACH_M, "{what}: {told} without an obstacle"),
     }
 }

@@ -248,7 +248,11 @@ fn wire_battery_state_follows_its_parameters() {
     }));
     station.run_ms(5);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, p(&[100.0, 1.0])), OK);
-    assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW, "5 % is above the limit of 3 %");
+    assert_eq!(
+        state(&mut station),
+        MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
+        "5 % is above the critical level of 3 %"
+    );
 }
 
 #[test]

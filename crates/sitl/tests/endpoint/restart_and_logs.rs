@@ -74,7 +74,7 @@ fn flight_speed_and_region_of_interest_end_with_the_flight() {
     let usual = fastest_of_a_flight(&mut station, None);
     assert!(usual > 3.0, "{usual}");
     let ahead = heading_deg(&station);
-    assert!((ahead - looked).abs() > 20.0, "{ahead} after {looked}: the region of interest is still active");
+    assert!((ahead - looked).abs() > 20.0, "{ahead} after {looked}: the region of interest must be cleared");
 }
 
 fn reached(station: &Station) -> Vec<u16> {

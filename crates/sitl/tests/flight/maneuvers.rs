@@ -74,7 +74,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
             back = back.min(b.state.rigid.velocity_m_s.north());
             sag = sag.max((b.position().down() - height).abs());
         });
-        assert!(back > -BACK_M_S && sag < HEIGHT_M, "{name}: {back} m/s backward, {sag} m of height lost");
+        assert!(back > -BACK_M_S && sag < HEIGHT_M, "{name}: {back} m/s backward, lost {sag} m of height");
     }
 }
 
@@ -165,7 +165,7 @@ fn flight_saturated_motors_keep_the_vehicle_upright() {
             });
         }
         assert!(full, "{name}: no motor was saturated, so the test is pointless");
-        assert!(lean < aircraft.limits.tilt_rad + BEYOND_RAD, "{name}: leaned {lean} rad");
+        assert!(lean < aircraft.limits.tilt_rad + BEYOND_RAD, "{name}: tilt {lean} rad");
         bench.sticks = Some(Sticks::default());
         bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
         bench.run(8.0, |_| ());

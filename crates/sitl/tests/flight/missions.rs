@@ -36,7 +36,7 @@ fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
             })
             .collect();
         let mut way = Trajectory::join(TrajectoryPoint::default(), &waypoints, AccelerationLimits::within(6.0, 4.0))
-            .expect("there are waypoints");
+            .expect("the list has waypoints");
         let mut nearest = vec![f64::INFINITY; waypoints.len()];
         let mut before = way.planned();
         for _ in 0..(400.0 / STEP_S) as usize {

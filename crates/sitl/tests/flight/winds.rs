@@ -75,7 +75,7 @@ fn armed(station: &mut Station) -> bool {
         MavMessage::HEARTBEAT(beat) if beat.custom_mode != 0 => Some(beat.base_mode),
         _ => None,
     });
-    beat.expect("one heartbeat per second").contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
+    beat.expect("a heartbeat must arrive every second").contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
 }
 
 /// Arms as soon as the vehicle allows it, takes off to the default height, hovers for a minute, and lands.

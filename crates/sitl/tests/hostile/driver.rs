@@ -218,7 +218,7 @@ impl Driver<'_> {
             heard.extend(Decoder::new().datagram(&bytes).iter().map(|f| f.message_id));
         }
         let missing: Vec<&u32> = [0, 22, 77].iter().filter(|id| !heard.contains(id)).collect();
-        if missing.is_empty() { Ok(()) } else { Err(format!("no more responses: {missing:?} missing")) }
+        if missing.is_empty() { Ok(()) } else { Err(format!("no more responses: missing {missing:?}")) }
     }
 }
 

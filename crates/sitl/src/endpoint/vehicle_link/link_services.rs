@@ -1,5 +1,5 @@
 //! Time synchronization, pings and stream groups.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::VehicleLink;
 use super::inbound::InboundMessage;

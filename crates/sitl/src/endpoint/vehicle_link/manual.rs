@@ -167,7 +167,7 @@ impl ManualControl {
         let known = self.full_range.contains(&from);
         if !known && z < 0.0 && self.full_range.len() < FULL_RANGE_MAX {
             self.full_range.push(from);
-            self.texts.push_back(format!("{}: throttle is -1000 to 1000", sender_name(from)));
+            self.texts.push_back(format!("{}: throttle range -1000 to 1000", sender_name(from)));
             return true;
         }
         known

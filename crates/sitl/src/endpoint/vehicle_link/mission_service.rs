@@ -1,5 +1,5 @@
 //! Requests for plans.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::VehicleLink;
 use super::inbound::InboundMessage;

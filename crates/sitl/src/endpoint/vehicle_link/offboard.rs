@@ -1,6 +1,6 @@
 //! Offboard setpoints: converts each message to north, east, down, according to its frame and type mask. The rules are PX4's
 //! (MAVLink common, POSITION_TARGET_TYPEMASK and ATTITUDE_TARGET_TYPEMASK).
-#![allow(deprecated, reason = "clients still name frames that MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still use superseded coordinate frames")]
 
 use super::snapshot::VehicleSnapshot;
 use crate::autopilot::{OffboardSetpoint, Tuning};
@@ -144,7 +144,7 @@ fn turned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static st
     match (frd[0], frd[1]) {
         (Some(f), Some(r)) => Ok([Some(c * f - s * r), Some(s * f + c * r), frd[2]]),
         (None, None) => Ok(frd),
-        _ => Err("Setpoint rejected: only one of forward and right"),
+        _ => Err("Setpoint rejected: forward or right is missing"),
     }
 }
 

@@ -1,5 +1,5 @@
 //! Gimbal commands: gimbal manager, regions of interest, and the older mount commands.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::super::equipment::Payload;
 use super::super::gimbal::{DEVICE, GimbalState, GimbalTarget};

@@ -54,5 +54,5 @@ pub(crate) fn refusal_text(c: &VehicleCommand, input: &PayloadInput, payload: &P
         let has_lamp = input.vehicle.lamp.flux_lm > 0.0;
         return if has_lamp { "lamp is relay 0 or servo 9, on or off only" } else { "this aircraft has no lamp" }.into();
     }
-    "camera rejects these values or this mode".into()
+    "camera does not support these values or this mode".into()
 }

@@ -1,5 +1,5 @@
 //! Positions in region of interest commands.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::super::input::PayloadInput;
 use crate::endpoint::vehicle_command::VehicleCommand;

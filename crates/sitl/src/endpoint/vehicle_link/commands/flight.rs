@@ -97,7 +97,7 @@ fn places(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Op
         },
         n if n == M::MAV_CMD_DO_SET_HOME as u16 => match home(c, v, a) {
             Some(request) => Request(request),
-            None => Answer(v.deny("Home: latitude, longitude, altitude within 20 km")),
+            None => Answer(v.deny("Home: invalid position or beyond 20 km")),
         },
         _ => return None,
     })
@@ -125,7 +125,7 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         n if n == M::MAV_CMD_MISSION_START as u16 => {
             // ArduPilot always starts a mission from its first item.
             if v.flavour.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
-                return Some(Answer(v.deny("Mission start: first and last item are not supported")));
+                return Some(Answer(v.deny("Mission start: an item range is not supported")));
             }
             Request(AutopilotRequest::StartMission { first: c.finite_param(0).filter(|f| *f > 0.0).map(|f| index(f, v)) })
         }
@@ -154,7 +154,7 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
         n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
             0.0 => Request(AutopilotRequest::EnableFence(false)),
             1.0 => Request(AutopilotRequest::EnableFence(true)),
-            _ => Answer(v.deny("Fence: 0 disables, 1 enables")),
+            _ => Answer(v.deny("Fence: must be 0 (disable) or 1 (enable)")),
         },
         _ => return None,
     })

@@ -33,7 +33,7 @@ fn point_at(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         a.autopilot.request(AutopilotRequest::LookAt(target), a.now());
     }
     if !is_accepted && target.is_none() {
-        v.warn("ROI cleared; gimbal stays with its controller");
+        v.warn("ROI cleared; gimbal control is unchanged");
         return Some(MavResult::MAV_RESULT_ACCEPTED);
     }
     result

@@ -1,6 +1,6 @@
 //! ArduPilot's interface, as implemented by ArduCopter (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real
 //! ArduCopter 4.7-dev, parameter names as in 4.6).
-#![allow(deprecated, reason = "ArduPilot names its encoding by the older capability")]
+#![allow(deprecated, reason = "ArduPilot reports its encoding with the older capability flag")]
 
 use super::definition::{COMMON, Flavour, ModeRow, RefusalResults, TakeOffRule};
 use super::px4::FORCE;

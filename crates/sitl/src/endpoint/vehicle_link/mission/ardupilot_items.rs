@@ -1,5 +1,5 @@
 //! ArduPilot's extra mission item rules: item 0 is home, and single items outside a plan are fly-now commands.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::positions::{flyable_position, place};
 use crate::autopilot::{AutopilotRequest, RequestOutcome};

@@ -1,5 +1,5 @@
 //! Mission items: validation, and conversion to the autopilot's steps.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::fence_and_rally;
 use super::positions::{HIGHEST_M, flyable_position, place, relative, without_position};

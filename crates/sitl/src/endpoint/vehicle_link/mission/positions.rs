@@ -1,5 +1,5 @@
 //! Positions of plan items: frames, altitudes, validity.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavFrame, MavMissionResult};
 use spandrel_mavlink::units;

@@ -94,9 +94,9 @@ pub(super) const ROWS: &[Row] = &[
         .values(&[(0, "Altitude mode"), (1, "Land mode")]),
     // 7 by default, where PX4 has 0: trainees put the controller down during automatic flight.
     row("COM_RCL_EXCEPT", Int(7), (0.0, 31.0), "", COMMANDER, "Modes without a manual control loss failsafe").bits(LINK_BITS),
-    row("COM_RC_OVERRIDE", Int(1), (0.0, 3.0), "", COMMANDER, "Modes in which moving the sticks takes over")
+    row("COM_RC_OVERRIDE", Int(1), (0.0, 3.0), "", COMMANDER, "Modes that stick movement can interrupt")
         .bits(&[(0, "Automatic modes"), (1, "Offboard")]),
-    row("COM_RC_STICK_OV", Real(30.0), (5.0, 80.0), "%", COMMANDER, "Stick deflection that takes over"),
+    row("COM_RC_STICK_OV", Real(30.0), (5.0, 80.0), "%", COMMANDER, "Stick deflection for a pilot takeover"),
     row("FD_ACT_EN", Int(1), (0.0, 1.0), "", "Failure Detector", "Trigger COM_ACT_FAIL_ACT on motor failure").values(OFF_ON),
     row("EKF2_HGT_REF", Int(1), (0.0, 3.0), "", "Estimator", "Height reference sensor").values(&[
         (0, "Barometer"),
@@ -137,26 +137,26 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row("MPC_ACC_HOR", Real(3.0), (0.5, 15.0), "m/s^2", CONTROL, "Maximum horizontal acceleration in automatic modes"),
     row("MPC_ACC_UP_MAX", Real(4.0), (0.5, 15.0), "m/s^2", CONTROL, "Maximum vertical acceleration in automatic modes"),
-    row("MPC_LAND_ALT2", Real(5.0), (0.0, 122.0), "m", CONTROL, "Height below which landing slows down"),
+    row("MPC_LAND_ALT2", Real(5.0), (0.0, 122.0), "m", CONTROL, "Height below which the landing descent slows down"),
     row("MPC_MAN_TILT_MAX", Real(35.0), (1.0, 70.0), "deg", CONTROL, "Maximum tilt in manual modes"),
     row("MPC_MAN_Y_MAX", Real(150.0), (0.0, 400.0), "deg/s", CONTROL, "Maximum yaw rate in manual modes"),
     row("MPC_VEL_MANUAL", Real(10.0), (0.5, 30.0), "m/s", CONTROL, "Maximum horizontal speed in manual modes"),
     row("MPC_YAW_MODE", Int(0), (0.0, 5.0), "", MISSION, "Heading in automatic modes").values(&[
-        (0, "To the waypoint"),
+        (0, "Toward the waypoint"),
         (1, "To home"),
         (2, "Away from home"),
         (3, "Along the path"),
-        (4, "To the waypoint, turning first"),
+        (4, "Toward the waypoint, turning first"),
         (5, "Fixed"),
     ]),
     row("MPC_Z_V_AUTO_DN", Real(1.5), (0.3, 10.0), "m/s", CONTROL, "Descent speed in automatic modes"),
     row("MPC_Z_V_AUTO_UP", Real(3.0), (0.3, 15.0), "m/s", CONTROL, "Climb speed in automatic modes"),
     // Off by default, where PX4 has 45 degrees: near a bridge, a return climbs clear of it first.
     row("RTL_CONE_ANG", Int(0), (0.0, 90.0), "deg", RETURN, "Half-angle of the cone that limits the return climb; 0: off"),
-    row("RTL_DESCEND_ALT", Real(10.0), (0.0, 500.0), "m", RETURN, "Loiter height before the return lands"),
-    row("RTL_LAND_DELAY", Real(0.0), (-1.0, 300.0), "s", RETURN, "Delay before the return lands; negative: never lands"),
-    row("RTL_MIN_DIST", Real(5.0), (0.5, 1_000.0), "m", RETURN, "Minimum distance from home for the return climb"),
-    row("RTL_TYPE", Int(0), (0.0, 5.0), "", RETURN, "Return destination, flown in a straight line").values(&[
+    row("RTL_DESCEND_ALT", Real(10.0), (0.0, 500.0), "m", RETURN, "Loiter height before a return landing"),
+    row("RTL_LAND_DELAY", Real(0.0), (-1.0, 300.0), "s", RETURN, "Delay before a return landing; negative: no landing"),
+    row("RTL_MIN_DIST", Real(5.0), (0.5, 1_000.0), "m", RETURN, "Distance from home beyond which a return climbs first"),
+    row("RTL_TYPE", Int(0), (0.0, 5.0), "", RETURN, "Return destination, reached in a straight line").values(&[
         (0, "Home or a rally point, whichever is nearest"),
         (1, "Mission landing or rally point, else home"),
         (2, "Mission landing, else home"),

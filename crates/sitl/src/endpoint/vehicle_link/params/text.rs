@@ -56,7 +56,7 @@ pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<ParamFileProblem>
 fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let fields: Vec<&str> = line.split('\t').map(str::trim).collect();
     let [_, _, name, value, kind] = fields[..] else {
-        return Err(format!("{} fields, tab-separated (allowed: vehicle, component, name, value, type)", fields.len()));
+        return Err(format!("{} tab-separated fields (required: vehicle, component, name, value, type)", fields.len()));
     };
     // A parameter of another vehicle, whatever its type.
     if params.range(name).is_none() {
@@ -67,7 +67,7 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let value_read = match kind {
         REAL32 => ParamValue::Real(value.parse().map_err(|_| no_number("a real number"))?),
         _ if kind == INT32 || narrow => ParamValue::Int(value.parse().map_err(|_| no_number("a whole number"))?),
-        _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real ones)")),
+        _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real numbers)")),
     };
     match params.set_value(name, value_read) {
         Ok(()) | Err(ParamRefusal::Unknown | ParamRefusal::ReadOnly) => Ok(()),

@@ -1,5 +1,5 @@
 //! Messages of the overall vehicle state.
-#![allow(deprecated, reason = "clients still ask for PROTOCOL_VERSION")]
+#![allow(deprecated, reason = "clients still request PROTOCOL_VERSION")]
 
 use super::super::params::metadata;
 use super::super::snapshot::VehicleSnapshot;
