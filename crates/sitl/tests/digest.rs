@@ -106,7 +106,7 @@ fn flight_same_inputs_give_identical_results_despite_wind_collision_and_respawn(
     fly(&mut first, &inputs, end, |event, sim| {
         crashes += usize::from(matches!(event, SimEvent::Crash { .. }));
         respawns += usize::from(*event == SimEvent::Respawn);
-        // A snapshot right after an event would reveal forgotten state.
+        // A snapshot taken right after an event reveals state that the snapshot omits.
         if snapshots.last().is_none_or(|last| sim.now() >= last.now() + MIN_INTERVAL) {
             snapshots.push(sim.clone());
         }

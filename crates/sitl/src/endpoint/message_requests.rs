@@ -12,7 +12,7 @@ use super::vehicle_link::VehicleLink;
 use crate::autopilot::Autopilot;
 use spandrel_mavlink::dialect::{MESSAGE_INTERVAL_DATA, MavCmd, MavMessage, MavResult};
 
-/// Both halves of the interface, and the link that the request came from.
+/// The autopilot and payload interfaces, and the link that the request came from.
 pub(super) struct MessageRequest<'a, 'v> {
     pub link: LinkId,
     pub links: &'a mut Links,
@@ -31,7 +31,7 @@ const COUNTED: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
-/// MAV_CMD_DO_SEND_BANNER of ArduPilot's dialect.
+/// MAV_CMD_DO_SEND_BANNER, from ArduPilot's dialect.
 const SEND_BANNER: u16 = 42_428;
 
 pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavResult> {

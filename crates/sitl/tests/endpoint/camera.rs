@@ -19,7 +19,7 @@ const VIDEO_MIB_S: f32 = 60e6 / 8.0 / 1_048_576.0;
 /// Tolerance for the ticks between a command and its effect, s of recording.
 const TICKS_S: f32 = 0.01;
 
-/// The only supplied aircraft with a zoom lens.
+/// The only shipped aircraft with a zoom lens.
 const ZOOMS: &str = "m30";
 
 fn on_the_pad(vehicle: &str) -> Station {
@@ -360,7 +360,7 @@ fn wire_mission_items_have_the_same_effect_as_commands() {
         act(6, M::MAV_CMD_DO_MOUNT_CONFIGURE, [2.0, 1.0, 1.0, 0.0], 0, 0.0),
         act(7, M::MAV_CMD_DO_MOUNT_CONTROL, [-50.0, 0.0, 0.0, 0.0], 0, 2.0),
         item(8, M::MAV_CMD_NAV_WAYPOINT, north + 8.0, 6.0),
-        // One is as MAVLink defines it, the other as stations send it that scale every fifth parameter.
+        // One command as MAVLink defines it, and one as sent by stations that always scale parameter 5.
         act(9, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 1, 0.0),
         item(10, M::MAV_CMD_NAV_WAYPOINT, north, 6.0),
         act(11, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 10_000_000, 0.0),

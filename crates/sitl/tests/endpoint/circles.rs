@@ -152,7 +152,7 @@ fn flight_yaw_command_does_not_interrupt_the_mission() {
     assert!(angle_between(yaw(&station), std::f32::consts::FRAC_PI_2) < YAW_TOLERANCE, "{}", yaw(&station));
 }
 
-/// Sets a home position relative to home; the height counts from the current home.
+/// Sets a home position relative to home; its height is relative to the current home.
 #[test]
 fn wire_home_accepts_relative_heights_and_rejects_other_frames() {
     let mut station = ready(7);
@@ -187,8 +187,8 @@ fn orbit_center(station: &Station) -> (i32, i32, f32) {
     station.last_message(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
 }
 
-/// QGroundControl's orbit does not set a yaw behavior (5, unchanged). A PX4 that is not in an orbit yet then turns its
-/// nose to the center.
+/// QGroundControl's orbit does not set a yaw behavior (5, unchanged). A PX4 vehicle that is not yet in an orbit then
+/// turns its nose toward the center.
 #[test]
 fn regress_orbit_with_yaw_unchanged_keeps_the_current_yaw_behavior() {
     let mut station = Station::airborne("drill-hover", 7);

@@ -211,7 +211,7 @@ fn regress_attitude_thrust_sets_the_climb_rate() {
         })
     };
     set_param(&mut station, "WPNAV_SPEED_UP", 250.0, MavParamType::MAV_PARAM_TYPE_REAL32);
-    // 0.5 keeps the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 is half of WPNAV_SPEED_DN (150 cm/s).
+    // 0.5 holds the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 is half of WPNAV_SPEED_DN (150 cm/s).
     for (thrust, climb) in [(0.5, 0.0), (0.7, 1.0), (0.25, -0.75)] {
         for _ in 0..60 {
             station.send(&level(thrust));
@@ -267,7 +267,7 @@ fn regress_pause_holds_and_continue_resumes_in_guided() {
     assert_eq!(station.command(1, pause, one(0.0)), FAILED, "other modes must reject pause");
 }
 
-/// The mission takes off, waits until a time of day, and lands; the drill's day begins on a whole minute.
+/// The mission takes off, waits until a time of day, and lands; the drill starts on a whole minute.
 #[test]
 fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
     let mut station = copter_at(5.0);

@@ -1,4 +1,4 @@
-//! The same vehicle emulating three autopilots: identification, modes, parameters, files, streams.
+//! The vehicle as an emulation of three autopilots: identification, modes, parameters, files, streams.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_beat};

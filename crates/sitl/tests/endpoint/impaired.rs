@@ -11,7 +11,8 @@ use spandrel_testkit::plans::{home_north, item};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Values from the issue: lost fraction, range of the delay (which reorders datagrams), duplicated fraction.
+/// Values from the issue: fraction of lost datagrams, delay range (which reorders datagrams), fraction of duplicated
+/// datagrams.
 const LOSS: f64 = 0.3;
 const DELAY_MS: (f64, f64) = (100.0, 300.0);
 const DUPLICATE_PROBABILITY: f64 = 0.1;
@@ -347,7 +348,7 @@ fn regress_upload_continues_after_a_delayed_request() {
     assert_eq!(requests, led, "item 16 must follow the repeated item 15, and each must be requested once");
 }
 
-/// Same as above, but the repeated item is lost, so that the vehicle must request earlier and earlier items.
+/// Same as above, but the repeated item is lost, so the vehicle must request earlier and earlier items.
 #[test]
 fn regress_upload_continues_after_a_lost_repeated_item() {
     let mut client = Uploader::begin(30);
@@ -369,7 +370,7 @@ fn regress_duplicated_item_causes_no_further_request() {
     client.send(4);
     client.answer(5);
     assert_eq!(client.answer_until(None), [6, 7, 8, 9]);
-    // Nor may a datagram that arrives after the acknowledgment undo it.
+    // A datagram that arrives after the acknowledgment must not undo the upload.
     client.send(7);
     let answers: Vec<_> = (0..50).flat_map(|_| client.tick()).filter(|m| matches!(m, MavMessage::MISSION_ACK(_))).collect();
     assert!(answers.is_empty(), "{answers:?}");

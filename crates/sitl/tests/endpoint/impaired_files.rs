@@ -18,7 +18,7 @@ const SHORT_TIMEOUT_MS: i64 = 350;
 const SILENCE_MS: i64 = 700;
 const PARAMETER_FILE: &str = "/etc/extras/parameter.json.xz";
 
-/// Files in memory, by path.
+/// In-memory files by path.
 #[derive(Default)]
 pub(super) struct Disk(BTreeMap<String, Vec<u8>>);
 
@@ -196,7 +196,7 @@ fn wire_file_upload_survives_a_bad_link() {
     }
 }
 
-/// Content so long that its checksum takes more jobs than the ticks have accumulated.
+/// Returns a file whose checksum takes more jobs than the accumulated allowance.
 fn long_file() -> Vec<u8> {
     content(200 * CHECKSUM_SLICE as usize + 5)
 }

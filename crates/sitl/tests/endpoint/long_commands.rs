@@ -1,4 +1,4 @@
-//! Duration of commands and settings: across arming, across a pause, until the end of the flight.
+//! Lifetime of commands and settings: across arming, across a pause, and until the end of the flight.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;

@@ -89,8 +89,8 @@ fn wire_stick_echo_matches_the_input_on_each_link() {
     }
 }
 
-/// Session records depend on this: the monitor's link carries every stick sample, even several within one control tick,
-/// and those of senders that do not control the sticks.
+/// Session records depend on this: the monitor's link receives every stick sample, even several within one control
+/// tick, including samples from senders that do not have control.
 #[test]
 fn wire_sidecar_receives_every_stick_sample() {
     let sidecar = LinkId(6);

@@ -41,7 +41,7 @@ fn control(station: &Station) -> Option<[(u8, u8); 2]> {
 }
 
 /// A region of interest 50 m north of the pad and 50 m above it, with the height above sea level in a frame relative to
-/// home, as MAVSDK sends it. PX4 uses only the number; others respect the frame.
+/// home, as MAVSDK sends it. PX4 uses only the value; the other autopilots respect the frame.
 #[test]
 fn wire_region_of_interest_height_follows_the_flavor() {
     for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {

@@ -1,4 +1,4 @@
-//! Many peers, a flood, a slow radio, an old client: the load of one link must not affect the others.
+//! Many peers, a flood, a slow radio, an old client: the load on one link must not affect the other links.
 
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;
@@ -92,11 +92,11 @@ fn own(frames: &[ReceivedFrame]) -> Vec<(u32, u8)> {
 
 /// Returns the maximum number of responses and forwarded frames of one link in a tick.
 fn share_of_a_tick(first: bool) -> usize {
-    // The first call processes datagrams at both of its ends.
+    // The first call processes datagrams at its beginning and at its end.
     if first { 2 * MAX_DATAGRAMS_PER_TICK } else { MAX_DATAGRAMS_PER_TICK }
 }
 
-/// Runs fifty ground stations besides the first, and a vehicle with and without a flooding peer.
+/// Runs one vehicle with and one without a flooding peer, each with fifty additional ground stations.
 #[test]
 fn wire_flood_is_bounded_per_tick_and_does_not_affect_fifty_peers() {
     const TICKS: i64 = 1_000;
@@ -209,7 +209,7 @@ fn wire_radio_stays_within_its_capacity_with_prompt_responses() {
         let carried = (RADIO_BYTES_S as usize) * (second + 1) + RADIO_BURST;
         assert!(bytes <= carried, "{bytes} of {carried} bytes after {second} s");
     }
-    // One per second, and one after each heartbeat of the camera, which are 4 s apart.
+    // One per second, and another after each camera heartbeat, every 4 s.
     assert!((36..=39).contains(&beats), "{beats} heartbeats");
     assert!(parameters >= total && total > 50, "{parameters} of {total} parameters");
     assert!(worst_ms < 500, "an acknowledgment took {worst_ms} ms");
@@ -280,6 +280,6 @@ fn regress_unknown_peer_gets_no_streams_before_its_heartbeat() {
     sim.handle_datagram(peer, &encoder.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default())));
     let heard = run_ms(&mut sim, 1_500).remove(&peer).unwrap_or_default();
     let count = |id: u32| heard.iter().filter(|frame| frame.message_id == id && frame.component_id == 1).count();
-    // 50 Hz to a sidecar within one and a half seconds.
+    // A sidecar receives ground truth at 50 Hz for one and a half seconds.
     assert!(count(0) >= 1 && count(115) > 70, "{} heartbeats, {} ground truth messages", count(0), count(115));
 }

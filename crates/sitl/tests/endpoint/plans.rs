@@ -1,4 +1,4 @@
-//! Plans: uploaded completely and in parts, downloaded, flown.
+//! Plans: full and partial uploads, downloads, and execution.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;

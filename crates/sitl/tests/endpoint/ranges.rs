@@ -16,7 +16,7 @@ use std::f64::consts::FRAC_PI_4;
 const TOLERANCE_M: f64 = 0.12;
 const REACH_M: f64 = 10.0;
 
-/// Returns the directions of the range finders: down, up, and around clockwise from the nose.
+/// Returns the directions of the range finders: down, up, then clockwise from the nose.
 fn finders() -> Vec<(MavSensorOrientation, Vec3<Frd>)> {
     use MavSensorOrientation as O;
     let around = [

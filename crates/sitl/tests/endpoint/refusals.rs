@@ -1,4 +1,4 @@
-//! Self-description and rejections of the vehicle; interfaces that must not bypass its rules.
+//! The vehicle's self-description and rejections; interfaces that must not bypass its rules.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};

@@ -45,7 +45,7 @@ fn regress_autopilot_heartbeat_is_first_and_last_in_every_datagram() {
         autopilot += of.iter().filter(|component| **component == 1).count();
         camera += of.iter().filter(|component| **component == 100).count();
     }
-    // From 0 s to 20 s: one heartbeat per second, and one after each of the camera's, which are 4 s apart.
+    // From 0 s to 20 s: one heartbeat per second, and another after each camera heartbeat, every 4 s.
     assert_eq!((autopilot, camera), (27, 6));
 }
 

@@ -1,4 +1,4 @@
-//! Stick-flown hover, step, stop, turn, circle and gust maneuvers, with stated bounds, for every supplied aircraft.
+//! Manually flown hover, step, stop, turn, circle and gust maneuvers, with stated bounds, for every shipped aircraft.
 
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;
@@ -192,7 +192,8 @@ fn flight_stops_from_full_speed_in_time() {
     }
 }
 
-/// Releases a full yaw stick and returns how far the nose swings back, rad, and how far it turned on before, rad.
+/// Releases a full yaw stick. Returns the angle by which the nose swings back and the angle by which it first turned
+/// further, rad.
 fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
     const HELD_S: f64 = 3.0;
     const SETTLED_S: f64 = 5.0;

@@ -8,8 +8,8 @@ use spandrel_sitl::sensors::Readings;
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
-/// Height tolerance, m: without its barometer, the vehicle holds its height with the receiver only, whose height drifts
-/// by 0.64 m (1 sigma).
+/// Height tolerance, m: without its barometer, the vehicle holds its height with GNSS alone, which drifts by 0.64 m (1
+/// sigma).
 const HEIGHT_M: f64 = 2.5;
 /// Horizontal tolerance, m, with the receiver (0.4 m, 1 sigma) or optical flow.
 const POSITION_TOLERANCE_M: f64 = 2.5;
@@ -125,8 +125,8 @@ fn drifting_receiver(readings: &mut Readings, now: SimTime) {
 /// two drifts away.
 #[test]
 fn regress_slow_altitude_drift_is_not_tracked() {
-    // The receiver's height counts as contradicted at five times its error of 0.8 m; up to there, the vehicle follows
-    // it, m.
+    // The receiver's height counts as contradicted at five times its error of 0.8 m; up to that error, the vehicle
+    // follows it, m.
     const FOLLOWED_M: f64 = 4.5;
     for name in VEHICLES {
         for (modify_readings, text) in [

@@ -1,4 +1,4 @@
-//! Takeoff, hover and landing of every supplied vehicle in the supplied job at every wind level with many seeds.
+//! Takeoff, hover and landing of every shipped vehicle in the shipped job at every wind level with many seeds.
 
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavModeFlag, MavResult};
 use spandrel_model::frames::{Enu, Vec3};
@@ -28,7 +28,7 @@ struct Flight {
     seed: u64,
 }
 
-/// Returns the supplied job with another wind level.
+/// Returns the shipped job with another wind level.
 fn job(level: &str) -> Scenario {
     let text = text("scenarios/two-bridges.toml").replace("level = \"light\"", &format!("level = \"{level}\""));
     assert!(text.contains(&format!("level = \"{level}\"")));

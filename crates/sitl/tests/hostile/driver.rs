@@ -42,7 +42,7 @@ impl Vehicle {
         Self(sim)
     }
 
-    /// Answers file jobs like a storage in which everything exists, with extreme or unusual contents.
+    /// Answers file jobs as if every file existed, with extreme or unusual contents.
     fn do_jobs(&mut self) {
         while let Some(job) = self.0.poll_file_job() {
             let outcome = match (job.ticket % 5, job.action) {
@@ -96,7 +96,7 @@ pub struct Finding {
     pub datagram: Vec<u8>,
 }
 
-/// Coverage of a run: counts of the vehicle's reactions.
+/// Coverage of a run: counts of vehicle reactions.
 #[derive(Debug, Default)]
 pub struct Coverage {
     pub datagrams: usize,

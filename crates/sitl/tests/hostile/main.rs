@@ -20,8 +20,8 @@ use spandrel_testkit::station::Station;
 
 /// Number of datagrams in the whole run (requirement: 20,000).
 const DATAGRAMS: usize = 40_000;
-/// Number of datagrams before the vehicle restarts from one of its situations, so that most of them reach a vehicle in
-/// flight.
+/// Number of datagrams before the vehicle restarts from one of the situations, so that most datagrams reach a vehicle
+/// in flight.
 const BATCH: usize = 400;
 
 /// Returns the commands that the vehicle does not report as unsupported.

@@ -1,4 +1,5 @@
-//! Tests the server with a retrying client over a link that loses, duplicates and reorders packets, with files in memory.
+//! Tests the server with a retrying client over a link that loses, duplicates and reorders packets, with in-memory
+//! files.
 
 use super::*;
 use spandrel_mavlink::ftp::{NAK, PAYLOAD};
@@ -7,7 +8,7 @@ use spandrel_model::random::RandomStream;
 const CLIENT: FileClient = (LinkId(1), (255, 190));
 const OTHER: FileClient = (LinkId(2), (254, 190));
 
-/// Files in memory, in one directory tree by path.
+/// In-memory files by path.
 #[derive(Default)]
 struct MemoryFiles(BTreeMap<String, Vec<u8>>);
 
@@ -205,7 +206,8 @@ fn regress_answers_name_the_session_that_was_requested() {
     );
 }
 
-/// The last packet of a burst completes it: if it is lost, MAVSDK 4 would treat an additional NAK as its last failed attempt.
+/// The last packet of a burst completes it: if it is lost, MAVSDK 4 would treat an additional NAK as its last failed
+/// attempt.
 #[test]
 fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
     let mut bench = FtpHarness::new();
@@ -223,7 +225,7 @@ fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
     assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 0, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
 }
 
-/// A duplicated or delayed request restarts no burst and truncates no file being written.
+/// A duplicated or delayed request must not restart a burst or truncate a file being written.
 #[test]
 fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
     let mut bench = FtpHarness::new();
@@ -248,7 +250,7 @@ fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
     assert!(bench.files.0["new"].is_empty(), "a restarted client may reuse a sequence number");
 }
 
-/// A long file is checksummed slice by slice, with other clients' jobs in between.
+/// A long file must be checksummed slice by slice, with other clients' jobs in between.
 #[test]
 fn regress_a_checksum_is_made_in_slices() {
     let mut bench = FtpHarness::new();

@@ -34,7 +34,8 @@ handlers! {
 }
 
 impl PayloadLink {
-    /// Handles a message addressed to the camera, to the component that gimbal and lamp belong to, or to all components.
+    /// Handles a message addressed to the camera, to the component that gimbal and lamp belong to, or to all
+    /// components.
     pub(crate) fn receive(&mut self, component: u8, frame: &ReceivedFrame, a: &mut PayloadMessage) {
         match (component, &frame.message) {
             (0 | AUTOPILOT, Some(message)) => dispatch(self, message, a),

@@ -1,5 +1,5 @@
-//! Flight logs over MAVLink's log protocol: list, download and erase. Like the file server, it performs no file access; the same
-//! host executes its jobs.
+//! Flight logs over MAVLink's log protocol: list, download and erase. Like the file server, it performs no file access;
+//! the same host executes its jobs.
 
 use crate::endpoint::files::job::{DirectoryEntry, FileAction, FileError, FileJob, FileJobResult};
 use crate::endpoint::files::path::FilePath;

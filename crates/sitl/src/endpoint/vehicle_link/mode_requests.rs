@@ -1,4 +1,4 @@
-//! Mode changes by messages and by the mode switch of a transmitter.
+//! Mode changes requested by messages and by a transmitter's mode switch.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::VehicleLink;

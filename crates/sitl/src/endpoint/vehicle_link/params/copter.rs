@@ -1,6 +1,6 @@
-//! Parameter names that clients expect from ArduCopter (docs/src/reference/wire.md, "Parameters"; QGroundControl's and MAVProxy's
-//! sources), with ArduPilot's units and values. Names that correspond to an internal parameter take effect; the others describe
-//! the vehicle and are read-only.
+//! Parameter names that clients expect from ArduCopter (docs/src/reference/wire.md, "Parameters"; QGroundControl's and
+//! MAVProxy's sources), with ArduPilot's units and values. Names that correspond to an internal parameter take effect;
+//! the others describe the vehicle and are read-only.
 
 use super::derived_rows::{mapped, scaled};
 use super::param_value::ParamValue::{self, Int, Real};
@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 pub const DEFAULTS: &[(&str, ParamValue)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
 
 const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
-/// ArduPilot's link loss actions and the internal ones.
+/// ArduPilot's link loss actions, and the corresponding internal ones.
 const LOSSES: &[(i32, i32)] = &[(0, 0), (1, 2), (5, 3), (7, 1)];
 const STICK_LOSS: &[(i32, &str)] = &[(1, "Return"), (3, "Land"), (7, "Brake")];
 const STICK_LOSSES: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
@@ -39,7 +39,7 @@ pub fn rows() -> &'static [Row] {
     &ALL
 }
 
-/// This software's own parameters, under their own names.
+/// This software's own parameters, with unchanged names.
 const OURS: [&str; 4] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
 
 /// Creates a read-only row that describes the vehicle.
@@ -73,8 +73,8 @@ fn active_rows() -> Vec<Row> {
         mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSSES, LOSS, "FS"),
         scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
         mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSSES, STICK_LOSS, "FS"),
-        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies to targets directly and never turns
-        // into the wind.
+        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies to targets directly and
+        // never turns into the wind.
         row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "GUIDED mode options").wire(INT32).bits(&[
             (0, "Allow arming from the transmitter"),
             (2, "Ignore the yaw stick"),
@@ -149,7 +149,7 @@ fn fixed() -> Vec<Row> {
     ]
 }
 
-/// Modes of a switch position, by ArduCopter's numbers.
+/// Modes for a switch position, with ArduCopter's numbers.
 const SWITCHED: &[(i32, &str)] = &[
     (0, "Stabilize"),
     (1, "Acro"),

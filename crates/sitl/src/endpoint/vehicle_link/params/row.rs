@@ -12,7 +12,7 @@ pub enum ParamSource {
     Scaled(&'static str, f64),
     /// Another parameter's value, a fraction of the battery capacity, converted to mAh.
     Capacity(&'static str),
-    /// Another parameter's value with a different numbering: (this one's, the other's).
+    /// Another parameter's value with a different numbering: pairs of (own number, other number).
     Mapped(&'static str, &'static [(i32, i32)]),
 }
 
@@ -49,7 +49,7 @@ pub struct Row {
     pub source: ParamSource,
 }
 
-/// Creates a row with its own value, of the wire type that belongs to its default.
+/// Creates a row with its own value, with the wire type of its default.
 pub(super) const fn row(
     name: &'static str,
     default: ParamValue,

@@ -21,7 +21,7 @@ const SYSTEM: &str = "System";
 
 const LOSS: &[(i32, &str)] =
     &[(0, "Disabled"), (1, "Hold mode"), (2, "Return mode"), (3, "Land mode"), (5, "Terminate"), (6, "Disarm")];
-/// Channel of a stick or switch. No radio is connected: all are unassigned.
+/// Channels for a stick or switch. No radio is connected, so all sticks and switches are unassigned.
 pub(super) const CHANNELS: &[(i32, &str)] = &[
     (0, "Unassigned"),
     (1, "Channel 1"),
@@ -91,8 +91,8 @@ pub(super) fn rows() -> &'static [Row] {
     &ALL
 }
 
-/// Names from QGroundControl's and MAVSDK's sources (docs/src/reference/wire.md, "Parameters"), with PX4's defaults where they
-/// apply. Sorted by name.
+/// Names from the source code of QGroundControl and MAVSDK (docs/src/reference/wire.md, "Parameters"), with PX4's
+/// defaults where they apply. Sorted by name.
 pub const ROWS: &[Row] = &[
     row("BAT1_N_CELLS", Int(3), (1.0, 16.0), "", BATTERY, "Number of cells in series").values(CELLS),
     row("BAT1_SOURCE", Int(-1), (-1.0, 2.0), "", BATTERY, "Battery data source")

@@ -1,4 +1,4 @@
-//! Names, types, ranges, both encodings, the checksum.
+//! Tests of names, types, ranges, both encodings, and the checksum.
 
 use super::*;
 
@@ -56,7 +56,7 @@ fn exact_every_bound_that_is_shown_can_be_set_and_reads_back() {
     }
 }
 
-/// A value of a different type than its row would shift everything after it in the packed file.
+/// A value whose type differs from its row's type would shift everything after it in the packed file.
 #[test]
 fn regress_every_value_has_the_type_of_its_row() {
     for face in [&param_view::PX4, &param_view::COPTER, &param_view::GENERIC] {

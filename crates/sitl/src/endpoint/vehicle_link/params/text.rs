@@ -33,8 +33,8 @@ pub fn write(params: &Params, system_id: u8) -> String {
     out
 }
 
-/// Applies a parameter file. Names that this vehicle does not have, and read-only parameters, are skipped because the file may
-/// come from another vehicle.
+/// Applies a parameter file. Names that this vehicle does not have, and read-only parameters, are skipped because the
+/// file may come from another vehicle.
 ///
 /// # Errors
 /// Returns all invalid lines; no parameter is set in that case.
@@ -58,7 +58,7 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let [_, _, name, value, kind] = fields[..] else {
         return Err(format!("{} tab-separated fields (required: vehicle, component, name, value, type)", fields.len()));
     };
-    // A parameter of another vehicle, whatever its type.
+    // A parameter of another vehicle is skipped, regardless of its type.
     if params.range(name).is_none() {
         return Ok(());
     }
