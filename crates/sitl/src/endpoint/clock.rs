@@ -24,7 +24,7 @@ impl VehicleClock {
     }
 
     /// Converts a time to the autopilot's clock, which restarts with the autopilot. Payload processes receive
-    /// simulation time, so that scores use a single clock.
+    /// simulation time, so scores use a single clock.
     #[must_use]
     pub fn since_boot(&self, at: SimTime) -> SimTime {
         if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_booted) }

@@ -87,9 +87,9 @@ impl Endpoint {
         self.vehicle.push_text(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
     }
 
-    /// Sets the simulation speed, in seconds of simulation time per second of client time. Timeouts of clients that are
-    /// not in lockstep are scaled by it, and logs record it: as a text now, and as NAMED_VALUE_FLOAT `speed_factor`
-    /// with the other slow values.
+    /// Sets the simulation speed, in seconds of simulation time per second of client time. It scales the timeouts of
+    /// clients that are not in lockstep. Logs record it as a text now and as NAMED_VALUE_FLOAT `speed_factor` with the
+    /// other slow values.
     pub fn set_speed_factor(&mut self, factor: f64, autopilot: &mut Autopilot) {
         self.vehicle.set_speed_factor(factor, autopilot);
         self.payload.speed_factor = factor;

@@ -50,8 +50,8 @@ impl VehicleCommand {
         }
         let scaled = |at: usize| {
             let whole = i32::from_le_bytes(four(at));
-            // INT32_MAX means "not set" (MAVLink: COMMAND_INT); the others result from clients that convert NaN to an
-            // integer.
+            // INT32_MAX means "not set" (MAVLink: COMMAND_INT); the other values result from clients that convert NaN
+            // to an integer.
             if NOT_GIVEN.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
         };
         (p[4], p[5]) = (scaled(16), scaled(20));

@@ -81,7 +81,7 @@ fn wire_camera_component_rejects_flight_commands() {
 fn wire_messages_can_be_requested_once_or_at_a_rate() {
     use spandrel_sitl::endpoint::streams::STREAMS;
     let mut station = Station::airborne("two-bridges", 7);
-    // Starts an orbit, so that the orbit stream has data.
+    // Start an orbit to provide data for the orbit stream.
     let orbit = [3.0, 0.5, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(20);

@@ -53,8 +53,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// QGroundControl's altitude slider: mode GUIDED, then one offset in which only the position bits of the mask are
-/// clear.
+/// QGroundControl's altitude slider: mode GUIDED, then one offset with only the position bits of the mask clear.
 #[test]
 fn regress_qgroundcontrols_altitude_slider_climbs_a_copter() {
     for before in [GUIDED, BRAKE] {

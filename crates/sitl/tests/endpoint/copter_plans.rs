@@ -60,7 +60,7 @@ fn flight_fence_acts_only_if_enabled() {
     }
 }
 
-/// After a fence has stopped the vehicle, setpoints that lead outside must be ignored, although they keep arriving.
+/// After a fence has stopped the vehicle, setpoints outside the fence must be ignored, although they keep arriving.
 #[test]
 fn flight_fence_breach_ends_guided_flight() {
     let mut station = copter_at(5.0);

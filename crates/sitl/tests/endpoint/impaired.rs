@@ -139,7 +139,7 @@ fn up_and_down(client: &mut Client, number: u16) {
     let home = home_north(&client.station);
     let waypoint = |k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0 * f64::from(k), 6.0);
     let items: Vec<_> = (0..number).map(waypoint).collect();
-    // The vehicle requests the items one after the other; the client sends the latest one requested.
+    // The vehicle requests the items one by one; the client sends the latest one requested.
     let next = |m: &MavMessage| match m {
         MavMessage::MISSION_REQUEST_INT(r) => Some(Some(r.seq)),
         MavMessage::MISSION_ACK(a) if a.mavtype == MavMissionResult::MAV_MISSION_ACCEPTED => Some(None),
@@ -228,8 +228,8 @@ fn requests_or_ack(station: &mut Station) -> Vec<(i64, Option<u16>)> {
     heard
 }
 
-/// A client whose items were lost is asked again four times per second, and one whose acknowledgment may have been lost
-/// receives it again. On a link without losses, there is only one acknowledgment, as from PX4.
+/// The vehicle repeats its request four times per second to a client whose items were lost, and repeats an
+/// acknowledgment that may have been lost. On a link without losses, there is only one acknowledgment, as from PX4.
 #[test]
 fn regress_upload_requests_are_repeated_after_250_ms() {
     let mut station = Station::new("drill-hover", 7);
@@ -250,8 +250,8 @@ fn regress_upload_requests_are_repeated_after_250_ms() {
         let acknowledged = heard.iter().filter(|(_, asked)| asked.is_none()).count();
         assert_eq!(acknowledged, if loses { 5 } else { 1 }, "{heard:?}");
     }
-    // A client that has responded within a few milliseconds is asked again sooner, after 120 ms counted from the
-    // control tick (2.5 ms) of the request, so that more requests fit into the client's timeout.
+    // The vehicle repeats its request sooner to a client that has responded within a few milliseconds: 120 ms after the
+    // control tick (2.5 ms) of the request, so more requests fit into the client's timeout.
     station.sim.handle_datagram(GCS, &encoder.encode(&count(2)));
     station.run_ms(3);
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));

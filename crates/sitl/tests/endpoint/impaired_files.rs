@@ -11,8 +11,8 @@ use spandrel_sitl::endpoint::params::{metadata, param_view};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::BTreeMap;
 
-/// Retry interval of a client that repeats requests before a response can arrive, so that its repetitions arrive after
-/// its next requests, ms.
+/// Retry interval of a client that repeats requests before a response can arrive, ms. Its repeats therefore arrive
+/// after its next requests.
 const SHORT_TIMEOUT_MS: i64 = 350;
 /// Time without data after which a burst counts as complete, ms.
 const SILENCE_MS: i64 = 700;

@@ -78,7 +78,7 @@ fn wire_stick_echo_matches_the_input_on_each_link() {
             assert!(flavour.asks_first || heard.contains(&(SDK, others)), "{}: {heard:?}", flavour.name);
         };
         wait(&mut station, |s| channels(s, 1300, 1600), [[1500, 1300, 1600, 1500], [1500, 1700, 1600, 1500]]);
-        // Values beyond full deflection must be limited.
+        // Values beyond full deflection must be clamped.
         wait(&mut station, |s| channels(s, 900, 2100), [[1500, 900, 2100, 1500], [1500, 2000, 2000, 1500]]);
         let sticks = |s: &mut Station| s.sticks(400, 200, 750, -1000);
         wait(&mut station, sticks, [[1600, 1300, 1750, 1000], [1600, 1700, 1750, 1000]]);
@@ -163,8 +163,8 @@ fn wire_released_channels_are_not_stick_input() {
     assert!(station.all(|m| matches!(m, MavMessage::RC_CHANNELS(_)).then_some(())).is_empty());
 }
 
-/// Returns the time without messages from the client until the failsafe of a manually flown vehicle, s, at a simulation
-/// speed.
+/// Returns the time from the client's last message to the failsafe of a manually flown vehicle, s, at the given
+/// simulation speed.
 fn timeout_s(pace: f64, lockstep: bool) -> f64 {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.set_speed_factor(pace);
@@ -191,7 +191,7 @@ fn timeout_s(pace: f64, lockstep: bool) -> f64 {
     (station.sim.now() - silent_since).s()
 }
 
-/// The lockstep peer responds immediately, so that time advances.
+/// The lockstep peer responds immediately, so time advances.
 fn answer_lockstep(station: &mut Station) {
     if station.sim.waiting() {
         let now = station.sim.now().ns();

@@ -295,7 +295,7 @@ fn wire_auto_options_allow_arming_in_auto_and_mis_total_counts_the_mission() {
     let ground = station.local_position_after(100)[2];
     station.run_ms(4_000);
     assert!((ground - station.place()[2]).abs() < 0.2, "took off without raising the throttle");
-    // With the other bit, the vehicle also takes off.
+    // With the second option bit set, the vehicle also takes off.
     set(&mut station, "AUTO_OPTIONS", 3.0);
     assert!(station.run_until(15.0, |s| ground - s.place()[2] > 2.0), "no takeoff: {:?}", station.texts());
 }

@@ -9,7 +9,7 @@ use std::io::Cursor;
 
 const SET_MODE: MavCmd = MavCmd::MAV_CMD_DO_SET_MODE;
 
-/// Returns the messages by event ID, from the file that the vehicle serves.
+/// Returns the messages by event ID, from the definition file on the vehicle.
 fn definitions() -> BTreeMap<u32, String> {
     let mut text = Vec::new();
     let file = metadata::files(&PX4).events.as_ref().expect("the metadata must list an event file");

@@ -118,7 +118,7 @@ fn flight_copter_spline_is_flown_as_a_waypoint() {
     assert!((f64::from(station.place()[0]) - north - 14.0).abs() < NEAR_M, "{:?}", station.place());
 }
 
-/// The controlling client must keep the gimbal, but any client may end the vehicle's region of interest.
+/// The controlling client must keep gimbal control, but any client may clear the vehicle's region of interest.
 #[test]
 fn flight_clearing_the_region_of_interest_keeps_gimbal_control() {
     let mut station = Station::airborne("drill-hover", 7);

@@ -173,7 +173,7 @@ fn regress_upload_uses_the_request_form_that_the_client_answers() {
     assert!(station.run_until(3.0, |s| s.last_message(question) == Some((0, true))), "the other form must be tried");
     assert_eq!(station.ask(&to_mission_item(&items[0]), question), Some((1, true)), "the answered form must be kept");
     assert_eq!(station.ask(&to_mission_item(&items[1]), question), Some((2, true)));
-    // If a client rejects one form, the other must be used immediately.
+    // If a client rejects one request form, the vehicle must use the other one immediately.
     assert_eq!(station.ask(&mission_count(3), question), Some((0, false)));
     let refusal = MavMessage::MISSION_ACK(MISSION_ACK_DATA {
         mavtype: MavMissionResult::MAV_MISSION_UNSUPPORTED,

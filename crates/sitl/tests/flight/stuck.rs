@@ -1,4 +1,4 @@
-//! Sensors that repeat their last value or contradict the others, with the fault injected in flight.
+//! Sensors that repeat their last value or contradict other sensors, with the fault injected in flight.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
@@ -102,7 +102,7 @@ fn regress_inconsistent_sensor_is_announced_and_excluded() {
     }
 }
 
-/// Drift rate of a tampered height, m/s: so slow that no single reading is an outlier.
+/// Drift rate of a falsified height, m/s: too slow for any single reading to be an outlier.
 const DRIFT_M_S: f64 = 0.4;
 /// Time at which the drift begins, when the vehicle hovers, s.
 const DRIFT_START_S: f64 = 30.0;

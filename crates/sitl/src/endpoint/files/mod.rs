@@ -68,7 +68,7 @@ impl FileServer {
         }
     }
 
-    /// Releases everything that belongs to a closed link.
+    /// Releases all state of a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.sessions.close_matching(|client| client.0 == link);
         self.answered.forget(link);

@@ -160,7 +160,7 @@ impl Links {
         }
     }
 
-    /// Forwards a frame to the other links that it is addressed to.
+    /// Forwards a frame to its target links.
     pub fn route(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
         // Reject frames that impersonate the vehicle's own components.
         if frame.system_id == self.system_id && matches!(frame.component_id, AUTOPILOT | CAMERA) {

@@ -15,7 +15,7 @@ const DATAGRAM: usize = 1_200;
 const SMALL_DATAGRAM: usize = 280;
 /// Maximum backlog of an unlimited link, bytes; the host empties it in every iteration.
 const BACKLOG_MAX: usize = 4_194_304;
-/// Maximum number of frames of one link forwarded to others per tick.
+/// Maximum number of frames per tick that are forwarded from one link to other links.
 const FORWARDED_PER_TICK: usize = 16;
 /// Interval between heartbeats of a component (MAVLink: 1 Hz).
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
@@ -165,7 +165,7 @@ impl PeerLink {
     }
 
     /// Records that the peer addresses the camera: it then receives the camera's heartbeats at MAVLink's rate for
-    /// components, aligned with the autopilot's.
+    /// components, aligned with the autopilot's heartbeats.
     pub fn use_camera(&mut self) {
         if !std::mem::replace(&mut self.uses_camera, true) {
             self.streams.align_heartbeat(CAMERA, AUTOPILOT, HEARTBEAT_INTERVAL);
@@ -261,7 +261,7 @@ impl PeerLink {
         }
     }
 
-    /// Returns the next datagram that the link can carry now.
+    /// Returns the next datagram that the link has capacity for.
     pub fn poll(&mut self) -> Option<Vec<u8>> {
         let len = self.out.front()?.len();
         if self.budget.as_mut().is_some_and(|budget| !budget.take(len)) {

@@ -44,7 +44,7 @@ impl PayloadLink {
     }
 
     /// Resends image records `first` (-1: all) to `last` (0: only `first`, -1: to the newest). The first is sent
-    /// immediately, the others as link capacity permits.
+    /// immediately, the rest as link capacity permits.
     pub(crate) fn resend_images(&mut self, (first, last): (f64, f64), link: LinkId, links: &mut Links) -> MavResult {
         let count = self.equipment.camera.image_count();
         let (first, last) = match (first, last) {

@@ -34,7 +34,7 @@ handlers! {
 }
 
 impl PayloadLink {
-    /// Handles a message addressed to the camera, to the component that gimbal and lamp belong to, or to all
+    /// Handles a message addressed to the camera, to the component that owns the gimbal and the lamp, or to all
     /// components.
     pub(crate) fn receive(&mut self, component: u8, frame: &ReceivedFrame, a: &mut PayloadMessage) {
         match (component, &frame.message) {

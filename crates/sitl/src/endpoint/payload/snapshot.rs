@@ -45,7 +45,7 @@ impl<'a> PayloadSnapshot<'a> {
         self.camera.lens(&self.input.vehicle.camera)
     }
 
-    /// Returns the camera's attitude as a quaternion from body to north-east-down, w first. The gimbal keeps roll level
+    /// Returns the camera's attitude as a quaternion from body to north-east-down, w first. The gimbal stabilizes roll
     /// and follows the heading.
     #[must_use]
     pub fn camera_attitude(&self) -> [f64; 4] {

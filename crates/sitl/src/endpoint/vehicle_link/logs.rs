@@ -116,7 +116,7 @@ impl LogTransfers {
         self.downloads.remove(&link);
     }
 
-    /// Releases everything that belongs to a closed link.
+    /// Releases all state of a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.stop(link);
         self.entries.remove(&link);

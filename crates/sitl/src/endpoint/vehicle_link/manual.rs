@@ -150,8 +150,8 @@ impl ManualControl {
     }
 
     /// Applies MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its
-    /// center, or in -1000..1000 for a sender that has ever sent a negative value. Values out of range or not used
-    /// count as centered.
+    /// center, or in -1000..1000 for a sender that has ever sent a negative value. Out-of-range and unused values count
+    /// as centered.
     pub fn manual_control(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
         let zero = |value: Option<f64>| value.unwrap_or(0.0);
         let up = match axis(m.z) {

@@ -236,7 +236,7 @@ impl VehicleLink {
         self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
     }
 
-    /// Releases everything that belongs to a closed link.
+    /// Releases all state of a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.param_lists.remove(&link);
         self.files.forget(link);

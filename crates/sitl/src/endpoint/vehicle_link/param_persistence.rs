@@ -75,7 +75,7 @@ impl VehicleLink {
         payload.camera.announced.parameter = self.params.camera_announced();
     }
 
-    /// Applies the parameters after many may have changed, and sends the whole list on every link.
+    /// Applies the parameters after a change that may affect many of them, and sends the whole list on every link.
     pub(super) fn parameters_changed(&mut self, autopilot: &mut Autopilot, payload: &mut Payload, links: &Links) {
         self.apply_parameters(autopilot, payload);
         for id in links.ids() {

@@ -8,7 +8,7 @@ use crate::endpoint::link::{LinkKind, Links};
 use spandrel_mavlink::dialect::{MavMessage, STATUSTEXT_DATA};
 
 impl VehicleLink {
-    /// Broadcasts the queued texts. Texts above 50 bytes are split into chunks, which clients join by their ID. Like
+    /// Broadcasts the queued texts. Texts above 50 bytes are split into chunks, which clients reassemble by ID. Like
     /// PX4, appends a tab for ground stations if an event conveys the whole text.
     pub(crate) fn send_texts(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         for (severity, text) in self.texts.take() {

@@ -30,7 +30,7 @@ impl TextQueue {
         std::mem::take(&mut self.texts)
     }
 
-    /// Returns an ID that clients use to join the messages of one text; never 0.
+    /// Returns an ID that clients use to reassemble a text from several messages; never 0.
     pub fn next_id(&mut self) -> u16 {
         self.last_id = self.last_id.wrapping_add(1).max(1);
         self.last_id

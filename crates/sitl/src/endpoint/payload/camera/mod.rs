@@ -92,7 +92,7 @@ struct VideoRecording {
     status: Option<(SimTime, SimTime)>,
 }
 
-/// A command for a single image: sender, sequence number, time.
+/// A single-image command: sender, sequence number, time.
 type CaptureCommand = ((u8, u8), u32, SimTime);
 
 /// Whether the camera component sends heartbeats; simple clients mistake them for the vehicle's.
@@ -188,7 +188,8 @@ impl CameraState {
         if self.series.start_by_distance(distance_m, first, here, now) { Ok(()) } else { Err(CameraError::Invalid) }
     }
 
-    /// Checks whether a numbered single-image command repeats the last one, as clients do after a lost acknowledgment.
+    /// Checks whether a numbered single-image command repeats the last one. Clients send repeats after a lost
+    /// acknowledgment.
     #[must_use]
     pub fn is_repeated(&self, from: (u8, u8), number: u32, now: SimTime) -> bool {
         self.last.is_some_and(|(who, last, at)| who == from && last == number && now - at <= REPEATED_WITHIN)

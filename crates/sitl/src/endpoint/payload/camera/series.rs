@@ -82,7 +82,7 @@ impl CaptureSeries {
         self.singles > 0 || far || self.next.is_some_and(|next| next <= now)
     }
 
-    /// Records that the image that was due has been taken.
+    /// Records that the due image has been taken.
     pub fn taken(&mut self, now: SimTime, here: Vec3<Enu>) {
         if self.singles > 0 {
             self.singles -= 1;

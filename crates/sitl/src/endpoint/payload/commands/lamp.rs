@@ -34,8 +34,8 @@ fn switch(value: f64, input: &PayloadInput, payload: &mut Payload) -> MavResult 
     ACCEPTED
 }
 
-/// Parameters 1 to 6 are actuator values, 7 is the set. Actuator 1 of set 0 is the lamp, on above 0; there are no
-/// others.
+/// Parameters 1 to 6 are actuator values, 7 is the set. Actuator 1 of set 0 is the lamp, on above 0; no other actuators
+/// exist.
 fn actuator(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     let others = (1..6).any(|k| c.finite_param(k).is_some_and(|value| value != 0.0));
     match (c.finite_param(6).unwrap_or(0.0), c.finite_param(0)) {

@@ -12,7 +12,7 @@ use crate::endpoint::vehicle_command::VehicleCommand;
 use handler::{PayloadCommand, PayloadHandler};
 use spandrel_mavlink::dialect::{MavCmd, MavResult};
 
-/// Commands accepted only by the autopilot component, which the gimbal and the lamp belong to.
+/// Commands accepted only by the autopilot component, which owns the gimbal and the lamp.
 const MOUNTED: [&[PayloadCommand]; 2] = [gimbal::ROWS, lamp::ROWS];
 
 /// Checks whether the payload supports this command.

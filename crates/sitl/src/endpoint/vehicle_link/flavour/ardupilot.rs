@@ -79,8 +79,8 @@ const MODES: &[ModeRow] = &[
     row(9, FlightMode::Land, "LAND", PLACED).without_arming(),
     row(6, FlightMode::Return, "RTL", PLACED).without_arming(),
     row(16, FlightMode::Position, "POSHOLD", PLACED).holds_unattended(),
-    // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and a landing
-    // ends in it.
+    // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and it is the
+    // final mode after a landing.
     row(17, FlightMode::Hold, "BRAKE", PLACED),
     row(21, FlightMode::SmartReturn, "SMARTRTL", PLACED).without_arming(),
     row(23, FlightMode::Follow, "FOLLOW", PLACED).without_arming(),

@@ -1,4 +1,4 @@
-//! PX4's interface: custom_mode holds the main mode in bits 16 to 23 and the sub mode in bits 24 to 31
+//! PX4's interface: custom_mode contains the main mode in bits 16 to 23 and the sub mode in bits 24 to 31
 //! (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real PX4).
 
 use super::definition::{COMMON, Flavour, ModeRow, RefusalResults, TakeOffRule, named_mode};

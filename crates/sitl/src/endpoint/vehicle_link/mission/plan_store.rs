@@ -25,8 +25,8 @@ const OTHER_FORM_EVERY: u8 = 4;
 /// Timeout after which a mission item request is repeated, s, as in PX4.
 const ASK_AGAIN_S: f64 = 0.25;
 /// For an uploader that usually responds faster, the request is repeated sooner: after this multiple of its usual
-/// delay, but not before this time, s. MAVSDK gives up on an item after five half-seconds without a request; at 0.25 s
-/// only one retry fits into each.
+/// delay, but not before the minimum interval, s. MAVSDK gives up on an item after five half-seconds without a request;
+/// at 0.25 s only one retry fits into each.
 const OVERDUE: f64 = 4.0;
 const ASK_AGAIN_SOONEST_S: f64 = 0.12;
 /// Number of unanswered requests after which earlier items are requested on a link that reorders datagrams, stepping
@@ -61,7 +61,7 @@ pub struct PlanStore {
     splines: bool,
     /// Whether zero coordinates in an item mean the vehicle's position at that time.
     zero_is_here: bool,
-    /// Encoding in which items are requested first.
+    /// Encoding that is tried first when requesting items.
     form: ItemEncoding,
 }
 
@@ -199,7 +199,7 @@ impl PlanUpload {
     }
 }
 
-/// The repeated acknowledgment of an upload over a lossy link. Clients wait for it without repeating anything (MAVSDK),
+/// The repeated acknowledgment of an upload over a lossy link. Clients wait for it without sending anything (MAVSDK),
 /// so losing it would make a complete upload fail.
 #[derive(Debug, Clone, PartialEq)]
 struct AckRepeat {
@@ -263,7 +263,7 @@ fn id_of(items: &[MISSION_ITEM_INT_DATA]) -> u32 {
 
 impl PlanStore {
     /// Creates an empty store. The first `lead` items of transferred missions (home) are not flown; stored items are
-    /// numbered without them.
+    /// numbered without these.
     #[must_use]
     pub fn with_lead_items(lead: u16) -> Self {
         Self { lead, ..Self::default() }
@@ -281,7 +281,7 @@ impl PlanStore {
         Self { zero_is_here, ..self }
     }
 
-    /// Sets the encoding in which items are requested first.
+    /// Sets the encoding that is tried first when requesting items.
     #[must_use]
     pub fn with_encoding(self, form: ItemEncoding) -> Self {
         Self { form, ..self }
@@ -539,9 +539,9 @@ impl PlanStore {
         PlanReply::New(kind, done)
     }
 
-    /// Handles an item without an upload: an error, unless it repeats one of the plan that this peer has just finished.
-    /// A repeat of the last item means that the acknowledgment was lost; an earlier one was merely delayed, and an
-    /// error would invalidate the acknowledgment in transit.
+    /// Handles an item without an upload: an error, unless it repeats an item of the plan that this peer has just
+    /// finished. A repeat of the last item means that the acknowledgment was lost; a repeat of an earlier item was only
+    /// delayed, and an error would invalidate the acknowledgment in transit.
     fn reply_without_upload(&self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA) -> PlanReply {
         let last = self.done.filter(|&(peer, kind, _)| (peer, kind) == (from, item.mission_type)).map(|(_, _, last)| last);
         match last.filter(|_| self.is_kept(item)) {

@@ -31,8 +31,7 @@ const FLIGHT_MODES: &[(i32, &str)] = &[
 const LINK_BITS: &[(i32, &str)] = &[(0, "Mission"), (1, "Hold"), (2, "Offboard")];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 
-/// Parameters that default to the aircraft's own limits, so that no aircraft is restricted before an operator sets
-/// them.
+/// Parameters that default to the aircraft's own limits, so they restrict no aircraft until an operator sets them.
 pub(super) const FRAME: [&str; 7] = [
     "MPC_ACC_DOWN_MAX",
     "MPC_ACC_HOR",

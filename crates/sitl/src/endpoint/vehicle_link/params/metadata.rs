@@ -46,7 +46,7 @@ impl MetadataFile {
 /// Metadata files of a flavor.
 #[derive(Debug)]
 pub struct MetadataFiles {
-    /// The general metadata file, which lists the others.
+    /// The general metadata file, which lists the other files.
     pub general: MetadataFile,
     /// The parameter metadata file.
     pub parameter: MetadataFile,

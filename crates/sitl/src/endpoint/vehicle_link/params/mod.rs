@@ -53,7 +53,7 @@ pub struct BatteryThresholds {
     pub critical_pct: f64,
 }
 
-/// Properties of the aircraft that the parameters show.
+/// Properties of the aircraft that parameters report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AircraftValues {
     /// Number of cells in series.
@@ -106,7 +106,7 @@ pub struct InstructorSettings {
     pub wind: Option<(f64, f64)>,
     /// Fraction of datagrams lost, each way.
     pub loss: f64,
-    /// Delay of the other datagrams, each way.
+    /// Delay of the remaining datagrams, each way.
     pub delay: SimTime,
     /// Whether the bridges are open to traffic.
     pub open: bool,

@@ -51,7 +51,7 @@ pub(crate) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Type mask in which everything but the position is ignored.
+/// Type mask that ignores everything except the position.
 const PLACE_ALONE: PositionTargetTypemask = NO_VELOCITY.union(NO_ACCELERATION).union(NO_HEADING);
 const NO_PLACE: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_X_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_Y_IGNORE)
