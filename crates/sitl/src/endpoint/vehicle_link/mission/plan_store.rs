@@ -18,7 +18,7 @@ use spandrel_model::time::SimTime;
 
 /// Maximum number of items in a plan.
 const MOST_ITEMS: u16 = 2_000;
-/// Timeout after which a stalled upload is canceled, s (clients stop retrying earlier).
+/// Timeout after which a stalled upload is canceled, s; longer than clients keep retrying.
 const STALL_S: f64 = 10.0;
 /// Every n-th retry of the first item request uses the other encoding (estimate: one second at the usual timeout).
 const OTHER_FORM_EVERY: u8 = 4;

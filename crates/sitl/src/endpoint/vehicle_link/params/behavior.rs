@@ -144,7 +144,7 @@ pub(super) const ROWS: &[Row] = &[
     row("MPC_VEL_MANUAL", Real(10.0), (0.5, 30.0), "m/s", CONTROL, "Maximum horizontal speed in manual modes"),
     row("MPC_YAW_MODE", Int(0), (0.0, 5.0), "", MISSION, "Heading in automatic modes").values(&[
         (0, "Toward the waypoint"),
-        (1, "To home"),
+        (1, "Toward home"),
         (2, "Away from home"),
         (3, "Along the path"),
         (4, "Toward the waypoint, turning first"),
