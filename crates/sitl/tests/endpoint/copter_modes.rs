@@ -263,7 +263,7 @@ fn regress_pause_holds_and_continue_resumes_in_guided() {
     assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
     assert!(station.run_until(20.0, |s| distance(s.place(), target) < 1.0), "{:?}", station.place());
     assert_eq!(station.command(1, SET_MODE, mode(BRAKE)), ACCEPTED);
-    assert_eq!(station.command(1, pause, one(0.0)), FAILED, "other modes must reject pause");
+    assert_eq!(station.command(1, pause, one(0.0)), FAILED, "pause must be rejected in other modes");
 }
 
 /// The mission takes off, waits until a time of day, and lands; the drill starts on a whole minute.

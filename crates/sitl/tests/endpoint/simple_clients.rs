@@ -71,7 +71,7 @@ fn regress_camera_heartbeat_depends_on_its_use() {
     assert_eq!(
         station.command(1, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, p(&[0.0, 0.0, 1.0])),
         ACCEPTED,
-        "pictures must still be possible"
+        "taking pictures must still work"
     );
     station.send(&set(1));
     station.run_ms(20);

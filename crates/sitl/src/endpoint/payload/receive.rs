@@ -1,4 +1,4 @@
-//! Messages to the equipment, by a message table.
+//! Table of the messages that the equipment handles.
 
 use super::inbound::PayloadMessage;
 use super::{PayloadLink, camera_params, gimbal_messages, video_reports};

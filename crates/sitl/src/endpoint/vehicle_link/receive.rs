@@ -1,4 +1,4 @@
-//! Messages to the autopilot, by a message table.
+//! Table of the messages that the autopilot handles.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::inbound::InboundMessage;

@@ -142,14 +142,14 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
     Some(match c.number {
         // Climb and descent speeds have their own parameters.
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
-            Answer(v.deny("Speed: types 0, 1; set climb rates by parameters"))
+            Answer(v.deny("Speed: type must be 0 or 1; climb has parameters"))
         }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
             // -1 means no change, -2 restores the parameter's value (MAVLink common).
             Some(-1.0) => Answer(MavResult::MAV_RESULT_ACCEPTED),
             Some(-2.0) => Request(AutopilotRequest::SetSpeed(None)),
             Some(speed) if speed > 0.0 => Request(AutopilotRequest::SetSpeed(Some(speed))),
-            _ => Answer(v.deny("Speed: above 0 m/s, -1 no change, -2 default")),
+            _ => Answer(v.deny("Speed: must be above 0, -1 (keep) or -2 (default)")),
         },
         n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
             0.0 => Request(AutopilotRequest::EnableFence(false)),

@@ -646,7 +646,7 @@ impl PlanStore {
         steps
     }
 
-    /// Returns for each mission item whether its altitude is relative to home.
+    /// Returns whether the altitude of each mission item is relative to home.
     #[must_use]
     pub fn home_relative_steps(&self) -> Vec<bool> {
         self.plans[0].iter().map(|item| relative(item.frame) == Some(true)).collect()

@@ -39,13 +39,13 @@ pub struct Row {
     pub bits: &'static [(i32, &'static str)],
     /// Whether it describes the vehicle and cannot be set.
     pub read_only: bool,
-    /// Whether the vehicle changes it.
+    /// Whether the vehicle itself changes it.
     pub volatile: bool,
     /// Whether it has no effect and exists only for clients that expect it.
     pub token: bool,
     /// Type on the wire.
     pub wire: MavParamType,
-    /// Source of its value.
+    /// Source of the value.
     pub source: ParamSource,
 }
 
