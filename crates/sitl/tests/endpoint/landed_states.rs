@@ -6,7 +6,7 @@ use spandrel_testkit::plans::{home_north, item, ready, upload};
 use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
-/// Height above the ground that is well above the height at which liftoff is detected, m.
+/// Height above the ground, m, well above the liftoff detection height.
 const CLEAR_M: f64 = 1.5;
 /// Takeoff height in these tests, m above home, and distance within which it counts as reached (the autopilot's 0.4 m
 /// and the error of the estimate).

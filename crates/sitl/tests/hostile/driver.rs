@@ -24,7 +24,7 @@ const FRAMES_A_TICK: usize = 800;
 /// A vehicle under test, or one with a planted fault.
 pub trait TestVehicle {
     fn receive(&mut self, bytes: &[u8]);
-    /// Lets the vehicle process received datagrams without a tick.
+    /// Processes received datagrams without advancing a tick.
     fn look(&mut self);
     /// Advances by some ticks.
     fn tick(&mut self);

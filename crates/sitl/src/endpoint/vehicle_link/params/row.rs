@@ -33,9 +33,9 @@ pub struct Row {
     pub group: &'static str,
     /// Short description.
     pub short: &'static str,
-    /// Labels of its values.
+    /// Value labels.
     pub values: &'static [(i32, &'static str)],
-    /// Labels of its bits, if it is a bit mask.
+    /// Bit labels, if it is a bit mask.
     pub bits: &'static [(i32, &'static str)],
     /// Whether it describes the vehicle and cannot be set.
     pub read_only: bool,
