@@ -28,7 +28,7 @@ fn text(parameter: &Value, key: &str) -> String {
 
 fn range(parameter: &Value) -> String {
     match (text(parameter, "min"), text(parameter, "max")) {
-        (low, high) if low.is_empty() || high.is_empty() => "by aircraft".to_owned(),
+        (low, high) if low.is_empty() || high.is_empty() => "aircraft-specific".to_owned(),
         (low, high) => format!("{low} to {high}"),
     }
 }
@@ -51,7 +51,7 @@ fn rows(parameters: &[Value], acts: bool) -> String {
     let standard = |parameter: &&Value| (parameter["category"] == "Standard") == acts;
     let row = |parameter: &Value| {
         let default = text(parameter, "default");
-        let default = if default.is_empty() { "by aircraft".to_owned() } else { default };
+        let default = if default.is_empty() { "aircraft-specific".to_owned() } else { default };
         let (name, kind, unit) = (code(&text(parameter, "name")), text(parameter, "type"), text(parameter, "units"));
         vec![name, kind, unit, range(parameter), default, meaning(parameter)]
     };
@@ -60,8 +60,9 @@ fn rows(parameters: &[Value], acts: bool) -> String {
 
 #[test]
 fn exact_parameters_page_matches_the_code() {
-    let about = "Names, units, ranges and defaults, as in the metadata that the vehicle sends to ground stations (MAVLink component metadata). Stored \
-                 parameters have no effect. They exist because clients expect them, and they keep the values that clients set.";
+    let about = "Names, units, ranges and defaults of all parameters, as the vehicle reports them to ground stations (MAVLink \
+                 component metadata). Stored parameters have no effect; the vehicle keeps their values for clients that \
+                 expect them.";
     let mut page = head("Parameters", about);
     for (title, face) in [("PX4 and generic interface", &PX4), ("ArduPilot interface", &COPTER)] {
         let parameters = described(face);
