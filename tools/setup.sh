@@ -9,7 +9,7 @@ need_rust() {
         . "$HOME/.cargo/env"
     fi
     if ! command -v cargo >/dev/null 2>&1; then
-        say "A Rust toolchain is missing: install it from https://rustup.rs and run this again."
+        say "A Rust toolchain is missing. Install it from https://rustup.rs and run this script again."
         exit 1
     fi
 }
@@ -74,7 +74,7 @@ split_symbols() {
 install_packages() {
     say "Missing system packages: $*"
     if ! command -v apt-get >/dev/null 2>&1; then
-        say "This is not Debian or Ubuntu: install the equivalent packages and run this again."
+        say "This is not Debian or Ubuntu. Install the equivalent packages and run this script again."
         exit 1
     fi
     local root=()

@@ -1,4 +1,4 @@
-//! Embeds the shipped scenario and vehicle files in the program, so that it works from any folder. New files are found
+//! Embeds the shipped scenario and vehicle files in the program, so that it works in any folder. New files are included
 //! automatically.
 
 use std::ffi::OsStr;

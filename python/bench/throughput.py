@@ -1,7 +1,7 @@
-"""Environment steps per second, compared with gym-pybullet-drones in the same run. Run with `tools/python --bench`.
+"""Measures environment steps per second, compared with gym-pybullet-drones in the same run. Run with `tools/python --bench`.
 
     tools/python --bench                       fails below the minimum ratio
-    tools/python --bench --peer DIR            gym-pybullet-drones from a checkout of its sources
+    tools/python --bench --peer DIR            uses gym-pybullet-drones from a source checkout
 
 Both packages run the hover task with all effects that they model. Spandrel models wind, gusts, ground effect, drag, sensor noise and an autopilot.
 gym-pybullet-drones models ground effect, drag and downwash (PYB_GND_DRAG_DW). Each package runs in one process in its fastest mode: Spandrel with
@@ -20,13 +20,13 @@ import numpy as np
 
 import spandrel.gymnasium_envs  # noqa: F401 (registers the environments)
 
-# Minimum ratio of our throughput to theirs, in simulation time.
+# Minimum ratio of our throughput to that of gym-pybullet-drones, in simulation time.
 MIN_RATIO = 20.0
-# Used if gym-pybullet-drones is not installed: its result on a dedicated machine with two cores, multiples of real time.
+# Used if gym-pybullet-drones is not installed: its speed on a dedicated machine with two cores, as a multiple of real time.
 FALLBACK_PEER_SPEED = 27.0
 # Wall time of one round, s, and number of rounds.
 ROUND_S, ROUNDS = 3.0, 5
-# Episodes do not end while steps are measured. Resets are measured separately.
+# High enough that no episode ends while steps are measured. Resets are measured separately.
 MAX_STEPS = 10**9
 # Vehicles per batch: several per thread of a large machine.
 BATCH_SIZE = 64

@@ -1,4 +1,4 @@
-"""A simulated inspection drone in your process: step it, fly it over MAVLink, use it for training, score its flights."""
+"""A simulated inspection drone in your process: step it, fly it over MAVLink, train agents with it, and score its flights."""
 
 from ._spandrel import (
     AssessmentError,

@@ -1,4 +1,4 @@
-"""Native module, not a stable API. Use the classes of `spandrel` instead."""
+"""Native module without a stable API. Use the classes in `spandrel` instead."""
 
 import os
 
@@ -11,14 +11,14 @@ class LateError(SpandrelError): ...
 class AssessmentError(SpandrelError): ...
 
 class State:
-    """True state of the vehicle at one instant."""
+    """True state of the vehicle at an instant."""
 
     @property
     def time_s(self) -> float:
         """Simulation time, s."""
     @property
     def armed(self) -> bool:
-        """Whether the motors are armed."""
+        """True if the motors are armed."""
     @property
     def position_enu_m(self) -> tuple[float, float, float]:
         """Position in the scenario's frame: east, north, up, m."""
@@ -48,10 +48,10 @@ class State:
         """Gimbal pitch above the horizon, up positive, rad."""
     @property
     def lamp_on(self) -> bool:
-        """Whether the lamp is on."""
+        """True if the lamp is on."""
     @property
     def pictures(self) -> int:
-        """Number of pictures taken."""
+        """Number of photos taken."""
     @property
     def hits(self) -> int:
         """Number of contacts so far, excluding soft contacts with the pad and the surrounding ground."""
@@ -60,7 +60,7 @@ class State:
         """Reason for the end of the flight; None while it is in progress."""
     @property
     def text(self) -> str:
-        """Latest status text of the vehicle; empty before the first."""
+        """Latest status text from the vehicle; empty if there has been none."""
 
 class Flight:
     def __init__(self, scenario: str, vehicle: str, seed: int, flavour: str, after_crash: str) -> None: ...

@@ -21,11 +21,11 @@ _COLUMN_TYPES: dict[str, Callable[[str], object]] = {
     **dict.fromkeys(("frame", "light", "snapshot", "missing", "on_path", "interpolated"), int),
     "contact": str,
 }
-"""Columns of the frames that are not floats."""
+"""Types of the frame columns that are not floats."""
 
 
 def _parse_float(text: str) -> float:
-    """A cell as a float; NaN where the telemetry held no value."""
+    """Parses a cell as a float; NaN if the telemetry has no value."""
     return float(text) if text else math.nan
 
 
@@ -57,7 +57,7 @@ class Assessment:
 
     @property
     def snapshots(self) -> pandas.DataFrame:
-        """One row per picture: `frame`, `t_s` since lift-off, `hit`, the defects first `found` in it, and all `views`."""
+        """One row per photo: `frame`, `t_s` since lift-off, `hit`, the defects first `found` in it, and all `views`."""
         import pandas
 
         return pandas.DataFrame(self.data["snapshots"]["each"], columns=["frame", "t_s", "hit", "found", "views"])
@@ -76,7 +76,7 @@ class Assessment:
 def assess(
     tlog: str | os.PathLike[str], scenario: str | os.PathLike[str], vehicle: str | os.PathLike[str]
 ) -> Assessment:
-    """Scores a telemetry log. `scenario` and `vehicle` are those of the flight, given by shipped name or file path.
+    """Scores a telemetry log. `scenario` and `vehicle` must be the ones used in the flight, given by shipped name or file path.
 
     Raises AssessmentError if the log contains no session or belongs to a different scenario.
     """

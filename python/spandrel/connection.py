@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .vehicle import Vehicle
 
 POLL_INTERVAL_S = 0.02
-"""Simulation time between polls of a blocking read, s."""
+"""Polling interval of a blocking read, s of simulation time."""
 
 
 class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
@@ -29,7 +29,7 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
 
     @property
     def endpoint(self) -> tuple[str, int]:
-        """Host and port to which the vehicle sends."""
+        """Host and port that the vehicle sends to."""
         host, port = self.port.getsockname()
         return host, port
 
@@ -52,7 +52,7 @@ class LockstepConnection(mavutil.mavudp):  # type: ignore[misc]
             return None
 
     def recv_msg(self) -> Any:
-        """Returns the next message, or None."""
+        """Returns the next message; None if there is none."""
         self.pre_message()
         self.answer()
         if not self._pending:

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from ._spandrel import Batch
 
 SEED_LIMIT = 2**31
-"""Upper bound of episode seeds, exclusive: the range that telemetry can carry."""
+"""Exclusive upper bound of episode seeds, which is the limit of the seed in telemetry."""
 INFO_KEYS = {"hover": ("distance_m", "hits"), "inspect": ("flown_share", "found_share")}
-"""Keys of `info` by kind of environment."""
+"""Keys of `info`, by kind of environment."""
 HOVER_MAX_STEPS = 1_000
 """Maximum episode length: 20 s of simulation time."""
 INSPECT_MAX_STEPS = 15_000
@@ -78,12 +78,12 @@ class SpandrelEnv(gymnasium.Env[Observation, Action]):
 
     @property
     def digest(self) -> str:
-        """SHA-256 over the state of every tick of the episode."""
+        """SHA-256 of the state at every tick of the episode."""
         return self._native.batch.digest(0)
 
 
 class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
-    """Several vehicles, stepped by native threads (`threads=0`: one per processor). Resets in the step after an episode ends."""
+    """Several vehicles, stepped by native threads (`threads=0`: one per processor). An environment resets in the step after its episode ends."""
 
     metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
 
@@ -111,7 +111,7 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Starts all episodes. An integer seeds the environments with seed, seed + 1, ..., like Gymnasium's other vector environments."""
+        """Starts all episodes. An integer seeds the environments with seed, seed + 1, ..., as in Gymnasium's other vector environments."""
         seeds: list[int | None] = [seed + k for k in range(self.num_envs)] if isinstance(seed, int) else list(seed or [])
         for k, one in enumerate(seeds):
             if one is not None:
@@ -138,7 +138,7 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
         return observations, rewards, terminated, truncated, self._masked(infos)
 
     def digest(self, index: int) -> str:
-        """SHA-256 over the state of every tick of one environment's episode."""
+        """SHA-256 of the state at every tick of one environment's episode."""
         return self._native.batch.digest(index)
 
 

@@ -20,13 +20,13 @@ NS = 1_000_000_000
 TICK_NS = 1_000_000
 """Physics time step, ns."""
 POLL_INTERVAL_NS = 20_000_000
-"""Interval at which conditions are checked and datagrams exchanged, ns of simulation time."""
+"""Interval for checking conditions and exchanging datagrams, ns of simulation time."""
 COMMAND_TIMEOUT_NS = NS
 """Timeout for the reply to a command, ns of simulation time."""
 ARM_RETRY_INTERVAL_NS = NS // 2
 """Interval between arming attempts, ns of simulation time."""
 SERVE_POLL_INTERVAL_S = 0.002
-"""Sleep time of the serving thread between steps, s of wall time."""
+"""Time that the serving thread sleeps between steps, s of wall time."""
 
 ACCEPTED, IN_PROGRESS = 0, 5
 ARM_DISARM, TAKEOFF, LAND, REPOSITION, SET_MODE = 400, 22, 21, 192, 176
@@ -60,9 +60,9 @@ class Link:
 
 
 class Vehicle:
-    """A simulated drone, initially on its pad and disarmed.
+    """A simulated drone, which starts disarmed on its pad.
 
-    `scenario` and `vehicle` are shipped names (`spandrel.scenarios()`, `spandrel.vehicles()`) or paths of TOML files.
+    `scenario` and `vehicle` are shipped names (`spandrel.scenarios()`, `spandrel.vehicles()`) or paths to TOML files.
     `seed` determines gusts, sensor noise, traffic and defects. `flavour` is the autopilot protocol: px4, ardupilot or generic.
     `after_crash` is continue, respawn, end or scenario (the scenario's own rule).
 
@@ -97,7 +97,7 @@ class Vehicle:
 
     @property
     def digest(self) -> str:
-        """SHA-256 over the state of every tick so far, 64 hexadecimal digits."""
+        """SHA-256 of the state at every tick so far, as 64 hexadecimal digits."""
         return self._flight.digest()
 
     def step(self, n: int = 1) -> State:
@@ -174,7 +174,7 @@ class Vehicle:
         self.command(TAKEOFF, 0.0, 0.0, 0.0, math.nan, place_enu_m=(east, north, up + height_m - state.height_m))
 
     def go_to(self, east_m: float, north_m: float, up_m: float) -> None:
-        """Starts a flight to a position in the scenario's frame, m, to hold there. Returns once the command is accepted."""
+        """Starts a flight to a position in the scenario's frame, m, and holds there. Returns once the command is accepted."""
         # Parameter 2, bit 0: switch to the mode that executes the command.
         self.command(REPOSITION, -1.0, 1.0, 0.0, math.nan, place_enu_m=(east_m, north_m, up_m))
 
@@ -208,7 +208,7 @@ class Vehicle:
         from .connection import LockstepConnection
 
         if self._server is not None:
-            raise SpandrelError("the vehicle is served in real time; call connect() before serve() or open your own connection")
+            raise SpandrelError("the vehicle is served in real time; call connect() before serve(), or open your own connection")
         connection = LockstepConnection(self)
         _, port = self._flight.open_udp("gcs", connection.endpoint, True)
         connection.destination_addr = ("127.0.0.1", port)

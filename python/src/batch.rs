@@ -14,9 +14,9 @@ use std::thread;
 #[derive(Debug, Default)]
 struct Slot {
     episode: Option<Episode>,
-    /// Seed and initial state of the latest reset. Resetting with the same seed copies it and is bit-identical.
+    /// Seed and initial state of the latest reset. Resetting with the same seed restores a bit-identical copy.
     started: Option<(u64, Episode)>,
-    /// Seed of the reset to perform in the next turn.
+    /// Seed of a pending reset.
     reset: Option<u64>,
     result: SlotResult,
 }
@@ -113,22 +113,23 @@ impl Batch {
         self.world.action_limits()
     }
 
-    /// Resets the environments that have a seed; the others are unchanged.
+    /// Resets the environments that have a seed, and leaves the rest unchanged.
     fn reset(&self, py: Python<'_>, seeds: Vec<Option<u64>>) -> PyResult<Turn> {
         self.turn(py, seeds, None)
     }
 
-    /// Steps the environments without a seed by their actions (float32, one row each), and resets those with one.
+    /// Steps the environments without a seed with their actions (float32, one row each), and resets the environments
+    /// with a seed.
     fn step(&self, py: Python<'_>, actions: &[u8], seeds: Vec<Option<u64>>) -> PyResult<Turn> {
         let (floats, _) = actions.as_chunks::<4>();
         let actions: Vec<f32> = floats.iter().map(|bytes| f32::from_ne_bytes(*bytes)).collect();
         if actions.iter().any(|value| !value.is_finite()) {
-            return Err(PyValueError::new_err("an action is not finite"));
+            return Err(PyValueError::new_err("an action contains a value that is not finite"));
         }
         self.turn(py, seeds, Some(actions))
     }
 
-    /// Returns the SHA-256 over every tick's state of one environment's episode, as 64 hexadecimal digits.
+    /// Returns the SHA-256 of the state at every tick of one environment's episode, as 64 hexadecimal digits.
     fn digest(&self, index: usize) -> PyResult<String> {
         self.with_episode(index, |episode| episode.digest().iter().map(|byte| format!("{byte:02x}")).collect())
     }
@@ -177,7 +178,7 @@ impl Batch {
         Ok(collect(py, slots))
     }
 
-    /// Steps the environments, divided evenly over the threads.
+    /// Steps the environments, which are divided evenly among the threads.
     fn run(&self, slots: &mut [Slot], actions: Option<&[f32]>, width: usize) {
         let share = slots.len().div_ceil(self.threads);
         let world = &self.world;

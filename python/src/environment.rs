@@ -18,15 +18,15 @@ use spandrel_sitl::sim::Sim;
 use spandrel_sitl::testing::{MissedExpectation, STATION, Vehicle};
 use std::sync::Arc;
 
-/// Link on which setpoints are sent. It receives replies but no telemetry streams, which would be unused.
+/// Link for setpoints. It receives replies but no telemetry streams, which would be unused.
 const LINK: LinkId = LinkId(9);
-/// MAVLink system and component id of a companion computer, which controls the vehicle by setpoints.
+/// MAVLink system and component ID of a companion computer, which controls the vehicle by setpoints.
 const COMPANION: (u8, u8) = (1, 191);
-/// PX4's mode number of Offboard.
+/// PX4's mode number for Offboard.
 const OFFBOARD: f32 = 6.0;
 /// Timeout for the aircraft to become ready; exceeding it indicates a fault.
 const READY: SimTime = SimTime::from_ms(60_000);
-/// Height tolerance at the start of an episode, m (estimate: what a takeoff holds in light wind).
+/// Height tolerance at the start of an episode, m (estimate: accuracy of a takeoff in light wind).
 const AT_HEIGHT_M: f64 = 0.3;
 /// Number of observation values common to all tasks; see [`Episode::motion`].
 pub const MOTION: usize = 10;
@@ -36,7 +36,7 @@ pub const MOTION: usize = 10;
 pub enum Kind {
     /// Hold a position.
     Hover,
-    /// Fly the job's paths and photograph its defects.
+    /// Fly the job's paths and photograph the defects.
     Inspect,
 }
 
@@ -110,7 +110,7 @@ struct Setpoint {
 pub struct Outcome {
     /// Reward of the step.
     pub reward: f64,
-    /// Whether the episode is over: a crash, an empty battery, or everything done.
+    /// Whether the episode is over: a crash, an empty battery, or a completed task.
     pub terminated: bool,
     /// Two task-specific measures, for `info`.
     pub measures: [f64; 2],
@@ -122,7 +122,7 @@ enum Task {
     Inspect(Box<Inspect>),
 }
 
-/// One flight from start to end.
+/// An episode: one flight from start to end.
 #[derive(Debug, Clone)]
 pub struct Episode {
     world: Arc<World>,
@@ -143,7 +143,7 @@ impl Episode {
             }
             Kind::Inspect => (Task::Inspect(Box::new(Inspect::new(&world.job))), Inspect::START_HEIGHT_M),
         };
-        // Subscribes to replies only; unused telemetry streams would take half of the reset time.
+        // Subscribes only to replies, because unused telemetry streams would take half of the reset time.
         vehicle.sim.await_heartbeat(STATION);
         vehicle.arm(READY)?;
         vehicle.take_off(height_m)?;
@@ -192,7 +192,7 @@ impl Episode {
         }
         if snapshot {
             self.send(&commands::long(MavCmd::MAV_CMD_IMAGE_START_CAPTURE, &[0.0, 0.0, 1.0, 0.0]));
-            // The picture is taken in the first tick, so it is evaluated at that position.
+            // The photo is taken in the first tick, so it is evaluated at that position.
             let before = self.pictures();
             self.sim.handle_timeout(self.sim.poll_timeout());
             if self.pictures() > before
@@ -220,7 +220,7 @@ impl Episode {
         }
     }
 
-    /// Returns the SHA-256 over every tick's state.
+    /// Returns the SHA-256 of the state at every tick.
     pub fn digest(&self) -> [u8; 32] {
         self.sim.digest()
     }

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use spandrel_model::toml::Problems;
 use spandrel_sitl::testing::MissedExpectation;
 
-pyo3::create_exception!(spandrel, SpandrelError, PyException, "Base class of all errors raised by this package.");
+pyo3::create_exception!(spandrel, SpandrelError, PyException, "Base class for all errors raised by this package.");
 pyo3::create_exception!(spandrel, JobError, SpandrelError, "A scenario or vehicle file is missing or invalid.");
 pyo3::create_exception!(spandrel, RefusedError, SpandrelError, "The vehicle rejected a command or did not reply.");
 pyo3::create_exception!(spandrel, LateError, SpandrelError, "A condition was not met in time.");

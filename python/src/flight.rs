@@ -20,7 +20,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// A vehicle, its links, and the command that awaits its reply.
+/// A vehicle, its links, and the command that is waiting for a reply.
 #[derive(Debug)]
 struct Inner {
     vehicle: Vehicle,
@@ -31,7 +31,8 @@ struct Inner {
 }
 
 impl Inner {
-    /// Runs until the given time, or returns true earlier if a lockstep peer owes a reply. Datagrams are exchanged every 20 ms.
+    /// Runs until the given time, or returns true earlier if a lockstep peer has not replied. Datagrams are exchanged
+    /// every 20 ms.
     fn run(&mut self, until: SimTime) -> bool {
         loop {
             self.links.receive(&mut self.vehicle.sim);
@@ -48,7 +49,7 @@ impl Inner {
             while let Some(transmit) = self.vehicle.poll_transmit() {
                 self.links.deliver(transmit.link, transmit.bytes, stamp_us);
             }
-            // There is no SD card to read, and clients get that as the reply.
+            // There is no SD card to read, so clients receive an error.
             while let Some(job) = self.vehicle.sim.poll_file_job() {
                 self.vehicle.sim.file_job_done(job.ticket, Err(FileError::NotFound));
             }
@@ -95,13 +96,13 @@ impl Flight {
         py.detach(|| State::of(&self.lock().vehicle))
     }
 
-    /// Returns the SHA-256 over every tick's state so far, as 64 hexadecimal digits.
+    /// Returns the SHA-256 of the state at every tick so far, as 64 hexadecimal digits.
     fn digest(&self, py: Python<'_>) -> String {
         let digest = py.detach(|| self.lock().vehicle.sim.digest());
         digest.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// Runs until a simulation time, ns. Returns true if a lockstep peer owes a reply before that.
+    /// Runs until a simulation time, ns. Returns true earlier if a lockstep peer has not replied.
     fn run(&self, py: Python<'_>, until_ns: i64) -> bool {
         py.detach(|| self.lock().run(SimTime::from_ns(until_ns)))
     }
@@ -142,7 +143,7 @@ impl Flight {
         py.detach(|| self.lock().vehicle.sticks(forward, right, up, yaw));
     }
 
-    /// Opens a UDP socket on a free loopback port. Returns link and port.
+    /// Opens a UDP socket on a free loopback port. Returns the link ID and the port.
     #[pyo3(signature = (kind, peer, lockstep=false))]
     fn open_udp(&self, py: Python<'_>, kind: &str, peer: (String, u16), lockstep: bool) -> PyResult<(u32, u16)> {
         let kind = link_kind(kind)?;
@@ -203,7 +204,7 @@ impl Flight {
         })
     }
 
-    /// Returns the mode number in which takeoffs must be commanded; `None` if any mode is allowed.
+    /// Returns the number of the mode required for takeoff commands; `None` if any mode is allowed.
     fn guided_mode(&self) -> Option<u32> {
         self.guided_mode
     }

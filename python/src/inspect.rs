@@ -34,7 +34,7 @@ impl Inspect {
     /// defects found.
     pub const OBSERVATIONS: usize = 6 + MOTION + 5;
 
-    /// Creates an inspection with nothing flown or found.
+    /// Creates an inspection without any progress.
     pub fn new(job: &Scenario) -> Self {
         let paths = ReferencePaths::new(job);
         let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
@@ -42,7 +42,7 @@ impl Inspect {
         Self { paths, look, flown, on: None, found: BTreeSet::new(), before: 0.0 }
     }
 
-    /// Returns the fraction of the length of all paths that was flown.
+    /// Returns the flown fraction of the total path length.
     fn flown_share(&self) -> f64 {
         let all = self.flown.iter().map(FlownPath::coverage);
         let (flown_m, length_m) = all.fold((0.0, 0.0), |(f, l), one| (f + one.share * one.length_m, l + one.length_m));
@@ -54,7 +54,7 @@ impl Inspect {
         if placed > 0 { self.found.len() as f64 / placed as f64 } else { 0.0 }
     }
 
-    /// Returns the nearest point not yet flown, m, and the camera's target direction there.
+    /// Returns the nearest path point that has not been flown, m, and the camera's target direction there.
     fn next(&self, position_m: Vec3<Enu>) -> Option<(Vec3<Enu>, Vec3<Enu>)> {
         let mut best: Option<(f64, usize, usize)> = None;
         for (task, flown) in self.flown.iter().enumerate() {
@@ -88,7 +88,7 @@ impl Inspect {
         environment::append(out, &[payload.gimbal.pitch_rad, lamp, clearance_m, self.flown_share(), self.found_share(sim)]);
     }
 
-    /// Evaluates a picture from the vehicle's current pose; defects that it shows count as found.
+    /// Evaluates a photo from the vehicle's current pose; the defects that it shows count as found.
     pub fn judge_picture(&mut self, sim: &Sim, aircraft: &Aircraft) {
         let rigid = &sim.truth().rigid;
         let payload = sim.payload();

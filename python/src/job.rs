@@ -1,4 +1,4 @@
-//! Scenarios, vehicles and autopilot protocols, given by shipped name or file path.
+//! Scenarios and vehicles, given by shipped name or file path, and autopilot protocols.
 
 use crate::errors::{self, JobError};
 use pyo3::prelude::*;
@@ -39,7 +39,7 @@ fn file_name(name: &str) -> String {
     if is_file(name) { name.to_owned() } else { format!("{name}.toml") }
 }
 
-/// Returns whether the name is a path; shipped names have neither an extension nor a folder.
+/// Returns whether the name is a path. Shipped names have neither an extension nor a folder.
 fn is_file(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
 }
@@ -51,7 +51,7 @@ fn text_of(name: &str, what: &str, shipped: &[(&str, &str)]) -> PyResult<String>
     let found = shipped.iter().find(|(stem, _)| *stem == name);
     found.map(|(_, text)| (*text).to_owned()).ok_or_else(|| {
         let names: Vec<&str> = shipped.iter().map(|(stem, _)| *stem).collect();
-        JobError::new_err(format!("{name}: no such {what}; choose a .toml file or one of {}", names.join(", ")))
+        JobError::new_err(format!("{name}: no such {what}; use a .toml file or one of {}", names.join(", ")))
     })
 }
 
@@ -72,6 +72,6 @@ pub fn after_crash(name: &str) -> PyResult<Option<AfterCrash>> {
         "continue" => Ok(Some(AfterCrash::Continue)),
         "respawn" => Ok(Some(AfterCrash::Respawn)),
         "end" => Ok(Some(AfterCrash::End)),
-        _ => Err(JobError::new_err(format!("unknown rule {name}; allowed: scenario, continue, respawn, end"))),
+        _ => Err(JobError::new_err(format!("unknown crash rule {name}; allowed: scenario, continue, respawn, end"))),
     }
 }

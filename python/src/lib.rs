@@ -1,5 +1,5 @@
-//! The native part of the Python package `spandrel`: the in-process vehicle, batched environments and the scorer. Everything that
-//! blocks or computes releases the GIL.
+//! The native part of the Python package `spandrel`: the in-process vehicle, batched environments and the scorer. All
+//! calls that block or compute release the GIL.
 
 mod assessment;
 mod batch;

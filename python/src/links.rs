@@ -10,7 +10,7 @@ use std::io::{self, BufWriter, Write};
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::path::Path;
 
-/// First link id for Python; link 1 belongs to the test harness.
+/// First link ID for Python; link 1 belongs to the test harness.
 const FIRST: u32 = 2;
 /// Maximum size of a UDP datagram, bytes.
 const DATAGRAM: usize = 65_535;
@@ -48,7 +48,7 @@ impl Log {
     }
 }
 
-/// All transports by link id.
+/// All transports, by link ID.
 #[derive(Debug)]
 pub struct Links {
     ways: BTreeMap<LinkId, Way>,
@@ -69,7 +69,7 @@ impl Links {
         link
     }
 
-    /// Opens a UDP socket on a free loopback port. Returns link and port.
+    /// Opens a UDP socket on a free loopback port. Returns the link ID and the port.
     pub fn open_udp(&mut self, sim: &mut Sim, kind: LinkKind, peer: SocketAddr, lockstep: bool) -> io::Result<(LinkId, u16)> {
         let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0))?;
         socket.set_nonblocking(true)?;
@@ -117,8 +117,8 @@ impl Links {
         }
     }
 
-    /// Delivers a datagram from the vehicle; a log timestamps it with `stamp_us`, µs since the Unix epoch. UDP send errors are
-    /// ignored, because peers come and go.
+    /// Delivers a datagram from the vehicle. Logs use `stamp_us`, µs since the Unix epoch, as its timestamp. UDP send
+    /// errors are ignored, because peers come and go.
     pub fn deliver(&mut self, link: LinkId, bytes: Vec<u8>, stamp_us: u64) {
         match self.ways.get_mut(&link) {
             Some(Way::Udp { socket, peer }) => {

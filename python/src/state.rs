@@ -3,13 +3,13 @@
 use pyo3::prelude::*;
 use spandrel_sitl::testing::Vehicle;
 
-/// True state of the vehicle at one instant.
+/// True state of the vehicle at an instant.
 #[pyclass(frozen, get_all, module = "spandrel")]
 #[derive(Debug, Clone)]
 pub struct State {
     /// Simulation time, s.
     time_s: f64,
-    /// Whether the motors are armed.
+    /// True if the motors are armed.
     armed: bool,
     /// Position in the scenario's frame: east, north, up, m.
     position_enu_m: (f64, f64, f64),
@@ -29,15 +29,15 @@ pub struct State {
     battery_pct: f64,
     /// Gimbal pitch above the horizon, up positive, rad.
     gimbal_pitch_rad: f64,
-    /// Whether the lamp is on.
+    /// True if the lamp is on.
     lamp_on: bool,
-    /// Number of pictures taken.
+    /// Number of photos taken.
     pictures: usize,
     /// Number of contacts so far, excluding soft contacts with the pad and the surrounding ground.
     hits: i32,
     /// Reason for the end of the flight; `None` while it is in progress.
     ended: Option<String>,
-    /// Latest status text of the vehicle; empty before the first.
+    /// Latest status text from the vehicle; empty if there has been none.
     text: String,
 }
 

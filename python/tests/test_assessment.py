@@ -1,4 +1,4 @@
-"""Scores of a flight recorded by this package."""
+"""Tests of the scores of a flight recorded by this package."""
 
 import json
 import math
@@ -55,7 +55,7 @@ def test_tables_match_the_assessment(flight):
 def test_scores_match_the_program(flight, tmp_path):
     program = os.environ.get("SPANDREL")
     if program is None:
-        pytest.skip("SPANDREL does not name the program")
+        pytest.skip("SPANDREL is not set to the path of the program")
     said = subprocess.run(
         [program, "assess", str(flight), "--scenario", JOB, "--vehicle", AIRCRAFT, "--json", "-"],
         capture_output=True, text=True, check=True, timeout=60,

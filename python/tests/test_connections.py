@@ -1,4 +1,4 @@
-"""Connections with pymavlink (lockstep) and MAVSDK (real time)."""
+"""Tests of connections with pymavlink (lockstep) and MAVSDK (real time)."""
 
 import time
 
@@ -9,7 +9,7 @@ from mavsdk.plugins.telemetry import Telemetry
 
 import spandrel
 
-# Wall-clock timeout, s, so that a failing test does not hang.
+# Wall-clock timeout, s, which prevents a failing test from hanging.
 DISCOVERY_TIMEOUT_S = 60.0
 # Speed of simulation time relative to wall time; MAVSDK uses wall time.
 SPEED = 4.0

@@ -1,4 +1,4 @@
-"""The Gymnasium environments."""
+"""Tests of the Gymnasium environments."""
 
 import warnings
 
@@ -15,7 +15,7 @@ SEED = 5
 
 
 def velocity_toward_target(observation, limit):
-    """Returns a velocity toward the point at the start of an observation, m/s: 1/s times the distance."""
+    """Returns a velocity toward the point at the start of an observation, m/s: the distance times 1/s."""
     return np.clip(observation[:3], -limit, limit)
 
 
@@ -36,7 +36,7 @@ def inspect_action(observation, snapshot):
 @pytest.mark.parametrize("name", [HOVER, INSPECT])
 def test_environments_pass_the_gymnasium_checker(name):
     with warnings.catch_warnings():
-        # A recommendation only: actions and observations are in SI units, not normalized.
+        # Only a recommendation: actions and observations are in SI units, not normalized.
         warnings.filterwarnings("ignore", message=".*(symmetric and normalized|infinity).*")
         check_env(gymnasium.make(name).unwrapped)
 
@@ -54,7 +54,7 @@ def test_exact_same_seed_is_bit_identical(name):
 
 
 def test_exact_new_and_reused_environments_are_bit_identical():
-    """The cached start of the latest seed does not change results."""
+    """The cached initial state of the latest seed must not change the results."""
     kept, digests = gymnasium.make(HOVER), []
     for env in (kept, kept, gymnasium.make(HOVER)):
         env.reset(seed=SEED)

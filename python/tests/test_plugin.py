@@ -1,4 +1,4 @@
-"""The pytest plugin, loaded the way a user's pytest loads it."""
+"""Tests of the pytest plugin, loaded as by a user's pytest."""
 
 import pathlib
 

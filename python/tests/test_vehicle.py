@@ -1,4 +1,4 @@
-"""The in-process vehicle: stepping, commands, errors, links and reproducibility."""
+"""Tests of the in-process vehicle: stepping, commands, errors, links and reproducibility."""
 
 import math
 import threading
@@ -98,7 +98,7 @@ def test_exact_unmet_condition_raises_late_error():
         ({"vehicle": "phantom9"}, "phantom9: no such vehicle; .*phantom2"),
         ({"scenario": "missing.toml"}, "missing.toml: "),
         ({"flavour": "betaflight"}, "unknown flavour betaflight; allowed: px4, ardupilot, generic"),
-        ({"after_crash": "cry"}, "unknown rule cry; allowed: scenario, continue, respawn, end"),
+        ({"after_crash": "cry"}, "unknown crash rule cry; allowed: scenario, continue, respawn, end"),
     ],
 )
 def test_exact_invalid_jobs_raise_descriptive_errors(arguments, words):

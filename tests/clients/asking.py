@@ -8,7 +8,7 @@ os.environ["MAVLINK20"] = "1"
 
 from pymavlink import mavutil
 
-# Time limit for a response from a simulator on a busy machine, wall seconds (ten times the usual).
+# Time limit for a response from a simulator on a busy machine, wall seconds (ten times the usual time).
 LIMIT_S = 120
 # Wall seconds after which a request is repeated; responses usually arrive within milliseconds.
 AGAIN_S = 2.0
@@ -30,8 +30,8 @@ class Again:
 
 
 def connect(port, system=255, kind="udpin", dialect="all"):
-    """Opens a pymavlink link and waits for the first heartbeat. The dialect is global to the process, so each test
-    sets the one it needs."""
+    """Opens a pymavlink link and waits for the first heartbeat. The dialect is global to the process, so each test sets
+    its own."""
     link = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{port}", source_system=system, source_component=190, dialect=dialect)
     assert link.wait_heartbeat(timeout=LIMIT_S) is not None, "no heartbeat"
     return link
@@ -73,8 +73,7 @@ def message(link, number, kind, fits=lambda message: True, param=0):
 
 
 def parameters(link):
-    """Returns every parameter as its PARAM_VALUE, by name. Requests values that were lost from the list by their
-    index."""
+    """Returns every parameter as its PARAM_VALUE, by name. Requests values that are missing from the list by index."""
     found = {}
     first = ask(link, lambda: link.mav.param_request_list_send(1, 1), "PARAM_VALUE", lambda m: m.param_index < m.param_count)
     found[first.param_index] = first

@@ -1,4 +1,4 @@
-"""Stock clients over links of four qualities: how often they succeed and how long they take.
+"""Measures the success rates and durations of stock clients over links of four qualities.
 
     SPANDREL=target/release/spandrel .venv/bin/python tests/clients/bad_link.py --runs 20 --table table.md
 
@@ -34,20 +34,20 @@ import test_mavproxy
 NAN = float("nan")
 # Items of the mission (issue 16), bytes of the file and of the log.
 ITEMS, FILE_BYTES, LOG_BYTES = 200, 50_000, 50_000
-# Wall seconds after which a client that is still trying counts as failed.
+# Wall seconds before a client that is still trying counts as failed.
 LIMIT_S = 300
-# Wall seconds after which a client that exceeds its own limit is killed: start, LIMIT_S and end of a run.
+# Wall seconds before a hanging client is killed: start, LIMIT_S and end of a run.
 HANG_LIMIT_S = LIMIT_S + 120
-# Maximum number of times that a user repeats a command without response, or refreshes a list.
+# Maximum number of times that a user repeats a command that gets no response, or refreshes a list.
 MAX_RETRIES = 5
 
 
 class Failed(Exception):
-    """The client gave up, or got a wrong result."""
+    """The client gave up or got a wrong result."""
 
 
 def error_text(error):
-    """Returns the result in a plug-in's error, without the arguments of the call."""
+    """Returns the result in a plugin's error, without the arguments of the call."""
     return str(error).split(";", maxsplit=1)[0]
 
 
@@ -69,7 +69,7 @@ def ended(start, *args, next_result, success):
 
 
 def pressed(act):
-    """Runs an action again if there is no response, as a user would press a button again."""
+    """Repeats an action if there is no response, as a user would press the button again."""
     for k in range(MAX_RETRIES):
         try:
             return act()
@@ -88,7 +88,7 @@ SPANDREL, PX4 = "Spandrel", "PX4"
 
 
 def start(vehicle, folder, files, port, slot):
-    """Starts a new vehicle in real time whose FTP serves `files` and that connects to `port`."""
+    """Starts a new vehicle in real time that serves `files` over FTP and connects to `port`."""
     if vehicle == PX4:
         return px4.start(folder, files, port, slot)
     return spandrel.start_sim(folder, port, "--files", str(files), speed=1)
@@ -123,10 +123,10 @@ class Bench:
         try:
             self.console.wait("parameters to")
         except AssertionError:
-            raise Failed("parameters never came") from None
+            raise Failed("parameters never arrived") from None
 
     def close(self):
-        """Ends everything that was started here."""
+        """Stops everything that was started here."""
         if self.mavsdk is not None:
             self.mavsdk.destroy()
         if self.console is not None:
@@ -154,9 +154,9 @@ def parameters(bench):
 
 
 def flight(bench):
-    """Arms, takes off, lands and disarms; a command without response is repeated."""
+    """Arms, takes off, lands and disarms. Repeats commands that get no response."""
     action, telemetry = Action(bench.system), Telemetry(bench.system)
-    settled("a vehicle that would arm", telemetry.health_all_ok)
+    settled("the vehicle is ready to arm", telemetry.health_all_ok)
     pressed(action.arm)
     pressed(action.takeoff)
     settled("the height", lambda: telemetry.position().relative_altitude_m > 2.0)
@@ -170,7 +170,7 @@ def download(bench, burst):
     down.mkdir()
     ended(Ftp(bench.system).download_async, "/survey.bin", str(down), burst, next_result=FtpResult.NEXT, success=FtpResult.SUCCESS)
     if (down / "survey.bin").read_bytes() != content(FILE_BYTES):
-        raise Failed("another content")
+        raise Failed("wrong content")
 
 
 def log(bench):
@@ -183,7 +183,7 @@ def log(bench):
     down = bench.folder / "down.ulg"
     ended(logs.download_log_file_async, old, str(down), next_result=LogFilesResult.NEXT, success=LogFilesResult.SUCCESS)
     if down.read_bytes() != content(LOG_BYTES):
-        raise Failed("another content")
+        raise Failed("wrong content")
 
 
 def mavproxy_get(bench):
@@ -191,7 +191,7 @@ def mavproxy_get(bench):
     try:
         bench.console.say("ftp get /survey.bin down.bin", f"Wrote {FILE_BYTES} bytes to down.bin")
     except AssertionError:
-        raise Failed("never ended") from None
+        raise Failed("the download did not finish") from None
     settled("the content", lambda: (bench.folder / "down.bin").read_bytes() == content(FILE_BYTES), 10)
 
 
@@ -212,7 +212,7 @@ TABLE = [link.name for link in relay.LINKS]
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One attempt: a task on a link, with the seed of the losses."""
+    """One attempt: a task over a link, with the seed of the losses."""
 
     vehicle: str
     name: str
@@ -222,7 +222,7 @@ class Run:
 
 @dataclasses.dataclass
 class Cell:
-    """Results of a task on a link, for one cell of the table."""
+    """Results of a task over a link, for one cell of the table."""
 
     runs: int
     seconds: list
@@ -234,7 +234,7 @@ class Cell:
 
 
 def run(name, link, seed, vehicle=SPANDREL, slot=0, begun=lambda bench: None):
-    """Runs a task on a link and returns its duration in wall seconds; raises an error if it fails."""
+    """Runs a task over a link and returns its duration in wall seconds. Raises an error if it fails."""
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(folder, vehicle, link, seed, slot)
         begun(bench)
@@ -325,16 +325,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=20)
     parser.add_argument("--first", type=int, default=0, help="seed of the first run")
-    parser.add_argument("--at-once", type=int, default=1, help="runs side by side; most of a run is waiting")
+    parser.add_argument("--at-once", type=int, default=1, help="number of parallel runs; a run is mostly waiting")
     parser.add_argument("--vehicle", action="append", choices=[SPANDREL, PX4], help="default: Spandrel, and PX4 if SPANDREL_PX4 is set")
     parser.add_argument("--task", action="append", choices=list(TASKS))
     parser.add_argument("--link", action="append", choices=[link.name for link in (*relay.LINKS, relay.LOSS_15)])
     parser.add_argument("--table", type=pathlib.Path)
     args = parser.parse_args()
     if PX4 in (args.vehicle or []) and not px4.BUILD:
-        parser.error("--vehicle PX4 needs SPANDREL_PX4, the build folder of a PX4 with SIH")
+        parser.error("--vehicle PX4 requires SPANDREL_PX4, the build folder of a PX4 with SIH")
     if not px4.BUILD:
-        print("SPANDREL_PX4 is not set: no PX4 in this table", file=sys.stderr)
+        print("SPANDREL_PX4 is not set: the table does not include PX4", file=sys.stderr)
     vehicles = args.vehicle or ([SPANDREL, PX4] if px4.BUILD else [SPANDREL])
     links = [link for link in (*relay.LINKS, relay.LOSS_15) if link.name in (args.link or TABLE)]
     lines = ["| task | vehicle | " + " | ".join(link.name for link in links) + " |", "|---" * (len(links) + 2) + "|"]

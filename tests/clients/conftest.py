@@ -25,7 +25,7 @@ def pytest_terminal_summary(terminalreporter):
 
 @pytest.fixture
 def flight(request, tmp_path):
-    """Simulator and monitor for one test, emulating PX4 unless the test specifies another autopilot."""
+    """Simulator and monitor for one test. Emulates PX4 unless the test specifies another autopilot."""
     flight = spandrel.Flight(tmp_path, flavour=getattr(request, "param", "px4"))
     yield flight
     flight.close()
@@ -53,8 +53,8 @@ def vehicle(request, tmp_path):
 
 @pytest.fixture
 def launch(tmp_path):
-    """Returns a function that starts a vehicle and returns the port of its ground station; all vehicles end with the
-    test."""
+    """Returns a function that starts a vehicle and returns the port of its ground station; all vehicles stop at the end
+    of the test."""
     started = []
 
     def start(flavour, *more, speed=spandrel.SPEED):

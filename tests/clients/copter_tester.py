@@ -1,5 +1,5 @@
-"""A vehicle emulating ArduCopter, flown with pymavlink like in ArduPilot's autotest. Time is the vehicle's, which
-runs in lockstep with this client."""
+"""A vehicle emulating ArduCopter, flown with pymavlink as in ArduPilot's autotest. All times are vehicle time; the
+vehicle runs in lockstep with this client."""
 
 import math
 import os
@@ -19,7 +19,7 @@ MODES = {
 CHANNELS = {1: 1500, 2: 1500, 3: 1000, 4: 1500, 5: 1500, 6: 1500, 7: 1500, 8: 1500, 9: 1500}
 # Meters per degree of latitude (WGS 84, to 0.5 %).
 DEGREE_M = 111_320.0
-# Wall seconds without messages after which a test gives up; the vehicle responds to every request immediately.
+# Wall seconds without messages before a test gives up; the vehicle responds to every request immediately.
 STUCK_S = 60.0
 # Rate of streams and sticks, Hz of vehicle time.
 RATE_HZ = 10
@@ -51,7 +51,7 @@ class Copter:
         self.until("armable", lambda: self.shows("SYS_STATUS") and self.last["SYS_STATUS"].onboard_control_sensors_health & M.MAV_SYS_STATUS_PREARM_CHECK, 60)
 
     def close(self):
-        """Ends everything that was started."""
+        """Stops everything that was started."""
         self.link.close()
         spandrel.end(self.process)
 
@@ -95,12 +95,12 @@ class Copter:
         return self.now - start
 
     def pass_time(self, seconds):
-        """Lets vehicle time pass."""
+        """Lets some vehicle time pass."""
         end = self.now + seconds
         self.until(f"{seconds} s", lambda: self.now >= end, seconds + 1)
 
     def holds(self, what, predicate, seconds):
-        """Checks that the predicate is true all the time."""
+        """Checks that the predicate stays true."""
         end = self.now + seconds
         while self.now < end:
             assert predicate(), f"{what} at {self.now:.1f} s"
@@ -187,7 +187,7 @@ class Copter:
         return math.dist(self.place, place)
 
     def off(self, heading):
-        """Returns the difference between the nose and a heading, degrees."""
+        """Returns the difference between the vehicle's heading and a given heading, degrees."""
         return abs((self.heading - heading + 180) % 360 - 180)
 
     # Commands
@@ -216,13 +216,13 @@ class Copter:
             assert math.isclose(self.last["PARAM_VALUE"].param_value, value, rel_tol=1e-5), name
 
     def stick(self, **channels):
-        """Moves sticks and switches: roll, pitch, throttle, yaw, and channels by c5 to c9."""
+        """Moves sticks (roll, pitch, throttle, yaw) and switches (channels c5 to c9)."""
         names = {"roll": 1, "pitch": 2, "throttle": 3, "yaw": 4}
         for name, pulse in channels.items():
             self.channels[names.get(name) or int(name[1:])] = pulse
 
     def change(self, mode):
-        """Enters a mode by command."""
+        """Changes the mode by command."""
         self.must(M.MAV_CMD_DO_SET_MODE, M.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED, MODES[mode])
         self.until(mode, lambda: self.flies(mode), 5)
 

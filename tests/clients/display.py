@@ -1,4 +1,4 @@
-"""A virtual display with screenshots and key presses."""
+"""A virtual display that takes screenshots and sends key presses."""
 
 import os
 import pathlib
@@ -9,7 +9,7 @@ from Xlib import X, XK
 from Xlib import display as xdisplay
 from Xlib.ext import xtest
 
-# Descriptions of the software driver for any processor.
+# Driver manifests of the software driver, for any processor.
 DRIVERS = sorted(pathlib.Path("/usr/share/vulkan/icd.d").glob("lvp_icd*.json"))
 
 
@@ -39,7 +39,7 @@ class Display:
         return kept | {"DISPLAY": self.name, "VK_DRIVER_FILES": str(DRIVERS[0])}
 
     def photograph(self):
-        """Returns a screenshot: rows of pixels with red, green, blue."""
+        """Returns a screenshot as rows of RGB pixels."""
         width, height = self.size
         image = self.root.get_image(0, 0, width, height, X.ZPixmap, 0xFFFFFFFF)
         pixels = numpy.frombuffer(image.data, dtype=numpy.uint8).reshape(height, width, 4)

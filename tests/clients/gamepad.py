@@ -1,4 +1,4 @@
-"""A virtual Linux gamepad (uinput), which programs find in the same way as real ones."""
+"""A virtual Linux gamepad (uinput), which programs detect like a real one."""
 
 import fcntl
 import os
@@ -34,13 +34,13 @@ class Gamepad:
         try:
             self.file = os.open(DEVICE, os.O_WRONLY | os.O_NONBLOCK)
         except OSError as error:
-            raise Missing(f"{DEVICE} cannot be opened ({error.strerror}): `modprobe uinput`, and the right to write to it") from error
+            raise Missing(f"{DEVICE} cannot be opened ({error.strerror}): run `modprobe uinput` and check the write permission") from error
         try:
             self._create()
             self.node = self._node()
         except OSError as error:
             os.close(self.file)
-            raise Missing(f"{DEVICE} makes no gamepad: {error.strerror}") from error
+            raise Missing(f"{DEVICE} cannot create a gamepad: {error.strerror}") from error
         except Missing:
             self.close()
             raise
@@ -51,7 +51,7 @@ class Gamepad:
         for button in BUTTONS:
             fcntl.ioctl(self.file, SET_KEYBIT, button)
         for axis, (low, high) in AXES.items():
-            # Initial value, ends, fuzz, flat, resolution.
+            # Initial value, minimum, maximum, fuzz, flat, resolution.
             fcntl.ioctl(self.file, ABS_SETUP, struct.pack("H2x6i", axis, 0, low, high, 0, 0, 0))
         fcntl.ioctl(self.file, SETUP, struct.pack("HHHH80sI", BUS_USB, VENDOR, PRODUCT, 1, NAME.encode(), 0))
         fcntl.ioctl(self.file, CREATE)

@@ -18,7 +18,7 @@ FULL_YAW_RAD_S = 1.75
 POSITION_GAIN = 0.7
 YAW_GAIN = 1.2
 REACHED_M = 1.2
-# Height above the path at which transits cross the bridge, clear of railings and trucks, m.
+# Height above the path for transits across the bridge, clear of railings and trucks, m.
 OVER_M = 14.0
 
 
@@ -28,7 +28,7 @@ def wrap(angle):
 
 
 def sticks_towards(here, yaw, target, look_yaw, cruise=CRUISE_M_S):
-    """Returns the sticks that lead from `here` to `target` while turning to `look_yaw`."""
+    """Returns the stick inputs for flying from `here` to `target` while turning to `look_yaw`."""
     east, north, up = (t - h for t, h in zip(target, here))
     ve, vn, vu = (POSITION_GAIN * c for c in (east, north, up))
     scale = min(1.0, cruise / max(math.sqrt(ve * ve + vn * vn + vu * vu), 1e-6))

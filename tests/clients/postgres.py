@@ -1,5 +1,5 @@
-"""A PostgreSQL server for one test: on a socket in its own folder, as an unprivileged user, because it refuses to run
-as root."""
+"""A PostgreSQL server for one test, on a socket in its own folder. It runs as an unprivileged user, because PostgreSQL
+refuses to run as root."""
 
 import os
 import pathlib
@@ -21,7 +21,7 @@ def programs():
 
 
 class Postgres:
-    """A server that starts when created; `stop` and `start` simulate a restart of its machine."""
+    """A server that starts when it is created; `stop` and `start` simulate a restart of its machine."""
 
     def __init__(self, folder):
         self.home = pathlib.Path(folder)

@@ -25,7 +25,7 @@ DEGREE_M = 111_170.0
 SPEED = 5
 # Polling interval, wall seconds.
 LOOK_S = 0.01
-# Wall seconds without progress of the vehicle's clock after which a test gives up.
+# Wall seconds without progress of the vehicle's clock before a test gives up.
 STUCK_S = 120.0
 # Rate of sticks and setpoints, Hz of vehicle time.
 STICK_RATE_HZ = 50
@@ -55,7 +55,7 @@ class Tester:
         return FollowMe(self.system)
 
     def close(self):
-        """Ends everything that was started; the test fails if a watch has found a problem."""
+        """Stops everything that was started. The test fails if a watch has found a problem."""
         for stop, thread in self.watches:
             stop.set()
             thread.join()
@@ -84,7 +84,7 @@ class Tester:
             time.sleep(LOOK_S)
 
     def pass_time(self, seconds, meanwhile=None):
-        """Lets vehicle time pass; calls `meanwhile` at the rate of the sticks."""
+        """Lets some vehicle time pass; calls `meanwhile` at the rate of the sticks."""
         end = self.now_s() + seconds
         due = self.now_s()
         while self.now_s() < end:
@@ -94,7 +94,7 @@ class Tester:
             time.sleep(LOOK_S / 5)
 
     def watch(self, what, look):
-        """Calls `look` repeatedly until the end; it returns a problem or None."""
+        """Calls `look`, which returns a problem or None, repeatedly until the end."""
         stop = threading.Event()
 
         def watching():
@@ -211,7 +211,7 @@ class Tester:
         self.wait("the end of the mission", self.mission.is_mission_finished, limit_s)
 
     def inject(self, kind, *units):
-        """Lets sensors fail after the first item has been reached."""
+        """Makes sensors fail after the first item has been reached."""
         self.param.set_param_int("SYS_FAILURE_EN", 1)
         self.start_mission()
         self.wait("item 1", lambda: self.mission.mission_progress().current >= 1, 60)
@@ -236,7 +236,7 @@ class Tester:
                 self.offboard.start()
                 return
             time.sleep(0.02)
-        raise AssertionError("Offboard did not begin")
+        raise AssertionError("Offboard did not start")
 
     def offboard_to(self, target, within_m, limit_s):
         """Flies to a local position and waits until the estimate is near it."""

@@ -1,5 +1,5 @@
-"""A UDP relay between a vehicle and its client that loses, duplicates and reorders datagrams in both directions, from
-a seed."""
+"""A UDP relay between a vehicle and its client that loses, duplicates and reorders datagrams in both directions,
+reproducibly from a seed."""
 
 import dataclasses
 import heapq
@@ -9,16 +9,16 @@ import socket
 import threading
 import time
 
-# Minimum and maximum delay of a reordered datagram, wall seconds; later ones overtake it (estimate: Wi-Fi
+# Minimum and maximum delay of a reordered datagram, wall seconds; later datagrams overtake it (estimate: Wi-Fi
 # retransmissions).
 REORDER_DELAY_S = (0.005, 0.05)
-# Interval at which the relay checks whether to stop, wall seconds.
+# Interval for checking whether to stop, wall seconds.
 LOOK_S = 0.1
 
 
 @dataclasses.dataclass(frozen=True)
 class Link:
-    """Impairments of each direction; fractions from 0 to 1."""
+    """Impairments in each direction, as fractions from 0 to 1."""
 
     name: str
     loss: float = 0.0
@@ -86,7 +86,7 @@ class Relay:
                 pass
 
     def close(self):
-        """Ends the relay."""
+        """Stops the relay."""
         self.ends = True
         self.thread.join()
         for side in (self.vehicle_side, self.client_side):

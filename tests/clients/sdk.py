@@ -1,4 +1,4 @@
-"""MAVSDK with the vehicle that it finds, and a short flight."""
+"""Connects MAVSDK to a vehicle and performs a short flight."""
 
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.action import Action
@@ -6,7 +6,7 @@ from mavsdk.plugins.telemetry import Telemetry
 
 from spandrel import wait_for
 
-# Time limit for finding a vehicle on a busy machine, wall seconds (ten times the usual).
+# Time limit for finding a vehicle on a busy machine, wall seconds (ten times the usual time).
 DISCOVERY_LIMIT_S = 60.0
 
 
@@ -27,7 +27,7 @@ def ready(system):
 
 
 def asked(system):
-    """Requests telemetry from a vehicle that, like ArduPilot, sends none unrequested; waits until its home is known."""
+    """Requests telemetry from a vehicle that sends none unrequested, like ArduPilot, and waits until its home is known."""
     telemetry = Telemetry(system)
     telemetry.set_rate_position(10.0)
     telemetry.set_rate_position_velocity_ned(10.0)

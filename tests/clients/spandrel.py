@@ -10,10 +10,10 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("SPANDREL", str(ROOT / "target" / "release" / "spandrel"))
-# The program with windows and pictures: tools/test builds the debug one with all features, and the release one as for a
-# headless machine.
+# The program with windows and pictures: tools/test builds the debug version with all features, and the release version for
+# headless machines.
 COCKPIT = os.environ.get("SPANDREL_COCKPIT", str(ROOT / "target" / "debug" / "spandrel"))
-# Time limit for a complete flight at the speed below on a busy two-core machine, wall seconds (ten times the usual).
+# Time limit for a complete flight at the speed below on a busy two-core machine, wall seconds (ten times the usual time).
 FLIGHT_LIMIT_S = 600
 # Speed of vehicle time relative to wall time. Clients use their own wall clocks, so it must be small.
 SPEED = 4
@@ -34,7 +34,7 @@ def free_udp_port():
 
 
 def start_sim(folder, client_port, *more, speed=SPEED, gcs_port=0, payload_port="none", scenario="drill-hover"):
-    """Starts only a simulator, accelerated, that connects to one client."""
+    """Starts only a simulator, in accelerated time, that connects to one client."""
     log = open(pathlib.Path(folder) / "sim.txt", "w", encoding="utf-8")
     arguments = [
         "sim", "--scenario", scenario, "--seed", "7", "--speed", str(speed), "--gcs", f"127.0.0.1:{client_port}",
@@ -45,7 +45,7 @@ def start_sim(folder, client_port, *more, speed=SPEED, gcs_port=0, payload_port=
 
 
 def end(process):
-    """Ends a process that was started here."""
+    """Stops a process that was started here."""
     if process.poll() is None:
         process.send_signal(signal.SIGINT)
         try:
@@ -89,7 +89,7 @@ class Flight:
         return json.loads((self.session() / "assessment.json").read_text(encoding="utf-8"))
 
     def close(self):
-        """Ends only the processes that were started here."""
+        """Stops only the processes that were started here."""
         for process in (self.monitor, self.sim):
             end(process)
         self.log.close()
@@ -103,4 +103,4 @@ def wait_for(what, predicate, limit_s=FLIGHT_LIMIT_S):
         if value:
             return value
         time.sleep(0.01)
-    raise AssertionError(f"never happened: {what}")
+    raise AssertionError(f"timed out waiting for: {what}")

@@ -20,11 +20,11 @@ RELIABLE_TASKS = [
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize(("name", "link"), RELIABLE_TASKS)
 def test_wire_stock_clients_succeed_over_a_bad_link(name, link, measured):
-    """MAVSDK and MAVProxy behind a relay that loses datagrams in both directions, from a seed."""
+    """Runs MAVSDK and MAVProxy behind a relay that loses datagrams in both directions, reproducibly from a seed."""
     measured(f"{name}, {link.name}: {bad_link.run(name, link, 1):.1f} s")
 
 
-@pytest.mark.skipif(not px4.BUILD, reason="SPANDREL_PX4 names no build folder of PX4")
+@pytest.mark.skipif(not px4.BUILD, reason="SPANDREL_PX4 is not set to the build folder of a PX4")
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize(
     "name",

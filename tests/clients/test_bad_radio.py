@@ -1,5 +1,5 @@
 """Stock clients over a radio that loses a tenth of all round trips and delays datagrams: the vehicle's own link
-impairment, from its seed."""
+impairment, reproducibly from its seed."""
 
 import time
 
@@ -18,9 +18,9 @@ from spandrel import wait_for
 NAN = float("nan")
 # In each direction, so that one in ten round trips is lost.
 LOSS_PCT, DELAY_MS = 5.0, 40
-# Wall seconds after which a client repeats a request.
+# Wall seconds before a client repeats a request.
 AGAIN_S = 0.5
-# Wall seconds after which a user enters a command again.
+# Wall seconds before a user enters a command again.
 PATIENCE_S = 10
 
 
@@ -50,7 +50,7 @@ def test_wire_pymavlink_transfers_plan_and_parameters_over_a_bad_radio(tmp_path)
         requests = ["MISSION_REQUEST_INT", "MISSION_REQUEST"]
         asked = ask(lambda: link.mav.mission_count_send(1, 1, count, 0), requests, lambda m: m.seq == 0)
         while asked.get_type() != "MISSION_ACK":
-            # A repeated item is answered with the next request, or again with its own.
+            # The vehicle answers a repeated item by requesting the next item, or the same item again.
             asked = ask(lambda: item(asked.seq), requests + ["MISSION_ACK"])
         assert asked.type == mav.MAV_MISSION_ACCEPTED
         assert ask(lambda: link.mav.mission_request_list_send(1, 1, 0), "MISSION_COUNT").count == count
@@ -62,7 +62,7 @@ def test_wire_pymavlink_transfers_plan_and_parameters_over_a_bad_radio(tmp_path)
         assert sorted(v.param_index for v in values.values()) == list(range(len(values)))
         fits = lambda m: m.param_id == "MPC_XY_CRUISE" and m.param_value == 4.5  # noqa: E731
         ask(lambda: link.mav.param_set_send(1, 1, b"MPC_XY_CRUISE", 4.5, mav.MAV_PARAM_TYPE_REAL32), "PARAM_VALUE", fits)
-        assert link.packet_loss() > LOSS_PCT / 4, "the radio is not a bad one"
+        assert link.packet_loss() > LOSS_PCT / 4, "the radio must lose datagrams"
     finally:
         spandrel.end(process)
 

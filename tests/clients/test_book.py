@@ -1,4 +1,4 @@
-"""tools/check-links finds problems in a book; tools/book runs it on the project's book."""
+"""Tests that tools/check-links finds problems in a book; tools/book runs it on the project's book."""
 
 import subprocess
 import sys

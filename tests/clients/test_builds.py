@@ -11,7 +11,7 @@ from pymavlink import mavutil
 import spandrel
 
 DEBUG = pathlib.Path(os.environ.get("SPANDREL_DEBUG", spandrel.ROOT / "target" / "debug" / "spandrel"))
-# Stick inputs (forward, right, up from 0 to 1000) and how long each is held from 3.5 s on, s of simulation time: climb,
+# Stick inputs (forward, right, up from 0 to 1000) and their durations, s of simulation time, starting at 3.5 s: climb,
 # sideways into the girder of the suspension bridge, away from it. Then the motors are stopped; after a fall into the
 # lake and three seconds there, the flight continues.
 SCRIPT = [(7, (0, 0, 800)), (15, (0, -1000, 500)), (4, (0, 1000, 500)), (9, (0, 0, 500)), (4, (500, 0, 600))]
@@ -30,7 +30,7 @@ def sticks_at(seconds):
 
 
 class Script:
-    """Answers every TIMESYNC, after sending everything that is scheduled up to then."""
+    """Answers each TIMESYNC after sending everything scheduled up to its time."""
 
     def __init__(self, link):
         self.link, self.armed, self.stopped, self.steps = link, False, False, 0

@@ -10,7 +10,7 @@ import asking
 import spandrel
 
 DEVICE, IDENTITY = "Test transmitter", "0483:5710"
-# Raw axis numbers of a transmitter in Linux: roll, pitch (reversed), throttle, yaw.
+# Raw axis numbers of a transmitter on Linux: roll, pitch (reversed), throttle, yaw.
 ROLL, PITCH, THROTTLE, YAW = 196608, 196609, 196610, 196613
 PROFILE = f"""
 format = 1
@@ -45,7 +45,7 @@ snapshot = [3]
 
 
 def events():
-    """Returns input events: arm, climb, fly forward, switch the lamp, take a picture, and unplug the device in the
+    """Returns input events: arm, climb, fly forward, switch the lamp, take a photo, and unplug the device in the
     air."""
     for at, button in ((4.0, 1), (9.0, 2), (9.5, 3)):
         yield {"t_s": at, "button": button, "pressed": True}
@@ -59,8 +59,8 @@ def events():
 
 @pytest.mark.timeout(300)
 def test_wire_transmitter_flies_the_vehicle_and_its_loss_triggers_the_failsafe(tmp_path):
-    """Sticks follow the calibration, buttons send commands, and the loss leads to centered sticks, silence and the
-    failsafe."""
+    """Sticks follow the calibration, buttons send commands, and the loss of the device centers the sticks, then stops
+    the input, which triggers the failsafe."""
     profiles = tmp_path / "profiles"
     profiles.mkdir()
     (profiles / "test-transmitter-0483-5710.toml").write_text(PROFILE, encoding="utf-8")
@@ -99,7 +99,7 @@ def test_wire_transmitter_flies_the_vehicle_and_its_loss_triggers_the_failsafe(t
         _, told = flown.communicate(timeout=60)
         assert flown.returncode == 0 and "disconnected: sticks centered, then no longer sent" in told, told
         beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
-        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold in the air"
+        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold its position"
     finally:
         spandrel.end(process)
 

@@ -1,4 +1,4 @@
-"""The most significant cases of ArduPilot's copter autotest for ArduCopter's behavior, with their limits,
+"""The ArduPilot copter autotest cases that are most significant for ArduCopter's behavior, with their limits,
 reimplemented here; docs/src/measured/autotest.md lists all of its cases and which of them pass."""
 
 import concurrent.futures
@@ -299,5 +299,5 @@ def fixture_flights(tmp_path_factory):
 @pytest.mark.timeout(900)
 @pytest.mark.parametrize("flow", FLOWS, ids=lambda flow: flow.__name__)
 def test_wire_copter_flow(flights, flow):
-    """Must pass as on ArduCopter."""
+    """Checks that the flight passed, as on ArduCopter."""
     flights[flow].result()

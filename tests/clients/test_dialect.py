@@ -1,5 +1,5 @@
-"""Vehicle telemetry decoded with a dialect that pymavlink's own generator created from the official XML: no message
-may be unknown."""
+"""Decodes vehicle telemetry with a dialect that pymavlink's own generator created from the official XML. No message may
+be unknown."""
 
 import time
 

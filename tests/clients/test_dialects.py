@@ -37,7 +37,7 @@ def test_regress_pymavlink_decodes_ardupilot_messages(launch):
 
 @pytest.fixture(name="px4")
 def fixture_px4(launch):
-    """MAVSDK's view of a vehicle; it is released before the vehicle ends."""
+    """MAVSDK's view of a vehicle, which is released before the vehicle stops."""
     mavsdk, system = sdk.connect(launch("px4"))
     yield system
     mavsdk.destroy()

@@ -1,4 +1,4 @@
-"""An erasure is killed at each of its writing system calls. Afterwards, either nothing is erased, or the next start
+"""Kills an erasure at each of its writing system calls. Afterwards, either nothing is erased, or the next start
 completes the erasure."""
 
 import json

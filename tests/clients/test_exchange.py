@@ -1,5 +1,5 @@
-"""Sessions for other systems: Parquet read by Arrow, xAPI statements received by a store that checks the standard's
-rules, and a SCORM package run with the interface of a learning management system."""
+"""Sessions exported to other systems: Parquet read by Arrow, xAPI statements received by a store that checks the
+standard's rules, and a SCORM package run with the interface of a learning management system."""
 
 import csv
 import http.server
@@ -49,7 +49,7 @@ def test_parquet_matches_the_csv(sessions, tmp_path):
         if name == "contact":
             assert ours == theirs
         else:
-            # Written with the fewest digits that restore the same bits, so values must be equal. An empty cell is a
+            # Numbers are written with the fewest digits that round-trip exactly, so values must be equal. An empty cell is a
             # null.
             numbers = [None if value == "" else float(value) for value in theirs]
             assert [None if value is None else float(value) for value in ours] == numbers, name
@@ -102,7 +102,7 @@ class Store(http.server.BaseHTTPRequestHandler):
             if fault:
                 store.faults.append(fault)
                 return self.tell(400, fault)
-        # An existing statement with different contents is a conflict, and then nothing of the request is stored.
+        # An existing statement with different contents is a conflict, and nothing in the request is stored.
         if any(one["id"] in store.kept and store.kept[one["id"]] != one for one in statements):
             return self.tell(409, "conflict")
         store.kept.update({one["id"]: one for one in statements})
@@ -121,7 +121,7 @@ class Store(http.server.BaseHTTPRequestHandler):
 
 
 def broken_rule(one):
-    """Returns the first data rule of the standard that a statement violates."""
+    """Returns the first rule of the standard that a statement violates."""
     if set(one) - {"id", "actor", "verb", "object", "result", "context", "timestamp"}:
         return "unknown field"
     if str(uuid.UUID(one["id"])) != one["id"]:

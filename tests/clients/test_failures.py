@@ -1,4 +1,4 @@
-"""MAVSDK's failure plugin as instructors use it: failures and their effects."""
+"""MAVSDK's failure plugin, as used by instructors: failures and their effects."""
 
 import pytest
 from mavsdk.plugins.failure import Failure, FailureType, FailureUnit

@@ -1,4 +1,4 @@
-"""Every subcommand that writes files, with a full disk, failing or short writes, or a kill at each of its file operations.
+"""Tests every subcommand that writes files with a full disk, failing or short writes, or a kill at each of its file operations.
 
 `faults.c` is loaded between the program and the C library. After a fault, the program must end with a message and its exit code, never
 with a panic; a replaced file must have either its old or its new content; and the same command without the fault must then give the same
@@ -24,7 +24,7 @@ import webserver
 from spandrel import wait_for
 
 HERE = pathlib.Path(__file__).parent
-# For a command with many operations, only every n-th is tried, so that each kind of fault has at most this many runs.
+# For a command with many operations, only every n-th operation is tried, which limits the number of runs per kind of fault to this.
 MAX_ATTEMPTS = 24
 # Upper bound for the number of operations, far above that of any command here.
 MAX_OPERATIONS = 10_000
@@ -68,8 +68,8 @@ def operations(log):
     return log.read_text(encoding="utf-8").splitlines() if log.is_file() else []
 
 
-# Arguments by name; {s} is the folder of sessions, {d} the session, {r} its records, {o} a folder for results. Contains
-# input where the command asks for it.
+# Arguments by name; {s} is the folder of sessions, {d} the session, {r} its records, {o} a folder for results. Includes
+# input for commands that prompt for it.
 COMMANDS = {
     "assess": (["assess", "{d}", "--json", "{o}/scores.json"], ""),
     "report": (["report", "{d}"], ""),
@@ -89,8 +89,7 @@ COMMANDS = {
         "",
     ),
 }
-# Databases and recordings contain times and IDs that differ between runs; the command's own check decides whether they
-# are valid.
+# Databases and recordings contain times and IDs that differ between runs; the command's own check validates them.
 COMPARED = (".json", ".csv", ".glb", ".plan", ".parquet", ".zip", ".jsonl", ".html", ".params")
 
 
@@ -140,7 +139,7 @@ def test_regress_fault_at_any_operation_leaves_complete_files(shim, flown, tmp_p
             assert done.returncode in (-signal.SIGKILL, 0), (first, done.stderr)
         else:
             assert done.returncode in (0, 1, 2) and "panicked" not in done.stderr, (first, done.returncode, done.stderr)
-            assert done.returncode == 0 or str(place.root) in done.stderr, (first, "the message must contain the file", done.stderr)
+            assert done.returncode == 0 or str(place.root) in done.stderr, (first, "the message must name the file", done.stderr)
         for file, content in place.results().items():
             whole = (before.get(file), expected.get(file))
             # Partial answers are also valid.
@@ -150,7 +149,7 @@ def test_regress_fault_at_any_operation_leaves_complete_files(shim, flown, tmp_p
         assert place.results() == expected, (first, "the command must give the same result on a fault-free disk")
         shutil.rmtree(place.root)
     assert hit > 0 or kind == "short" or kind == "enospc", "no fault occurred"
-    measured(f"{name} with {kind}: {total} file operations, {hit} faults met")
+    measured(f"{name} with {kind}: {total} file operations, {hit} faults injected")
 
 
 def spread(total, most=SLOW_TRIED):
@@ -159,13 +158,13 @@ def spread(total, most=SLOW_TRIED):
 
 
 def ended_well(done, kind, place):
-    """Checks that a program with a fault ends with a message that contains the file, and never with a panic."""
+    """Checks that a program with a fault ends with a message that names the file, and never with a panic."""
     assert "panicked" not in done.stderr, done.stderr
     if kind == "kill":
         assert done.returncode in (-signal.SIGKILL, 0, 1), (done.returncode, done.stderr)
     else:
         assert done.returncode in (0, 1, 2), (done.returncode, done.stderr)
-        assert done.returncode == 0 or str(place) in done.stderr, ("the message must contain the file", done.stderr)
+        assert done.returncode == 0 or str(place) in done.stderr, ("the message must name the file", done.stderr)
 
 
 # Renderings of a session, small; {d} is the session, {o} a folder for results.
@@ -194,7 +193,7 @@ def photographed(tmp_path_factory):
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize("name", list(DRAWN))
 def test_regress_fault_while_rendering_leaves_complete_pictures(shim, photographed, tmp_path, name, measured):
-    """After a fault, photos, videos and pictures are either the old or the new ones; rendering again completes them."""
+    """After a fault, each photo, video and picture is either the old or the new one; rendering again completes them."""
     def draw(root, env):
         session, out = root / "sessions" / photographed.name, root / "out"
         if not session.is_dir():
@@ -229,13 +228,13 @@ def test_regress_fault_while_rendering_leaves_complete_pictures(shim, photograph
     again = draw(root, dict(os.environ))
     assert again.returncode == 0 and files(root) == expected, (again.stderr, "rendering must be complete after a kill")
     assert hit > 0, "no fault occurred"
-    measured(f"drawing {name}: {total} file operations, {hit} faults met")
+    measured(f"rendering {name}: {total} file operations, {hit} faults injected")
 
 
 @pytest.mark.timeout(1200)
 def test_regress_demo_with_faults_ends_with_a_session_or_a_reason(shim, tmp_path, measured):
     """Simulator, monitor and pilot have faults in their own operations: either a session is scored, or the message
-    contains the reason."""
+    states the reason."""
     def demo(sessions, env):
         args = ["demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--sessions", str(sessions)]
         return subprocess.run([spandrel.PROGRAM, *args], env=env, capture_output=True, text=True, timeout=spandrel.FLIGHT_LIMIT_S, check=False)
@@ -260,7 +259,7 @@ def test_regress_demo_with_faults_ends_with_a_session_or_a_reason(shim, tmp_path
                 assert file.read_text(encoding="utf-8") == expected, (kind, first, "the scores must be those of a fault-free disk")
                 scored += 1
     assert hit > 0 and scored > 0, "no fault occurred"
-    measured(f"demo: {total} file operations, {hit} faults met, {scored} sessions scored")
+    measured(f"demo: {total} file operations, {hit} faults injected, {scored} sessions scored")
 
 
 @pytest.mark.timeout(1200)
@@ -310,7 +309,7 @@ def test_regress_flight_continues_without_its_log(shim, tmp_path, measured):
                 assert code == -signal.SIGKILL, (first, told)
             elif code == 0:
                 assert said["reason"] == "landed", (kind, first, told)
-                # A fault of the log is reported once, with the file's name.
+                # A fault in the log is reported once, with the name of the file.
                 assert told.count("cannot write") <= 1, told
                 assert kind == "short" or not faults or str(files) in told, (kind, first, faults, told)
             else:
@@ -320,7 +319,7 @@ def test_regress_flight_continues_without_its_log(shim, tmp_path, measured):
                     assert pyulog.ULog(str(ulog)).data_list is not None, ulog
                     read += 1
     assert hit > 0 and read > 0, "no fault occurred"
-    measured(f"sim --files in flight: {total} file operations, {hit} faults met, {read} logs read")
+    measured(f"sim --files in flight: {total} file operations, {hit} faults injected, {read} logs read")
 
 
 @pytest.mark.timeout(1200)
@@ -380,11 +379,11 @@ def test_regress_server_on_a_bad_disk_imports_only_complete_sessions(shim, flown
     # 409 means that the recording was imported before the kill; a second upload must not create another session.
     assert statuses in ([200, 303], [200, 409]), (told, "the server must work as before after a kill")
     assert hit > 0, "no fault occurred"
-    measured(f"serve: {total} file operations, {hit} faults met")
+    measured(f"serve: {total} file operations, {hit} faults injected")
 
 
 def listen(port, texts, over):
-    """Collects the texts sent to a ground station; the socket must be read, because it would fill up."""
+    """Collects the texts sent to a ground station. The socket must be read, or it would fill up."""
     station = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}")
     while not over.is_set():
         message = station.recv_match(type="STATUSTEXT", blocking=True, timeout=0.2)
@@ -427,12 +426,12 @@ class Watched:
         return (self.folder / "monitor.txt").read_text(encoding="utf-8")
 
     def close(self):
-        """Ends both processes."""
+        """Stops both processes."""
         spandrel.end(self.monitor)
         spandrel.end(self.sim)
 
 
-# Controller input: a moving axis, and a picture; seconds since the vehicle was found.
+# Controller input: a moving axis and a photo; seconds since the vehicle was found.
 REPORTED = [{"t_s": round(0.05 * k, 2), "axis": test_controller.YAW, "value": round(0.01 * k, 2)} for k in range(10)]
 
 
@@ -477,7 +476,7 @@ def fixture_recorded(shim, tmp_path):
 @pytest.mark.parametrize("kind", KINDS)
 def test_regress_fault_ends_the_input_recording_but_not_the_flight(recorded, kind, measured):
     """The recording contains complete lines up to the fault. Only a recording that cannot be created ends the
-    command, with a message that contains the file."""
+    command, with a message that names the file."""
     sound, lines = recorded.fly("none")
     total = len(operations(recorded.log))
     assert sound.returncode == 0 and len(lines) == 1 + len(REPORTED), (sound.stderr, lines)

@@ -1,4 +1,4 @@
-"""MAVSDK's FTP with the vehicle's folder, and the flight log read by PX4's own library."""
+"""Accesses the vehicle's folder with MAVSDK's FTP, and reads the flight log with PX4's own library."""
 
 import base64
 import json
@@ -40,7 +40,7 @@ def vehicle(tmp_path):
 
 
 def wait(start, *args):
-    """Runs a call that reports progress until it reports its end."""
+    """Starts a call that reports progress, and waits until it is done."""
     results = []
     start(*args, lambda result, _progress, _data: results.append(FtpResult(result)))
     return wait_for("end of the transfer", lambda: next((r for r in results if r != FtpResult.NEXT), None))
@@ -168,7 +168,7 @@ def check_recording(path, height):
 
 @pytest.mark.timeout(600)
 def test_val_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
-    """Killed in flight: the indexed reader fails, and `export --mcap` rewrites all but the last second."""
+    """After a kill in flight, the indexed reader fails, and `export --mcap` recovers all but the last second."""
     process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)
     sdk.take_off(system, 2.0)
@@ -184,15 +184,15 @@ def test_val_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
         assert len(list(StreamReader(file, validate_crcs=True).records)) > 0
     frames = read_recording(whole)["/tf", "foxglove.FrameTransforms"]
     ups = [t["translation"]["z"] for f in frames for t in f["transforms"] if t["child_frame_id"] == "drone"]
-    # It was two meters up when it was killed, climbing at 1.5 m/s; at most a second is lost.
+    # The vehicle was at two meters and climbing at 1.5 m/s when the simulator was killed. At most one second is lost.
     assert max(ups) - ups[0] > 0.4
     assert pathlib.Path(broken).stat().st_size > 0
 
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_lists_downloads_and_erases_logs(vehicle, tmp_path):
-    """A log of an earlier flight is listed with its time, downloaded completely and erased; other files in the folder
-    stay."""
+    """The log of an earlier flight is listed with its time, downloaded completely and erased. Other files in the folder
+    remain."""
     _process, port, folder = vehicle
     day = folder / "log" / "2026-11-20"
     day.mkdir(parents=True)

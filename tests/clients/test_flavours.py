@@ -1,5 +1,5 @@
-"""The same vehicle emulating other autopilots: scripts for ArduCopter, MAVProxy commands as users enter them, MAVSDK,
-and the generic standard."""
+"""The same vehicle emulating other autopilots, used with scripts for ArduCopter, MAVProxy commands as entered by users,
+MAVSDK, and the generic standard."""
 
 import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
@@ -71,7 +71,7 @@ def test_wire_arducopter_script_flies(launch):
     assert script.command(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 6) == M.MAV_RESULT_ACCEPTED
     wait_for("takeoff", lambda: script.height() > 6 - NEAR_M, LIMIT_S)
     here = script.wait("GLOBAL_POSITION_INT")
-    # Only once, and only a position, as scripts for GUIDED do.
+    # Send only a position, and only once, as scripts for GUIDED do.
     link.mav.set_position_target_global_int_send(
         0, 1, 1, M.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT, 0x0DF8, here.lat + 1500, here.lon, 8, 0, 0, 0, 0, 0, 0, 0, 0,
     )

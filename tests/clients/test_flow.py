@@ -16,12 +16,12 @@ import spandrel
 
 # Colors of pages (crates/view/src/hud/mod.rs): background, focused row, bar of a score.
 NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
-# Color of the HUD's battery, which shows that a flight is rendered.
+# Color of the battery in the HUD, which shows that a flight is being rendered.
 GREEN = (0, 190, 130)
 # Time limit for a software driver on a busy machine to compile its shaders and render, or for a session to be written,
 # wall seconds (ten times the usual).
 LIMIT_S = 400
-# Wall seconds after which a key without an effect is pressed again.
+# Wall seconds before a key without an effect is pressed again.
 AGAIN_S = 20.0
 # X names of the keys that navigate the rows of a window.
 ENTER, DOWN, UP, LEFT, ESCAPE = "Return", "Down", "Up", "Left", "Escape"
@@ -29,14 +29,14 @@ ENTER, DOWN, UP, LEFT, ESCAPE = "Return", "Down", "Up", "Left", "Escape"
 
 @pytest.fixture
 def screen(tmp_path):
-    """A virtual display on which a page's text is legible."""
+    """A virtual display that is large enough for legible text."""
     opened = display.Display(tmp_path, width=1280, height=560)
     yield opened
     opened.close()
 
 
 class Training:
-    """`train` with its window on a display and unused ports."""
+    """`train` with its window on a display, using free ports."""
 
     def __init__(self, screen, folder, *args):
         self.screen, self.folder = screen, folder
@@ -69,7 +69,7 @@ class Training:
 
     def see(self, name, predicate, key=None):
         """Waits until a screenshot meets a condition. Presses a key first, and again if nothing happens, because the
-        first press may come before the window has the focus."""
+        window may not have the focus at the first press."""
         pressed = spandrel.time.monotonic() - AGAIN_S if key else None
 
         def look():
@@ -121,7 +121,7 @@ def in_flight(photograph):
 
 
 def paused(photograph):
-    """Returns whether a page is shown over the flight."""
+    """Returns whether a page is displayed over the flight."""
     return count(photograph, FOCUS) > 500 and count(photograph, GREEN) > 50
 
 
@@ -151,7 +151,7 @@ def test_wire_complete_session_with_the_keyboard(screen, tmp_path):
             page = training.see(f"tutorial-{number}", other_page(page), ENTER)
         training.see("flight", in_flight, ENTER)
         training.see("paused", paused, ESCAPE)
-        spandrel.wait_for("time stands still", lambda: "simulation paused" in training.told(), LIMIT_S)
+        spandrel.wait_for("the simulation is paused", lambda: "simulation paused" in training.told(), LIMIT_S)
         training.see("flies-on", in_flight, ESCAPE)
         assert len(folders(training)) == 1
 

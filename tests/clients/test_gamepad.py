@@ -1,4 +1,4 @@
-"""`spandrel rc` with a virtual Linux gamepad (uinput): calibrated with the wizard, used for flying, unplugged in the
+"""`spandrel rc` with a virtual Linux gamepad (uinput): calibrated with the wizard, used to fly, and unplugged in the
 air."""
 
 import os
@@ -13,10 +13,10 @@ import asking
 import gamepad
 import spandrel
 
-# Actions for which the wizard requests a button: three get one, the others none.
+# Actions in the wizard's button prompts: three get a button, the rest get none.
 WISHES = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("takeoff", None), ("landing", None),
           ("camera up", None), ("camera down", None))
-# On a gamepad, up is the lower reading.
+# On a gamepad, up is the lower value.
 PUSHES = (("LEFT stick fully UP", gamepad.Y, -1), ("LEFT stick fully to the RIGHT", gamepad.X, 1),
           ("RIGHT stick fully UP", gamepad.RIGHT_Y, -1), ("RIGHT stick fully to the RIGHT", gamepad.RIGHT_X, 1))
 # Time limit for the wizard's next prompt on a busy machine, wall seconds (ten times the usual).
@@ -25,11 +25,11 @@ LIMIT_S = 60
 
 @pytest.fixture(name="pad")
 def fixture_pad():
-    """A gamepad that the program can read; otherwise skips the test with the reason."""
+    """Returns a gamepad that the program can read; otherwise skips the test with the reason."""
     try:
         pad = gamepad.Gamepad()
     except gamepad.Missing as missing:
-        pytest.skip(f"no gamepad to fly with: {missing}")
+        pytest.skip(f"no gamepad available: {missing}")
     listed = subprocess.run([spandrel.COCKPIT, "rc", "--list"], capture_output=True, text=True, timeout=LIMIT_S, check=False)
     if "this build does not support gamepads" in listed.stderr:
         pad.close()
@@ -39,7 +39,7 @@ def fixture_pad():
 
 
 class Bridge:
-    """`rc` with the gamepad, with its output read as it arrives."""
+    """`rc` with the gamepad. Reads the output as it arrives."""
 
     def __init__(self, pad, profiles, *args):
         command = [spandrel.COCKPIT, "rc", "--device", gamepad.NAME, "--profiles", str(profiles), *args]
@@ -112,7 +112,8 @@ def calibrate(pad, profiles):
 
 @pytest.mark.timeout(600)
 def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
-    """From the system's events to the flight: the wizard's profile, sticks, buttons, and the failsafe after the loss."""
+    """Covers everything from system events to flight: the wizard's profile, sticks, buttons, and the failsafe after the
+    loss."""
     profiles = tmp_path / "profiles"
     assert spandrel.wait_for("the system lists the gamepad", lambda: is_listed(pad, profiles), LIMIT_S).endswith("not calibrated")
     kept = calibrate(pad, profiles)
@@ -147,7 +148,7 @@ def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
         bridge.hear("disconnected: sticks centered, then no longer sent")
         asking.hear(link, "STATUSTEXT", lambda text: "manual control lost" in text.text)
         beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
-        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold in the air"
+        assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold its position"
     finally:
         spandrel.end(bridge.process)
         spandrel.end(process)

@@ -1,4 +1,4 @@
-"""The camera view on the live page: a window on a virtual display provides it, the server shows it to authorized
+"""The camera view on the live page: a window on a virtual display provides it, and the server shows it to authorized
 users."""
 
 import shutil
@@ -13,7 +13,7 @@ import webserver
 
 # Time limit for a software driver on a busy machine to compile its shaders and render, ms (ten times the usual).
 PATIENCE_MS = 400_000
-# Range of brightness in the picture, of 255, which must show ground and sky and not only one color.
+# Minimum range of brightness in the picture, of 255, because it must show ground and sky rather than a single color.
 BRIGHTNESS_RANGE = """image => {
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];

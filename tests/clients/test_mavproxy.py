@@ -1,4 +1,4 @@
-"""MAVProxy with commands as a user would enter them, through a pipe."""
+"""Enters MAVProxy commands as a user would, through a pipe."""
 
 import pathlib
 import queue
@@ -121,7 +121,7 @@ def test_wire_mavproxy_uses_parameters_channels_and_lamp(console):
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_transfers_plans(console):
-    """A mission, a fence and a rally point are uploaded and downloaded; a fence with two corners is rejected."""
+    """A mission, a fence and a rally point are uploaded and downloaded. A fence with two corners is rejected."""
     typed, folder = console
     nothing = (0.0, 0.0, 0.0, 0.0)
     mission = plan(folder, "mission.txt", [(3, 22, nothing, 0, 5), (3, 16, nothing, 10, 6), (3, 21, nothing, 0, 0)])
@@ -150,7 +150,7 @@ def test_wire_mavproxy_needs_the_signing_key(tmp_path):
         typed.say("arm throttle force", None)
         typed.say("signing key steelspan", None)
         typed.until("param fetch MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT = 2.5")
-        assert "ARMED" not in "\n".join(typed.heard), "armed without a signature"
+        assert "ARMED" not in "\n".join(typed.heard), "the vehicle armed without a signature"
         typed.until("arm throttle force", "ARMED")
     finally:
         typed.close()

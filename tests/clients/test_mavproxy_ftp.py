@@ -15,7 +15,7 @@ def test_wire_mavproxy_transfers_files(launch, tmp_path):
     content = bytes(k * k % 251 for k in range(50_000))
     (files / "survey.bin").write_bytes(content)
     typed = Console(launch("px4", "--files", str(files), speed=1), tmp_path)
-    # MAVProxy closes a file some time after it has reported that it is written.
+    # MAVProxy reports that a file is written some time before it closes it.
     same = lambda path: spandrel.wait_for(f"{path} on disk", lambda: path.read_bytes() == content, limit_s=60)  # noqa: E731
     try:
         typed.wait("parameters to")
@@ -40,7 +40,7 @@ def test_wire_mavproxy_transfers_files(launch, tmp_path):
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_fetches_parameters_by_ftp(launch, tmp_path):
-    """As from an ArduPilot: `@PARAM/param.pck` contains all values with their defaults in one file."""
+    """As with ArduPilot, `@PARAM/param.pck` contains all values with their defaults in one file."""
     typed = Console(launch("ardupilot", speed=1), tmp_path)
     try:
         line = typed.wait("parameters (ftp)")

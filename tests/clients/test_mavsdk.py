@@ -55,7 +55,7 @@ class Client:
 
 @pytest.mark.timeout(900)
 def test_wire_mavsdk_flies_the_first_task_and_is_scored(flight, job):
-    """Covers everything from discovery to the four scores."""
+    """Covers the entire flight, from discovery to the four scores."""
     client = Client(flight.client_port)
     wait_for("health_all_ok", client.telemetry.health_all_ok)
     assert client.telemetry.health().is_armable

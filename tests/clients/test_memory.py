@@ -1,4 +1,4 @@
-"""Memory needed to score a session of ordinary length and to write its report."""
+"""Tests the memory needed to score a session of typical length and to write its report."""
 
 import math
 import struct
@@ -39,8 +39,8 @@ class Recorder:
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """A session of a hover drill, with the telemetry of a flight of ordinary length: circles at the site of the
-    supplied job."""
+    """A session of a hover drill, with the telemetry of a flight of typical length: circles at the site of the shipped
+    job."""
     sessions = tmp_path_factory.mktemp("memory") / "sessions"
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "7", "--speed", "max", "--sessions", str(sessions))
     (session,) = sessions.iterdir()

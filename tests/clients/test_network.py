@@ -90,7 +90,7 @@ def test_wire_three_vehicles_in_one_process_are_independent(tmp_path):
 
 
 def test_wire_tcp_clients_may_disconnect_in_flight(tmp_path):
-    """Two clients over TCP; the first disconnects in the middle of a frame."""
+    """Connects two clients over TCP; the first disconnects in the middle of a frame."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
@@ -122,7 +122,7 @@ def test_wire_tcp_clients_may_disconnect_in_flight(tmp_path):
 
 
 def bytes_received_by(stranger, limit_s):
-    """Returns the number of bytes that arrive at a socket until there are none for a while."""
+    """Returns the number of bytes received on a socket until none arrive for a while."""
     stranger.settimeout(limit_s)
     count = 0
     try:
@@ -143,7 +143,7 @@ def test_wire_unknown_peers_get_no_streams_and_do_not_block_a_sidecar(tmp_path):
         asking.connect(port)
         for stranger in strangers:
             stranger.sendto(b"\xfd", ("127.0.0.1", payload))
-        # Within one second, a peer would have received its streams.
+        # A peer would receive its streams within one second.
         assert bytes_received_by(strangers[0], 1.0) == 0
         sidecar = mavutil.mavlink_connection(f"udpout:127.0.0.1:{payload}", source_system=1, source_component=192, dialect="all")
         hello = asking.Again(lambda: sidecar.mav.heartbeat_send(18, 8, 0, 0, 4))
@@ -160,8 +160,8 @@ def test_wire_unknown_peers_get_no_streams_and_do_not_block_a_sidecar(tmp_path):
 
 @pytest.mark.timeout(300)
 def test_wire_monitor_ignores_unknown_senders(tmp_path):
-    """The monitor must choose the vehicle despite a stranger's datagrams and a ground station's heartbeats before and
-    during its telemetry."""
+    """The monitor must select the vehicle despite datagrams from a stranger and heartbeats from a ground station before
+    and during the vehicle's telemetry."""
     sessions, port = tmp_path / "sessions", spandrel.free_udp_port()
     with (tmp_path / "monitor.txt").open("w", encoding="utf-8") as log:
         monitor = subprocess.Popen(

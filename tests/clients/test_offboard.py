@@ -15,7 +15,7 @@ PAD_M = 1.0
 
 
 def start(folder, port, *more, speed=spandrel.SPEED):
-    """Starts the supplied job's vehicle, which connects to one client."""
+    """Starts the vehicle of the shipped job, which connects to one client."""
     log = open(folder / "sim.txt", "w", encoding="utf-8")
     arguments = [
         "sim", "--scenario", "two-bridges", "--seed", "7", "--speed", str(speed), "--gcs", f"127.0.0.1:{port}", "--sdk", "none",
@@ -26,8 +26,8 @@ def start(folder, port, *more, speed=spandrel.SPEED):
 
 @pytest.mark.timeout(600)
 def test_regress_mavsdks_offboard_example_flies(tmp_path, measured):
-    """Like MAVSDK's offboard examples: setpoint at 0, 0, 0 on the pad, up 5 m, 5 m north, back, then velocities; then
-    down."""
+    """Flies like MAVSDK's offboard examples: setpoint at 0, 0, 0 on the pad, up 5 m, 5 m north, back, then velocities,
+    then down."""
     port = spandrel.free_udp_port()
     process = start(tmp_path, port)
     mavsdk, system = sdk.connect(port)
@@ -67,7 +67,8 @@ def test_regress_mavsdks_offboard_example_flies(tmp_path, measured):
 @pytest.mark.parametrize("answers", [True, False])
 @pytest.mark.timeout(600)
 def test_regress_mavsdk_flies_as_a_lockstep_peer(tmp_path, answers):
-    """As the only peer: MAVSDK answers TIMESYNC only after it has found the vehicle and was configured to do so."""
+    """Uses MAVSDK as the only peer. MAVSDK answers TIMESYNC only after it has found the vehicle and is configured to do
+    so."""
     port = spandrel.free_udp_port()
     process = start(tmp_path, port, "--lockstep", f"127.0.0.1:{port}")
     mavsdk, system = sdk.connect(port)

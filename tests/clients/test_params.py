@@ -1,4 +1,4 @@
-"""Parameters as ground stations use them: the complete list, ranges, descriptions, and a file that persists."""
+"""Parameters as used by ground stations: the complete list, ranges, descriptions, and a file that persists."""
 
 import json
 import struct
@@ -18,7 +18,7 @@ LIMIT_S = asking.LIMIT_S
 
 
 def put(connection, name, value, kind, answers="PARAM_VALUE", fits=None):
-    """Sets a parameter and returns the response; integers are encoded bytewise, as PX4 requires."""
+    """Sets a parameter and returns the response; integers use bytewise encoding, as PX4 requires."""
     wire = struct.unpack("<f", struct.pack("<i", value))[0] if kind == INT32 else value
     send = lambda: connection.mav.param_set_send(1, 1, name.encode(), wire, kind)  # noqa: E731
     return asking.ask(connection, send, answers, fits or (lambda message: message.param_id == name))
@@ -50,7 +50,8 @@ def test_wire_parameter_list_is_complete_and_ranges_are_enforced(tmp_path):
 
 @pytest.mark.timeout(300)
 def test_wire_parameters_persist_in_their_file(tmp_path):
-    """Set, stop, start again; reset to the defaults; an invalid file is rejected with its line."""
+    """Sets parameters, restarts the vehicle, and resets them to their defaults. An invalid file is rejected with the
+    line number."""
     file = tmp_path / "drone.params"
     for expected, then in ((2.5, 6.5), (6.5, None)):
         port = spandrel.free_udp_port()
@@ -75,8 +76,8 @@ def test_wire_parameters_persist_in_their_file(tmp_path):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_reads_the_parameter_metadata(tmp_path):
-    """The description over MAVLink FTP, unpacked and checked by MAVSDK, contains every parameter that the vehicle
-    lists."""
+    """The metadata, which MAVSDK downloads over MAVLink FTP, unpacks and checks, describes every parameter that the
+    vehicle lists."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port)
     try:

@@ -1,5 +1,5 @@
-"""Camera, gimbal and lamp with MAVSDK's plugins and with the superseded messages of pymavlink users; a second station
-receives the changes."""
+"""Camera, gimbal and lamp with MAVSDK's plugins and with superseded messages, which pymavlink users still send. A
+second station receives the changes."""
 
 import math
 import os
@@ -24,14 +24,14 @@ CAMERA, AUTOPILOT = 100, 1
 NAN = float("nan")
 # Maximum angle error of the gimbal, deg; field of view and zoom are transmitted as floats.
 NEAR_DEG = 1.0
-# Size of a picture and of a second of recording with the default settings, MiB.
+# Size of a photo and of one second of video with the default settings, MiB.
 PICTURE_MIB, VIDEO_MIB_S = 6.0, 60e6 / 8 / 2**20
 # The zoom range of vehicle-params/m30.toml.
 WIDE_DEG, ZOOM_MAX = 84.0, 3.1
 
 
 class Station:
-    """A second ground station on pymavlink that receives everything and uses superseded requests."""
+    """A second ground station, based on pymavlink, that receives everything and uses superseded requests."""
 
     def __init__(self, port):
         self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=254, source_component=190, dialect="all")
@@ -102,7 +102,7 @@ class Rig:
         self.station.wait("heartbeat", lambda: ("HEARTBEAT", CAMERA) in self.station.last)
 
     def close(self):
-        """Ends the vehicle, then MAVSDK, which must be released after the objects that it created."""
+        """Stops the vehicle, then MAVSDK, which must be released after the objects that it created."""
         spandrel.end(self.process)
         for plugin in ("action", "telemetry", "camera", "gimbal"):
             getattr(self, plugin).destroy()
@@ -118,7 +118,7 @@ def rig(tmp_path):
 
 
 def found(rig):
-    """Returns the camera's component ID when MAVSDK has found it."""
+    """Returns the camera's component ID once MAVSDK has found it."""
     cameras = wait_for("camera", lambda: rig.camera.camera_list().cameras)
     assert [(c.component_id, c.vendor_name) for c in cameras] == [(CAMERA, "Spandrel")]
     assert (cameras[0].horizontal_resolution_px, cameras[0].vertical_resolution_px) == (4000, 3000)
@@ -139,7 +139,7 @@ def told_again(rig, predicate, what):
 
 
 def pictures(rig):
-    """Returns the number of pictures that the camera reports."""
+    """Returns the number of photos that the camera reports."""
     return rig.station.ask(CAMERA, "CAMERA_CAPTURE_STATUS", M.MAV_CMD_REQUEST_CAMERA_CAPTURE_STATUS, 1).image_count
 
 
@@ -152,13 +152,13 @@ def test_wire_mavsdk_takes_single_pictures_and_series(rig):
     told_again(rig, lambda s: s.total_storage_mib > 30_000, "storage")
     for _ in range(2):
         rig.camera.take_photo(camera)
-    assert pictures(rig) == 2, "each command must take one picture"
+    assert pictures(rig) == 2, "each command must take one photo"
     rig.camera.start_photo_interval(camera, 0.5)
     told_again(rig, lambda s: s.photo_interval_on, "series on")
     wait_for("a series", lambda: max(shots, default=0) >= 5)
     rig.camera.stop_photo_interval(camera)
     told_again(rig, lambda s: not s.photo_interval_on, "series off")
-    # MAVSDK requests pictures that it has missed before the newest one; the newest one may be missed itself.
+    # MAVSDK requests any photos that it missed before the newest one, but it may also miss the newest one.
     again = asking.Again(lambda: rig.camera.take_photo(camera))
     again.if_due()
 
@@ -167,7 +167,7 @@ def test_wire_mavsdk_takes_single_pictures_and_series(rig):
         rig.camera.list_photos(camera, PhotosRange.ALL)
         return sorted(shots) == list(range(pictures(rig)))
 
-    wait_for("a message for every picture", all_told)
+    wait_for("a message for every photo", all_told)
     count = len(shots)
     home = rig.telemetry.position()
     for shot in shots.values():
@@ -188,7 +188,7 @@ def test_wire_mavsdk_takes_single_pictures_and_series(rig):
         again.if_due()
         return [info.index for info in rig.camera.list_photos(camera, PhotosRange.ALL)]
 
-    assert max(wait_for("a list of the new pictures", listed_again)) < count
+    assert max(wait_for("a list of the new photos", listed_again)) < count
 
 
 @pytest.mark.timeout(300)
@@ -208,7 +208,7 @@ def test_wire_mavsdk_records_video_with_its_duration(rig):
     storage = told_again(rig, lambda s: s.video_on and s.recording_time_s > 3.0, "recording")
     assert storage.recording_time_s < 600.0
     rig.camera.take_photo(camera)
-    assert pictures(rig) == 1, "a picture during recording must count"
+    assert pictures(rig) == 1, "a photo during recording must count"
     with pytest.raises(CameraError):
         rig.camera.set_mode(camera, Mode.PHOTO)
     rig.camera.stop_video(camera)
@@ -241,12 +241,12 @@ def test_wire_mavsdk_zoom_changes_are_broadcast(rig):
 
     rig.camera.zoom_range(camera, 40.0)
     station.wait("zoom 40", lambda: abs(level() - 40.0) < 0.01)
-    station.wait("its field of view", lambda: abs(field() - seen(40.0)) < 0.01)
+    station.wait("field of view at zoom 40", lambda: abs(field() - seen(40.0)) < 0.01)
     rig.camera.zoom_in_start(camera)
     station.wait("telephoto", lambda: level() == 100.0)
     station.wait("a narrow field of view", lambda: abs(field() - seen(100.0)) < 0.01)
     rig.camera.zoom_out_start(camera)
-    # The distance covered before the stop depends on the load of the machine.
+    # The zoom change before the stop depends on the load of the machine.
     station.wait("zooming", lambda: level() < 100.0)
     rig.camera.zoom_stop(camera)
     rig.camera.reset_settings(camera)
@@ -263,8 +263,8 @@ def setting(rig, name):
 
 
 def first_setting(rig, name):
-    """Same, but waits until MAVSDK has the value: it reads the options of the definition before the camera reports
-    any value."""
+    """Like `setting`, but waits until MAVSDK has the value. MAVSDK reads the options in the definition before the
+    camera reports any value."""
 
     def look():
         try:
@@ -277,7 +277,8 @@ def first_setting(rig, name):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_can_set_every_camera_option(rig):
-    """Checks camera settings like the old mavlink-testing-suite: all options of lists, ends and middle of ranges."""
+    """Checks camera settings like the old mavlink-testing-suite: all options of each list, and the ends and middle of
+    each range."""
     camera = found(rig)
     ids = ["CAM_PHOTOQUAL", "CAM_VIDRATE"]
 
@@ -347,8 +348,8 @@ def test_wire_mavsdk_controls_the_gimbal_exclusively(rig):
         attitude = rig.gimbal.get_attitude(own)
         return abs(attitude.angular_velocity.pitch_rad_s) < 0.05 and attitude.euler_angle_forward.pitch_deg
 
-    # 50 m away and 50 m up: 45 degrees, with the drone's position accurate to a meter. Passing the angle on the way
-    # elsewhere does not count.
+    # The location is 50 m away and 50 m up, so the angle is 45 degrees; the drone's position is accurate to a meter.
+    # Passing the angle on the way elsewhere does not count.
     wait_for("looking up at a location", lambda: abs((at_rest() or 0.0) - 45.0) < 2.5, limit_s=60)
 
 

@@ -14,11 +14,11 @@ import spandrel
 
 # Maximum size of one photo and of all photos in the report, bytes.
 MOST_BYTES, ALL_BYTES = 400_000, 4_000_000
-# Small, so that a software driver renders quickly.
+# Small enough for a software driver to render quickly.
 SIZE = (640, 480)
-# A wider size, in which pictures keep the sensor's aspect ratio.
+# A wider size; pictures must keep the sensor's aspect ratio.
 WITHIN = (800, 480)
-# A hundred-thousandth of a degree is a meter; EXIF stores a ten-thousandth of a second, 3 mm.
+# A hundred-thousandth of a degree is about a meter. EXIF has a resolution of a ten-thousandth of an arcsecond, 3 mm.
 PLACE_DEG = 1e-7
 
 
@@ -74,8 +74,8 @@ def test_val_photos_contain_position_and_exposure(session):
 
 @pytest.mark.timeout(900)
 def test_val_masks_label_the_counted_defects(session):
-    """Pillow reads 16 bits per pixel. A defect for which a photo was counted must be labeled in it, within the box of
-    the legend."""
+    """Checks that Pillow reads 16 bits per pixel, and that each defect counted in a photo is labeled in it, inside the
+    bounding box in the legend."""
     size = f"{SIZE[0]}x{SIZE[1]}"
     spandrel.run("render", str(session), "--snapshots", "--masks", "--quality", "low", "--size", size, program=spandrel.COCKPIT)
     legends = sorted((session / "snapshots").glob("*.masks.json"))
@@ -93,7 +93,7 @@ def test_val_masks_label_the_counted_defects(session):
             left, top, width, height = entry["box_px"]
             assert (columns.min(), rows.min()) == (left, top)
             assert (columns.max() - left + 1, rows.max() - top + 1) == (width, height)
-            # Most of a defect is on its element; its outline may extend over an edge.
+            # Most of a defect is on its element, but its outline may extend over an edge.
             assert (pixels["elements"][rows, columns] == entry["element"]).mean() > 0.5
         labelled += bool(legend["defects"])
     assert labelled >= len(legends) / 2, "an expert must photograph defects"

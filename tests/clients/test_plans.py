@@ -61,7 +61,8 @@ def test_wire_mavsdk_flies_a_mission_to_its_end(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_with_setpoints_and_points_the_gimbal(vehicle):
-    """A position, a body velocity, a turn rate; the gimbal up and down; valid and invalid parameters."""
+    """Sends a position, a body velocity and a yaw rate, moves the gimbal up and down, and sets valid and invalid
+    parameters."""
     system, telemetry = vehicle
     action, offboard, gimbal, param = Action(system), Offboard(system), Gimbal(system), Param(system)
     param.set_param_float("MIS_TAKEOFF_ALT", 4.0)
@@ -81,7 +82,7 @@ def test_wire_mavsdk_flies_with_setpoints_and_points_the_gimbal(vehicle):
     wait_for("the position", lambda: math.dist(place(telemetry), target) < NEAR_M)
     wait_for("offboard mode", lambda: telemetry.flight_mode() == FlightMode.OFFBOARD)
     wait_for("the heading", lambda: abs(telemetry.attitude_euler().yaw_deg - 90.0) < 5.0)
-    # The nose points east, so forward is east.
+    # The vehicle is facing east, so forward is east.
     offboard.set_velocity_body(VelocityBodyYawspeed(2.0, 0.0, 0.0, 0.0))
     wait_for("2 m/s east", lambda: abs(telemetry.velocity_ned().east_m_s - 2.0) < NEAR_M_S)
     assert abs(telemetry.velocity_ned().north_m_s) < NEAR_M_S
@@ -102,7 +103,7 @@ def test_wire_mavsdk_flies_with_setpoints_and_points_the_gimbal(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_pauses_and_resumes_the_exported_plan(vehicle):
-    """The plan of a drill in the form that QGroundControl reads; paused on the way, then flown to its end."""
+    """Flies the plan of a drill in the format of QGroundControl, pauses on the way, and completes it."""
     system, telemetry = vehicle
     mission, action = MissionRaw(system), Action(system)
     text = spandrel.run("export", "drill-hover", "--seed", "7", "--plan", "-")
@@ -125,7 +126,8 @@ def test_wire_mavsdk_flies_pauses_and_resumes_the_exported_plan(vehicle):
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("vehicle", ["px4", "ardupilot"], indirect=True)
 def test_wire_mavsdk_fence_holds_the_vehicle(vehicle):
-    """Uploaded, downloaded, and breached with setpoints: the vehicle holds, also when it emulates an ArduPilot."""
+    """Uploads and downloads a fence and breaches it with setpoints. The vehicle must hold, also when it emulates
+    ArduPilot."""
     system, telemetry = vehicle
     fence, action, offboard = Geofence(system), Action(system), Offboard(system)
     here = wait_for("a position", lambda: (p := telemetry.position()) and p.latitude_deg != 0.0 and p)

@@ -1,4 +1,4 @@
-"""The multicopter cases of PX4's own integration tests, with their limits, in the supplied job and above flat ground.
+"""The multicopter cases of PX4's own integration tests, with their limits, in the shipped job and above flat ground.
 
 Omitted, because the simulated aircraft does not have the feature: optical flow, terrain estimate without GNSS, several instances of
 sensors or estimators (EKF and GNSS selectors), control allocation of more than four motors, VTOL and fixed wing, gravity of the SIH
@@ -16,13 +16,13 @@ from mavsdk.plugins.offboard import PositionNedYaw
 
 from px4_tester import Tester, attitude
 
-# Number of parallel flights; each needs little processor time.
+# Number of parallel flights; each one needs little processor time.
 AT_ONCE = 6
-# The supplied job is on a slope above a lake; the drill is above level ground.
+# The shipped job is on a slope above a lake; the drill is above level ground.
 SCENARIOS = ["two-bridges", "drill-hover"]
 LEG_M, HEIGHT_M = 20.0, 10.0
 SQUARE = [(LEG_M, 0.0), (LEG_M, LEG_M), (0.0, LEG_M)]
-# Eastward, where there are no obstacles for 80 m; the arch of the supplied job is 68 m north of its pad.
+# Eastward, where there are no obstacles for 80 m; the arch of the shipped job is 68 m north of its pad.
 STRAIGHT = [(0.0, k * LEG_M) for k in range(5)]
 NEAR_M = 0.3
 
@@ -221,7 +221,7 @@ def set_current_item_to_jump(t):
 
 
 def follow(stream_velocity):
-    """A target moves north at 2 m/s; the vehicle stays behind, in front of and on both sides of it."""
+    """A target moves north at 2 m/s; the vehicle follows it from behind, in front and both sides."""
 
     def flow(t):
         t.wait_until_ready()
@@ -322,7 +322,7 @@ def fly(flow, folder, scenario):
         tester.close()
 
 
-# The target moves 140 m north, through the arch of the supplied job.
+# The target moves 140 m north, through the arch of the shipped job.
 ONLY_OVER_LEVEL_GROUND = {"follow by position", "follow by position and velocity"}
 FLIGHTS = [(name, scenario) for name in FLOWS for scenario in SCENARIOS if scenario != "two-bridges" or name not in ONLY_OVER_LEVEL_GROUND]
 
@@ -341,5 +341,5 @@ def fixture_flights(tmp_path_factory):
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize(("name", "scenario"), FLIGHTS)
 def test_wire_px4_flow(flights, name, scenario):
-    """Must pass as on PX4."""
+    """Checks that the flight passed, as on PX4."""
     flights[name, scenario].result()

@@ -18,7 +18,7 @@ M = mavutil.mavlink
 CAMERA = 100
 # Main mode number of PX4's POSCTL, and number of ArduCopter's POSHOLD.
 POSITION_MODE = {M.MAV_AUTOPILOT_PX4: 3, M.MAV_AUTOPILOT_ARDUPILOTMEGA: 16}
-# A telemetry rate that is sufficient for a stick control loop, Hz of vehicle time.
+# Telemetry rate that is sufficient for a stick control loop, Hz of vehicle time.
 RATE_HZ = 50
 # Rate of messages that are only observed, Hz.
 SLOW_HZ = 4
@@ -26,7 +26,7 @@ EARTH_M_PER_DEG = 111_319.49  # WGS84 equatorial radius times pi / 180
 
 
 class Client:
-    """A ground station on pymavlink, which automatically sends only heartbeats."""
+    """A ground station based on pymavlink, which automatically sends only heartbeats."""
 
     def __init__(self, port):
         self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190, dialect="all")
@@ -77,7 +77,7 @@ class Client:
             again.if_due()
             return None
 
-        return self.wait(f"acknowledgement of {number}", answered).result
+        return self.wait(f"acknowledgment of {number}", answered).result
 
     def here(self):
         """Returns the position in meters east, north, up of the job's origin, and the heading in radians."""
@@ -116,7 +116,7 @@ class Client:
 @pytest.mark.parametrize("flight", ["px4", "ardupilot"], indirect=True)
 @pytest.mark.timeout(900)
 def test_wire_pymavlink_flies_the_first_task_and_is_scored(flight, job):
-    """Covers everything from the connection to the four scores."""
+    """Covers the entire flight, from the connection to the four scores."""
     client = Client(flight.client_port)
     prearm = M.MAV_SYS_STATUS_PREARM_CHECK
     client.wait("ready", lambda: (s := client.state.get("SYS_STATUS")) and s.onboard_control_sensors_health & prearm)

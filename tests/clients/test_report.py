@@ -1,4 +1,4 @@
-"""The report of a session in a real browser: no errors, no requests, all elements that the slider must move, wide and
+"""Tests a session's report in a real browser: no errors, no requests, all elements that follow the slider, wide and
 narrow, light and dark."""
 
 import json
@@ -14,7 +14,7 @@ from playwright.sync_api import sync_playwright
 import spandrel
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-# As root in a container, Chromium's sandbox does not work; SwiftShader renders the model without a GPU.
+# Chromium's sandbox does not work as root in a container. SwiftShader renders the model without a GPU.
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
 # Folder for screenshots, if set.
@@ -67,7 +67,7 @@ def keep(page, name):
 
 
 def moment(page, index):
-    """Sets the slider like a user would."""
+    """Sets the slider as a user would."""
     page.evaluate(
         "i => { const s = document.getElementById('moment'); s.value = i; s.dispatchEvent(new Event('input', {bubbles: true})); }", index
     )

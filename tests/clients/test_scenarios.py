@@ -1,4 +1,4 @@
-"""The requirements of MAVSDK's and PX4's own system tests: streams, information, flights by command, missions in
+"""Tests the requirements of MAVSDK's and PX4's own system tests: streams, information, flights by command, missions in
 MAVSDK's own format, sticks and their loss, flight termination."""
 
 import math
@@ -168,8 +168,8 @@ def test_wire_mavsdk_transfers_500_items(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_with_sticks_and_their_loss_holds(vehicle):
-    """Climb and fly forward; released sticks stop the vehicle; lost sticks trigger the failsafe's hold; sticks sent
-    again take over."""
+    """Climbs and flies forward. Released sticks stop the vehicle, lost stick input triggers the failsafe's hold, and
+    new stick input takes over."""
     system, telemetry = vehicle
     action, manual = Action(system), ManualControl(system)
     take_off(action, telemetry, 5.0)
@@ -208,7 +208,7 @@ def test_wire_mavsdk_flies_with_sticks_and_their_loss_holds(vehicle):
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("how", ["kill", "terminate"])
 def test_wire_mavsdk_stops_the_motors_in_flight(vehicle, how):
-    """Disarming in flight is rejected; kill and terminate are not, and the vehicle falls."""
+    """Disarming in flight is rejected. Kill and terminate are accepted, and the vehicle falls."""
     system, telemetry = vehicle
     action = Action(system)
     take_off(action, telemetry, 6.0)

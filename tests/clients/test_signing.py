@@ -1,4 +1,4 @@
-"""pymavlink with and without the vehicle's signing key, over every kind of link and across a restart."""
+"""Tests pymavlink with and without the vehicle's signing key, over every kind of link and across a restart."""
 
 import contextlib
 import hashlib
@@ -99,7 +99,7 @@ class Wire:
         return os.read(place, 65_536) if ready else b""
 
     def close(self):
-        """Closes the connection when the vehicle has ended; a serial line stays open."""
+        """Closes the connection after the vehicle has stopped; a serial line stays open."""
         if self.socket is not None:
             self.socket.close()
 
@@ -120,7 +120,7 @@ class Signer:
         return self.mav.command_long_encode(1, 1, mavlink.MAV_CMD_ILLUMINATOR_ON_OFF, 0, on, 0, 0, 0, 0, 0, 0).pack(self.mav)
 
     def question(self, number):
-        """Returns the bytes of a request that is answered with its number."""
+        """Returns the bytes of a request whose response contains the given number."""
         return self.mav.timesync_encode(0, number).pack(self.mav)
 
 
@@ -177,7 +177,7 @@ def test_wire_signed_frames_cannot_be_replayed_on_any_link_or_after_a_restart(tm
         assert not is_obeyed(wire, forged)
         assert is_obeyed(wire, good)
         assert not is_obeyed(wire, good), "a replayed command must be ignored"
-        # The memory is written once per second, and at the end if the process ends normally.
+        # The memory is written once per second, and at a normal exit.
         memory = key.with_name("key.heard.1")
         stream = f"255 190 {COMMANDS} "
         spandrel.wait_for("the memory", lambda: memory.exists() and stream in memory.read_text(encoding="utf-8"), 60)
@@ -190,7 +190,7 @@ def test_wire_signed_frames_cannot_be_replayed_on_any_link_or_after_a_restart(tm
 
 @pytest.mark.timeout(60)
 def test_wire_invalid_signing_memory_is_rejected_with_its_line(tmp_path):
-    """An invalid file in this place is reported, not overwritten."""
+    """An invalid signing memory file is reported and not overwritten."""
     key = tmp_path / "key"
     key.write_text(PASSPHRASE + "\n", encoding="utf-8")
     key.chmod(0o600)

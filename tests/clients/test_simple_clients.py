@@ -1,4 +1,5 @@
-"""Clients that take every heartbeat of the vehicle for the autopilot's: a short pymavlink script, DroneKit, mavpilot."""
+"""Clients that treat every heartbeat from the vehicle as the autopilot's: a short pymavlink script, DroneKit,
+mavpilot."""
 
 import asyncio
 import collections
@@ -86,7 +87,7 @@ def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
         wait_for("a fix", lambda: vehicle.gps_0.fix_type == 3 and vehicle.location.global_frame.lat)
 
         def set_to(what, change, holds):
-            """Repeats a change in a loop, as tutorials do, because DroneKit sends it only once."""
+            """Requests a change in a loop, as tutorials do, because DroneKit sends each request only once."""
             tries = iter(range(600))
 
             def step():

@@ -1,4 +1,4 @@
-"""The cohort's statistics compared with SciPy's on random data."""
+"""Compares the cohort statistics with SciPy's on random data."""
 
 import json
 import math
@@ -52,7 +52,7 @@ def made_up_record(random, trainee, number):
 
 @pytest.fixture(scope="module", params=[1, 2, 3])
 def study(request, tmp_path_factory):
-    """Random sessions ordered by time, and the program's results: 40 people, 15 of them with five sessions."""
+    """Random sessions in chronological order, and the program's results: 40 people, 15 of them with five sessions."""
     random = np.random.default_rng(request.param)
     people = {f"p{k:02}": [made_up_record(random, f"p{k:02}", n) for n in range(5 if k < 15 else 1)] for k in range(40)}
     path = tmp_path_factory.mktemp("study") / "records.jsonl"
@@ -169,7 +169,7 @@ def test_val_learning_curves(study):
             (first, exponent), _ = optimize.curve_fit(lambda n, a, b: a * n**b, n, values, p0=(values[0], 0.0), xtol=1e-14, ftol=1e-14)
             ours = np.sum((values - curve["first"] * n ** curve["exponent"]) ** 2)
             theirs = np.sum((values - first * n**exponent) ** 2)
-            # SciPy's fit may end in another local minimum; the program's must not be worse.
+            # SciPy's fit may converge to another local minimum; the program's fit must not be worse.
             assert ours <= theirs * (1 + CLOSE)
             if close(ours, theirs, FITTED):
                 assert close(curve["first"], first, FITTED) and close(curve["exponent"], exponent, FITTED)

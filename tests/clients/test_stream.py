@@ -19,7 +19,7 @@ import asking
 import display
 import spandrel
 
-# Number of decoded pictures that proves that the stream is running.
+# Number of decoded pictures that prove that the stream is running.
 ENOUGH = 10
 LIMIT_S = 400
 # Maximum picture rate, Hz: the stream has at least 33 ms between pictures.
@@ -107,7 +107,7 @@ def is_similar(file, shown):
 
 @pytest.mark.timeout(900)
 def test_val_gstreamer_decodes_the_camera_stream(tmp_path, measured):
-    """Every encoded picture must be decoded and match the window; the vehicle must announce the start and the end of
+    """Every encoded picture must be decoded and match the window. The vehicle must announce the start and the end of
     the stream."""
     screen = display.Display(tmp_path, 640, 240)
     watcher, payload, video = (spandrel.free_udp_port() for _ in range(3))

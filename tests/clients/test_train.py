@@ -1,4 +1,4 @@
-"""`spandrel train` and its flights: the vehicle outlives the session, flight logs can be downloaded, and a dead
+"""`spandrel train` and its flights: the vehicle outlives the session, flight logs can be downloaded, and a killed
 monitor is replaced."""
 
 import json
@@ -22,7 +22,7 @@ BEATS = 5
 
 
 class Training:
-    """`train` without its window on unused ports, as a ground station user starts it."""
+    """`train` without its window on unused ports, as started by a ground station user."""
 
     def __init__(self, folder, *more):
         self.folder = pathlib.Path(folder)
@@ -66,7 +66,7 @@ class Training:
         return self.process.wait(timeout=60)
 
     def close(self):
-        """Ends the process and prints its output."""
+        """Stops the process and prints its output."""
         spandrel.end(self.process)
         self.log.close()
         print(self.printed()[-3000:])
@@ -74,7 +74,7 @@ class Training:
 
 @pytest.fixture
 def training(tmp_path):
-    """A training on unused ports."""
+    """Returns a running `train` on unused ports."""
     training = Training(tmp_path)
     yield training
     training.close()
@@ -103,7 +103,7 @@ def heartbeats(link, count):
 
 @pytest.mark.timeout(600)
 def test_regress_vehicle_stays_connected_after_landing(training, tmp_path, measured):
-    """A connected ground station keeps its vehicle when the session is scored, downloads the flight log, and flies
+    """After the session is scored, a connected ground station keeps its vehicle, downloads the flight log, and flies
     again."""
     station = mavutil.mavlink_connection(f"udpin:127.0.0.1:{training.gcs_port}")
     mavsdk, system = sdk.connect(training.sdk_port)
@@ -114,7 +114,7 @@ def test_regress_vehicle_stays_connected_after_landing(training, tmp_path, measu
     assert (session / "assessment.json").is_file() and (session / "report.html").is_file()
     heartbeats(station, BEATS)
     assert training.process.poll() is None, training.printed()
-    # Downloads the log of this flight like QGroundControl's page "Log Download".
+    # Downloads the log of this flight like QGroundControl's Log Download page.
     logs = LogFiles(system)
     entries = logs.get_entries()
     assert len(entries) == 1 and entries[0].size_bytes > 0, entries

@@ -1,4 +1,4 @@
-"""From one flight to the next: questionnaire, records and plan on the command line."""
+"""The steps from one flight to the next on the command line: questionnaire, records and plan."""
 
 import contextlib
 import csv
@@ -38,7 +38,7 @@ def folders(sessions):
 def test_session_leads_to_a_record_and_a_plan(sessions):
     place = ["--sessions", str(sessions)]
     session = folders(sessions)[0]
-    # Answers half now and half later: saved answers are not requested again.
+    # Answers half of the questions now and the rest later: saved answers are not requested again.
     code, output, _ = run_with("2\n" * 10 + "q\n", "questionnaire", str(session))
     assert code == 0 and "10 of 24 answered" in output
     code, output, _ = run_with("9\n" + "3\n" * 14, "questionnaire", str(session))
@@ -120,7 +120,7 @@ def test_trainee_data_can_be_exported_and_erased(sessions):
     assert not any(b"35-44" in path.read_bytes() for path in sessions.iterdir() if path.is_file())
     code, _, errors = run_with("", "records", "export", "--trainee", "ben", *place)
     assert code == 2 and "no data about 'ben'" in errors
-    assert len(folders(sessions)) == 2, "the others stay"
+    assert len(folders(sessions)) == 2, "other trainees' sessions must remain"
     assert "0 sessions and 0 folders" in spandrel.run("records", "retention", "--days", "1", "--yes", *place)
 
 
@@ -132,7 +132,8 @@ def test_rebuild_keeps_sessions_of_other_stations(sessions, tmp_path):
     code, _, errors = run_with("", "records", "rebuild", "--sessions", str(other), *database)
     assert code == 2 and "2 sessions have no folder on this machine" in errors
     assert len(json.loads(spandrel.run("records", "list", "--json", *database))) == 2
-    # With confirmation, the sessions are deleted. They were not erased, so they return with their folders.
+    # With confirmation, the sessions are deleted from the records. They were not erased, so they reappear when their
+    # folders are imported.
     assert "0 sessions, 0 skipped, 2 without a folder on this machine deleted" in spandrel.run("records", "rebuild", "--yes", "--sessions", str(other), *database)
     assert "2 new or changed" in spandrel.run("records", "import", "--sessions", str(sessions), *database)
 

@@ -27,7 +27,7 @@ class Station:
         return self.link.recv_match(type="HEARTBEAT", blocking=True, timeout=0.2)
 
     def hear(self, *kinds):
-        """Returns the next message of these kinds that is addressed to this station."""
+        """Returns the next message of these kinds for this station."""
         for _ in range(10_000):
             message = self.link.recv_match(type=list(kinds), blocking=True, timeout=LIMIT_S)
             assert message is not None, kinds
@@ -69,7 +69,7 @@ class Station:
 
 @pytest.mark.timeout(300)
 def test_wire_mission_protocol_handles_partial_canceled_and_concurrent_transfers(tmp_path):
-    """Incomplete transfers must have no effect; the transfer that started first must end first."""
+    """Incomplete transfers must have no effect. The transfer that starts first must end first."""
     unused, port = spandrel.free_udp_port(), spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, unused, speed=1, gcs_port=port)
     try:

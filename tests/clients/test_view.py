@@ -1,4 +1,4 @@
-"""`spandrel view`: the window on a virtual display, with screenshots and flight keys; messages if something is
+"""`spandrel view`: the window on a virtual display, with screenshots and flight keys, and messages if something is
 missing."""
 
 import json
@@ -18,7 +18,7 @@ GREEN, YELLOW, WHITE = (0, 190, 130), (240, 228, 66), (245, 245, 245)
 # Time limit for a software driver on a busy machine to compile its shaders and render, wall seconds (ten times the
 # usual).
 DRAW_LIMIT_S = 400
-# Wall seconds after which a key without an effect is pressed again; a frame takes at most one second.
+# Wall seconds before a key without an effect is pressed again; a frame takes at most one second.
 PRESS_AGAIN_S = 20.0
 
 
@@ -61,7 +61,7 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
             "--profiles", str(tmp_path),
         )
         assert told["quality"] == "low" and (told["width"], told["height"]) == screen.size, told
-        (photograph,) = spandrel.wait_for("a photograph with a display", lambda: with_display(screen), DRAW_LIMIT_S)
+        (photograph,) = spandrel.wait_for("a screenshot with the HUD", lambda: with_display(screen), DRAW_LIMIT_S)
         height, width, _ = photograph.shape
         left, right = photograph[:, : width // 2], photograph[:, width // 2 :]
         assert contrast(left) > 10 and contrast(right) > 10, "no view may be blank"
@@ -85,10 +85,10 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
 
         spandrel.wait_for("the map is hidden", hidden, DRAW_LIMIT_S)
         screen.tap("Tab")
-        spandrel.wait_for("the camera's view has the window", lambda: in_the_middle(screen), DRAW_LIMIT_S)
+        spandrel.wait_for("the camera view fills the window", lambda: in_the_middle(screen), DRAW_LIMIT_S)
 
         link = asking.connect(watcher)
-        spandrel.wait_for("it may arm", lambda: armable(link), DRAW_LIMIT_S)
+        spandrel.wait_for("the vehicle is ready to arm", lambda: armable(link), DRAW_LIMIT_S)
         arm = asking.Again(lambda: screen.tap("1"), again_s=PRESS_AGAIN_S)
 
         def armed():
@@ -129,7 +129,8 @@ def armable(link):
 
 @pytest.mark.timeout(600)
 def test_wire_missing_prerequisites_give_one_message(screen, tmp_path):
-    """Without a display or Vulkan, or with an invalid key file, there is an exit code and one message each."""
+    """Without a display or Vulkan, or with an invalid key file, the program must exit with an error code and one
+    message."""
 
     def view(environment, *args):
         return subprocess.run(
@@ -146,7 +147,7 @@ def test_wire_missing_prerequisites_give_one_message(screen, tmp_path):
 
     refused = view(blind)
     assert refused.returncode == 1 and refused.stderr.count("no display") == 1, refused.stderr
-    # The message must contain possible actions and no source code positions of a library.
+    # The message must suggest possible actions and must not contain source locations in libraries.
     assert "neither DISPLAY nor WAYLAND_DISPLAY is set" in refused.stderr and ".rs" not in refused.stderr, refused.stderr
     refused = view(blind | {"DISPLAY": ":4711"})
     assert refused.returncode == 1 and "DISPLAY=:4711 cannot be opened" in refused.stderr and ".rs" not in refused.stderr, refused.stderr
@@ -168,7 +169,7 @@ def test_wire_missing_prerequisites_give_one_message(screen, tmp_path):
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize(("asked", "title"), [(["--scenario", "drill-hover"], "Drill: hover"), ([], "using the command line: anonymous flies two-bridges")])
 def test_wire_training_continues_without_a_display(tmp_path, asked, title):
-    """`train` reports what is missing and which job it flies, and waits for the flight nevertheless."""
+    """`train` reports the missing display and the job, and still waits for the flight."""
     blind = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")}
     log = open(tmp_path / "train.txt", "w", encoding="utf-8")
     training = subprocess.Popen(

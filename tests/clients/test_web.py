@@ -1,4 +1,4 @@
-"""`spandrel serve` in a real browser: tasks of trainee, instructor and administrator, wide and narrow, light and
+"""`spandrel serve` in a real browser: tasks of trainees, instructors and administrators, wide and narrow, light and
 dark."""
 
 import json
@@ -19,7 +19,7 @@ FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader
 SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
 # Folder for screenshots, if set.
 PICTURES = os.environ.get("SPANDREL_PICTURES")
-# Time limit for any action on a busy two-core machine, ms (many times the usual).
+# Time limit for any action on a busy two-core machine, ms (many times the usual time).
 PATIENCE_MS = 300_000
 expect.set_options(timeout=PATIENCE_MS)
 
@@ -55,14 +55,14 @@ def server(sessions):
 
 
 def ids(sessions, trainee):
-    """Returns a trainee's sessions by start time; the names of two flights in the same second differ randomly."""
+    """Returns a trainee's sessions by start time; the names of flights in the same second have random parts."""
     folders = [path for path in sessions.iterdir() if f"-{trainee}-" in path.name]
     started = lambda path: json.loads((path / "session.json").read_text(encoding="utf-8"))["started_unix_us"]
     return [path.name for path in sorted(folders, key=started)]
 
 
 class Person:
-    """A user with a browser; collects all problems on the pages."""
+    """A user with a browser that collects all problems on the pages."""
 
     def __init__(self, browser, server, name=None, size="desktop", scheme="light", locale="en-GB"):
         width, height = SIZES[size]
@@ -120,7 +120,7 @@ def test_every_page_passes_axe(browser, server, sessions, size, scheme):
         answer = person.go(path)
         assert answer.status == (404 if name == "missing" else 200), path
         person.keep(f"{name}-{size}-{scheme}")
-        # A missing page is an error for the browser, but intended by this test.
+        # The browser treats a missing page as an error, but this test intends it.
         person.wrong = [wrong for wrong in person.wrong if "404" not in wrong]
         person.check()
     stranger = Person(browser, server, None, size, scheme)
@@ -171,7 +171,7 @@ def test_questionnaire_answers_persist_after_leaving(browser, server, sessions):
     expect(person.page.locator("[data-status]")).to_contain_text("2 of", timeout=PATIENCE_MS)
     given = json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"]
     assert sorted(given.values()) == [2, 2]
-    # After leaving, logging out and returning, the answers are still there.
+    # The answers must persist after leaving the page, logging out and returning.
     person.page.click("text=Log out")
     person.log_in("anna")
     person.go(f"/sessions/{session.name}/questions")
@@ -298,7 +298,7 @@ def test_two_sessions_can_be_compared(browser, server, sessions):
         page.click("text=Compare >> nth=-1")
         page.wait_for_selector("body.live")
         assert page.locator(".shape-1").count() == 1 and page.locator(".shape-2").count() == 1
-        # From above and from the side, with two tracks and two drones each.
+        # Top view and side view, each with two tracks and two drones.
         drawings = page.locator("svg.map").count()
         assert drawings >= 2
         for k in ("1", "2"):
@@ -312,7 +312,7 @@ def test_two_sessions_can_be_compared(browser, server, sessions):
         before, said = places(), now()
         page.evaluate(move, most // 2)
         assert all(here != there for here, there in zip(places(), before)) and now() != said
-        # Keys also move the slider, and it announces its position.
+        # Keys also move the slider, which announces its position.
         text = page.get_attribute("#moment", "aria-valuetext")
         page.focus("#moment")
         page.keyboard.press("PageUp")
@@ -331,7 +331,7 @@ def test_two_sessions_can_be_compared(browser, server, sessions):
 def test_trainees_cannot_read_data_of_others(browser, server, sessions):
     person = Person(browser, server, "anna")
     ben = ids(sessions, "ben")[0]
-    # The list is available and does not contain Ben.
+    # The list is available, but does not contain Ben.
     expect(person.page.locator("table.list")).to_contain_text("drill-hover")
     assert "ben" not in person.page.inner_text("main")
     for path in [f"/sessions/{ben}", f"/sessions/{ben}/report", f"/sessions/{ben}/questions", f"/sessions/{ben}/frames.csv",
@@ -452,7 +452,7 @@ def test_users_can_change_their_password(browser, server, sessions):
     assert person.go("/account").status == 200
     elsewhere.log_in("dora", "another long word")
     assert elsewhere.page.url.endswith("/sessions")
-    # Set on the command line by another program: all of her sessions in the browser end.
+    # Another program sets the password on the command line, which ends all of her browser sessions.
     webserver.set_password(sessions, "dora", "trainee", password="yet another long word")
     for one in (person, elsewhere):
         one.go("/sessions")
@@ -466,7 +466,7 @@ def test_users_can_change_their_password(browser, server, sessions):
 
 
 def test_concurrent_edits_are_not_lost(browser, server, sessions):
-    """Two users edit one trainee at the same time: the second one is informed, and neither the first one's changes
+    """Two users edit one trainee at the same time. The second user is informed, and neither the first user's changes
     nor a new role are lost."""
     webserver.set_password(sessions, "emil", "trainee")
     first, second = Person(browser, server, "emil"), Person(browser, server, "ida")

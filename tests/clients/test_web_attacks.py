@@ -50,7 +50,7 @@ def of(sessions, trainee):
 
 
 def forms(sessions):
-    """Returns every form of the server: its page, its target, its fields. Add new forms here."""
+    """Returns all forms of the server with page, target and fields. Add new forms here."""
     anna = of(sessions, "anna")
     return {
         "/logout": ("/sessions", {}),
@@ -75,7 +75,7 @@ def test_cross_site_requests_are_rejected(server, sessions):
             ("with a wrong token", {"token": "0" * 64, **fields}, {}),
             ("from another site's page", {"token": token, **fields}, {"Origin": "https://evil.example"}),
             ("from a hidden page", {"token": token, **fields}, {"Origin": "null"}),
-            ("as the browser tells", {"token": token, **fields}, {"Sec-Fetch-Site": "cross-site"}),
+            ("marked as cross-site by the browser", {"token": token, **fields}, {"Sec-Fetch-Site": "cross-site"}),
         ]:
             status, _, _ = ada.ask(path, form, headers)
             assert status == 403, (path, name, status)
@@ -138,7 +138,7 @@ def test_hostile_task_name_is_escaped_everywhere(server, sessions, tmp_path):
     job = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
     evil = re.sub(r'(\[\[tasks\]\](?:\n(?!\[).*)*?\nname = )"[^"]*"', lambda found: f'{found.group(1)}"{EVIL}"', job)
     evil = evil.replace('name = "drill-hover"', 'name = "evil-task"')
-    assert evil.count(EVIL) == 1 and 'name = "evil-task"' in evil, "the scenario has changed, so that this test no longer plants its name"
+    assert evil.count(EVIL) == 1 and 'name = "evil-task"' in evil, "the scenario has changed, so this test no longer plants its name"
     (tmp_path / "evil.toml").write_text(evil, encoding="utf-8")
     before = set(sessions.iterdir())
     for seed in ("1", "2", "3", "4"):
@@ -147,7 +147,7 @@ def test_hostile_task_name_is_escaped_everywhere(server, sessions, tmp_path):
     first, second, *_ = sorted(path.name for path in set(sessions.iterdir()) - before if (path / "telemetry.tlog").is_file())
     ida = logged_in(server, "ida")
     flown = lambda: ida.ask("/trainees/mallory")[2].count('href="/sessions/') >= 4
-    spandrel.wait_for("the server to take the flights in", flown)
+    spandrel.wait_for("the server imports the flights", flown)
     shown = {
         "session": f"/sessions/{first}", "report": f"/sessions/{first}/report", "questions": f"/sessions/{first}/questions",
         "comparison": f"/compare?first={first}&second={second}", "trainee": "/trainees/mallory",
@@ -355,16 +355,16 @@ def test_tls_with_certificate_files(tmp_path):
 
 
 def test_200_kills_lose_no_confirmed_data(tmp_path):
-    """The server is killed at random times while answers are saved and recordings imported. Everything that it has
-    confirmed must exist, and everything else must be complete."""
+    """Kills the server at random times while answers are being saved and recordings imported. All data that the server
+    has confirmed must exist, and all other data must be complete."""
     sessions = tmp_path / "sessions"
     flown = webserver.flown(sessions, "anna", "ben")
     spandrel.run("records", "import", "--sessions", str(sessions))
     before = json.loads(spandrel.run("records", "list", "--json", "--sessions", str(sessions)))
     log = (flown[0] / "telemetry.tlog").read_bytes()
     generator = random.Random(SEED)
-    # By folder and question: the latest answer sent, the latest one confirmed, and the one that must exist after the
-    # kill.
+    # By folder and question: the latest answer sent, the latest answer confirmed, and the answer that must exist after
+    # the kill.
     sent, confirmed, held = {}, {}, {}
     taken, cut_off = set(), 0
     # Duration of an undisturbed import; kills are distributed around it, so that some imports succeed and some do not.
@@ -385,9 +385,9 @@ def test_200_kills_lose_no_confirmed_data(tmp_path):
             page = f"/sessions/{flown[kill % 2].name}/questions"
             try:
                 token = browser.token(page)
-                # Occasionally a recording, which takes longer than an answer.
+                # Occasionally import a recording, which takes longer than saving an answer.
                 if kill % 10 == 0:
-                    # Each is different, because importing the same recording twice gives one session.
+                    # Each recording is different, because importing the same recording twice yields a single session.
                     other = log[: len(log) - 300 * (1 + kill // 10)]
                     status, headers, _ = browser.upload(page, "/upload", {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}, other)
                     if status == 303:

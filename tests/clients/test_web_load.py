@@ -19,7 +19,7 @@ import webserver
 
 # Number of simultaneous logins, each from a different address, so that throttling by address has no effect.
 LOGINS = 300
-# Limit of the server's peak memory, kB.
+# Limit for the server's peak memory, kB.
 MAX_KB = 150_000
 
 
@@ -155,9 +155,9 @@ def spandrel_set(folder, password):
     )
 
 
-# Number of the cohort's sessions, and of simultaneous reloads of its page.
+# Number of sessions in the cohort, and number of simultaneous reloads of its page.
 SESSIONS, RELOADS = 10_000, 16
-# Maximum cost of the reloads as a multiple of one uncached reload: that one, and rendering the page for each.
+# Maximum cost of the reloads as a multiple of one uncached reload: one reload, plus rendering the page for each reload.
 MAX_COSTS = 4.0
 
 

@@ -1,4 +1,4 @@
-"""`spandrel serve` with PostgreSQL, as in a training center: several programs, one database."""
+"""`spandrel serve` with PostgreSQL, as in a training center: several programs share one database."""
 
 import json
 import pathlib
@@ -58,7 +58,7 @@ def test_users_see_only_their_own_data(sessions, database):
 
 
 def test_servers_and_stations_share_one_database(sessions, database, tmp_path):
-    """A server in another room has the same users, and shows the sessions that a third program has imported."""
+    """A server in another classroom has the same users, and shows the sessions imported by a third program."""
     elsewhere = tmp_path / "sessions"
     elsewhere.mkdir()
     first, second = serve(sessions, database), serve(elsewhere, database)
@@ -80,7 +80,7 @@ def test_servers_and_stations_share_one_database(sessions, database, tmp_path):
         third = serve(station, database)
         try:
             told = lambda: "was erased" in pathlib.Path(third.log.name).read_text(encoding="utf-8")
-            spandrel.wait_for("the third server to notice the erasure", told)
+            spandrel.wait_for("the third server notices the erasure", told)
             assert listed(here) == listed(there) == {"anna", "ben"}
         finally:
             third.close()

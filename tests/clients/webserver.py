@@ -1,4 +1,4 @@
-"""A server for one test: on an unused port, with its own folder."""
+"""A server for one test, on an unused port and with its own folder."""
 
 import json
 import os
@@ -12,7 +12,7 @@ import urllib.request
 import spandrel
 
 PASSWORD = "correct horse battery"
-# Time limit for a response on a busy two-core machine, wall seconds (many times the usual).
+# Time limit for a response on a busy two-core machine, wall seconds (many times the usual time).
 PATIENCE_S = 300
 
 
@@ -31,7 +31,7 @@ class Server:
         self.address = json.loads(line)["address"]
 
     def close(self):
-        """Ends the server by closing its standard input; it must shut down cleanly in any state."""
+        """Stops the server by closing its standard input. It must shut down cleanly in any state."""
         self.process.stdin.close()
         self.process.wait(timeout=PATIENCE_S)
         self.log.close()
@@ -39,7 +39,7 @@ class Server:
         assert self.process.returncode == 0 and "panicked" not in said and "please report this bug" not in said, said
 
     def kill(self):
-        """Kills the server, like a power cut."""
+        """Kills the server, as a power cut would."""
         self.process.kill()
         self.process.wait()
         self.log.close()

@@ -1,5 +1,5 @@
-//! Complete flights by separate processes over real UDP: repeatable demos, parallel demos, a killed monitor, and child
-//! processes that must end with their parent.
+//! Complete flights in separate processes over real UDP: reproducible demos, parallel demos, a killed monitor, and
+//! child processes that must end with their parent.
 
 use serde_json::Value;
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -112,7 +112,7 @@ impl Process {
         self.announced["port"].to_string()
     }
 
-    /// Waits until the process ends, which closes its output. The lifeline pipe stays open until then.
+    /// Waits until the process ends. The lifeline pipe stays open until then.
     fn exits_alone(mut self) -> bool {
         self.out.read_to_string(&mut String::new()).unwrap();
         self.child.wait().unwrap().success()

@@ -1,4 +1,4 @@
-//! Statements in the help texts.
+//! Tests of statements in the help text.
 
 use spandrel_testkit::shipped::text;
 
@@ -8,7 +8,7 @@ fn regress_crashed_vehicle_stays_by_default_without_a_session() {
     let help = String::from_utf8_lossy(&help.stdout).into_owned();
     let rule = help.split("--after-crash").nth(1).expect("the option must exist");
     assert!(rule.split("--").next().is_some_and(|text| text.contains("[default: continue]")), "{rule}");
-    // A session sets the job's own rule.
+    // Sessions pass the job's own rule.
     for source in ["src/cli/demo.rs", "src/cli/train/flight_processes.rs"] {
         assert!(text(source).contains("\"--after-crash\""), "{source}");
     }

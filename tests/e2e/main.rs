@@ -1,4 +1,4 @@
-//! The program as a separate process, and its secondary renderer.
+//! Tests of the program as a separate process, and of its secondary renderer.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod flights;

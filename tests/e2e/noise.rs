@@ -1,5 +1,5 @@
-//! A running simulator whose socket receives noise must keep responding, and report at the end how much it could not
-//! read.
+//! A simulator that receives noise on its socket must keep responding, and report on exit the number of bytes that it
+//! could not parse.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::{MavMessage, PARAM_REQUEST_READ_DATA};
@@ -11,7 +11,7 @@ use std::time::Duration;
 
 /// Maximum payload of a UDP datagram over IPv4, bytes.
 const MAX_DATAGRAM_BYTES: usize = 65_507;
-/// Time without output after which a simulator counts as gone; the limit only turns a hang into a failure.
+/// Time without output before a simulator counts as dead; turns a hang into a failure.
 const EXIT_TIMEOUT: Duration = Duration::from_secs(30);
 
 #[test]

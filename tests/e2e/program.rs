@@ -36,7 +36,7 @@ fn wire_invalid_arguments_and_files_exit_with_2_and_list_allowed_values() {
     }
 }
 
-/// Opening the vehicle to a network without a key must cause a warning; on the local machine there must be none.
+/// Opening the vehicle to a network without a key must cause a warning; local access must not.
 #[test]
 fn wire_unsigned_network_access_causes_a_warning() {
     let folder = tempfile::tempdir().unwrap();
@@ -184,7 +184,7 @@ fn wire_demo_session_works_without_derived_files() {
     };
     assert_eq!((described("seed"), described("trainee")), (5.into(), "anna-b".into()));
 
-    // The log and the two TOML files are the sources.
+    // Only the log and the two TOML files are needed; all other files derive from them.
     let live = std::fs::read_to_string(session.join("assessment.json")).unwrap();
     let started = described("started_utc");
     ["session.json", "assessment.json"].iter().for_each(|name| std::fs::remove_file(session.join(name)).unwrap());

@@ -1,4 +1,4 @@
-//! A secondary view with its own graphics device.
+//! Tests of a secondary view with its own graphics device.
 
 use spandrel::secondary_renderer::SecondaryRenderer;
 use spandrel_model::time::SimTime;
@@ -16,7 +16,7 @@ fn exact_secondary_renderer_matches_the_primary_device() {
     let moment = studio.moment(at(0.0, 70.0, 30.0), at(0.0, 150.0, 10.0), false, at(1.0, 0.5, 0.0));
     let wide = studio.stage().camera(&moment, SIZE);
     let narrow = studio.stage().camera(&moment, (SIZE.0 / 2, SIZE.1));
-    // Two waiting pictures must arrive in order, each with its own size.
+    // Two pending pictures must arrive in order, each with its own size.
     aside.start(wide.clone()).unwrap();
     aside.start(narrow.clone()).unwrap();
     for shot in [wide, narrow] {

@@ -1,4 +1,4 @@
-//! The examples must run to the end and be shorter than sixty lines.
+//! The examples must run to completion and be shorter than sixty lines.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 #[path = "../../examples/custom_job.rs"]

@@ -1,30 +1,30 @@
-//! Circles of imports between the files of a crate: files that cannot be understood, tested or moved without one another.
+//! Finds import cycles between the files of a crate: files that cannot be understood, tested or moved separately.
 
 use crate::paths::{Import, Token, code_only, imports, inline_paths, is_word, tokens, without_imports, without_tests};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One file of a crate.
 struct SourceModule {
-    /// Path below the crate's `src`.
+    /// Path relative to the crate's `src`.
     file: String,
-    /// Names that the file defines.
+    /// Names of the items that the file defines.
     items: BTreeSet<String>,
-    /// Its `use` declarations.
+    /// `use` declarations of the file.
     imports: Vec<Import>,
-    /// Everything else that it says.
+    /// All other tokens of the file.
     body: Vec<Token>,
 }
 
-/// All files of a crate by their module paths.
+/// All files of a crate, by module path.
 pub struct CrateFiles {
     modules: BTreeMap<Vec<String>, SourceModule>,
 }
 
-/// Files by module path, with the module paths of the files that they import from.
+/// Module paths of the files that each file imports from, by the importing file's module path.
 type Edges = BTreeMap<Vec<String>, BTreeSet<Vec<String>>>;
 
 impl CrateFiles {
-    /// Reads a crate from its files, each with its path below `src` and its text. Test modules are left out.
+    /// Parses the files of a crate, given as paths relative to `src` and texts. Excludes test modules.
     pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let mut modules = BTreeMap::new();
         let mut for_tests = Vec::new();
@@ -42,7 +42,7 @@ impl CrateFiles {
         Self { modules }
     }
 
-    /// Returns the circles, each as lines `file -> files of the same circle`.
+    /// Returns the import cycles, each as lines `file -> files in the same cycle that it imports`.
     pub fn circles(&self) -> Vec<Vec<String>> {
         let edges: Edges = self.modules.keys().map(|path| (path.clone(), self.imported(path))).collect();
         let reachable: Edges = edges.keys().map(|path| (path.clone(), reachable(path, &edges))).collect();
@@ -65,8 +65,8 @@ impl CrateFiles {
         format!("{} -> {}", self.modules[path].file, others.join(", "))
     }
 
-    /// Returns the files that a file imports from. A public import hands a name on and makes no edge; a file is charged for the module that
-    /// defines the name, not for the modules that hand it on.
+    /// Returns the module paths of the files that a file imports from. Re-exports are not edges: an import counts as an
+    /// edge to the module that defines the name, not to the modules that re-export it.
     fn imported(&self, path: &[String]) -> BTreeSet<Vec<String>> {
         let module = &self.modules[path];
         let mut found = BTreeSet::new();
@@ -90,7 +90,7 @@ impl CrateFiles {
         found
     }
 
-    /// Returns a path from the crate's root; `None` if it leads out of the crate.
+    /// Returns a path relative to the crate root; `None` if it is outside the crate.
     fn absolute(&self, from: &[String], path: &[String]) -> Option<Vec<String>> {
         let ups = path.iter().take_while(|part| *part == "super").count();
         let (base, rest) = match path.first()?.as_str() {
@@ -103,7 +103,7 @@ impl CrateFiles {
         Some([base, rest].concat())
     }
 
-    /// Returns the module that defines what a path names, through public imports.
+    /// Returns the module that defines the item at a path. Follows re-exports.
     fn home(&self, from: &[String], path: &[String], depth: u32) -> Option<Vec<String>> {
         let whole = self.absolute(from, path)?;
         let mut len = 0;
@@ -116,7 +116,7 @@ impl CrateFiles {
         if name == "*" || module.items.contains(name) {
             return Some(home.to_vec());
         }
-        // Names handed on in a circle have no home.
+        // A name that is re-exported in a cycle has no defining module.
         if depth > 16 {
             return None;
         }
@@ -139,7 +139,7 @@ fn reachable(from: &[String], edges: &Edges) -> BTreeSet<Vec<String>> {
     found
 }
 
-/// `a/b/mod.rs` and `a/b.rs` are the module `a::b`.
+/// Returns the module path of a file: `a::b` for both `a/b/mod.rs` and `a/b.rs`.
 fn module_path(file: &str) -> Vec<String> {
     let mut parts: Vec<String> = file.trim_end_matches(".rs").split(['/', '\\']).map(str::to_owned).collect();
     if parts.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
@@ -148,7 +148,7 @@ fn module_path(file: &str) -> Vec<String> {
     parts
 }
 
-/// Names of the modules that a file declares.
+/// Returns the names of the modules that a file declares.
 fn declared(code: &[Token]) -> BTreeSet<String> {
     let declared = code.windows(3).filter(|three| three[0].1 == "mod" && is_word(&three[1].1) && three[2].1 == ";");
     declared.map(|three| three[1].1.clone()).collect()

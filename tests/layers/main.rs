@@ -1,5 +1,5 @@
-//! Enforces the dependency rules that Cargo cannot: reads every path in the sources and compares it with the table in
-//! ARCHITECTURE.md. Planted violations of each kind check that the rules are effective.
+//! Enforces dependency rules that Cargo cannot: compares every path in the sources with the table in ARCHITECTURE.md.
+//! Planted violations of each kind prove that the checks work.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod circles;
@@ -20,7 +20,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The sources of all crates and of the program.
+/// Returns the source files of all crates and the program.
 fn all_sources(root: &Path) -> Vec<PathBuf> {
     let folders = rules::crates().map(|folder| root.join("crates").join(folder)).chain([root.to_owned()]);
     folders.flat_map(|folder| sources(&folder.join("src"))).collect()
@@ -42,7 +42,7 @@ fn exact_every_import_follows_the_layer_rules() {
 }
 
 #[test]
-fn exact_the_picture_of_the_rooms_shows_the_imports_of_the_code() {
+fn exact_layer_diagram_matches_the_imports() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut imports = picture::Imports::new();
     for path in all_sources(root) {
@@ -54,7 +54,10 @@ fn exact_the_picture_of_the_rooms_shows_the_imports_of_the_code() {
         std::fs::write(&path, &drawn).unwrap();
     }
     let same = std::fs::read_to_string(&path).is_ok_and(|committed| committed == drawn);
-    assert!(same, "docs/src/images/layers.svg shows other imports than the code has; rewrite it with SPANDREL_REFERENCE=write");
+    assert!(
+        same,
+        "docs/src/images/layers.svg does not match the imports in the code; regenerate it with SPANDREL_REFERENCE=write"
+    );
 }
 
 #[test]
@@ -65,7 +68,7 @@ fn exact_no_circle_of_imports_between_files() {
         let place = root.join(&folder).join("src");
         let name = |path: &PathBuf| path.strip_prefix(&place).unwrap().display().to_string();
         let files = sources(&place).into_iter().map(|path| (name(&path), std::fs::read_to_string(&path).unwrap()));
-        // The program's entry point is a crate of its own.
+        // The program's entry point is a separate crate.
         let files: Vec<(String, String)> = files.filter(|(name, _)| name != "main.rs").collect();
         let read = circles::CrateFiles::read(files.iter().map(|(name, text)| (name.as_str(), text.as_str())));
         found.extend(
@@ -74,7 +77,7 @@ fn exact_no_circle_of_imports_between_files() {
                 .map(|circle| format!("{folder}/src, {} files:\n    {}", circle.len(), circle.join("\n    "))),
         );
     }
-    assert!(found.is_empty(), "{} circles of imports:\n{}", found.len(), found.join("\n"));
+    assert!(found.is_empty(), "{} import cycles:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]
@@ -88,7 +91,7 @@ fn exact_no_match_on_an_enum_of_ours_has_an_arm_for_all_further_variants() {
         let file = path.strip_prefix(root).unwrap().display();
         found.extend(wildcards::found(code, &enums).into_iter().map(|(line, name)| format!("{file}:{line}: {name}")));
     }
-    assert!(found.is_empty(), "{} arms for all further variants:\n{}", found.len(), found.join("\n"));
+    assert!(found.is_empty(), "{} catch-all arms:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]

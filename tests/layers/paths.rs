@@ -1,9 +1,9 @@
-//! Extraction of the paths in a Rust source: `use` trees and inline paths, with `self` and `super` resolved.
+//! Extracts the paths from Rust source code: `use` trees and inline paths, with `self` and `super` resolved.
 
-/// A path and its line, for example (12, ["crate", "site", "Site"]).
+/// A line number and the path on that line, such as (12, ["crate", "site", "Site"]).
 pub type PathUse = (usize, Vec<String>);
 
-/// Returns the source with comments, strings and characters replaced by blanks; line breaks stay.
+/// Returns the source with comments, string literals and character literals replaced by spaces. Keeps line breaks.
 pub fn code_only(source: &str) -> String {
     let bytes: Vec<char> = source.chars().collect();
     let mut out = String::with_capacity(source.len());
@@ -21,7 +21,7 @@ pub fn code_only(source: &str) -> String {
     out
 }
 
-/// Returns the end of the comment, string or character that starts at `at`; returns `at` if none starts there.
+/// Returns the end of the comment or literal that starts at `at`; returns `at` if none starts there.
 fn skip(text: &[char], at: usize) -> usize {
     let starts = |what: &str| what.chars().enumerate().all(|(k, c)| text.get(at + k) == Some(&c));
     let joined = at > 0 && (text[at - 1].is_alphanumeric() || text[at - 1] == '_');
@@ -77,7 +77,7 @@ fn raw_string(text: &[char], at: usize) -> usize {
     (k + 1..text.len()).find(|k| closes(*k)).map_or(text.len(), |k| k + 1 + hashes)
 }
 
-/// Returns the end of a character literal; lifetimes are not skipped.
+/// Returns the end of a character literal. Returns `at` for a lifetime.
 fn character(text: &[char], at: usize) -> usize {
     match (text.get(at + 1), text.get(at + 2)) {
         (Some('\\'), _) => (at + 3..text.len()).find(|k| text[*k] == '\'').map_or(text.len(), |k| k + 1),
@@ -92,7 +92,7 @@ pub fn named(code: &str, module: &[String], roots: &[&str]) -> Vec<PathUse> {
     named_in(&tokens(code), module, roots)
 }
 
-/// As [`named`], in code that is split already.
+/// Same as [`named`], for code that is already split into tokens.
 pub fn named_in(tokens: &[Token], module: &[String], roots: &[&str]) -> Vec<PathUse> {
     let mut found = Vec::new();
     for at in 0..tokens.len() {
@@ -106,21 +106,21 @@ pub fn named_in(tokens: &[Token], module: &[String], roots: &[&str]) -> Vec<Path
     found.into_iter().filter_map(|(line, path)| Some((line, resolve(path, module)?))).collect()
 }
 
-/// A token with its line.
+/// A line number and the token on that line.
 pub type Token = (usize, String);
 
-/// One name of a `use` declaration.
+/// One name in a `use` declaration.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Import {
-    /// It is handed on to other modules.
+    /// Whether the name is re-exported.
     pub public: bool,
-    /// As written, e.g. ["super", "site", "Site"].
+    /// Path as written, such as ["super", "site", "Site"].
     pub path: Vec<String>,
-    /// Name in the file; `*` for everything.
+    /// Name in the importing file; `*` for a glob import.
     pub name: String,
 }
 
-/// Returns the code without items that are compiled for tests only.
+/// Returns the code without items that are compiled only for tests.
 pub fn without_tests(code: &[Token]) -> Vec<Token> {
     const MARK: [&str; 7] = ["#", "[", "cfg", "(", "test", ")", "]"];
     let mut out = Vec::new();
@@ -136,7 +136,7 @@ pub fn without_tests(code: &[Token]) -> Vec<Token> {
     out
 }
 
-/// Where an item ends: after its `;` or its last brace.
+/// Returns the end of an item: the token after its `;` or closing brace.
 fn item_end(code: &[Token], mut at: usize) -> usize {
     let mut depth = 0_u32;
     while let Some((_, token)) = code.get(at) {
@@ -153,18 +153,18 @@ fn item_end(code: &[Token], mut at: usize) -> usize {
     at
 }
 
-/// Returns every name of every `use` declaration.
+/// Returns all names in all `use` declarations.
 pub fn imports(code: &[Token]) -> Vec<Import> {
     let mut out = Vec::new();
     for at in (0..code.len()).filter(|at| code[*at].1 == "use") {
-        // `pub use`, or the end of `pub(crate) use`.
+        // Matches `pub use`, and the end of `pub(crate) use`.
         let public = at > 0 && (code[at - 1].1 == "pub" || code[at - 1].1 == ")");
         import_tree(code, at + 1, &mut Vec::new(), public, &mut out);
     }
     out
 }
 
-/// Reads one `use` tree from `at`; returns where it ends.
+/// Parses the `use` tree at `at` and returns its end.
 fn import_tree(code: &[Token], mut at: usize, prefix: &mut Vec<String>, public: bool, out: &mut Vec<Import>) -> usize {
     let depth = prefix.len();
     while let Some((_, token)) = code.get(at) {
@@ -198,7 +198,7 @@ fn import_tree(code: &[Token], mut at: usize, prefix: &mut Vec<String>, public: 
         at += if renamed { 2 } else { 0 };
     }
     prefix.truncate(depth);
-    // Whatever else stands here ends the tree.
+    // Any other token ends the tree.
     if code.get(at).is_some_and(|token| [",", "}", ";"].contains(&token.1.as_str())) { at } else { at + 1 }
 }
 
@@ -207,7 +207,7 @@ pub fn without_imports(code: &[Token]) -> Vec<Token> {
     let mut out = Vec::new();
     let mut inside = false;
     for (at, token) in code.iter().enumerate() {
-        // `use<'a>` in a type is no import.
+        // `use<'a>` in a type is not an import.
         inside |= token.1 == "use" && code.get(at + 1).is_some_and(|next| next.1 != "<");
         if !inside {
             out.push(token.clone());
@@ -217,7 +217,7 @@ pub fn without_imports(code: &[Token]) -> Vec<Token> {
     out
 }
 
-/// Returns the paths of two or more parts that begin with a module, `crate`, `self` or `super`.
+/// Returns the paths of two or more parts that start with a module, `crate`, `self` or `super`.
 pub fn inline_paths(code: &[Token]) -> Vec<Vec<String>> {
     let mut out = Vec::new();
     let mut at = 0;
@@ -236,12 +236,12 @@ pub fn inline_paths(code: &[Token]) -> Vec<Vec<String>> {
     out
 }
 
-/// True for a name or a keyword.
+/// Returns true if the token is an identifier or a keyword.
 pub fn is_word(token: &str) -> bool {
     token.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
-/// Splits code (see [`code_only`]) into words, `::` and single signs.
+/// Splits code (see [`code_only`]) into words, `::` and single punctuation characters.
 pub fn tokens(code: &str) -> Vec<Token> {
     let mut out: Vec<Token> = Vec::new();
     for (number, line) in code.lines().enumerate() {
@@ -263,7 +263,7 @@ pub fn tokens(code: &str) -> Vec<Token> {
     out
 }
 
-/// Reads one path or `use` tree from `at` and returns its end.
+/// Parses the path or `use` tree at `at` and returns its end.
 fn tree(tokens: &[(usize, String)], mut at: usize, prefix: &mut Vec<String>, found: &mut Vec<PathUse>) -> usize {
     let depth = prefix.len();
     let line = tokens[at].0;
@@ -309,8 +309,8 @@ fn resolve(path: Vec<String>, module: &[String]) -> Option<Vec<String>> {
     if relative == 0 {
         return Some(path);
     }
-    // A `super` inside an inline module of the file refers to a lower module than it seems; treating it literally is
-    // stricter.
+    // A `super` inside an inline module of the file refers to the file itself or to a module in it. Treating it as the
+    // parent of the file is stricter.
     let base = module.len().checked_sub(ups)?;
     let own = std::iter::once("crate".to_owned()).chain(module[..base].iter().cloned());
     Some(own.chain(path[relative..].iter().cloned()).collect())

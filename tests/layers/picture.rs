@@ -1,4 +1,4 @@
-//! A picture of the layers and their imports, drawn from the sources as SVG.
+//! Draws the layers and their imports, read from the source code, as an SVG image.
 
 use crate::rules::{layers, place_name};
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,16 +18,16 @@ const MARGIN: usize = 30;
 /// One fill color for each crate and one for the program, in the order of their first layers.
 const COLORS: [&str; 8] = ["#e8eef7", "#e5f3ee", "#f8ecdf", "#f3e9f5", "#fbf3d6", "#e9f2dc", "#dff0f6", "#f0f0f0"];
 
-/// Draws layers as boxes in layers, each above the layers that it imports from. An arrow with the number of imported names leads to each
-/// layer that no other arrow reaches through a layer between.
+/// Draws layers as boxes in rows, each above the layers that it imports from. Arrows show imports, with the
+/// number of imported names. An import that is also reachable through an intermediate layer has no arrow.
 pub fn svg(imports: &Imports) -> String {
     let rows = rows(imports);
     let centers = centers(&rows, imports);
     let height = 2 * MARGIN + (rows.len() - 1) * ROW + BOX_HEIGHT;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"14\">\n\
-         <!-- Made from the code: SPANDREL_REFERENCE=write cargo nextest run layers -->\n\
-         <title>Rooms of the code and their imports</title>\n\
+         <!-- Generated from the code: SPANDREL_REFERENCE=write cargo nextest run layers -->\n\
+         <title>Layers of the code and their imports</title>\n\
          <defs><marker id=\"tip\" viewBox=\"0 0 8 8\" refX=\"8\" refY=\"4\" markerWidth=\"7\" markerHeight=\"7\" orient=\"auto\">\
          <path d=\"M0 0L8 4L0 8z\" fill=\"#555\"/></marker></defs>\n\
          <rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#fff\"/>\n"
@@ -54,7 +54,7 @@ pub fn svg(imports: &Imports) -> String {
         );
     }
     for (((x1, y1), (x2, y2)), count) in &arrows {
-        // Near its end, where arrows to different layers are apart.
+        // Place the label near the tip, where arrows to different layers are apart.
         let (x, y) = ((x1 + 9 * x2) / 10, y2 - (y2 - y1) / 5);
         let _ = writeln!(
             out,
@@ -64,7 +64,8 @@ pub fn svg(imports: &Imports) -> String {
     out + "</svg>\n"
 }
 
-/// Start and end of an arrow, px: side by side with the other arrows at each box, in the order of their other ends.
+/// Returns the start and end of an arrow, px. Arrows at the same box are side by side, in the order of their other
+/// ends.
 fn arrow((from, to): (&'static str, &'static str), direct: &Imports, centers: &BTreeMap<&str, (usize, usize)>) -> Arrow {
     let spread = |center: usize, mut others: Vec<&str>, other: &str| {
         others.sort_by_key(|layer| centers[layer].0);
@@ -77,10 +78,10 @@ fn arrow((from, to): (&'static str, &'static str), direct: &Imports, centers: &B
     ((spread(x1, targets, to), y1 + BOX_HEIGHT / 2), (spread(x2, sources, from), y2 - BOX_HEIGHT / 2))
 }
 
-/// Rooms by layer, the lowest last.
+/// Returns the layers in each row, from the highest row to the lowest.
 fn rows(imports: &Imports) -> Vec<Vec<&'static str>> {
     let mut levels: BTreeMap<&'static str, usize> = layers().map(|layer| (layer, 0)).collect();
-    // A layer test forbids circles, so the levels settle after at most one round for each layer.
+    // Another test forbids cycles, so the levels settle after at most one round per layer.
     for _ in 0..levels.len() {
         for (from, to) in imports.keys() {
             levels.insert(from, levels[from].max(levels[to] + 1));
@@ -90,7 +91,8 @@ fn rows(imports: &Imports) -> Vec<Vec<&'static str>> {
     (0..=highest).rev().map(|level| layers().filter(|layer| levels[layer] == level).collect()).collect()
 }
 
-/// Centers of the boxes, px. In each row, from the lowest, layers are in the order of what they import.
+/// Returns the centers of the boxes, px. Starting with the lowest row, sorts the layers of each row by the mean
+/// position of the layers that they import from.
 fn centers(rows: &[Vec<&'static str>], imports: &Imports) -> BTreeMap<&'static str, (usize, usize)> {
     let mut out: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();
     for (k, row) in rows.iter().enumerate().rev() {
@@ -109,7 +111,7 @@ fn centers(rows: &[Vec<&'static str>], imports: &Imports) -> BTreeMap<&'static s
     out
 }
 
-/// Imports that lead to no layer which is reached through another import, too.
+/// Returns the imports without those that are also reachable through an intermediate layer.
 fn direct(imports: &Imports) -> Imports {
     let mut reached: BTreeSet<(&str, &str)> = imports.keys().copied().collect();
     for middle in layers() {

@@ -3,9 +3,9 @@
 use crate::paths::{code_only, named, named_in, tokens, without_tests};
 use crate::picture::Imports;
 
-/// Each crate with the layers that are modules of their own; all other modules belong to the last layer.
+/// A module that is a separate layer, and the name of the layer.
 type OwnRoom = (&'static str, &'static str);
-/// Each crate with the modules that are layers of their own; every other module belongs to the layer named last.
+/// Each crate with the modules that are separate layers, and the layer of all other modules.
 const CRATES: &[(&str, &[OwnRoom], &str)] = &[
     ("model", &[("scenario", "scenario"), ("vehicle", "vehicle"), ("site", "site")], "base"),
     ("mavlink", &[("telemetry", "telemetry")], "mav"),
@@ -64,11 +64,11 @@ const OUTSIDE: &[&[&str]] = &[
     &["jiff", "Timestamp", "now"],
     &["jiff", "ZonedDateTime", "now"],
 ];
-/// Items in these modules of `std` that are plain data, not clocks or sockets.
+/// Items in these modules of `std` that are plain data rather than clocks or sockets.
 const PLAIN_DATA: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "IpAddr"], &["std", "net", "SocketAddr"]];
 /// Items of the physics module that the autopilot may use: actuator commands, not the true state.
 const ACTUATION: &[&str] = &["Actuators", "MAX_ROTORS"];
-/// Modules of the simulator that a real autopilot replaces; the equipment's half of the interface must work without them.
+/// Modules of the simulator that a real autopilot would replace. The equipment interface must not depend on them.
 const AUTOPILOT_SIDE: &[&[&str]] = &[
     &["autopilot"],
     &["backend"],
@@ -109,7 +109,7 @@ pub fn layers() -> impl Iterator<Item = &'static str> {
     TABLE.iter().map(|(layer, _)| *layer)
 }
 
-/// Returns the crates that a crate may depend on, which are those whose layers its own layers may use.
+/// Returns the crates that a crate may depend on: those with layers that its own layers may use.
 pub fn may_depend_on(folder: &str) -> Vec<&'static str> {
     let known = TABLE.iter().filter(|(layer, _)| folder_of(layer) == folder).flat_map(|(_, known)| *known);
     crates().filter(|other| *other != folder && known.clone().any(|layer| folder_of(layer) == *other)).collect()
@@ -129,7 +129,9 @@ fn layer_of(folder: &str, module: Option<&str>) -> Option<&'static str> {
 
 /// Returns all rule violations in a file, given by its path in the workspace.
 pub fn violations(file: &str, source: &str) -> Vec<String> {
-    let Some((folder, module)) = module_of(file) else { return vec![format!("{file}: no crate of tests/layers/rules.rs")] };
+    let Some((folder, module)) = module_of(file) else {
+        return vec![format!("{file}: not in a crate listed in tests/layers/rules.rs")];
+    };
     let layer = layer_of(folder, module.first().map(String::as_str)).unwrap_or_default();
     let code = code_only(source);
     let mut found: Vec<String> = named(&code, &module, ROOTS)
@@ -145,7 +147,7 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
     found
 }
 
-/// Returns uses of `Instant::now()` and similar functions, also through imported names.
+/// Adds the number of names that a file imports from each other layer to `imports`.
 pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
     let Some((folder, module)) = module_of(file) else { return };
     let Some(layer) = layer_of(folder, module.first().map(String::as_str)) else { return };
@@ -157,7 +159,7 @@ pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
     }
 }
 
-/// Folder of a layer's crate, for people.
+/// Returns the display name of the folder of a layer's crate.
 pub fn place_name(layer: &str) -> String {
     match folder_of(layer) {
         PROGRAM => "src".to_owned(),
@@ -165,18 +167,22 @@ pub fn place_name(layer: &str) -> String {
     }
 }
 
-/// The layer that a path leads to.
+/// Returns the layer that a path points to.
 fn target_of(folder: &str, path: &[&str]) -> Option<&'static str> {
     let (root, rest) = path.split_first()?;
     let other = if *root == "crate" { folder } else { root.strip_prefix("spandrel_")? };
     layer_of(other, rest.first().copied())
 }
 
-/// `Instant::now()` and its like, also through an imported name.
+/// Returns uses of `Instant::now()` and similar functions, including uses through imported names.
 fn clock_readings(folder: &str, file: &str, code: &str) -> Vec<String> {
     let reads = |line: &str| folder != PROGRAM && line.contains("::now()");
     let lines = code.lines().enumerate().filter(|(_, line)| reads(line));
-    lines.map(|(k, line)| format!("{file}:{}: {}: ONLY THE PROGRAM TOUCHES THE OUTSIDE WORLD", k + 1, line.trim())).collect()
+    lines
+        .map(|(k, line)| {
+            format!("{file}:{}: {}: ONLY THE PROGRAM AND THE PYTHON PACKAGE TOUCH THE OUTSIDE WORLD", k + 1, line.trim())
+        })
+        .collect()
 }
 
 /// Returns the crate and module of a file: `crates/sitl/src/autopilot/core.rs` is the module `autopilot::core` of the
@@ -196,7 +202,7 @@ fn module_of(file: &str) -> Option<(&'static str, Vec<String>)> {
 
 fn forbidden(folder: &str, layer: &str, module: &[String], path: &[&str]) -> Option<String> {
     if folder != PROGRAM && OUTSIDE.iter().any(|outside| path.starts_with(outside)) && !PLAIN_DATA.contains(&path) {
-        return Some("ONLY THE PROGRAM TOUCHES THE OUTSIDE WORLD".into());
+        return Some("ONLY THE PROGRAM AND THE PYTHON PACKAGE TOUCH THE OUTSIDE WORLD".into());
     }
     let target = target_of(folder, path)?;
     let rest = &path[1..];
@@ -208,11 +214,11 @@ fn forbidden(folder: &str, layer: &str, module: &[String], path: &[&str]) -> Opt
     let in_autopilot = folder == "sitl" && module.first().is_some_and(|first| first == "autopilot");
     let truth = target == "sitl" && rest.first() == Some(&"physics") && !rest.get(1).is_some_and(|name| ACTUATION.contains(name));
     if in_autopilot && truth {
-        return Some("AUTOPILOT NEVER SEES PHYSICS' TRUTH".into());
+        return Some("THE AUTOPILOT NEVER SEES THE TRUE STATE".into());
     }
     let in_payload = folder == "sitl" && module.iter().map(String::as_str).take(2).eq(["endpoint", "payload"]);
     let autopilot = target == "sitl" && AUTOPILOT_SIDE.iter().any(|side| rest.starts_with(side));
-    (in_payload && autopilot).then(|| "PAYLOAD NEVER KNOWS THE AUTOPILOT".into())
+    (in_payload && autopilot).then(|| "THE EQUIPMENT INTERFACE NEVER SEES THE AUTOPILOT".into())
 }
 
 #[cfg(test)]

@@ -1,16 +1,16 @@
-//! Arms of `match` that catch every further variant of one of our own enums: a new variant would pass through them unnoticed.
+//! Finds catch-all arms in matches on our own enums: a new variant would match them unnoticed.
 
 use crate::paths::{Token, is_word};
 use std::collections::BTreeSet;
 
-/// Names of the enums that the code defines.
+/// Returns the names of the enums that the code defines.
 pub fn enums(code: &[Token]) -> BTreeSet<String> {
     let defined =
         code.windows(3).filter(|three| three[0].1 == "enum" && is_word(&three[1].1) && ["{", "<"].contains(&three[2].1.as_str()));
     defined.map(|three| three[1].1.clone()).collect()
 }
 
-/// Returns the lines of arms that catch all further variants of one of `enums`, with its name.
+/// Returns the catch-all arms in matches on one of `enums`, each as a line number and the name of the enum.
 pub fn found(code: &[Token], enums: &BTreeSet<String>) -> Vec<(usize, String)> {
     let implementations = implementations(code);
     let mut out = Vec::new();
@@ -30,7 +30,7 @@ pub fn found(code: &[Token], enums: &BTreeSet<String>) -> Vec<(usize, String)> {
     out
 }
 
-/// A pattern without a guard that matches everything: `_`, or a new name.
+/// Returns true for a pattern without a guard that matches everything: `_`, or a new name.
 fn catches_all(pattern: &[Token]) -> bool {
     match pattern {
         [(_, only)] => {
@@ -40,7 +40,7 @@ fn catches_all(pattern: &[Token]) -> bool {
     }
 }
 
-/// The path that begins at a token, as its parts.
+/// Returns the parts of the path that starts at a token.
 fn path_at(code: &[Token], start: usize) -> Vec<&str> {
     let mut parts = Vec::new();
     let mut at = start;
@@ -54,7 +54,7 @@ fn path_at(code: &[Token], start: usize) -> Vec<&str> {
     parts
 }
 
-/// Blocks of `impl`, as first and last token and the name of the type.
+/// Returns the `impl` blocks, each as first token, last token and name of the type.
 fn implementations(code: &[Token]) -> Vec<(usize, usize, String)> {
     let mut out = Vec::new();
     for at in (0..code.len()).filter(|at| code[*at].1 == "impl") {
@@ -70,7 +70,7 @@ fn implementations(code: &[Token]) -> Vec<(usize, usize, String)> {
     out
 }
 
-/// Where the bracket at `open` is closed.
+/// Returns the index of the bracket that closes the bracket at `open`.
 fn closing(code: &[Token], open: usize) -> usize {
     let mut depth = 0_u32;
     for (at, token) in code.iter().enumerate().skip(open) {
@@ -86,7 +86,7 @@ fn closing(code: &[Token], open: usize) -> usize {
     code.len()
 }
 
-/// The patterns of the `match` at a token.
+/// Returns the patterns of the `match` at a token.
 fn arms(code: &[Token], at: usize) -> Vec<&[Token]> {
     let mut open = at + 1;
     while code.get(open).is_some_and(|token| token.1 != "{") {
@@ -108,7 +108,7 @@ fn arms(code: &[Token], at: usize) -> Vec<&[Token]> {
     out
 }
 
-/// Where a pattern's `=>` begins.
+/// Returns the index of the `=>` after a pattern.
 fn arrow(code: &[Token], from: usize, end: usize) -> usize {
     let mut at = from;
     while at < end {
@@ -122,7 +122,7 @@ fn arrow(code: &[Token], from: usize, end: usize) -> usize {
     end
 }
 
-/// Where an arm without a block ends.
+/// Returns the end of an arm without a block.
 fn comma(code: &[Token], from: usize, end: usize) -> usize {
     let mut at = from;
     while at < end && code[at].1 != "," {

@@ -1,4 +1,4 @@
-//! Reference page of the command line: the help of the program and of every subcommand.
+//! Command line reference page: the help text of the program and of every subcommand.
 
 use crate::{check, head};
 use clap::{Command, CommandFactory};
@@ -21,7 +21,7 @@ fn exact_commands_page_matches_the_program() {
     let mut command = spandrel::Cli::command();
     command.build();
     let about =
-        "The help of every subcommand, as `--help` prints it. Exit codes: 0 success, 1 failure, 2 invalid arguments or files.";
+        "The help text of every subcommand, as printed by `--help`. Exit codes: 0 success, 1 failure, 2 invalid arguments or files.";
     let mut page = head("Command line", about);
     help(&mut command, "spandrel", 2, &mut page);
     check("commands.md", &page);

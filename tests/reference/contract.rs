@@ -1,4 +1,4 @@
-//! The page about the telemetry contract must match the code.
+//! The telemetry contract page must match the code.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;

@@ -1,5 +1,4 @@
-//! Reference page of the data dictionary: columns of the frames export, fields of the assessment, columns of the
-//! cohort's tables.
+//! Data dictionary page: columns of the frames export, fields of the assessment, columns of the cohort tables.
 
 use crate::table::{code, table};
 use crate::{check, head};
@@ -52,15 +51,15 @@ fn cohort_tables() -> String {
 
 #[test]
 fn exact_data_dictionary_matches_the_code() {
-    let about = "Units and definitions of everything that Spandrel exports as numbers. [How a flight is scored](assessment.md) explains the \
-                 terms. Numbers are written with the fewest digits that read back to the same bits.";
+    let about = "Units and definitions of all numbers that Spandrel exports. [How a flight is scored](assessment.md) explains the terms. \
+                 Numbers are written with the fewest digits that read back to the same bits.";
     let frames_about = "`spandrel export SESSION --frames FILE.csv` and `--parquet FILE.parquet` write one row for each scored frame. An empty \
-                        cell in CSV is a null in Parquet: the telemetry holds no value for that frame. Flags are 1 or 0 in CSV. Parquet \
-                        carries unit, frame and definition in the metadata of each field.";
+                        cell in CSV is a null in Parquet: the telemetry has no value for that frame. Flags are 1 or 0 in CSV. In \
+                        Parquet, the metadata of each field contains its unit, frame and definition.";
     let assessment_about =
-        "`spandrel assess SESSION --json FILE` and `assessment.json`. `[]` marks the elements of a list, `*` the keys of a map.";
-    let cohort_about = "`spandrel cohort --csv FOLDER` writes these tables. `crashes.csv` has a column `task_ID` for each task after `trainee`, \
-                        `progress.csv` a column `on_path_ID` for each task after `seconds`.";
+        "`spandrel assess SESSION --json FILE` and `assessment.json`. `[]` marks the elements of a list, and `*` the keys of a map.";
+    let cohort_about = "`spandrel cohort --csv FOLDER` writes these tables. `crashes.csv` has a column `task_ID` for each task after `trainee`. \
+                        `progress.csv` has a column `on_path_ID` for each task after `seconds`.";
     let page = format!(
         "{}\n## Frames\n\n{frames_about}\n\n{}\n## Assessment\n\n{assessment_about}\n\n{}\n## Cohort tables\n\n{cohort_about}\n{}",
         head("Data dictionary", about),
@@ -71,8 +70,8 @@ fn exact_data_dictionary_matches_the_code() {
     check("data-dictionary.md", &page);
 }
 
-/// Collects the paths of all values; a map whose keys are numbers or tasks appears as `*`. Empty lists and nulls have
-/// no paths.
+/// Collects the paths of all values. The keys of a map appear as `*` if they are numbers or tasks. Empty lists and
+/// nulls have no paths.
 fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
     match value {
         Value::Object(map) => {
@@ -91,8 +90,8 @@ fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
     }
 }
 
-/// A flight with a crash, a picture that shows a defect and one that does not; and a flight that never gets near its
-/// task.
+/// Compares the definitions with the assessments of two flights: one with a crash, a photo that shows a defect and a
+/// photo that does not, and one that never gets near its task.
 #[test]
 fn exact_data_dictionary_covers_exactly_the_assessment_fields() {
     let mut full = Tape::new();

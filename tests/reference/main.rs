@@ -1,8 +1,8 @@
 //! Reference pages that are generated from the code. Each test compares a committed page with newly generated text; run
-//! them with `SPANDREL_REFERENCE=write` to rewrite the pages.
+//! the tests with `SPANDREL_REFERENCE=write` to regenerate the pages.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
-// Options of the window and of gamepads depend on features.
+// Window and gamepad options depend on features.
 #[cfg(all(feature = "view", feature = "gamepad"))]
 mod commands;
 mod contract;
@@ -13,7 +13,7 @@ mod table;
 
 use std::path::Path;
 
-/// Returns the first lines of every page: the title, and a note that the page is generated.
+/// Returns the beginning of a page: the title, a note that the page is generated, and an introduction.
 fn head(title: &str, about: &str) -> String {
     format!("# {title}\n\n<!-- Generated from the code: SPANDREL_REFERENCE=write cargo test --test reference -->\n\n{about}\n")
 }
@@ -28,7 +28,7 @@ fn check(page: &str, text: &str) {
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
     let differs = committed.lines().zip(text.lines()).position(|(a, b)| a != b).unwrap_or(committed.lines().count());
     let now = text.lines().nth(differs).unwrap_or_default();
-    assert!(committed == text, "{page}, line {}: expected `{now}`; rewrite the page with SPANDREL_REFERENCE=write", differs + 1);
+    assert!(committed == text, "{page}, line {}: expected `{now}`; regenerate the page with SPANDREL_REFERENCE=write", differs + 1);
 }
 
 /// The tables of scenario and vehicle keys are stored next to the files; the pages must include them.

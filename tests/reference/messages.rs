@@ -1,4 +1,4 @@
-//! Reference page of messages: streams with their rates, and handled messages.
+//! Message reference page: streams with their rates, and handled messages.
 
 use crate::table::table;
 use crate::{check, head};
@@ -62,12 +62,12 @@ fn exact_messages_page_matches_the_code() {
     let asks: Vec<&str> =
         [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR].iter().filter(|f| f.asks_first).map(|f| f.name).collect();
     let about = format!(
-        "Streams are sent without being asked, at these rates by kind of link. With `--flavour {}` ground stations and SDKs get heartbeats \
-         only until they ask; payload links get all rates at once. SET_MESSAGE_INTERVAL changes a rate, REQUEST_MESSAGE asks for one message. \
-         The named values for scoring are listed under [scoring data](wire.md#scoring-data).",
+        "The vehicle sends these streams unrequested, at rates that depend on the kind of link. With `--flavour {}`, ground stations and SDKs \
+         receive only heartbeats until they request streams; payload links receive all streams immediately. SET_MESSAGE_INTERVAL changes a \
+         rate, and REQUEST_MESSAGE requests a single message. The named values for scoring are listed under [scoring data](wire.md#scoring-data).",
         asks.join(" or ")
     );
-    let acts = "The vehicle handles these messages. It forwards all others to the links of their target.";
+    let acts = "The vehicle handles these messages. It forwards all other messages to the links of their target.";
     let page =
         format!("{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}", head("Messages", &about), streams(), handled());
     check("messages.md", &page);

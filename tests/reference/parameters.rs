@@ -1,4 +1,4 @@
-//! Reference page of the parameters of both autopilots, read from the metadata that ground stations get.
+//! Parameter reference page for both autopilots, generated from the metadata that ground stations receive.
 
 use crate::table::{code, table};
 use crate::{check, head};
@@ -18,7 +18,7 @@ fn text(parameter: &Value, key: &str) -> String {
     match &parameter[key] {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),
-        // Formats a 32-bit float with as many digits as it has.
+        // Formats a 32-bit float with its shortest exact representation.
         Value::Number(number) if parameter["type"] == "Float" => {
             number.as_f64().map_or_else(String::new, |value| (value as f32).to_string())
         }
@@ -28,12 +28,12 @@ fn text(parameter: &Value, key: &str) -> String {
 
 fn range(parameter: &Value) -> String {
     match (text(parameter, "min"), text(parameter, "max")) {
-        (low, high) if low.is_empty() || high.is_empty() => "by aircraft".to_owned(),
+        (low, high) if low.is_empty() || high.is_empty() => "aircraft-specific".to_owned(),
         (low, high) => format!("{low} to {high}"),
     }
 }
 
-/// Returns the description with the names of values or bits.
+/// Returns the description, including the names of values or bits.
 fn meaning(parameter: &Value) -> String {
     let listed = |key: &str, number: &str| {
         let list = parameter[key].as_array()?;
@@ -51,7 +51,7 @@ fn rows(parameters: &[Value], acts: bool) -> String {
     let standard = |parameter: &&Value| (parameter["category"] == "Standard") == acts;
     let row = |parameter: &Value| {
         let default = text(parameter, "default");
-        let default = if default.is_empty() { "by aircraft".to_owned() } else { default };
+        let default = if default.is_empty() { "aircraft-specific".to_owned() } else { default };
         let (name, kind, unit) = (code(&text(parameter, "name")), text(parameter, "type"), text(parameter, "units"));
         vec![name, kind, unit, range(parameter), default, meaning(parameter)]
     };
@@ -60,8 +60,9 @@ fn rows(parameters: &[Value], acts: bool) -> String {
 
 #[test]
 fn exact_parameters_page_matches_the_code() {
-    let about = "Names, units, ranges and defaults as the vehicle describes them to ground stations (MAVLink component metadata). Stored \
-                 parameters have no effect: clients expect them, and their values are kept.";
+    let about = "Names, units, ranges and defaults of all parameters, as the vehicle reports them to ground stations (MAVLink \
+                 component metadata). Stored parameters have no effect; the vehicle keeps their values for clients that \
+                 expect them.";
     let mut page = head("Parameters", about);
     for (title, face) in [("PX4 and generic interface", &PX4), ("ArduPilot interface", &COPTER)] {
         let parameters = described(face);

@@ -1,4 +1,4 @@
-//! Flights of the exported plan in mission mode: every task on its path, no contacts, pictures taken.
+//! Flights of the exported plan in mission mode: on the path of every task, without contacts, with photos.
 #![allow(deprecated, reason = "ground stations still write DO_MOUNT_CONTROL into plans")]
 
 use serde_json::Value;
@@ -16,8 +16,8 @@ use spandrel_testkit::plans::{ACCEPTED, upload};
 use spandrel_testkit::shipped::{scenario, vehicle};
 use spandrel_testkit::station::{Station, one};
 
-/// Minimum fraction of a task's reference points that must be passed within its threshold; the estimate has an error,
-/// and a single point at an end may be missed.
+/// Minimum fraction of a task's reference points that must be passed within its threshold; because of estimation
+/// errors, a single point at an end may be missed.
 const MIN_COVERAGE: f64 = 0.97;
 /// Time limit for all four tasks, s of simulation time (TASBID battery: 25 minutes).
 const LIMIT_S: f64 = 1_500.0;
@@ -131,7 +131,7 @@ fn exact_exported_plan_meets_ground_station_requirements() {
     }
     let pad: Vec3<Enu> = scenario("two-bridges").ground_team.pad_m;
     assert!(pad.is_finite());
-    // A plan that leads below the pad's level must do so only intentionally, above the lake.
+    // A plan may descend below the pad's level only intentionally, above the lake.
     let lowest = items.iter().filter(|i| i.command == MavCmd::MAV_CMD_NAV_WAYPOINT).map(|i| i.z).fold(f32::INFINITY, f32::min);
     let water = scenario("two-bridges").terrain.water_level_m - pad.up();
     assert!(f64::from(lowest) > water + 1.0, "{lowest} m above home, water at {water} m");
@@ -145,9 +145,9 @@ struct Flown {
     rms_deg_s: [f64; 2],
     fastest_deg_s: f64,
     fastest_at: String,
-    /// Mask of all cues during the flight.
+    /// Bit mask of all cues during the flight.
     cues: i32,
-    /// Texts and tasks with their times.
+    /// Status texts and tasks, with their times.
     log: Vec<String>,
 }
 
@@ -164,7 +164,7 @@ struct Observed {
 }
 
 const SIDECAR: LinkId = LinkId(2);
-/// Height above the pad from which rates are measured, m; below it, the feet touch the ground.
+/// Minimum height above the pad for rate measurements, m; below it, the feet touch the ground.
 const FLYING_M: f64 = 1.0;
 /// Interval between rate measurements.
 const EVERY: SimTime = SimTime::from_ms(10);
@@ -227,7 +227,7 @@ impl Observed {
         self.measure();
     }
 
-    /// Returns time, position, nearest object and estimation error for the log.
+    /// Returns the time, position, nearest object and estimation error for the log.
     fn describe_situation(&self, cues: i32) -> String {
         let (now, here) = (self.station.sim.now(), self.station.sim.truth().rigid.position_m.enu());
         let near = self.site.nearest(here, 6.0, now).map(|near| (near.distance_m, near.surface, near.point_m.array()));
@@ -260,15 +260,15 @@ impl Observed {
     }
 }
 
-/// Jobs and seeds: the plan is made with the traffic of one seed and flown with traffic, wind and receiver errors of
-/// others.
+/// Jobs and seeds: the plan is created with the traffic of one seed and flown with the traffic, wind and receiver
+/// errors of other seeds.
 const FLIGHTS: [(&str, u64); 6] =
     [("two-bridges", 1), ("two-bridges", 2), ("two-bridges", 7), ("practice", 7), ("drill-gap", 7), ("drill-landing", 7)];
-/// Maximum root mean square of the roll and pitch rates, deg/s, from a real PX4 on this plan (issue about flight
-/// tests).
+/// Maximum root mean square of the roll and pitch rates, deg/s, measured with a real PX4 on this plan (issue about
+/// flight tests).
 const MAX_RMS_DEG_S: f64 = 9.0;
-/// Maximum roll or pitch rate, deg/s: a jerk of 4 m/s³ tilts at 23 deg/s; the same again for gusts and the end of the
-/// flight.
+/// Maximum roll or pitch rate, deg/s: a jerk of 4 m/s³ tilts the drone at 23 deg/s, with the same again as a margin for
+/// gusts and the end of the flight.
 const MAX_RATE_DEG_S: f64 = 60.0;
 
 #[test]
@@ -326,6 +326,6 @@ fn regress_plan_speeds_stay_below_the_limit_with_margin() {
     let (items, plan) = plan("two-bridges");
     let limit = scenario("two-bridges").scoring.speed_limit_m_s;
     let speeds = items.iter().filter(|item| item.command == MavCmd::MAV_CMD_DO_CHANGE_SPEED).map(|item| f64::from(item.param2));
-    // The plan uses nine tenths of the limit.
+    // The plan flies at nine tenths of the limit.
     assert!(speeds.chain(plan["mission"]["cruiseSpeed"].as_f64()).all(|speed| speed <= 0.91 * limit));
 }

@@ -1,4 +1,4 @@
-//! A zoom lens in telemetry and in the measures.
+//! Tests of a zoom lens in telemetry and in the measures.
 
 use spandrel_mavlink::dialect::*;
 use spandrel_mavlink::telemetry::Timeline;
@@ -8,9 +8,9 @@ use spandrel_testkit::shipped::{scenario, vehicle};
 use spandrel_testkit::station::{Station, p};
 
 const CAMERA: u8 = 100;
-/// The only supplied aircraft with a zoom lens.
+/// The only shipped aircraft with a zoom lens.
 const ZOOMS: &str = "m30";
-/// Rounding of CAMERA_FOV_STATUS, which has single precision, deg.
+/// Tolerance for the rounding of CAMERA_FOV_STATUS, which has single precision, deg.
 const WIRE_DEG: f32 = 1e-5;
 
 #[test]

@@ -1,5 +1,5 @@
-//! Messages of ArduPilot's dialect that the codec does not include. Each definition consists of ID, name and fields; the wire
-//! order and CRC_EXTRA are derived from it (MAVLink guide, "Serialization").
+//! Messages of the ArduPilot dialect that the codec lacks. Each definition has an ID, a name and fields. The wire order
+//! and CRC_EXTRA are derived from them (MAVLink guide, "Serialization").
 
 use super::codec::{Encodable, Encoder};
 
@@ -40,7 +40,7 @@ impl FieldType {
     }
 }
 
-/// A message definition. Its fields have the order of `ardupilotmega.xml`.
+/// A message definition, with its fields in the order of `ardupilotmega.xml`.
 #[derive(Debug, PartialEq)]
 pub struct MessageDefinition {
     /// MAVLink message ID (24 bits in MAVLink 2).
@@ -55,7 +55,7 @@ pub struct MessageDefinition {
 
 use FieldType::{F32, I32, U16, U32};
 
-/// MEMINFO: free memory of the autopilot.
+/// MEMINFO: the autopilot's free memory.
 pub const MEMINFO: MessageDefinition = MessageDefinition {
     id: 152,
     name: "MEMINFO",
@@ -96,10 +96,10 @@ pub const SIMSTATE: MessageDefinition = MessageDefinition {
     ],
     extensions: &[],
 };
-/// WIND: wind estimate of the autopilot.
+/// WIND: the autopilot's wind estimate.
 pub const WIND: MessageDefinition =
     MessageDefinition { id: 168, name: "WIND", fields: &[("direction", F32), ("speed", F32), ("speed_z", F32)], extensions: &[] };
-/// EKF_STATUS_REPORT: flags and variances of the estimator.
+/// EKF_STATUS_REPORT: estimator flags and variances.
 pub const EKF_STATUS_REPORT: MessageDefinition = MessageDefinition {
     id: 193,
     name: "EKF_STATUS_REPORT",
@@ -115,7 +115,8 @@ pub const EKF_STATUS_REPORT: MessageDefinition = MessageDefinition {
 };
 
 impl MessageDefinition {
-    /// Returns the indices of the fields in wire order: larger types first, and fields of the same size in definition order.
+    /// Returns the indices of the fields in wire order: larger types first, with fields of the same size in definition
+    /// order.
     fn order(&self) -> impl Iterator<Item = usize> {
         let places = |long: bool| (0..self.fields.len()).filter(move |k| self.fields[*k].1.is_long() == long);
         places(true).chain(places(false))

@@ -51,7 +51,7 @@ enum ParseStep {
 }
 
 impl Decoder {
-    /// Creates a decoder without buffered bytes.
+    /// Creates a decoder with an empty buffer.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -63,7 +63,7 @@ impl Decoder {
         self.bad_bytes
     }
 
-    /// Decodes bytes of a stream. An incomplete frame at the end is kept for the next call.
+    /// Decodes bytes from a stream. Keeps an incomplete frame at the end for the next call.
     pub fn push(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.extend_from_slice(bytes);
         let mut frames = Vec::new();
@@ -82,9 +82,9 @@ impl Decoder {
         frames
     }
 
-    /// Decodes one datagram. An incomplete frame at its end is counted as bad and dropped. Each byte is examined once, and each
-    /// possible start of a frame costs one checksum over at most 267 bytes, so the time is linear in the length of the datagram
-    /// for any content.
+    /// Decodes one datagram. An incomplete frame at its end is counted as bad and dropped. Each byte is examined once,
+    /// and each possible start of a frame costs one checksum over at most 267 bytes, so decoding takes linear time for
+    /// any content.
     pub fn datagram(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.clear();
         let mut frames = Vec::new();
@@ -110,7 +110,7 @@ impl Decoder {
     }
 }
 
-/// Parses the first frame in `bytes`, or determines how many bytes to skip.
+/// Parses the first frame in `bytes`, or determines the number of bytes to skip.
 fn next(bytes: &[u8]) -> ParseStep {
     let Some(start) = bytes.iter().position(|b| *b == STX_V1 || *b == STX_V2) else {
         return if bytes.is_empty() { ParseStep::NeedMore } else { ParseStep::Skip(bytes.len()) };
@@ -275,7 +275,7 @@ mod tests {
     fn exact_frame_after_false_starts_is_decoded_and_other_bytes_are_counted() {
         let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
         let frame = Encoder::new(1, 191).encode(&message);
-        // The datagram contains thousands of false frame starts, each of which claims more bytes than the datagram has.
+        // The datagram contains thousands of false frame starts, each with a length beyond the end of the datagram.
         let mut bytes = [0xFD, 0xFF, 0x00].repeat(20_000);
         bytes.extend(&frame);
         bytes.extend([0xFE, 0xFF]);

@@ -104,7 +104,7 @@ pub enum FtpError {
 /// An FTP packet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FtpPacket {
-    /// Sequence number, increased by one with each packet of an exchange.
+    /// Sequence number, incremented with each packet of an exchange.
     pub sequence: u16,
     /// Session ID of the open file.
     pub session: u8,

@@ -2,10 +2,10 @@
 //! transfer ([`ftp`]), unit conversions ([`units`]), the interface between vehicle and monitor ([`contract`]), and telemetry
 //! processing ([`telemetry`]).
 //!
-//! Invalid bytes are counted and skipped, and never cause a panic. Telemetry is processed in three steps: a frame becomes a
-//! [`telemetry::sample::Sample`], samples become a [`telemetry::timeline::Timeline`] with known gaps, and the timeline is
-//! resampled to scoring frames at a fixed rate. Recorded logs ([`telemetry::tlog`]) and live links are processed by the same
-//! code, so their results are equal.
+//! Invalid bytes are counted and skipped, and never cause a panic. Telemetry is processed in three steps: a frame
+//! becomes a [`telemetry::sample::Sample`], samples become a [`telemetry::timeline::Timeline`] with known gaps, and the
+//! timeline is resampled to scoring frames at a fixed rate. Recorded logs ([`telemetry::tlog`]) and live links are
+//! processed by the same code, so their results are identical.
 //!
 //! ```
 //! use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -19,7 +19,7 @@
 //! assert_eq!(frames[0].system_id, 255);
 //! assert!(matches!(frames[0].message, Some(MavMessage::HEARTBEAT(_))));
 //!
-//! Invalid bytes are skipped and counted.
+//! // Invalid bytes are skipped and counted.
 //! assert!(decoder.datagram(b"no frame").is_empty());
 //! assert_eq!(decoder.bad_bytes(), 8);
 //! ```

@@ -1,17 +1,18 @@
-//! Frame routing (MAVLink guide, "Routing"): broadcasts are forwarded to all other links, and addressed frames to the links on
-//! which their target was seen. A frame never returns to its source link. Key exchange messages are never forwarded.
+//! Frame routing (MAVLink guide, "Routing"): broadcasts are forwarded to all other links, and addressed frames to the
+//! links where their target was seen. A frame never returns to its source link. Key exchange messages are never
+//! forwarded.
 
 use super::codec::ReceivedFrame;
 use super::dialect::MavMessage;
 use mavlink::{MavlinkVersion, Message};
 use std::collections::BTreeMap;
 
-/// Message ID of SETUP_SIGNING, which carries a key and is therefore never forwarded.
+/// Message ID of SETUP_SIGNING, which contains a key and is therefore never forwarded.
 const SETUP_SIGNING: u32 = 256;
-/// Maximum number of senders stored, so that a link with thousands of spoofed senders cannot exhaust the memory.
+/// Maximum number of senders stored, so that a link with thousands of spoofed senders cannot exhaust memory.
 const MAX_SENDERS: usize = 1_024;
 
-/// Routing table: the links on which each sender was seen. `L` identifies a link.
+/// Routing table: the links where each sender was seen. `L` identifies a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Router<L> {
     links_by_sender: BTreeMap<(u8, u8), Vec<L>>,
@@ -24,7 +25,7 @@ impl<L: Copy + Ord> Router<L> {
         Self { links_by_sender: BTreeMap::new() }
     }
 
-    /// Records on which link the sender of a frame was seen.
+    /// Records the link where the sender of a frame was seen.
     pub fn note(&mut self, link: L, frame: &ReceivedFrame) {
         let sender = (frame.system_id, frame.component_id);
         if self.links_by_sender.len() >= MAX_SENDERS && !self.links_by_sender.contains_key(&sender) {
@@ -48,7 +49,7 @@ impl<L: Copy + Ord> Router<L> {
         self.links_by_sender.retain(|_, links| !links.is_empty());
     }
 
-    /// Returns those of the links in `all` to which a frame from link `from` is forwarded.
+    /// Returns the links in `all` that a frame from link `from` is forwarded to.
     #[must_use]
     pub fn targets_of(&self, from: L, frame: &ReceivedFrame, all: &[L]) -> Vec<L> {
         if frame.message_id == SETUP_SIGNING {

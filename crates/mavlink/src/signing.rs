@@ -20,12 +20,12 @@ const SIGNATURE_LEN: usize = 13;
 const RADIO_STATUS: u32 = 109;
 /// Maximum age of the first timestamp of a new stream, in timestamp units (one minute).
 const MAX_NEW_STREAM_LAG: u64 = 6_000_000;
-/// Maximum difference by which a timestamp may be ahead of a valid clock, in timestamp units (one day, to tolerate a wrong time
-/// zone). Accepting a later timestamp would make all valid frames too old, even after a restart.
+/// Maximum lead of a timestamp over a valid clock, in timestamp units (one day, to tolerate a wrong time zone).
+/// Accepting a later timestamp would make all valid frames too old, even after a restart.
 const MAX_TIMESTAMP_LEAD: u64 = 8_640_000_000;
 /// Timestamp of 2024-01-01T00:00:00Z. An earlier clock has not been set.
 const MIN_VALID_CLOCK: u64 = 28_401_840_000_000;
-/// Maximum number of streams (system, component, link ID) for which the last timestamp is stored.
+/// Maximum number of streams (system, component, link ID) with a stored last timestamp.
 const MAX_STREAMS: usize = 512;
 /// Epoch of signing timestamps: 2015-01-01T00:00:00Z in Unix time, µs.
 const SIGNING_EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;
@@ -198,7 +198,7 @@ impl Signing {
         let reference_time = self.reference_time();
         let stream = (frame.system_id, frame.component_id, tail[0]);
         if self.last_timestamps.len() >= MAX_STREAMS {
-            // Frames of the removed streams are too old even as first frames of a new stream, so no frame is accepted twice.
+            // Frames from removed streams are too old even to start a new stream, so no frame is accepted twice.
             self.last_timestamps.retain(|_, last| *last + MAX_NEW_STREAM_LAG >= reference_time);
         }
         let new = match self.last_timestamps.get(&stream) {
@@ -332,14 +332,14 @@ mod tests {
         assert_eq!(again.verify(&after, soon), SignatureVerdict::Good, "a slow clock is still accepted");
         let other = read(&Signing::new(SigningKey::from_passphrase("bridge"), 5, NOW).sign(frame(2), NOW));
         assert_eq!(again.verify(&other, soon), SignatureVerdict::Good, "a new stream may lag behind");
-        // After a clock was set back, outgoing timestamps still do not decrease.
+        // Outgoing timestamps do not decrease even if the clock is set back.
         let mut set_back = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
         set_back.restore(&again.save()).unwrap();
         assert!(set_back.newest() >= soon);
     }
 
-    /// Without this check, a single frame from a wrong clock or a former key holder makes all other frames too old, permanently
-    /// because of the saved state.
+    /// Without this check, a single frame from a former key holder or a sender with a wrong clock would make all other
+    /// frames too old, and the saved state would make this permanent.
     #[test]
     fn regress_frame_from_far_future_is_rejected_without_trace() {
         let (mut ours, mut theirs) = pair();
@@ -351,14 +351,14 @@ mod tests {
         assert_eq!(theirs.verify(&far(NOW + MAX_TIMESTAMP_LEAD), NOW), SignatureVerdict::Good, "a clock that is one day ahead");
         let honest = read(&ours.sign(frame(1), NOW));
         assert_eq!(theirs.verify(&honest, NOW), SignatureVerdict::Good, "a correct clock at the same time");
-        // Saved state that contains such a timestamp is repaired.
+        // Such a timestamp is removed from saved state.
         let mut again = Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW);
         again.restore(&format!("{MAX_TIMESTAMP}\n7 1 9 {MAX_TIMESTAMP}\n1 1 3 {NOW}\n")).unwrap();
         assert_eq!((again.newest(), again.last_timestamps.len()), (NOW, 1));
         let next = read(&ours.sign(frame(1), NOW));
         assert_eq!(again.verify(&next, NOW), SignatureVerdict::Good);
         assert_eq!(again.verify(&next, NOW), SignatureVerdict::Replayed);
-        // A receiver whose clock was never set accepts all timestamps that are not old.
+        // A receiver whose clock was never set accepts all timestamps that are not too old.
         let mut clockless = Signing::new(SigningKey::from_passphrase("bridge"), 0, 5);
         assert_eq!(clockless.verify(&honest, 5), SignatureVerdict::Good);
     }

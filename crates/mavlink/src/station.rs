@@ -1,4 +1,4 @@
-//! Messages that ground station clients send: heartbeats, commands, and the selection of position mode.
+//! Messages sent by ground station clients: heartbeats, commands, and the selection of position mode.
 
 use super::dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavFrame, MavMessage, MavModeFlag,
@@ -23,8 +23,8 @@ pub fn heartbeat() -> MavMessage {
     })
 }
 
-/// Creates the heartbeat of a companion that does not control the vehicle, such as the monitor or an observer. The dialect's
-/// default cannot be used, because it reports an armed vehicle.
+/// Creates the heartbeat of a companion component that does not control the vehicle, such as the monitor or an
+/// observer. The dialect's default cannot be used, because it reports an armed vehicle.
 #[must_use]
 pub fn companion_heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {
@@ -80,8 +80,8 @@ pub fn params<const N: usize>(given: &[f32]) -> [f32; N] {
     std::array::from_fn(|k| given.get(k).copied().unwrap_or(0.0))
 }
 
-/// Returns the command that selects position mode, in which the sticks command velocity. PX4 and ArduPilot have their own mode
-/// numbers; other autopilots get the standard mode.
+/// Returns the command that selects position mode, where the sticks command velocity. Uses the mode numbers of PX4 and
+/// ArduPilot, and the standard mode for other autopilots.
 #[must_use]
 pub fn position_mode(autopilot: Option<MavAutopilot>) -> (MavCmd, [f32; 7]) {
     let (command, [a, b]) = match autopilot {

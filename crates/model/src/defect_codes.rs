@@ -63,12 +63,12 @@ pub struct SizeRanges {
 pub fn size_ranges(kind: u32, condition_state: u8) -> SizeRanges {
     let poor = condition_state >= 3;
     let (length_m, width) = match (kind, poor) {
-        // 6 in = 0.152 m separates the condition states.
+        // 6 in (0.152 m) separates the condition states.
         (SPALL, false) => ((0.10, 0.152), (0.6, 0.9)),
         (SPALL, true) => ((0.16, 0.80), (0.5, 0.9)),
         (REBAR, false) => ((0.15, 0.40), (0.15, 0.3)),
         (REBAR, true) => ((0.30, 0.90), (0.15, 0.4)),
-        // 0.012 in and 0.05 in: 0.30 and 1.27 mm.
+        // 0.012 in and 0.05 in, which are 0.30 mm and 1.27 mm.
         (CRACK, false) => ((0.40, 1.50), (0.000_30, 0.001_27)),
         (CRACK, true) => ((0.40, 2.00), (0.001_28, 0.003)),
         // 0.004 in and 0.009 in.

@@ -22,7 +22,7 @@ pub enum ElementMaterial {
     Other,
 }
 
-/// Part of the bridge to which an element belongs.
+/// Part of the bridge that an element belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementGroup {
     /// Decks, top flanges and slabs, which carry the road.
@@ -47,12 +47,12 @@ pub enum ElementGroup {
     Unlisted,
 }
 
-/// Unit in which an inspection reports the quantity of an element.
+/// Unit of an element's quantity in an inspection report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementUnit {
     /// Square feet.
     SquareFeet,
-    /// Feet of length.
+    /// Linear feet.
     Feet,
     /// Count.
     Each,
@@ -102,7 +102,7 @@ macro_rules! elements {
                 }
             }
 
-            /// Returns the part of the bridge to which the element belongs.
+            /// Returns the part of the bridge that the element belongs to.
             #[must_use]
             pub const fn group(self) -> ElementGroup {
                 match self {

@@ -1,5 +1,5 @@
-//! Coordinate frames as types. The type of a [`Vec3`] includes the frame in which it is expressed, and the type of a [`Rotation`]
-//! its source and target frames.
+//! Coordinate frames as types. The type of a [`Vec3`] includes its frame, and the type of a [`Rotation`] its source and
+//! target frames.
 //!
 //! * [`Ned`]: local tangent plane at the scenario origin, axes north, east, down. Used by flight control and MAVLink.
 //! * [`LocalNed`]: MAVLink's local frame, with the axes of [`Ned`] and the origin where the vehicle's estimator was initialized.

@@ -118,8 +118,8 @@ mod tests {
 
     #[test]
     fn val_one_minute_of_latitude_at_45_degrees_is_1852_2_m() {
-        // 1852.2 m follows from the WGS84 meridian radius at 45 deg (6 367 382 m); the nautical mile was originally defined this
-        // way. Tolerance 0.1 m.
+        // 1852.2 m follows from the WGS84 meridian radius at 45 deg (6 367 382 m); the original definition of the
+        // nautical mile. Tolerance 0.1 m.
         let plane = LocalPlane::new(Geo { latitude_deg: 45.0, longitude_deg: 0.0, altitude_m: 0.0 });
         let north = plane.enu_from_geo(Geo { latitude_deg: 45.0 + 1.0 / 60.0, longitude_deg: 0.0, altitude_m: 0.0 }).north();
         assert!((north - 1852.2).abs() < 0.1, "{north}");

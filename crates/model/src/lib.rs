@@ -1,9 +1,10 @@
 //! Types shared by the simulated vehicle and the monitor, which otherwise communicate only over MAVLink: time, coordinate frames,
 //! geodesy, random streams, and a job's scenario, aircraft and site.
 //!
-//! Time is an integer number of nanoseconds ([`time::SimTime`]). The type of a vector includes its frame ([`frames`]: `Enu`,
-//! `Ned`, `Frd`), and the name of a number includes its unit. All random numbers come from named, seeded streams ([`random`]),
-//! and all transcendental functions from [`math`], so that the same inputs yield bit-identical results on every machine.
+//! Time is an integer number of nanoseconds ([`time::SimTime`]). The type of a vector includes its frame ([`frames`]:
+//! `Enu`, `Ned`, `Frd`), and the name of a number includes its unit. All random numbers come from named, seeded streams
+//! ([`random`]), and all transcendental functions from [`math`]. The same inputs therefore yield bit-identical results
+//! on every machine.
 //!
 //! A job is a [`scenario::Scenario`] and an aircraft is a [`vehicle::Vehicle`]. Both are parsed from TOML files, and all problems
 //! in a file are reported together. [`site::Site`] is built from a scenario and a seed and answers queries: distance to the

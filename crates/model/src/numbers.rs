@@ -3,7 +3,8 @@
 /// Maximum number of decimals. A smaller difference from the limit is below the resolution of any measurement.
 const MAX_DECIMALS: usize = 6;
 
-/// Formats a value with at least `digits` decimals, and as many more as needed to show on which side of the limit it is.
+/// Formats a value with at least `digits` decimals, and with as many more as needed to show which side of the limit it
+/// is on.
 #[must_use]
 pub fn format_with_limit(value: f64, limit: f64, digits: usize) -> String {
     let text = |digits: usize| format!("{value:.digits$}");

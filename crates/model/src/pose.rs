@@ -1,4 +1,4 @@
-//! Pose and motion of the aircraft. The type parameter is the frame in which position and velocity are expressed.
+//! Pose and motion of the aircraft. The type parameter is the frame of position and velocity.
 
 use crate::frames::{Frd, Ned, Rotation, Vec3};
 

@@ -1,4 +1,4 @@
-//! Named random streams, one per consumer, so that adding a consumer does not change the numbers that the others draw.
+//! Named random streams, one per consumer, so that a new consumer does not change the numbers of existing ones.
 
 use super::math;
 use rand_core::{Rng, SeedableRng};
@@ -43,8 +43,8 @@ impl RandomStream {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize
     }
 
-    /// Returns a standard normal number by Marsaglia's polar method. The second value of the method is discarded, so that the
-    /// generator is the only state.
+    /// Returns a standard normal number by Marsaglia's polar method. Discards the second value of the method, which
+    /// keeps the generator the only state.
     pub fn normal(&mut self) -> f64 {
         loop {
             let u = self.range(-1.0, 1.0);

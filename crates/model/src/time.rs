@@ -1,4 +1,4 @@
-//! Simulation time as an integer number of nanoseconds, so that no floating-point error accumulates.
+//! Simulation time as an integer number of nanoseconds, which avoids accumulating floating-point errors.
 
 use std::fmt;
 use std::ops::{Add, AddAssign, Sub};

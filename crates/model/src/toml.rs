@@ -1,5 +1,5 @@
-//! Reads values from TOML files and checks their ranges. Collects all problems with their locations instead of stopping at the
-//! first one, and records the keys that it reads, so that a test can compare them with the documentation.
+//! Reads values from TOML files and checks their ranges. Collects all problems with their locations instead of stopping
+//! at the first one. Also records the keys that it reads, which a test compares with the documentation.
 
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -37,17 +37,18 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Maximum number of problems that are displayed, about one screen; the others are only counted.
+/// Maximum number of problems to display, about one screenful; the rest are only counted.
 const MAX_DISPLAYED_PROBLEMS: usize = 50;
 
-/// Splits a list of problems into the first 50, which are displayed, and the number of the others.
+/// Splits a list of problems into the first 50, which are displayed, and the number of remaining problems.
 #[must_use]
 pub fn split_displayed(problems: &[Problem]) -> (&[Problem], usize) {
     let count = problems.len().min(MAX_DISPLAYED_PROBLEMS);
     (&problems[..count], problems.len() - count)
 }
 
-/// All problems in a file. Displayed as one problem per line; after the first 50, only the number of the others is shown.
+/// All problems in a file. Displayed as one problem per line; after the first 50, only the number of remaining problems
+/// is shown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Problems(pub Vec<Problem>);
 
@@ -384,7 +385,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Records a problem for each unknown key. Call this after all keys of the table have been read.
+    /// Records a problem for each unknown key. Call this after reading all keys of the table.
     pub fn finish(&mut self, section: &Section) {
         let Some(table) = section.table else { return };
         for (key, item) in table.iter() {
@@ -408,7 +409,7 @@ impl Section<'_> {
         if self.path.is_empty() { key.to_string() } else { format!("{}.{key}", self.path) }
     }
 
-    /// Returns the line at which the table starts, from 1.
+    /// Returns the line number where the table starts, from 1.
     #[must_use]
     pub fn line(&self) -> usize {
         self.line
@@ -446,7 +447,7 @@ fn display_value(item: &Item) -> String {
     }
 }
 
-/// Returns true if two keys differ by a likely typing error: at most two edits per five characters.
+/// Returns true if two keys differ by a likely typo: at most two edits per five characters.
 fn is_likely_typo(known: &str, key: &str) -> bool {
     5 * edit_distance(known, key) <= 2 * known.chars().count().max(key.chars().count())
 }

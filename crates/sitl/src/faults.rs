@@ -1,5 +1,5 @@
-//! Failures that an instructor injects (MAV_CMD_INJECT_FAILURE): sensors, motors, battery, manual control. They corrupt
-//! sensor readings and actuator commands; the autopilot is not notified.
+//! Failures that an instructor injects (MAV_CMD_INJECT_FAILURE): sensors, motors, battery and manual control. They
+//! corrupt sensor readings and actuator commands; the autopilot is not notified.
 
 use super::physics::{Actuators, MAX_ROTORS};
 use super::sensors::Readings;
@@ -33,13 +33,13 @@ pub enum FailureUnit {
 pub enum FailureType {
     /// No output (1).
     Off,
-    /// Repeats the last value (2).
+    /// Repetition of the last value (2).
     Stuck,
     /// Random values (3).
     Garbage,
     /// Constant error (4).
     Wrong,
-    /// Alternates between one second on and one second off (7).
+    /// Alternation between one second on and one second off (7).
     Intermittent,
 }
 
@@ -94,7 +94,7 @@ const HEIGHT_ERROR_M: f64 = 8.0;
 const GARBAGE_M: f64 = 30.0;
 const GARBAGE_UP_M: f64 = 10.0;
 const GARBAGE_GAUSS: f64 = 0.5;
-/// Factor on the reading of a wrong range finder.
+/// Factor applied to the reading of a faulty range finder.
 const RANGE_FACTOR: f64 = 0.5;
 /// Maximum charge left after a battery failure, 0 to 1.
 const MAX_CHARGE_AFTER_FAILURE: f64 = 0.05;
@@ -110,7 +110,7 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// Creates a state without failures.
+    /// Creates the state without failures.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self {

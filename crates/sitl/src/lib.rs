@@ -7,7 +7,7 @@
 //!
 //! Each step runs in this order: sensors ([`sensors`]), the autopilot ([`autopilot`]: estimator, failsafes, navigator,
 //! control), six-degree-of-freedom motion and contact ([`physics`]), then outgoing telemetry ([`endpoint`]). The
-//! autopilot only gets sensor readings, never the true state. One table selects the emulated autopilot, PX4 or
+//! autopilot receives only sensor readings, never the true state. One table selects the emulated autopilot, PX4 or
 //! ArduCopter ([`endpoint::flavour`]).
 //!
 //! For tests and scripts, [`testing::Vehicle`] controls the vehicle with commands:

@@ -55,7 +55,7 @@ pub struct SimConfig {
     pub instance: u8,
     /// The emulated autopilot.
     pub flavour: &'static Flavour,
-    /// Action after a crash. `None` uses the rule of the scenario.
+    /// Action after a crash. `None` uses the scenario's rule.
     pub after_crash: Option<AfterCrash>,
 }
 
@@ -68,11 +68,11 @@ impl SimConfig {
 /// An event for the session log.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SimEvent {
-    /// First lift-off.
+    /// The vehicle lifted off for the first time.
     LiftOff,
-    /// A crash.
+    /// The vehicle crashed.
     Crash {
-        /// Name of the object that was hit.
+        /// Name of the object hit.
         what: String,
         /// Impact speed, m/s.
         impact_m_s: f64,
@@ -83,7 +83,7 @@ pub enum SimEvent {
     BatteryEmpty,
     /// The flight has ended.
     Ended {
-        /// The reason.
+        /// Reason why the flight ended.
         reason: String,
     },
 }
@@ -128,7 +128,7 @@ pub struct Sim {
     instructor_settings: InstructorSettings,
     /// Times at which traffic was stopped and released.
     closures: BridgeClosures,
-    /// Parameter changes already applied to the environment.
+    /// Number of parameter changes already applied to the environment.
     applied_changes: u64,
     events: VecDeque<SimEvent>,
     digest: Sha256,
@@ -217,7 +217,7 @@ impl Sim {
         self.scale_timeouts();
     }
 
-    /// Sends only responses on a link until it has received a heartbeat.
+    /// Sends only responses on a link until a heartbeat arrives on it.
     pub fn await_heartbeat(&mut self, link: LinkId) {
         self.endpoint.links.await_heartbeat(link);
     }
@@ -250,7 +250,7 @@ impl Sim {
         self.endpoint.set_speed_factor(factor, autopilot);
     }
 
-    /// Received bytes that did not belong to any frame.
+    /// Number of received bytes that did not belong to any frame.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
         self.endpoint.links.bad_bytes()
@@ -304,8 +304,8 @@ impl Sim {
         !self.pending_answers.is_empty()
     }
 
-    /// Returns `None` unless the simulation is waiting for peers that have never responded; otherwise whether anything was
-    /// received from all of them.
+    /// Returns `None` unless the simulation is waiting for peers that have never responded; otherwise, whether data has
+    /// been received from all of them.
     #[must_use]
     pub fn awaits_first_response(&self) -> Option<bool> {
         let has_received = |(link, step, has_received): (LinkId, LockstepState, bool)| {
@@ -336,7 +336,7 @@ impl Sim {
         self.endpoint.links.lockstep_states().any(|(_, step, _)| step == LockstepState::Late)
     }
 
-    /// Time at which the next tick is due.
+    /// Time when the next tick is due.
     #[must_use]
     pub fn poll_timeout(&self) -> SimTime {
         self.now + STEP
@@ -358,15 +358,15 @@ impl Sim {
         self.events.pop_front()
     }
 
-    /// SHA-256 over the state of all ticks so far.
+    /// SHA-256 digest of the state at all ticks so far.
     #[must_use]
     pub fn digest(&self) -> [u8; 32] {
         self.digest.clone().finalize().into()
     }
 
-    /// Runs the ticks due up to `until`. Stops early for a lockstep request to peers, or for a file request of a client
-    /// ([`Sim::poll_file_job`]): it must be completed before the next tick so that its response arrives at a defined simulation
-    /// time.
+    /// Runs the ticks due up to `until`. Stops early for a lockstep request to peers or a client's file request
+    /// ([`Sim::poll_file_job`]), which must be completed before the next tick so that its response arrives at a defined
+    /// simulation time.
     pub fn handle_timeout(&mut self, until: SimTime) {
         if self.waiting() {
             return;
@@ -416,7 +416,7 @@ impl Sim {
         self.scale_timeouts();
     }
 
-    /// Borrows the state that messages are built from, and the parts that handle them.
+    /// Borrows the state from which messages are built, and the parts that handle messages.
     fn interface(&mut self) -> Interface<'_> {
         let Backend::Builtin(autopilot) = &mut self.backend;
         let aircraft = SimulatedAircraft {
@@ -439,8 +439,8 @@ impl Sim {
         Interface { aircraft, autopilot, endpoint: &mut self.endpoint, recorder: &mut self.recorder }
     }
 
-    /// Sends a heartbeat on every link while the simulation is paused, and a text at the start of the pause. Call once per second
-    /// of wall time. Does not change the vehicle.
+    /// Sends a heartbeat on every link while the simulation is paused, and a status text at the start of the pause.
+    /// Call once per second of wall time. Does not change the vehicle.
     pub fn pause(&mut self, begins: bool) {
         if begins {
             self.endpoint.vehicle.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation paused");
@@ -449,7 +449,7 @@ impl Sim {
         endpoint.send_heartbeats(&aircraft, autopilot);
     }
 
-    /// Announces that the simulation continues; clients receive the text with the next tick.
+    /// Announces that the simulation continues; clients receive the status text with the next tick.
     pub fn resume(&mut self) {
         self.endpoint.vehicle.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation resumed");
     }

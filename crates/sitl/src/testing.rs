@@ -1,5 +1,5 @@
-//! In-process vehicle for tests and scripts: it uses no sockets or clock, runs as fast as the machine allows, and gives
-//! identical results in every run.
+//! In-process vehicle for tests and scripts. It uses no sockets or clock, runs as fast as the machine allows, and
+//! produces identical results in every run.
 //!
 //! ```
 //! use spandrel_model::shipped;
@@ -37,7 +37,7 @@ use std::sync::Arc;
 pub const STATION: LinkId = LinkId(1);
 /// MAVLink system and component ID of the harness, which are the usual values of a ground station.
 const STATION_ID: (u8, u8) = (255, 190);
-/// Interval at which conditions are checked.
+/// Interval between checks of a condition.
 const CHECK_INTERVAL: SimTime = SimTime::from_ms(20);
 /// Maximum number of frames kept for [`Vehicle::last_message`]: about twenty seconds of all streams.
 const MAX_KEPT_FRAMES: usize = 20_000;
@@ -48,9 +48,9 @@ pub enum MissedExpectation {
     /// The command was not accepted.
     #[error("{command:?} was rejected with {result:?}; last status text: {said}")]
     Refused {
-        /// The command.
+        /// The rejected command.
         command: MavCmd,
-        /// The result.
+        /// The result that the vehicle returned.
         result: MavResult,
         /// The vehicle's latest status text.
         said: String,
@@ -108,7 +108,7 @@ impl VehicleBuilder {
         self
     }
 
-    /// Sets the seed of gusts, sensor noise, traffic and defects.
+    /// Sets the seed for gusts, sensor noise, traffic and defects.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
@@ -139,9 +139,11 @@ impl VehicleBuilder {
     /// Builds the vehicle on its landing pad with motors off.
     ///
     /// # Errors
-    /// Returns all problems of the scenario or, if it is valid, of the vehicle, with line and key.
+    /// Returns all problems in the scenario or, if the scenario is valid, in the vehicle, each with its line and key.
     pub fn build(self) -> Result<Vehicle, Problems> {
-        let job = scenario::read("scenario.toml", &self.scenario, &|file| Err(format!("{file}: not loaded here")))?;
+        let job = scenario::read("scenario.toml", &self.scenario, &|file| {
+            Err(format!("{file}: the builder does not load referenced files"))
+        })?;
         let aircraft = vehicle::read("vehicle.toml", &self.vehicle)?;
         Ok(self.build_from(job, aircraft))
     }
@@ -203,7 +205,7 @@ impl Vehicle {
         self.sim
     }
 
-    /// Returns the next datagram for any link except the harness's.
+    /// Returns the next datagram for any link except the harness link.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
         self.others.pop_front()
     }
@@ -274,7 +276,7 @@ impl Vehicle {
     /// Runs until a condition is met and returns the elapsed time.
     ///
     /// # Errors
-    /// If the condition was not met in time.
+    /// Returns an error if the condition was not met in time.
     pub fn run_until(&mut self, mut holds: impl FnMut(&Self) -> bool, limit: SimTime) -> Result<SimTime, MissedExpectation> {
         let start = self.now();
         while !holds(self) {
@@ -289,7 +291,7 @@ impl Vehicle {
     /// Sends a command to the autopilot. Missing parameters are 0.
     ///
     /// # Errors
-    /// If the command was rejected, or there was no response within one second.
+    /// Returns an error if the command was rejected or there was no response within one second.
     pub fn command(&mut self, command: MavCmd, params: &[f32]) -> Result<(), MissedExpectation> {
         self.request(command, &MavMessage::COMMAND_LONG(station::command(1, 1, command, station::params(params))))
     }
@@ -330,10 +332,10 @@ impl Vehicle {
         }
     }
 
-    /// Takes off to a height above the landing pad, m. ArduCopter takes off in GUIDED.
+    /// Takes off to a height above the landing pad, m. ArduCopter takes off in GUIDED mode.
     ///
     /// # Errors
-    /// If the command was rejected.
+    /// Returns an error if the command was rejected.
     pub fn take_off(&mut self, height_m: f64) -> Result<(), MissedExpectation> {
         if let Some(guided) = self.flavour.errands {
             self.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, guided as f32])?;
@@ -347,17 +349,17 @@ impl Vehicle {
     /// Flies to a position in the scenario's frame, m, and holds there.
     ///
     /// # Errors
-    /// If the command was rejected.
+    /// Returns an error if the command was rejected.
     pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), MissedExpectation> {
         let command = MavCmd::MAV_CMD_DO_REPOSITION;
-        // Bit 0 of parameter 2 changes to a mode that can fly there.
+        // Bit 0 of parameter 2 requests a change to a mode that can fly there.
         self.request(command, &self.command_at(command, place_m, [-1.0, 1.0, 0.0, f32::NAN]))
     }
 
     /// Lands at the current position.
     ///
     /// # Errors
-    /// If the command was rejected.
+    /// Returns an error if the command was rejected.
     pub fn land(&mut self) -> Result<(), MissedExpectation> {
         self.command(MavCmd::MAV_CMD_NAV_LAND, &[0.0, 0.0, 0.0, f32::NAN])
     }

@@ -11,9 +11,9 @@ use spandrel_testkit::station::{GCS, Station};
 const SEED: u64 = 7;
 /// Interval between stick messages, ms.
 const PERIOD_MS: i64 = 40;
-/// Stick inputs (forward, right, up from 0 to 1000) and how long each is held, ms: climb, fly sideways into the girder
-/// of the suspension bridge, fly away from it. Then the motors are stopped; after a fall into the lake and three
-/// seconds there, the flight continues.
+/// Stick inputs (forward, right, up from 0 to 1000) and their durations, ms: climb, fly sideways into the girder of the
+/// suspension bridge, fly away from it. Then the motors are stopped; after a fall into the lake and three seconds
+/// there, the flight continues.
 const SCRIPT: [(i64, [i16; 3]); 5] =
     [(4_000, [0, 0, 800]), (15_000, [0, -1000, 500]), (4_000, [0, 1000, 500]), (9_000, [0, 0, 500]), (5_000, [500, 0, 600])];
 const STOP_BEFORE: usize = 3;
@@ -106,7 +106,7 @@ fn flight_same_inputs_give_identical_results_despite_wind_collision_and_respawn(
     fly(&mut first, &inputs, end, |event, sim| {
         crashes += usize::from(matches!(event, SimEvent::Crash { .. }));
         respawns += usize::from(*event == SimEvent::Respawn);
-        // A snapshot right after an event would reveal forgotten state.
+        // A snapshot taken right after an event reveals state that the snapshot omits.
         if snapshots.last().is_none_or(|last| sim.now() >= last.now() + MIN_INTERVAL) {
             snapshots.push(sim.clone());
         }

@@ -33,7 +33,7 @@ pub struct Sky {
     pub sky_rgb: [f64; 3],
     /// Cloud cover, 0 to 1.
     pub cloud: f64,
-    /// Factor on [`relative`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
+    /// Factor on [`relative_radiance`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
     pub scale: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A test bench: an aircraft in flight above flat ground, without MAVLink.
+//! A test bench: an aircraft flying above flat ground, without MAVLink.
 
 use crate::shipped::scenario;
 use spandrel_model::frames::{Ned, Vec3};

@@ -1,4 +1,4 @@
-//! A small job, a site with predefined query results, and a recorder of datagrams in the form that a vehicle sends.
+//! A small job, a site with predefined query results, and a recorder of datagrams as sent by a vehicle.
 
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::*;
@@ -13,7 +13,7 @@ use spandrel_monitor::assessment::{AssessedSession, assess_log};
 use spandrel_monitor::measures::attention::SiteSurvey;
 use std::sync::Arc;
 
-/// Frame rate of the test job, Hz; a divisor of the truth rate of 50 Hz, so that frames coincide with samples.
+/// Frame rate of the test job, Hz. It divides the truth rate of 50 Hz, so that frames coincide with samples.
 pub const RATE_HZ: f64 = 25.0;
 /// Scenario CRC of the test job.
 pub const CRC: u32 = 0xC0FF_EE00;
@@ -197,7 +197,7 @@ pub fn vehicle() -> Vehicle {
     }
 }
 
-/// A site on which defect k (from 1) is visible to every camera within one meter of 10 k m east.
+/// A site where defect k (from 1) is visible to every camera within one meter of 10 k m east.
 #[derive(Debug)]
 pub struct Fence {
     pub defects: Vec<PlacedDefect>,
@@ -287,7 +287,7 @@ impl Tape {
         Self::starting_at(0, job)
     }
 
-    /// Creates a tape like [`Self::of`] for a simulator that has already run for `epoch_ms`, ms.
+    /// Creates a tape like [`Self::of`] for a simulator that has already run for `epoch_ms`.
     pub fn starting_at(epoch_ms: u64, job: &Scenario) -> Self {
         let plane = LocalPlane::new(job.origin);
         let at_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 0.15);
@@ -413,7 +413,7 @@ impl Tape {
         }
     }
 
-    /// Records nothing for `ms` while the drone holds position.
+    /// Holds position for `ms` without recording.
     pub fn silence(&mut self, ms: u32) {
         self.now_ms += ms;
     }

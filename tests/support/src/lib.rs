@@ -1,10 +1,10 @@
-//! Shared code of Spandrel's tests and benchmarks. It is not part of the product.
+//! Code shared by Spandrel's tests and benchmarks. It is not part of the product.
 //!
 //! | module | feature | contents |
 //! |---|---|---|
-//! | [`shipped`] | | the supplied scenarios and vehicles by name |
+//! | [`shipped`] | | the shipped scenarios and vehicles by name |
 //! | [`aircraft`] | | a quadrotor with round numbers, for closed-form tests |
-//! | `station` | `vehicle` | a ground station on an in-process vehicle |
+//! | `station` | `vehicle` | a ground station for an in-process vehicle |
 //! | `plans` | `vehicle` | plans for the drill site, and their upload |
 //! | `bench` | `vehicle` | an autopilot and its aircraft in flight, without MAVLink |
 //! | `job` | `telemetry` | a small job, and a recorder of the datagrams of a flight |

@@ -1,4 +1,4 @@
-//! A ground station and a monitor link on an in-process vehicle, without sockets or a clock.
+//! A ground station and a monitor link for an in-process vehicle, without sockets or a clock.
 
 use crate::shipped;
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
@@ -25,7 +25,7 @@ pub fn one(value: f32) -> [f32; 7] {
     p(&[value])
 }
 
-/// [`Vehicle`] for tests, in which a missed deadline panics and responses must be immediate.
+/// Wrapper of [`Vehicle`] for tests: panics if a deadline is missed or a response is not immediate.
 #[derive(Debug, Clone)]
 pub struct Station {
     pub vehicle: Vehicle,
@@ -66,7 +66,7 @@ impl Station {
         Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, instance), None)
     }
 
-    /// Creates a station with a crash rule that overrides the scenario's.
+    /// Creates a station with a crash rule that overrides the one in the scenario.
     pub fn with_crash_rule(scenario_name: &str, seed: u64, rule: Option<AfterCrash>) -> Self {
         Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, 0), rule)
     }

@@ -100,7 +100,8 @@ impl Studio {
         self.renderer.set_patches(&self.gpu, &[]);
     }
 
-    /// Renders the view of the aircraft's camera from one point toward another, with a horizontal field of view of `hfov_deg`.
+    /// Returns a shot with the aircraft's camera from one point toward another, with a horizontal field of view of
+    /// `hfov_deg`.
     pub fn seen(&self, from: Vec3<Enu>, look: Vec3<Enu>, hfov_deg: f64, lamp: bool, size_px: (u32, u32)) -> Shot {
         let lens = Camera { hfov_rad: hfov_deg.to_radians(), ..self.vehicle.camera };
         let pose = camera_aimed_at(from, look, lamp);

@@ -61,8 +61,8 @@ impl ContactKind {
         }
     }
 
-    /// Returns the severity, 0 to 6. If there are several contacts, only the most severe is published: person, vehicle, bridge,
-    /// terrain, water, other, none.
+    /// Returns the severity, 0 to 6. If there are several contacts, only the most severe is published. Order, most
+    /// severe first: person, vehicle, bridge, terrain, water, other, none.
     #[must_use]
     pub fn severity(self) -> u8 {
         match self {
@@ -76,7 +76,8 @@ impl ContactKind {
         }
     }
 
-    /// Returns whether the contact counts toward X_o in TASBID: with anything except people and vehicles.
+    /// Returns whether the contact counts toward X_o in TASBID, which covers contacts with anything except people and
+    /// vehicles.
     #[must_use]
     pub fn is_other_crash(self) -> bool {
         matches!(self, Self::Bridge | Self::Terrain | Self::Water | Self::Other)

@@ -6,18 +6,19 @@
 
 use spandrel_model::time::SimTime;
 
-/// Difference by which the clock must run backward to indicate another or a restarted simulator.
+/// Minimum backward jump of the clock that indicates a different or restarted simulator.
 pub const RESTART_THRESHOLD: SimTime = SimTime::from_ms(1_000);
 /// Number of consecutive truth messages required to confirm a restart.
 pub const RESTART_CONFIRM_COUNT: usize = 3;
-/// Constant part of the jump threshold, m (estimate: more than a gust moves a hovering aircraft during one second without data).
+/// Constant part of the jump threshold, m (estimate: farther than a gust moves a hovering aircraft during one second
+/// without data).
 const JUMP_MARGIN_M: f64 = 1.5;
-/// Factor by which the higher of the two speeds is multiplied in the jump threshold (estimate: no supported aircraft accelerates
-/// that much within a gap).
+/// Factor on the higher of the two speeds in the jump threshold (estimate: no supported aircraft accelerates that much
+/// within a gap).
 const JUMP_SPEED_FACTOR: f64 = 4.0;
 
-/// Returns whether a displacement of `distance_m` within `span` is too large to have been flown. `fastest_m_s` is the higher of
-/// the speeds at both ends.
+/// Returns whether a displacement of `distance_m` within `span` is too large for flight. `fastest_m_s` is the higher of
+/// the speeds at the two ends.
 #[must_use]
 pub fn is_jump(distance_m: f64, fastest_m_s: f64, span: SimTime) -> bool {
     distance_m > JUMP_MARGIN_M + JUMP_SPEED_FACTOR * fastest_m_s * span.s()

@@ -6,11 +6,11 @@ pub const BATTERY_YELLOW: i32 = 1;
 pub const BATTERY_RED: i32 = 1 << 1;
 /// The speed is above the limit.
 pub const SPEEDING: i32 = 1 << 2;
-/// The drone is off the path, but near enough that it has not left the task.
+/// The drone is off the path, but still close enough to be in the task.
 pub const OFF_PATH: i32 = 1 << 3;
 /// The clearance is below the limit of the task.
 pub const TOO_CLOSE: i32 = 1 << 4;
-/// The aircraft is or recently was in contact with an object.
+/// The aircraft is, or recently was, in contact with an object.
 pub const CRASH: i32 = 1 << 5;
 
 /// All cues with their names, most serious first.

@@ -7,7 +7,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ControlSource {
-    /// A pilot with sticks.
+    /// A pilot using sticks.
     Pilot,
     /// An uploaded mission.
     Mission,
@@ -22,7 +22,7 @@ use ControlSource::{Autopilot, Mission, Pilot, Script};
 /// Value of MAV_AUTOPILOT_ARDUPILOTMEGA.
 const ARDUPILOT_TYPE: u8 = 3;
 
-/// PX4 modes: main mode, sub-mode (`None` for any other), name, control source.
+/// PX4 modes: main mode, sub-mode (`None` matches any other), name, control source.
 const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
     (1, None, "Manual", Pilot),
     (2, None, "Altitude", Pilot),
@@ -77,8 +77,8 @@ pub fn name(autopilot: u8, custom_mode: u32) -> String {
 }
 
 impl ControlSource {
-    /// Returns the control source for the autopilot type and custom mode of a heartbeat. Unknown modes count as flown by the
-    /// pilot.
+    /// Returns the control source for the autopilot type and custom mode of a heartbeat. Unknown modes count as
+    /// controlled by the pilot.
     #[must_use]
     pub fn of(autopilot: u8, custom_mode: u32) -> Self {
         lookup(autopilot, custom_mode).map_or(Self::Pilot, |(_, source)| source)

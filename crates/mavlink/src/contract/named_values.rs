@@ -1,4 +1,4 @@
-//! Named values: scoring data except motion, and the monitor's cues.
+//! Named values: all scoring data except motion, and the monitor's cues.
 //!
 //! Integers are sent as NAMED_VALUE_INT, and real numbers as NAMED_VALUE_FLOAT. `time_boot_ms` is simulation time.
 
@@ -10,7 +10,7 @@ use crate::dialect::{MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA};
 pub enum Named {
     /// `contact`: kind of the current contact (the most severe one if there are several). Sent on change and at 10 Hz.
     Contact(ContactKind),
-    /// `hits`: number of contacts since simulation start, so that a contact between two `contact` messages is not lost. Sent on
+    /// `hits`: number of contacts since simulation start, including those between two `contact` messages. Sent on
     /// change and every 5 s.
     Hits(i32),
     /// `respawns`: number of respawns since simulation start. Sent on change and every 5 s.

@@ -1,12 +1,12 @@
-//! Stick positions in MAVLink: RC_CHANNELS 1 to 4 are roll, pitch, throttle and yaw. The center is 1500 us, and full travel is
-//! 500 us from it. Forward, right, up and clockwise are positive.
+//! Stick positions in MAVLink: RC_CHANNELS 1 to 4 are roll, pitch, throttle and yaw. The center is at 1500 us, and full
+//! travel is 500 us in each direction. Forward, right, up and clockwise are positive.
 
 /// Pulse width at center, us.
 const CENTER_US: i16 = 1500;
 /// Difference in pulse width between center and full travel, us.
 const TRAVEL_US: i16 = 500;
 
-/// Stick positions in the resolution of RC_CHANNELS: forward, right, up, clockwise.
+/// Stick positions at the resolution of RC_CHANNELS: forward, right, up, clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sticks([i16; 4]);
 

@@ -1,13 +1,13 @@
-//! An append-only list that never moves its rows. A growing vector would briefly need memory for two copies of a flight whenever
-//! it reallocates.
+//! An append-only list that never moves its rows. A growing vector would briefly need memory for two copies of a flight
+//! during each reallocation.
 
 /// Number of rows per block.
 const ROWS_PER_BLOCK: usize = 1_024;
 
-/// Rows in the order in which they were added.
+/// Rows in insertion order.
 #[derive(Debug, Clone)]
 pub struct BlockList<T> {
-    /// Blocks of rows. All except the last one are full.
+    /// Blocks of rows. All except the last are full.
     blocks: Vec<Vec<T>>,
 }
 
@@ -18,7 +18,7 @@ impl<T> Default for BlockList<T> {
 }
 
 impl<T> BlockList<T> {
-    /// Appends a row without moving the others.
+    /// Appends a row without moving existing rows.
     pub fn push(&mut self, row: T) {
         match self.blocks.last_mut() {
             Some(block) if block.len() < ROWS_PER_BLOCK => block.push(row),

@@ -1,4 +1,4 @@
-//! Resamples a flight at the scoring rate f. Frame i covers the 1/f s that end at its time; frame 1 is at lift-off.
+//! Resamples a flight at the scoring rate f. Frame i covers the 1/f s up to its time; frame 1 is at lift-off.
 
 use super::timeline::Flight;
 use crate::contract::contact::ContactKind;
@@ -7,9 +7,9 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 
-/// Minimum distance between truth messages that counts as a gap (docs/src/reference/assessment.md, "Frames").
+/// Minimum interval between truth messages that counts as a gap (docs/src/reference/assessment.md, "Frames").
 pub const MIN_GAP: SimTime = SimTime::from_ms(200);
-/// Maximum length of a gap that is interpolated. Frames in longer gaps are missing.
+/// Maximum length of an interpolated gap. Frames in longer gaps are missing.
 pub const MAX_INTERPOLATED_GAP: SimTime = SimTime::from_ms(1_000);
 /// Maximum delay of a `contact` message after the `hits` message that counts it (`contact` is repeated at 10 Hz).
 const MAX_CONTACT_DELAY: SimTime = SimTime::from_ms(200);
@@ -25,7 +25,7 @@ pub struct Frame {
     pub sticks: [f64; 4],
     /// Whether the lamp is on.
     pub light: bool,
-    /// Whether a picture was taken since the previous frame.
+    /// Whether a photo was taken since the previous frame.
     pub snapshot: bool,
     /// Position in the scenario frame, m.
     pub position_m: Vec3<Enu>,
@@ -37,7 +37,7 @@ pub struct Frame {
     pub contact: ContactKind,
     /// Whether the frame is in a gap that is too long to interpolate.
     pub missing: bool,
-    /// Whether the frame is in a gap that is interpolated.
+    /// Whether the frame is in an interpolated gap.
     pub interpolated: bool,
     /// Distance to the nearest surface, m; `None` if not received yet.
     pub clearance_m: Option<f64>,
@@ -62,13 +62,13 @@ pub struct InterpolatedState {
     pub motion: Motion<Enu>,
     /// Whether the time is in a gap that is too long to interpolate.
     pub missing: bool,
-    /// Whether the time is in a gap that is interpolated.
+    /// Whether the time is in an interpolated gap.
     pub interpolated: bool,
 }
 
 impl Flight {
-    /// Returns the first time at which the aircraft was more than `height_m` above the pad. `pad_up_m` is the pad's height in the
-    /// scenario frame, m.
+    /// Returns the first time when the aircraft was more than `height_m` above the pad. `pad_up_m` is the pad's height
+    /// in the scenario frame, m.
     #[must_use]
     pub fn lift_off(&self, pad_up_m: f64, height_m: f64) -> Option<SimTime> {
         self.truths.iter().find(|truth| truth.motion.position_m.up() - pad_up_m > height_m).map(|truth| truth.time)
@@ -141,8 +141,8 @@ impl Flight {
         changes.iter().map(|change| change.2).chain([now]).max_by_key(|contact| contact.severity()).unwrap_or_default()
     }
 
-    /// Returns the times at which `hits` increased without a corresponding `contact` message, which means that the message was
-    /// lost.
+    /// Returns the times when `hits` increased without a corresponding `contact` message, which indicates a lost
+    /// message.
     #[must_use]
     pub fn missed_contacts(&self) -> Vec<SimTime> {
         let mut lost = Vec::new();

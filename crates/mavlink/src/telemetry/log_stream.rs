@@ -1,4 +1,4 @@
-//! Reads a telemetry log in chunks, so that logs of any length can be read with limited memory.
+//! Reads a telemetry log in chunks, which bounds memory use for logs of any length.
 
 use super::sample::FrameHeader;
 use super::tlog::{STAMP_BYTES, TlogReader, TlogRecord, record_at};
@@ -38,12 +38,12 @@ pub struct RecordSplitter {
     /// Number of log bytes before `bytes`.
     before: u64,
     complete_bytes: u64,
-    /// Whether the data was corrupt and the next record with a valid checksum is searched.
+    /// Whether the splitter is searching for the next record with a valid checksum after corrupt data.
     searching: bool,
 }
 
 impl RecordSplitter {
-    /// Appends a chunk and calls `take` with the records that are certainly complete.
+    /// Appends a chunk and calls `take` with the records that are known to be complete.
     pub fn feed(&mut self, piece: &[u8], take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         self.bytes.drain(..self.at);
         self.before += self.at as u64;
@@ -63,7 +63,7 @@ impl RecordSplitter {
         self.complete_bytes
     }
 
-    /// Splits while at least `least` bytes remain. A record in fewer bytes might continue in the next chunk.
+    /// Splits while at least `least` bytes remain. A shorter remainder might continue in the next chunk.
     fn split(&mut self, least: usize, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> ControlFlow<()> {
         let Self { bytes, at, before, complete_bytes, searching } = self;
         while bytes.len() - *at >= least {

@@ -1,5 +1,6 @@
-//! Converts a MAVLink frame to a [`Sample`] if the timeline stores messages of its type. The header is checked first, so that the
-//! many other frames cost only a few nanoseconds. MAVLink units (degE7, mm, cm/s, µs, permille) are converted here.
+//! Converts a MAVLink frame to a [`Sample`] if the timeline stores messages of its type. The header is checked first,
+//! so skipping any other frame takes only a few nanoseconds. MAVLink units (degE7, mm, cm/s, µs, permille) are
+//! converted here.
 
 use crate::contract::contact::ContactKind;
 use crate::contract::modes::ControlSource;
@@ -62,7 +63,7 @@ pub enum SampleValue {
     },
     /// Whether the autopilot reports that the aircraft is on the ground.
     OnGround(bool),
-    /// Index of a picture that was taken.
+    /// Index of a photo that was taken.
     Snapshot(i32),
 }
 
@@ -77,7 +78,7 @@ pub struct Sample {
     pub checksum: u16,
     /// Timestamp in the message, if it has one.
     pub own_time: Option<SimTime>,
-    /// Value or ground truth that was decoded.
+    /// Decoded value or ground truth.
     pub content: SampleContent,
 }
 

@@ -17,12 +17,12 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 use std::ops::ControlFlow;
 
-/// Maximum difference between a message's own timestamp and truth time at which the timestamp is used.
+/// Maximum difference between a message's own timestamp and truth time for the timestamp to be used.
 const MAX_CLOCK_DIFFERENCE: SimTime = SimTime::from_ms(2_000);
 /// Maximum difference between the time found by sequence number and the time of arrival.
 const MAX_SEQUENCE_TIME_DIFFERENCE: SimTime = SimTime::from_ms(500);
-/// Maximum number of sequence numbers by which a late frame can be behind. Larger differences indicate a large loss, because the
-/// numbers wrap at 256.
+/// Maximum lag of a late frame, in sequence numbers. Larger differences indicate a large loss, because the numbers wrap
+/// at 256.
 const MAX_LATE_FRAMES: i64 = 64;
 /// Component ID of the monitor, whose own messages are ignored.
 const MONITOR_COMPONENT: u8 = 191;
@@ -96,7 +96,7 @@ impl SequenceUnwrapper {
     }
 }
 
-/// A sample with the data from which its time is determined.
+/// A sample with the data needed to determine its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TimedSample {
     value: SampleValue,
@@ -183,8 +183,8 @@ impl Timeline {
         self.newest
     }
 
-    /// Returns the id of the vehicle's system, which is known after the first truth message. Messages from other systems are not
-    /// part of the flight.
+    /// Returns the ID of the vehicle's system, which is known after the first truth message. Messages from other
+    /// systems are not part of the flight.
     #[must_use]
     pub fn system(&self) -> Option<u8> {
         self.system
@@ -225,7 +225,7 @@ impl Timeline {
         if header.sender.1 == MONITOR_COMPONENT || frame.len() < header.payload_end + 2 {
             return FrameDisposition::Ignored;
         }
-        // Messages from other systems may be routed here, too. They are ignored once the vehicle's system is known.
+        // Messages from other systems may also be routed here. They are ignored once the vehicle's system is known.
         let sample = sample::read(frame, &self.plane).filter(|s| self.system.is_none_or(|system| system == s.sender.0));
         let checksum = u16::from_le_bytes([frame[header.payload_end], frame[header.payload_end + 1]]);
         let ahead = matches!(sample.map(|s| s.content), Some(SampleContent::Truth(truth)) if self.newest.is_none_or(|newest| truth.time > newest));
@@ -322,7 +322,7 @@ impl Timeline {
     }
 }
 
-/// Returns the sort key by which a sender's truth messages are found by sequence number.
+/// Returns the sort key for finding a sender's truth messages by sequence number.
 fn sequence_key(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
     (entry.sender, entry.order, entry.truth.time)
 }
@@ -332,7 +332,7 @@ fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
     let arrival = entry.arrival.get();
     if let Some(own) = entry.own_time.get() {
-        // The message of a lost picture is sent again much later, with the original timestamp.
+        // The message for a lost photo is sent again much later, with the original timestamp.
         let late = matches!(entry.value, SampleValue::Snapshot(_)) && arrival.is_some_and(|arrival| own <= arrival);
         if late || arrival.is_none_or(|arrival| near(own, arrival, MAX_CLOCK_DIFFERENCE)) {
             return own;
@@ -379,7 +379,7 @@ pub struct Flight {
     pub flown_by: Signal<ControlSource>,
     /// Whether the autopilot reports that the aircraft is on the ground.
     pub on_ground: Signal<bool>,
-    /// Index and camera timestamp of each picture; repeated messages are merged.
+    /// Index and camera timestamp of each photo; repeated messages are merged.
     pub snapshots: Signal<(i32, Option<SimTime>)>,
     /// Session seeds that the simulator published.
     pub seeds: Signal<u64>,

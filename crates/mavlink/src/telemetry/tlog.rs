@@ -1,8 +1,8 @@
 //! The telemetry log: one record per MAVLink frame. A record consists of an 8-byte big-endian timestamp, µs since the Unix epoch,
 //! and the unmodified frame. QGroundControl, Mission Planner and MAVProxy use the same format.
 //!
-//! A file may end at any byte, for example if the monitor was killed. All complete records are read, and the rest is ignored.
-//! Corrupt data affects only the damaged records.
+//! A file may end at any byte, for example if the monitor was killed. All complete records are read, and the rest is
+//! ignored. Corrupt data affects only the records that contain it.
 
 use super::sample::FrameHeader;
 

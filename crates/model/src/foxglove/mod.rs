@@ -103,7 +103,7 @@ impl FramePose {
     /// Creates the pose of the aircraft from its position and attitude.
     #[must_use]
     pub fn drone(position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>) -> Self {
-        // Half a turn about the forward axis converts forward, left, up to forward, right, down.
+        // A half turn about the forward axis converts forward, left, up to forward, right, down.
         let frd_from_flu = UnitQuaternion::new_unchecked(Quaternion::new(0.0, 1.0, 0.0, 0.0));
         let rotation = enu_from_ned() * attitude.raw() * frd_from_flu;
         Self { position_m: position_m.enu().array(), rotation }

@@ -29,17 +29,17 @@ pub struct Scenario {
     pub tasks: Vec<Task>,
     /// Number, size and types of the defects.
     pub defects: DefectSpec,
-    /// Numbers and speed of vehicles and pedestrians.
+    /// Number of vehicles and pedestrians, and speed of vehicles.
     pub traffic: TrafficSpec,
     /// Wind model, mean wind and gusts.
     pub wind: WindSpec,
     /// Sun, cloud cover and surface reflection.
     pub light: LightSpec,
-    /// Session rules: crashes, battery and GNSS.
+    /// Session rules for crashes, battery and GNSS.
     pub rules: SessionRules,
     /// Thresholds of the in-flight feedback.
     pub feedback: FeedbackThresholds,
-    /// Parameters of the scoring formulas.
+    /// Scoring parameters.
     pub scoring: ScoringParams,
     /// CRC-32 (IEEE) of the file without seed and placed defects, sent as `scn_crc`.
     pub crc: u32,
@@ -86,7 +86,7 @@ pub enum TerrainSource {
     },
 }
 
-/// Positions of the ground crew and of the level landing pad, from which the drone takes off and on which it lands.
+/// Positions of the ground crew and of the level landing pad, where the drone takes off and lands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundTeam {
     /// Center of the upper surface of the landing pad, m.
@@ -101,7 +101,7 @@ pub struct GroundTeam {
     pub truck_m: Vec3<Enu>,
     /// Truck heading, degrees clockwise from north.
     pub truck_heading_deg: f64,
-    /// Maximum horizontal distance from the center of the pad at which a landing counts as at home, m.
+    /// Maximum horizontal distance from the center of the pad for a landing to count as at home, m.
     pub home_radius_m: f64,
 }
 
@@ -116,7 +116,7 @@ pub struct Task {
     pub bridge: Option<usize>,
     /// Path type: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, or `free`.
     pub kind: TaskKind,
-    /// On-path threshold, m (< 8).
+    /// On-path threshold, m; less than 8.
     pub threshold_m: f64,
     /// True if the path returns to its start.
     pub closed: bool,
@@ -194,7 +194,7 @@ pub struct WindSpec {
     pub speed_m_s: f64,
     /// Constant force of the `paper` model, N.
     pub paper_force_n: f64,
-    /// Direction from which the wind blows, degrees clockwise from north.
+    /// Direction that the wind blows from, degrees clockwise from north.
     pub from_deg: f64,
     /// Vertical wind component, m/s, positive up.
     pub up_m_s: f64,
@@ -224,7 +224,7 @@ pub enum WindEvent {
         duration: SimTime,
         /// Peak speed, m/s.
         peak_m_s: f64,
-        /// Direction from which the gust blows, degrees clockwise from north.
+        /// Direction that the gust blows from, degrees clockwise from north.
         from_deg: f64,
     },
     /// A linear change of the mean wind.
@@ -235,7 +235,7 @@ pub enum WindEvent {
         over: SimTime,
         /// New mean wind speed at 20 ft, m/s.
         speed_m_s: f64,
-        /// New direction from which the wind blows, degrees clockwise from north.
+        /// New direction that the wind blows from, degrees clockwise from north.
         from_deg: f64,
     },
 }
@@ -253,20 +253,20 @@ pub struct LightSpec {
     pub ground_albedo: f64,
 }
 
-/// Rules of a session: crashes, battery and GNSS.
+/// Session rules for crashes, battery and GNSS.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionRules {
     /// Action after a survivable crash.
     pub after_crash: AfterCrash,
-    /// Battery model in use.
+    /// Battery model of the session.
     pub battery: BatteryModel,
     /// True if the vehicle returns to launch at low battery. False in the job of the TASBID paper.
     pub low_battery_return: bool,
-    /// Low battery level, %, which triggers the warning and, if enabled, the return to launch.
+    /// Low battery level, %, that triggers the warning and, if enabled, the return to launch.
     pub low_battery_pct: f64,
-    /// Critical battery level, %, at which the vehicle lands if `low_battery_return` is true.
+    /// Critical battery level, %, that triggers a landing if `low_battery_return` is true.
     pub critical_battery_pct: f64,
-    /// True if structures block GNSS satellites; the fraction of open sky determines how many are visible.
+    /// True if structures block GNSS satellites; the fraction of open sky determines the number of visible satellites.
     pub gnss_shadow: bool,
     /// Simulation time before a crashed drone is respawned.
     pub respawn_after: SimTime,
@@ -283,7 +283,7 @@ pub enum AfterCrash {
     End,
 }
 
-/// Model of the battery.
+/// Battery model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BatteryModel {
     /// Discharges linearly from 100 % at lift-off to 0 % over the aircraft's `paper_endurance_s`.
@@ -297,13 +297,13 @@ pub enum BatteryModel {
 pub struct FeedbackThresholds {
     /// Minimum distance from the center of the drone to any surface, m.
     pub too_close_m: f64,
-    /// Distance at which the too-close warning clears, m.
+    /// Distance where the too-close warning clears, m.
     pub too_close_clear_m: f64,
     /// Outer limit of the off-path band, m.
     pub off_path_max_m: f64,
-    /// Time off path after which the cue appears.
+    /// Time off the path before the cue appears.
     pub off_path_after: SimTime,
-    /// Minimum time for which the cue stays visible.
+    /// Minimum time that the cue stays visible.
     pub off_path_hold: SimTime,
     /// Minimum battery level that is displayed in green, %.
     pub battery_green_pct: f64,
@@ -313,7 +313,7 @@ pub struct FeedbackThresholds {
     pub text_interval: SimTime,
 }
 
-/// Parameters of the scoring formulas.
+/// Scoring parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScoringParams {
     /// Frame rate f of the scoring formulas, Hz.

@@ -31,7 +31,7 @@ pub fn read(file: &str, text: &str, siblings: SiblingLoader) -> Result<Scenario,
     read_with_keys(file, text, siblings).0
 }
 
-/// Parses a scenario file. Also returns the keys that were read, for the test of the documentation.
+/// Parses a scenario file. Also returns the keys that were read, for the documentation test.
 pub fn read_with_keys(
     file: &str,
     text: &str,

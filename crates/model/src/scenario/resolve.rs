@@ -84,8 +84,8 @@ fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
     }
 }
 
-/// Returns the CRC-32 of the text in canonical form. Seed and placed defects are excluded, so that a resolved file has the CRC of
-/// its source.
+/// Returns the CRC-32 of the text in canonical form. Excludes the seed and placed defects, so that a resolved file has
+/// the same CRC as its source.
 #[must_use]
 pub fn crc(text: &str) -> u32 {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return crc32fast::hash(text.as_bytes()) };

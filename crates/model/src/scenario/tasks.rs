@@ -14,8 +14,8 @@ const MAX_THRESHOLD_M: f64 = 7.999;
 
 /// Maximum number of tasks per job (estimate; the TASBID paper has four).
 const MAX_TASKS: usize = 64;
-/// Maximum length of a path in a file, m (estimate: twice the distance flown on one battery). A longer path is likely a typing
-/// error.
+/// Maximum length of a path in a file, m (estimate: twice the distance flown on one battery). A longer path is likely a
+/// typo.
 const MAX_PATH_LENGTH_M: f64 = 20_000.0;
 
 const TASK_KINDS: [(&str, TaskKind); 5] = [
@@ -26,8 +26,8 @@ const TASK_KINDS: [(&str, TaskKind); 5] = [
     ("free", TaskKind::Free),
 ];
 
-/// Returns the default on-path threshold of a task kind, m (docs/src/reference/assessment.md, "On path"; the TASBID paper does
-/// not specify any).
+/// Returns the default on-path threshold of a task kind, m (docs/src/reference/assessment.md, "On path"; the TASBID
+/// paper specifies none).
 fn default_threshold_m(kind: TaskKind) -> f64 {
     match kind {
         TaskKind::SlabSide | TaskKind::ArchBottom => 3.0,
@@ -98,7 +98,8 @@ fn read_bridge_index(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &
     found
 }
 
-/// Creates a path from the points in the file, resampled. The camera points along the path unless the file gives a target.
+/// Creates a path from the points in the file, resampled. The camera points along the path unless the file specifies a
+/// target.
 fn free_path(
     r: &mut Reader,
     s: &mut Section,

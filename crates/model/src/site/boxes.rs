@@ -28,24 +28,24 @@ impl OrientedBox {
         self.half_m.iter().map(|h| h * h).sum::<f64>().sqrt()
     }
 
-    fn to_local(&self, point_m: Vec3<Enu>) -> [f64; 3] {
+    fn local_from_world(&self, point_m: Vec3<Enu>) -> [f64; 3] {
         let from_centre = point_m - self.center_m;
         self.axes.map(|axis| axis.dot(from_centre))
     }
 
-    fn to_world(&self, local: [f64; 3]) -> Vec3<Enu> {
+    fn world_from_local(&self, local: [f64; 3]) -> Vec3<Enu> {
         self.axes[0] * local[0] + self.axes[1] * local[1] + self.axes[2] * local[2]
     }
 
     /// Returns the signed distance (m, negative inside), surface point and outward unit normal nearest to a point.
     #[must_use]
     pub fn nearest(&self, point_m: Vec3<Enu>) -> (f64, Vec3<Enu>, Vec3<Enu>) {
-        let p = self.to_local(point_m);
+        let p = self.local_from_world(point_m);
         let inside = [0, 1, 2].map(|k: usize| p[k].clamp(-self.half_m[k], self.half_m[k]));
-        let away = self.to_world([p[0] - inside[0], p[1] - inside[1], p[2] - inside[2]]);
+        let away = self.world_from_local([p[0] - inside[0], p[1] - inside[1], p[2] - inside[2]]);
         let distance = away.norm();
         if distance > 0.0 {
-            return (distance, self.center_m + self.to_world(inside), away / distance);
+            return (distance, self.center_m + self.world_from_local(inside), away / distance);
         }
         let depth = [0, 1, 2].map(|k: usize| self.half_m[k] - p[k].abs());
         let k = (0..3).fold(0, |best, k| if depth[k] < depth[best] { k } else { best });
@@ -58,7 +58,7 @@ impl OrientedBox {
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {
         let (mut enter, mut leave, mut normal) = (0.0_f64, max_m, -direction);
-        for ((axis, half), o) in self.axes.into_iter().zip(self.half_m).zip(self.to_local(origin_m)) {
+        for ((axis, half), o) in self.axes.into_iter().zip(self.half_m).zip(self.local_from_world(origin_m)) {
             let d = axis.dot(direction);
             if d.abs() < 1e-15 {
                 if o.abs() > half {
@@ -76,8 +76,8 @@ impl OrientedBox {
         (enter <= leave).then_some((enter, normal))
     }
 
-    /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe. A ball has one contact. A capsule
-    /// has contacts at its deepest point and at both ends, so that a capsule lying on a face rests on two points.
+    /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe. A ball has one contact.
+    /// A capsule has contacts at its deepest point and at both ends, so a capsule lying on a face rests on two points.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, mut found: impl FnMut(f64, Vec3<Enu>, Vec3<Enu>)) {
         let mut test = |center: Vec3<Enu>, radius: f64| {
             let (distance, point, normal) = self.nearest(center);
@@ -101,8 +101,8 @@ impl OrientedBox {
         }
     }
 
-    /// Returns the fraction of the segment from `a` to `b` at which the signed distance is minimal. The distance is convex along
-    /// a line, so a golden-section search finds the minimum.
+    /// Returns the fraction of the segment from `a` to `b` where the signed distance is minimal. The distance is convex
+    /// along a line, so a golden-section search finds the minimum.
     fn closest_fraction(&self, a_m: Vec3<Enu>, b_m: Vec3<Enu>) -> f64 {
         let at = |t: f64| self.nearest(a_m.lerp(b_m, t)).0;
         let (mut low, mut high) = (0.0, 1.0);
@@ -181,7 +181,7 @@ mod tests {
         gaps.clear();
         let across = HullProbe::Capsule { a_m: Vec3::new(8.5, -3.0, 1.0), b_m: Vec3::new(8.5, 3.0, 1.0), radius_m: 0.05 };
         b.contacts(&across, 0.1, |gap, _, _| gaps.push(gap));
-        // The edge at east 10 - √2 = 8.586 lies 0.086 from the axis.
+        // The edge at east 10 - √2 = 8.586 is 0.086 from the axis.
         assert_eq!(gaps.len(), 1);
         assert!((gaps[0] - (1.5 - 2.0_f64.sqrt() - 0.05)).abs() < 1e-6, "{gaps:?}");
     }

@@ -3,8 +3,8 @@
 
 use crate::time::SimTime;
 
-/// Times at which the bridges were closed and reopened, sorted; they are open at the start. Plain data, so that traffic remains a
-/// function of time.
+/// Sorted times when the bridges were closed and reopened. Bridges are open at the start. Plain data, so that traffic
+/// remains a function of time.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct BridgeClosures(Vec<(SimTime, bool)>);
 

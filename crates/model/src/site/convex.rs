@@ -1,4 +1,4 @@
-//! Distance and ray queries on convex polyhedra. The signed distance to a convex polyhedron is a convex function, so that a
+//! Distance and ray queries on convex polyhedra. The signed distance to a convex polyhedron is a convex function, so a
 //! one-dimensional search finds the nearest point on a capsule's axis.
 
 use crate::frames::{Enu, Vec3};
@@ -9,7 +9,7 @@ use crate::scenario::bridges::Solid;
 const MAX_SEARCH_ROUNDS: usize = 40;
 /// Tolerance within which two distances count as equal, m. Identifies segments that lie flat on a face.
 const DISTANCE_TOLERANCE_M: f64 = 1e-7;
-/// Maximum distance from the surface at which a point gets the normal of the face, m.
+/// Maximum distance from the surface for a point to get the normal of the face, m.
 const CONTACT_TOLERANCE_M: f64 = 1e-9;
 /// Tolerance on the cosine between the normals of perpendicular faces of a box.
 const PERPENDICULAR_TOLERANCE: f64 = 1e-12;
@@ -196,7 +196,7 @@ struct RayInterval {
 }
 
 impl RayInterval {
-    /// Clips the interval by a plane, given the height of the ray's origin above it and the rate at which the ray climbs.
+    /// Clips the interval by a plane, given the height of the ray's origin above it and the ray's rate of climb.
     fn clip_by_plane(&mut self, height: f64, rate: f64, normal: impl Fn() -> Vec3<Enu>) {
         if rate == 0.0 {
             if height > 0.0 {

@@ -16,9 +16,10 @@ use crate::scenario::bridges::Member;
 use crate::scenario::{DefectSpec, PlacedDefect, Task, TaskKind};
 use crate::vehicle::{Camera, Lamp};
 
-/// Camera with which every placed defect can be photographed. Its resolution is lower than that of the shipped cameras (3000 px
-/// over 100 degrees; estimate for a small low-end inspection drone), and its gimbal has the full range. Placement must not depend
-/// on the aircraft, because simulator and monitor each place the defects from only the scenario and the seed.
+/// Reference camera, which can photograph every placed defect. Its resolution is lower than that of the shipped cameras
+/// (3000 px over 100 degrees; estimate for a small low-end inspection drone), and its gimbal has the full range.
+/// Placement must not depend on the aircraft, because simulator and monitor each place the defects from only the
+/// scenario and the seed.
 pub const REFERENCE_CAMERA: Camera = Camera {
     position_m: Vec3::new(0.0, 0.0, 0.0),
     width_px: 3000,
@@ -37,35 +38,37 @@ pub const REFERENCE_LAMP: Lamp = Lamp { flux_lm: 1000.0, beam_rad: math::PI / 3.
 
 /// Minimum distance of the reference camera from any surface, m (half of 0.59 m tip to tip, plus a margin).
 pub const CAMERA_CLEARANCE_M: f64 = 0.8;
-/// Distances from the path toward the defect at which the reference camera is tried, as fractions of the task's threshold. The
-/// largest leaves a margin.
+/// Candidate distances of the reference camera from the path toward the defect, as fractions of the task's threshold.
+/// The largest one leaves a margin.
 const APPROACH_FRACTIONS: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
 /// Half angle of the search cone about the viewing direction of the path, rad (estimate of camera pan and tilt).
 const SEARCH_CONE_RAD: f64 = 0.9;
 /// Unit vector that points up.
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
-/// Maximum distance at which faces are searched, m (estimate; thin lines fail the visibility check at much shorter distances).
+/// Maximum distance of the search for faces, m (estimate; thin lines fail the visibility check at much shorter
+/// distances).
 const SEARCH_REACH_M: f64 = 20.0;
 /// Minimum width of bare surface around a defect, m, which keeps defects away from joints and edges.
 const EDGE_MARGIN_M: f64 = 0.03;
 /// Minimum free space in front of a defect, along its normal, m.
 const FREE_SPACE_M: f64 = 0.5;
-/// Minimum distance between the centers of two defects, m, so that a photo rarely shows two of them.
+/// Minimum distance between the centers of two defects, m, so that a photo rarely shows two defects.
 const MIN_SEPARATION_M: f64 = 2.0;
-/// Maximum number of attempts per defect. The first third requires the full separation; the others reduce it gradually.
+/// Maximum number of attempts per defect. The first third requires the full separation; later attempts reduce it
+/// gradually.
 const MAX_ATTEMPTS: usize = 3000;
-/// Number of path points that are tried as positions of the reference camera, nearest first.
+/// Number of path points to try as positions of the reference camera, nearest first.
 const CANDIDATE_POINTS: usize = 5;
 
-/// Returns the properties in which an aircraft's camera or lamp falls short of the reference, with both values; empty if it meets
-/// the reference.
+/// Returns the properties of an aircraft's camera or lamp that fall short of the reference, with both values; empty if
+/// there are none.
 #[must_use]
 pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
     let candela = |l: &Lamp| l.flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_rad)));
     let wanting = [
         ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
         ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
-        // The reciprocal, so that a higher value is better in all rows.
+        // Use the reciprocal, so that higher is better in all rows.
         ("light sensitivity, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
         ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
         ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
@@ -219,8 +222,8 @@ fn is_exposed(defect: &PlacedDefect, object: u32, context: &PlacementContext) ->
     })
 }
 
-/// Returns a camera pose within the task's threshold of its path, with sufficient clearance, from which the reference camera
-/// captures the defect; `None` if no candidate qualifies.
+/// Returns a pose where the reference camera captures the defect, within the task's threshold of its path and with
+/// sufficient clearance; `None` if no candidate qualifies.
 #[must_use]
 pub fn find_view(defect: &PlacedDefect, task: &Task, context: &PlacementContext) -> Option<CameraPose> {
     let mut order: Vec<usize> = (0..task.path_m.len()).collect();

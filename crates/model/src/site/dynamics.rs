@@ -1,5 +1,5 @@
-//! Session-specific content of a site: traffic and crew, defects, light. Queries take the result for the static geometry as an
-//! argument, so that they do not depend on its implementation.
+//! Session-specific content of a site: traffic and crew, defects, light. Queries take the result for static geometry as
+//! an argument, which makes them independent of its implementation.
 
 use super::camera_pose::CameraPose;
 use super::defects::{self, PlacementContext};
@@ -46,14 +46,14 @@ impl Dynamics {
         Self { traffic: TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed), light, defects: placed }
     }
 
-    /// Returns the nearest of static geometry, whose result is `still`, and of traffic and crew within `max_m`.
+    /// Returns the nearest point within `max_m` of static geometry (`still`), traffic and crew.
     #[must_use]
     pub fn nearest(&self, still: Option<NearestPoint>, position_m: Vec3<Enu>, max_m: f64, at: QueryTime) -> Option<NearestPoint> {
         let reach = still.map_or(max_m, |s| s.distance_m);
         self.traffic.nearest(position_m, reach, at).or(still)
     }
 
-    /// Returns the first hit of a ray with static geometry, whose result is `still`, and with traffic and crew within `max_m`.
+    /// Returns the first hit of a ray within `max_m` among static geometry (`still`), traffic and crew.
     #[must_use]
     pub fn ray(
         &self,
@@ -92,7 +92,7 @@ mod tests {
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
     use crate::scenario::*;
 
-    /// Number of seeds for which the placement is checked.
+    /// Number of seeds to check the placement with.
     const SEED_COUNT: u64 = 50;
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 

@@ -14,7 +14,7 @@ pub(super) struct MemberFace {
 
 /// Returns the face of a solid that contains a point, with the point projected onto its plane; `None` if there is none.
 pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
-    /// Maximum distance at which a point counts as on a face, m.
+    /// Maximum distance for a point to count as on a face, m.
     const FACE_TOLERANCE_M: f64 = 0.002;
     let mut best: Option<(f64, MemberFace)> = None;
     for indices in &solid.faces {

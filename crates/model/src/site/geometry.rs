@@ -123,7 +123,7 @@ impl Geometry {
         Some(NearestPoint { distance_m, point_m, normal, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
-    /// Returns the nearest of members, ground and water within `max_m`; the ground is ignored over the landing pad.
+    /// Returns the nearest point of members, ground and water within `max_m`. Ignores the ground over the landing pad.
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>, max_m: f64) -> Option<NearestPoint> {
         let mut best: Option<NearestPoint> = None;

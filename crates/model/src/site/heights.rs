@@ -7,7 +7,7 @@ use crate::frames::{Enu, Vec3};
 
 /// Number of cells along each side of a block. Queries use the minimum and maximum heights of blocks to skip cells.
 const BLOCK_CELLS: i64 = 8;
-/// Maximum distance from the surface at which a point gets the normal of the triangle, m.
+/// Maximum distance from the surface for a point to get the normal of the triangle, m.
 const CONTACT_TOLERANCE_M: f64 = 1e-9;
 /// Tolerance within which two distances count as equal, m.
 const DISTANCE_TOLERANCE_M: f64 = 1e-7;
@@ -51,19 +51,20 @@ impl TerrainCell {
     }
 }
 
-/// Cell and distance at which a ray continues after a skipped block.
+/// Cell and distance where a ray continues after a skipped block.
 struct RayPosition {
     column: i64,
     row: i64,
     t: f64,
 }
 
-/// Returns the distance along a ray at which it leaves a column or row of cells; infinity if it is parallel to it.
+/// Returns the distance along a ray to the point where it leaves a column or row of cells; infinity if the ray is
+/// parallel to it.
 fn exit_distance(cell: i64, from: f64, rate: f64) -> f64 {
     if rate == 0.0 { f64::INFINITY } else { ((cell + i64::from(rate > 0.0)) as f64 - from) / rate }
 }
 
-/// Returns the row or column of a ray after it has crossed all cell sides at distances for which `before` is true.
+/// Returns the row or column of a ray after it has crossed all cell sides whose distance satisfies `before`.
 fn advance_cell(mut cell: i64, from: f64, rate: f64, before: impl Fn(f64) -> bool) -> i64 {
     let forward = if rate > 0.0 { 1 } else { -1 };
     while before(exit_distance(cell, from, rate)) {
@@ -142,7 +143,8 @@ impl HeightGrid {
             return None;
         }
         let below = above < 0.0;
-        // The ground directly above or below the point limits the search: points farther away cannot be the nearest.
+        // The ground directly above or below the point limits the search, because points farther away cannot be
+        // nearest.
         let reach = if below { -above } else { above.min(max_m) };
         let mut best = (reach * reach, Vec3::new(p.east(), p.north(), height));
         let mut found = below || above <= max_m;
@@ -334,7 +336,7 @@ impl HeightGrid {
         Some(RayPosition { column, row, t: leave })
     }
 
-    /// Returns distance and normal at the first point between two distances at which the ray is not above the cell's two
+    /// Returns distance and normal at the first point between two distances where the ray is not above the cell's two
     /// triangles.
     fn hit_in_cell(
         &self,

@@ -1,9 +1,9 @@
 //! Illuminance from direct sun, sky, reflection by water and ground, and interreflection within the structure, lx.
 //!
-//! A fixed set of rays samples the surroundings. There are no random numbers and no state, so that the same point always yields
-//! the same result. The luminance of the sky is uniform. A ray that hits water, ground or structure contributes the first
-//! reflection of that surface. Interreflection between members is modeled as an enclosure: visible members are assumed to receive
-//! the same indirect light as the point itself.
+//! A fixed set of rays samples the surroundings. There are no random numbers and no state, so the same point always
+//! yields the same result. The luminance of the sky is uniform. A ray that hits water, ground or structure contributes
+//! the first reflection of that surface. Interreflection between members is modeled as an enclosure: visible members
+//! are assumed to receive the same indirect light as the point itself.
 
 use super::query_types::{RayHit, Surface};
 use super::sun;
@@ -21,7 +21,8 @@ pub type RayCast<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit>;
 const RAY_COUNT: usize = 64;
 /// Number of rays in the upper hemisphere that measure the open sky.
 const SKY_RAY_COUNT: usize = 64;
-/// Maximum distance at which a structure obstructs the sky, m (estimate: a structure farther away covers less than one ray).
+/// Maximum distance of structures that obstruct the sky, m (estimate: a structure farther away covers less than the
+/// solid angle of one ray).
 const SKY_REACH_M: f64 = 250.0;
 /// Maximum length of a shadow, m (estimate).
 const SHADOW_REACH_M: f64 = 600.0;

@@ -14,7 +14,7 @@ pub(super) fn nearest_on_crease((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<En
     (rank, SurfacePoint { distance_m: signed, point_m: e, normal: (q - e) / signed })
 }
 
-/// Returns the depth at which segment a-b passes below segment c-d where they cross in plan view; `None` if they do not cross.
+/// Returns the depth of segment a-b below segment c-d where they cross in plan view; `None` if they do not cross.
 fn depth_below((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> Option<f64> {
     let (u, v, w) = (b - a, d - c, c - a);
     let turn = |p: Vec3<Enu>, q: Vec3<Enu>| p.east() * q.north() - p.north() * q.east();
@@ -24,7 +24,7 @@ fn depth_below((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -
     within.then(|| (c + v * t).up() - (a + u * s).up())
 }
 
-/// Returns the points at which segments a-b and c-d are closest.
+/// Returns the points where segments a-b and c-d are closest.
 fn closest_points_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (Vec3<Enu>, Vec3<Enu>) {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, uv, vv) = (u.norm_squared(), u.dot(v), v.norm_squared());

@@ -3,8 +3,8 @@
 use crate::frames::{Enu, Vec3};
 use crate::time::SimTime;
 
-/// Surface type for contact, clearance and the wire's `contact` code (docs/src/reference/wire.md, "Scoring data": 0 none, 1
-/// bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other).
+/// Surface type for contacts, clearance and the `contact` code in telemetry (docs/src/reference/wire.md, "Scoring
+/// data": 0 none, 1 bridge, 2 terrain, 3 water, 4 vehicle, 5 person, 6 other).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Surface {
     /// A bridge member.
@@ -19,7 +19,7 @@ pub enum Surface {
     Person,
     /// Any other object.
     Other,
-    /// The landing pad. It is solid, but contact with it is not a crash and it is ignored in the clearance.
+    /// The landing pad. It is solid, but contact with it is not a crash, and the clearance ignores it.
     Pad,
 }
 

@@ -15,7 +15,7 @@ const EARTHWORK_SLOPE: f64 = 1.2;
 const ROAD_GRADE: f64 = 0.07;
 /// Depth of the excavation below the springings of an arch, m.
 const EXCAVATION_M: f64 = 1.0;
-/// Minimum depth to which structures are embedded in the ground, m.
+/// Minimum embedment depth of structures in the ground, m.
 const EMBEDMENT_M: f64 = 0.5;
 
 /// Ground surface and water level.
@@ -110,7 +110,7 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     let opening = bridge.opening_half_m();
     let off_side = (y.abs() - 0.5 * bridge.deck_width_m() - 2.0).max(0.0);
     let cut = if x.abs() < opening + 4.0 {
-        // The ground under the span slopes down from the springings, so that it does not cover any part of the bridge.
+        // The ground under the span slopes down from the springings to avoid covering any part of the bridge.
         let inside = (opening + 4.0 - x.abs()).max(0.0);
         height.min(deck - underside_depth_m(bridge) - EXCAVATION_M - 0.3 * inside + off_side / EARTHWORK_SLOPE)
     } else {

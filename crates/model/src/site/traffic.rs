@@ -1,6 +1,6 @@
-//! Cars, trucks and pedestrians on the decks, and the ground crew. The plan is drawn from the seed; positions are a pure function
-//! of simulation time. All objects in a lane have the same speed, so that none overtakes another, and move on a loop longer than
-//! the lane, so that they appear and disappear beyond the ends of the bridge.
+//! Cars, trucks and pedestrians on the decks, and the ground crew. The plan is generated from the seed; positions are a
+//! pure function of simulation time. All objects in a lane have the same speed, which prevents overtaking. They move on
+//! a loop longer than the lane, so that they appear and disappear beyond the ends of the bridge.
 
 use super::boxes::{OrientedBox, bounding_sphere};
 use super::bridge_closures::BridgeClosures;
@@ -25,7 +25,7 @@ pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 1);
 const VEHICLE_SPACING_M: f64 = 24.0;
 /// Minimum spacing of pedestrians on a walkway, center to center, m (estimate).
 const PEDESTRIAN_SPACING_M: f64 = 4.0;
-/// Minimum length of the part of a loop beyond the ends of the lane, m (estimate).
+/// Minimum length of the part of a loop that is beyond the ends of the lane, m (estimate).
 const LOOP_GAP_M: f64 = 40.0;
 /// Maximum offset of an object from even spacing, as a fraction of the spacing.
 const SPACING_JITTER: f64 = 0.25;
@@ -96,7 +96,7 @@ impl TrafficPlan {
         if kinds.is_empty() || length_m <= 0.0 {
             return;
         }
-        // A crowded lane gets a longer loop, so that the objects keep their minimum spacing despite the random offsets.
+        // A crowded lane gets a longer loop, which preserves the minimum spacing of objects despite the random offsets.
         let loop_m = (length_m + LOOP_GAP_M).max(kinds.len() as f64 * spacing_m / (1.0 - 2.0 * SPACING_JITTER));
         let slot_m = loop_m / kinds.len() as f64;
         let turn_m = stream.range(0.0, loop_m);

@@ -11,9 +11,9 @@ use crate::numbers::{format_limit, format_with_limit};
 use crate::scenario::PlacedDefect;
 use crate::vehicle::{Camera, Lamp};
 
-/// Maximum distance from the lens at which defects are evaluated, m.
+/// Maximum distance of evaluated defects from the lens, m.
 pub const MAX_RANGE_M: f64 = 60.0;
-/// Fraction of image width and height, about the center, in which defects count as captured.
+/// Central fraction of image width and height where defects count as captured.
 pub const CENTRAL_FRACTION: f64 = 0.8;
 /// Maximum angle between the line of sight and the normal of the defect, rad.
 pub const MAX_INCIDENCE_RAD: f64 = math::PI / 3.0;
@@ -25,7 +25,7 @@ pub const MIN_LINE_WIDTH_PX: f64 = 0.5;
 const METER_CALIBRATION: f64 = 250.0;
 /// Offsets of the sample points for the occlusion test from the center of a defect, as fractions of its length.
 const SAMPLE_OFFSETS: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
-/// Height above the surface at which lines of sight end, m.
+/// Height of the ends of lines of sight above the surface, m.
 const SURFACE_OFFSET_M: f64 = 0.005;
 /// Length of the last part of a line of sight, which is excluded from the occlusion test, m.
 const OCCLUSION_MARGIN_M: f64 = 0.01;
@@ -104,7 +104,7 @@ pub fn evaluate_defect(
     let incidence_rad = math::acos(-to.dot(defect.normal) / distance_m.max(1e-9));
     let samples = SAMPLE_OFFSETS.map(|s| defect.position_m + defect.along * (s * defect.length_m));
     let seen = samples.map(|p| has_line_of_sight(pose.position_m, p + defect.normal * SURFACE_OFFSET_M, cast));
-    // A majority must be visible: three of five sample points.
+    // A majority of the sample points must be visible: three of five.
     let unoccluded = 2 * seen.iter().filter(|s| **s).count() > SAMPLE_OFFSETS.len();
     // A hidden defect fails only the occlusion condition, not the size condition as well.
     let counted = if unoccluded { seen } else { [true; SAMPLE_OFFSETS.len()] };

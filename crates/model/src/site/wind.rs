@@ -20,7 +20,7 @@ const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
 const WATER_ROUGHNESS_M: f64 = 0.0003;
 /// Roughness length of open ground with grass, m (WMO guide to instruments, class 3: 0.03 m).
 const GROUND_ROUGHNESS_M: f64 = 0.03;
-/// Height at which the mean wind speed is specified, m (20 ft).
+/// Reference height of the mean wind speed, m (20 ft).
 const REFERENCE_HEIGHT_M: f64 = 6.096;
 /// Height below which turbulence is proportional to the mean wind, m: 10 ft, the lower limit of MIL-F-8785C (estimate: constant
 /// relative intensity).
@@ -35,12 +35,12 @@ const MIN_DRIFT_M_S: f64 = 0.1;
 pub struct MeanWind {
     /// Speed at 20 ft above the water, m/s.
     pub speed_m_s: f64,
-    /// Direction from which the wind blows, rad clockwise from north.
+    /// Direction that the wind blows from, rad clockwise from north.
     pub from_rad: f64,
 }
 
-/// Wind at the position of one vehicle. Call [`WindField::update`] as simulation time advances, then [`WindField::air_velocity`]
-/// as often as the physics needs it.
+/// Wind at the position of one vehicle. Call [`WindField::update`] as simulation time advances, then
+/// [`WindField::air_velocity`] whenever the physics needs it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindField {
     wind: WindSpec,
@@ -97,8 +97,8 @@ impl WindField {
         self.over_ground = over_ground;
     }
 
-    /// Changes the mean wind linearly, starting at `at` and over the duration `over`, to a speed at 20 ft, m/s, and a direction
-    /// from which it blows, degrees clockwise from north. Affects only the `physical` model.
+    /// Changes the mean wind linearly, starting at `at` and over the duration `over`, to a speed at 20 ft, m/s, and a
+    /// direction that it blows from, degrees clockwise from north. Affects only the `physical` model.
     pub fn add_change(&mut self, at: SimTime, over: SimTime, speed_m_s: f64, from_deg: f64) {
         self.wind.events.push(WindEvent::Change { at, over, speed_m_s, from_deg });
     }
@@ -148,7 +148,7 @@ impl WindField {
             return mean_velocity;
         }
         let dryden = Dryden::at(height_m, mean.speed_m_s);
-        // Turbulence drifts with the mean wind (Taylor's hypothesis), so that a hovering drone also moves through it.
+        // Turbulence drifts with the mean wind (Taylor's hypothesis), so a hovering drone also moves through it.
         let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(MIN_DRIFT_M_S);
         let travelled_m = drift * SAMPLE_PERIOD.s();
         let u = self.along.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
@@ -163,7 +163,7 @@ impl WindField {
     }
 }
 
-/// Returns the unit vector in which the air moves, for wind that blows from `from_rad` (clockwise from north).
+/// Returns the unit vector in the direction of air motion, for wind from `from_rad` (clockwise from north).
 fn direction_towards(from_rad: f64) -> Vec3<Ned> {
     let (s, c) = math::sin_cos(from_rad);
     Vec3::new(-c, -s, 0.0)

@@ -87,7 +87,7 @@ pub struct Drag {
 pub struct Hull {
     /// Distance between opposite rotor tips (or the cage's diameter), m.
     pub tip_to_tip_m: f64,
-    /// True if a cage or bumpers protect the rotors on all sides, so that a contact does not reach them.
+    /// True if a cage or bumpers protect the rotors from contact on all sides.
     pub caged: bool,
     /// Half dimensions of the body box: forward, right, down, m.
     pub body_half_extent_m: [f64; 3],

@@ -20,7 +20,7 @@ pub fn read(file: &str, text: &str) -> Result<Vehicle, Problems> {
     read_with_keys(file, text).0
 }
 
-/// Parses a vehicle file. Also returns the keys that were read, for the test of the documentation.
+/// Parses a vehicle file. Also returns the keys that were read, for the documentation test.
 pub fn read_with_keys(file: &str, text: &str) -> (Result<Vehicle, Problems>, BTreeMap<String, DocumentedKey>) {
     let mut reader = Reader::new(file, text);
     let vehicle = reader.parse().map(|document| {

@@ -37,7 +37,7 @@ fn random_values(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> 
         .collect()
 }
 
-/// Returns bridges of both types, with default and with random dimensions. Inconsistent ones are omitted.
+/// Returns bridges of both types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
     let mut out = vec![arch(), suspension()];
@@ -360,8 +360,8 @@ fn exact_interlayer_path_clears_the_largest_shipped_aircraft() {
 
 #[test]
 fn prop_viewing_directions_point_at_the_bridge() {
-    // Minimum fraction of viewing directions that hit the bridge. Under the arch some pass between the beams into the sky, and at
-    // the corners of the pier they point at an edge, which rounding can miss.
+    // Minimum fraction of viewing directions that hit the bridge. Under the arch, some directions pass between the
+    // beams into the sky. At the corners of the pier, they point at an edge, which rounding can miss.
     for (bridge, kind, share) in [
         (arch(), TaskKind::SlabSide, 1.0),
         (arch(), TaskKind::ArchBottom, 0.95),
@@ -387,7 +387,7 @@ fn exact_inconsistent_dimensions_are_refused_with_their_line() {
     assert!(message.starts_with("wide.toml:"), "{message}");
 }
 
-/// Element numbers of the AASHTO MBEI (2015 interims), with the member names that may have them.
+/// Element numbers of the AASHTO MBEI (2015 interims), with the member names that they apply to.
 const MEMBER_NAMES: [(u16, &[&str]); 18] = [
     (12, &["slab"]),
     (107, &["girder"]),
@@ -418,7 +418,7 @@ fn exact_every_member_has_the_element_of_its_part() {
             let names = MEMBER_NAMES.iter().find(|(number, _)| *number == member.element.number()).map(|(_, names)| *names);
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
-            // The arch bridge is concrete; of the suspension bridge, deck, piers and anchorages are concrete.
+            // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are.
             let concrete =
                 matches!(bridge.kind, BridgeKind::Arch(_)) || ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n));
             assert_eq!(

@@ -6,7 +6,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
 
-/// Element numbers by material (docs/src/reference/domain.md, "Elements"). Bearings and cables have the defects of steel.
+/// Element numbers by material (docs/src/reference/domain.md, "Elements"). Bearings and cables have steel defects.
 const REINFORCED_CONCRETE: [u16; 16] = [12, 16, 38, 105, 110, 116, 144, 155, 205, 210, 215, 220, 227, 234, 321, 331];
 const PRESTRESSED_CONCRETE: [u16; 12] = [13, 15, 39, 104, 109, 115, 143, 154, 204, 226, 233, 320];
 const STEEL: [u16; 26] = [

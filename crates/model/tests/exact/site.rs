@@ -195,7 +195,7 @@ fn prop_no_contacts_within_the_free_radius() {
 
 #[test]
 fn exact_crew_truck_and_pad_are_on_the_ground() {
-    // Maximum height above the ground, m. The pad is 0.05 m above it; feet and wheels are on it.
+    // Maximum height above the ground, m. The pad is 0.05 m above it; feet and wheels touch it.
     const MAX_HEIGHT_M: f64 = 0.06;
     for text in [spandrel_model::shipped::TWO_BRIDGES, spandrel_model::shipped::PRACTICE] {
         let scenario = scenario(text);

@@ -1,4 +1,5 @@
-//! Randomly mutated scenario and vehicle files: each is either rejected with a line and a reason, or accepted and can be built.
+//! Randomly mutated scenario and vehicle files: each file is either rejected with a line number and a reason, or can be
+//! built.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::random::RandomStream;
@@ -203,7 +204,7 @@ fn dimension_sets(fields: &'static [BridgeField]) -> Vec<Vec<(&'static str, f64)
     let mut random = RandomStream::new(2, "prop.bridges");
     let mut sets: Vec<Vec<(&str, f64)>> = fields.iter().flat_map(|f| [vec![(f.key, f.min)], vec![(f.key, f.max)]]).collect();
     for _ in 0..RANDOM_BRIDGES {
-        // A cubed random number is often close to the default, so that enough of the sets are consistent.
+        // A cubed random number is often close to the default, which makes enough of the sets consistent.
         let mut near = |f: &BridgeField| {
             let draw = random.range(-1.0, 1.0);
             let towards = if draw < 0.0 { f.min } else { f.max };

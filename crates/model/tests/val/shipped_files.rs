@@ -61,7 +61,7 @@ fn val_shipped_paths_clear_the_default_aircraft() {
             7,
         );
         for task in &scenario.tasks {
-            // The minimum stand-off is 4 m, except in the interlayer, where it is the one that `check` requires.
+            // The minimum stand-off is 4 m, except in the interlayer, where it is the minimum that `check` requires.
             let least = match task.kind {
                 TaskKind::Interlayer => 0.5 * aircraft.hull.tip_to_tip_m + 0.5,
                 TaskKind::Free => 1.0,

@@ -1,4 +1,4 @@
-//! The autopilot object: passes inputs and requests between the estimator, navigator, failsafes and control loops.
+//! The autopilot object. It passes inputs and requests between the estimator, navigator, failsafes and control loops.
 
 use super::control::airframe::Airframe;
 use super::control::landed::{FlightPhase, LandingInput, PhaseChange};
@@ -35,7 +35,7 @@ use spandrel_model::vehicle::Vehicle;
 /// Rate of the control loops, Hz.
 pub const CONTROL_HZ: f64 = 400.0;
 
-/// Latest readings of the sensors that are not fused.
+/// Latest readings of the sensors that the estimator does not fuse.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct UnfusedReadings {
     battery: Option<BatteryReading>,
@@ -51,7 +51,7 @@ impl UnfusedReadings {
     }
 }
 
-/// The time of a call, and the time since the last step, s.
+/// Time of a call, and time since the last step, s.
 #[derive(Debug, Clone, Copy)]
 struct Tick {
     now: SimTime,
@@ -59,7 +59,7 @@ struct Tick {
 }
 
 impl Tick {
-    /// Returns the time of a call between two steps.
+    /// Returns the tick for a call between two steps.
     fn between_steps(now: SimTime) -> Self {
         Self { now, dt_s: 0.0 }
     }
@@ -68,7 +68,7 @@ impl Tick {
 /// The built-in autopilot. Plain data, so a clone is a snapshot.
 #[derive(Debug, Clone)]
 pub struct Autopilot {
-    /// Settings of the operator. They can be changed between any two steps.
+    /// Operator settings. They can change between any two steps.
     pub tuning: Tuning,
     airframe: Airframe,
     estimator: Estimator,
@@ -108,7 +108,7 @@ impl Autopilot {
         }
     }
 
-    /// Returns the settings for the rules of a scenario, which define the battery thresholds.
+    /// Returns the operator settings for a scenario, whose rules define the battery thresholds.
     #[must_use]
     pub fn default_tuning(rules: &SessionRules) -> Tuning {
         Tuning { battery_low_pct: rules.low_battery_pct, battery_critical_pct: rules.critical_battery_pct, ..Tuning::default() }
@@ -120,7 +120,7 @@ impl Autopilot {
         self.armed && !self.failsafe.links.sticks_fresh(self.tuning.manual_timeout_s(), now)
     }
 
-    /// Returns the limits of the airframe without parameter overrides.
+    /// Returns the airframe's limits without parameter overrides.
     #[must_use]
     pub fn airframe_envelope(&self) -> FlightEnvelope {
         let (limits, automatic) = (&self.airframe.limits, MotionLimits::automatic(&self.control.gains));
@@ -160,7 +160,7 @@ impl Autopilot {
         &self.status
     }
 
-    /// Returns the reasons that prevent arming now.
+    /// Returns the conditions that currently prevent arming.
     #[must_use]
     pub fn arming_reasons(&self, now: SimTime) -> Vec<String> {
         let (tuning, estimate) = (&self.tuning, &self.estimate);
@@ -188,7 +188,8 @@ impl Autopilot {
         self.update_status();
     }
 
-    /// Sets whether stick input arrives in guided mode, where the yaw stick turns the nose and does not take over.
+    /// Sets whether stick input arrives in guided mode, where the yaw stick changes the heading but does not take over
+    /// control.
     pub fn set_sticks_in_guided(&mut self, flown: bool) {
         self.failsafe.links.guided = flown;
     }
@@ -209,7 +210,7 @@ impl Autopilot {
         self.failsafe.links.ground_station = Some(now);
     }
 
-    /// Returns the velocity of a target that reports positions only, from its last two positions, m/s.
+    /// Returns the velocity of a target that reports only positions, computed from its last two positions, m/s.
     #[must_use]
     pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
         self.navigator.follower.target_velocity(position_m, now)
@@ -226,14 +227,14 @@ impl Autopilot {
         self.update_status();
     }
 
-    /// Marks the mission items whose heights are relative to home. Call immediately after the mission is set, with heights
-    /// computed from home at that time.
+    /// Marks the mission items whose heights are relative to home. Call it immediately after setting the mission, with
+    /// heights computed from the home position at that time.
     pub fn set_home_relative_steps(&mut self, over_home: Vec<bool>) {
         self.navigator.mission.set_home_relative(over_home);
     }
 
-    /// Sets the fields that mission items take from the vehicle position when they start. Call immediately after the mission is
-    /// set.
+    /// Sets the fields that mission items take from the vehicle position when they start. Call it immediately after
+    /// setting the mission.
     pub fn set_deferred_fields(&mut self, deferred: Vec<DeferredFields>) {
         self.navigator.mission.set_deferred(deferred);
     }
@@ -245,7 +246,7 @@ impl Autopilot {
         known
     }
 
-    /// Replaces the rally points. A return uses the nearest one or home.
+    /// Replaces the rally points. A return flies to the nearest one or to home.
     pub fn set_rally_points(&mut self, rally_points: Vec<RallyPoint>) {
         self.navigator.home.rally_points = rally_points;
     }
@@ -433,7 +434,7 @@ impl Autopilot {
         }
     }
 
-    /// Carries out the request of a failsafe.
+    /// Carries out a failsafe request.
     fn apply_failsafe_request(&mut self, request: Option<FailsafeRequest>, tick: Tick) {
         match request {
             None => {}
@@ -494,7 +495,7 @@ impl Autopilot {
         self.apply_failsafe_request(request, tick);
     }
 
-    /// Updates the phase of the flight while armed.
+    /// Updates the flight phase while armed.
     fn update_phase(&mut self, tick: Tick) {
         let phase = self.control.landing.phase;
         let mission = self.navigator.modes.active == FlightMode::Mission;
@@ -527,7 +528,7 @@ impl Autopilot {
                 self.touch_down(tick);
             }
             Some(PhaseChange::StandingTimeout { flown }) => {
-                self.disarm(if flown { "Disarmed by landing" } else { "Disarmed: no take-off" }, tick);
+                self.disarm(if flown { "Disarmed by landing" } else { "Disarmed: no takeoff" }, tick);
             }
         }
     }
@@ -550,7 +551,7 @@ impl Autopilot {
         status.mission_paused = navigator.mission_status.paused;
         status.climbing_out = navigator.report.climbing_out;
         status.target_m = navigator.report.target_m;
-        // A setpoint is large and rare, so it is copied only if there is one to set or clear.
+        // A setpoint is large and rarely present, so it is copied only if there is one to set or clear.
         if status.setpoint.is_some() || navigator.report.setpoint.is_some() {
             status.setpoint = navigator.report.setpoint;
         }

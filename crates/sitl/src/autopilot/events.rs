@@ -5,16 +5,16 @@ use super::failsafe::sensor_health::SensorChange;
 /// Severity of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// As MAV_SEVERITY_CRITICAL.
+    /// Same as MAV_SEVERITY_CRITICAL.
     Critical,
-    /// As MAV_SEVERITY_WARNING.
+    /// Same as MAV_SEVERITY_WARNING.
     Warning,
-    /// As MAV_SEVERITY_INFO.
+    /// Same as MAV_SEVERITY_INFO.
     Info,
 }
 
 impl Severity {
-    /// Returns the severity number of syslog and MAVLink.
+    /// Returns the severity number that syslog and MAVLink use.
     #[must_use]
     pub fn number(self) -> u8 {
         match self {
@@ -51,7 +51,7 @@ impl EventQueue {
         self.0.push(AutopilotEvent { severity, text: change.words(), sensor: Some(change) });
     }
 
-    /// Moves the events of another queue to the end of this one.
+    /// Moves all events from another queue to the end of this one.
     pub fn append(&mut self, other: &mut Self) {
         self.0.append(&mut other.0);
     }

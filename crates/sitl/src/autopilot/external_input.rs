@@ -15,14 +15,15 @@ pub struct Sticks {
     pub yaw: f64,
 }
 
-/// An external setpoint. Axes set to `None` are not controlled by it.
+/// An external setpoint. It does not control axes set to `None`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OffboardSetpoint {
     /// Position, m, NED.
     pub position_m: [Option<f64>; 3],
     /// Velocity, m/s (north, east, down).
     pub velocity_m_s: [Option<f64>; 3],
-    /// Acceleration, m/s² (north, east, down): flown directly without position or velocity, otherwise fed forward.
+    /// Acceleration, m/s² (north, east, down): flown directly if the axis has no position or velocity, and fed forward
+    /// otherwise.
     pub acceleration_m_s2: [Option<f64>; 3],
     /// Heading, rad.
     pub yaw_rad: Option<f64>,
@@ -32,6 +33,6 @@ pub struct OffboardSetpoint {
     pub attitude: Option<(Rotation<Frd, Ned>, f64)>,
     /// Body rates, rad/s, and thrust (0 to 1) instead of everything else.
     pub rates: Option<(Vec3<Frd>, f64)>,
-    /// Climb rate that replaces the thrust of an attitude or of body rates, m/s up.
+    /// Climb rate that replaces the thrust of an attitude or body rate setpoint, m/s up.
     pub climb_m_s: Option<f64>,
 }

@@ -5,13 +5,13 @@
 pub enum FlightMode {
     /// Sticks control roll, pitch, yaw rate and thrust.
     Stabilized,
-    /// As stabilized, with height hold.
+    /// Like stabilized, but with height hold.
     Altitude,
     /// Sticks control velocity. With sticks centered, the vehicle stops and holds position.
     Position,
     /// Hold position.
     Hold,
-    /// Automatic take-off, then hold.
+    /// Automatic takeoff, then hold.
     Takeoff,
     /// Land at the current position.
     Land,
@@ -25,7 +25,7 @@ pub enum FlightMode {
     Orbit,
     /// Sticks control body rates and thrust.
     Acro,
-    /// Return to the take-off point along the recorded path, and land.
+    /// Return to the takeoff point along the recorded path, and land.
     SmartReturn,
     /// Follow a moving target.
     Follow,
@@ -50,7 +50,7 @@ impl FlightMode {
 pub enum LandedState {
     /// On the ground.
     OnGround,
-    /// Climbing in take-off mode.
+    /// Climbing in takeoff mode.
     TakingOff,
     /// Flying.
     InAir,

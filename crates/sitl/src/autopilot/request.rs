@@ -26,7 +26,7 @@ pub enum AutopilotRequest {
     },
     /// Land at the current position.
     Land,
-    /// Fly to a position and hold. `None` components keep their current values.
+    /// Fly to a position and hold. Components set to `None` keep their current values.
     GoTo {
         /// North and east, m.
         north_east_m: Option<(f64, f64)>,
@@ -50,7 +50,7 @@ pub enum AutopilotRequest {
     SetHome(Vec3<Ned>),
     /// Circle a point.
     Orbit(OrbitRequest),
-    /// Point the nose at a position in automatic modes, m relative to the origin. `None` ends this.
+    /// Point the nose at a position in automatic modes, m relative to the origin. `None` stops this.
     LookAt(Option<Vec3<Ned>>),
     /// Enable or disable the geofence.
     EnableFence(bool),

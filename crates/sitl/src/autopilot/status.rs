@@ -1,4 +1,4 @@
-//! Status of the autopilot for telemetry.
+//! Autopilot status for telemetry.
 
 use super::external_input::OffboardSetpoint;
 use super::failsafe::fence::FenceState;
@@ -7,14 +7,14 @@ use super::flight_state::{FlightMode, LandedState};
 use super::navigator::orbit::Orbit;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 
-/// Status of the autopilot for telemetry.
+/// Autopilot status for telemetry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AutopilotStatus {
     /// Whether the motors are armed.
     pub armed: bool,
     /// The active mode.
     pub mode: FlightMode,
-    /// The requested mode. A failsafe may fly another one.
+    /// The requested mode. A failsafe can override it.
     pub intended: FlightMode,
     /// Low battery level, %.
     pub battery_low_pct: f64,
@@ -22,11 +22,11 @@ pub struct AutopilotStatus {
     pub battery_critical_pct: f64,
     /// Landed state.
     pub landed: LandedState,
-    /// Whether a take-off climb is in progress, as a mode or a mission item.
+    /// Whether a takeoff climb is in progress, as a mode or a mission item.
     pub climbing_out: bool,
-    /// Reasons that prevent arming now; empty if none.
+    /// Conditions that currently prevent arming; empty if there are none.
     pub arming_reasons: Vec<String>,
-    /// Reason of the active failsafe.
+    /// Reason for the active failsafe.
     pub failsafe: Option<String>,
     /// Home relative to the origin, m; `None` before the first fix.
     pub home_m: Option<Vec3<Ned>>,
@@ -46,7 +46,7 @@ pub struct AutopilotStatus {
     pub mission_finished: bool,
     /// Whether the mission was interrupted and can be continued.
     pub mission_paused: bool,
-    /// State of the geofence.
+    /// Geofence state.
     pub fence: FenceState,
     /// The active circle.
     pub orbit: Option<Orbit>,

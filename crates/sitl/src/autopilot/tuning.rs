@@ -50,37 +50,37 @@ impl LinkLossAction {
 pub struct Tuning {
     /// `MPC_XY_VEL_MAX`: maximum horizontal speed in automatic modes, m/s.
     pub horizontal_speed_max_m_s: f64,
-    /// `MPC_XY_CRUISE`: horizontal speed in missions, returns and go-to, m/s.
+    /// `MPC_XY_CRUISE`: horizontal speed in missions, returns and go-to commands, m/s.
     pub cruise_m_s: f64,
     /// `MPC_Z_V_AUTO_UP`: climb rate in automatic modes, m/s.
     pub climb_m_s: f64,
     /// `MPC_Z_V_AUTO_DN`: descent rate in automatic modes, m/s.
     pub descend_m_s: f64,
-    /// `MPC_TKO_SPEED`: climb rate at take-off, m/s.
+    /// `MPC_TKO_SPEED`: climb rate at takeoff, m/s.
     pub takeoff_speed_m_s: f64,
-    /// Take-offs climb at `climb_m_s` from the ground (ArduPilot: WPNAV_SPEED_UP).
+    /// From the ground, takeoffs climb at `climb_m_s` (ArduPilot: WPNAV_SPEED_UP).
     pub takeoff_at_climb_speed: bool,
     /// `MPC_LAND_SPEED`: descent rate in the last meters of a landing, m/s.
     pub land_speed_m_s: f64,
-    /// `MPC_LAND_ALT2`: height above ground (or home) below which a landing is slow, m.
+    /// `MPC_LAND_ALT2`: height above ground (or home) below which the vehicle lands slowly, m.
     pub land_slow_below_m: f64,
-    /// `MIS_TAKEOFF_ALT`: default take-off height above home, m.
+    /// `MIS_TAKEOFF_ALT`: default takeoff height above home, m.
     pub takeoff_height_m: f64,
     /// `RTL_RETURN_ALT`: return height above home, m.
     pub return_height_m: f64,
     /// `NAV_ACC_RAD`: acceptance radius of waypoints, m.
     pub accept_radius_m: f64,
-    /// `COM_RC_LOSS_T`: timeout of manual control, s.
+    /// `COM_RC_LOSS_T`: manual control timeout, s.
     pub manual_loss_s: f64,
     /// `COM_FAIL_ACT_T`: hold time before a failsafe action, s.
     pub failsafe_delay_s: f64,
     /// `NAV_RCL_ACT`: action on loss of manual control.
     pub manual_loss: LinkLossAction,
-    /// `COM_DL_LOSS_T`: timeout of the ground station link, s.
+    /// `COM_DL_LOSS_T`: ground station link timeout, s.
     pub data_link_loss_s: f64,
     /// `NAV_DLL_ACT`: action on loss of the ground station.
     pub data_link_loss: LinkLossAction,
-    /// `COM_OF_LOSS_T`: timeout of external setpoints, s.
+    /// `COM_OF_LOSS_T`: external setpoint timeout, s.
     pub offboard_loss_s: f64,
     /// Simulation seconds per second of the clients' clocks without lockstep. Client timeouts scale with it.
     pub client_pace: f64,
@@ -88,16 +88,16 @@ pub struct Tuning {
     pub battery_low_pct: f64,
     /// `BAT_CRIT_THR`: critical battery level, %.
     pub battery_critical_pct: f64,
-    /// `COM_DISARM_LAND`: delay of automatic disarming after landing, s; 0 or less disables it.
+    /// `COM_DISARM_LAND`: delay before automatic disarming after landing, s; 0 or less disables it.
     pub disarm_after_landing_s: f64,
-    /// `COM_DISARM_PRFLT`: timeout for take-off after arming, s; 0 or less disables it.
+    /// `COM_DISARM_PRFLT`: timeout for takeoff after arming, s; 0 or less disables it.
     pub disarm_before_flight_s: f64,
     /// `GF_ACTION`: action on a geofence breach.
     pub fence_action: FenceAction,
     /// `FENCE_ENABLE` (ArduPilot): whether the geofence is enabled. Commands and mission items can change it.
     pub fence_enabled: bool,
-    /// The fence switch is a persistent parameter visible to ground stations. Otherwise the fence is enabled again after the
-    /// flight (ArduPilot).
+    /// The fence switch is a persistent parameter visible to ground stations. Otherwise, the fence is re-enabled after
+    /// the flight (ArduPilot).
     pub fence_switch_stays: bool,
     /// `GF_MAX_HOR_DIST`: maximum distance from home, m; 0: no limit.
     pub fence_distance_m: f64,
@@ -105,19 +105,21 @@ pub struct Tuning {
     pub fence_height_m: f64,
     /// `COM_RC_OVERRIDE`: stick movement takes over from automatic modes.
     pub stick_takeover: bool,
-    /// When external setpoints end, the vehicle continues to the last target or stops. Otherwise their end is a failure
-    /// (ArduPilot).
+    /// When external setpoints end, the vehicle continues to the last target or stops. Otherwise, their end is treated
+    /// as a failure (ArduPilot).
     pub setpoints_end: bool,
-    /// Arming requires sticks and position only as the mode needs them. Stick checks run when motors are armed, not before
-    /// (ArduPilot).
+    /// Arming requires stick input and a position only if the mode needs them. Stick checks run when motors are armed,
+    /// not before (ArduPilot).
     pub arms_by_mode: bool,
-    /// A completed mission keeps its mode, and takes off again once the throttle is raised (ArduPilot).
+    /// After a completed mission, the vehicle stays in mission mode and takes off again once the throttle is raised
+    /// (ArduPilot).
     pub mission_mode_stays: bool,
-    /// Displayed number of the first mission item: 1 where home is item 0 (ArduPilot).
+    /// Displayed number of the first mission item: 1 if home is item 0 (ArduPilot).
     pub first_item: usize,
-    /// `CIRCLE_RATE` (ArduPilot): angular rate of a circle entered by mode change only, rad/s, clockwise positive.
+    /// `CIRCLE_RATE` (ArduPilot): angular rate of a circle entered by a mode change, rad/s, clockwise positive. Not
+    /// used for other circles.
     pub circle_rate_rad_s: f64,
-    /// Settings of follow mode.
+    /// Follow mode settings.
     pub follow: FollowRule,
     /// UTC at simulation start, Unix seconds.
     pub start_unix_s: i64,
@@ -128,19 +130,19 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// Timeout of manual control, s of simulation time.
+    /// Manual control timeout, s of simulation time.
     #[must_use]
     pub fn manual_timeout_s(&self) -> f64 {
         self.manual_loss_s * self.client_pace
     }
 
-    /// Timeout of external setpoints, s of simulation time.
+    /// External setpoint timeout, s of simulation time.
     #[must_use]
     pub fn offboard_timeout_s(&self) -> f64 {
         self.offboard_loss_s * self.client_pace
     }
 
-    /// Timeout of the ground station link, s of simulation time.
+    /// Ground station link timeout, s of simulation time.
     #[must_use]
     pub fn data_link_timeout_s(&self) -> f64 {
         self.data_link_loss_s * self.client_pace

@@ -1,9 +1,9 @@
-//! The clocks of the messages: time since the autopilot booted, simulation time and UTC.
+//! Clocks used in messages: time since autopilot boot, simulation time, and UTC.
 
 use super::link::LinkKind;
 use spandrel_model::time::SimTime;
 
-/// The time of an instant on each clock.
+/// One instant in time, expressed on each clock.
 #[derive(Debug, Clone, Copy)]
 pub struct VehicleClock {
     /// Simulation time.
@@ -23,8 +23,8 @@ impl VehicleClock {
         Self { link_kind, ..self }
     }
 
-    /// Converts a time to the autopilot's clock, which restarts with the autopilot. Payload processes receive simulation time, so
-    /// that scores use a single clock.
+    /// Converts a time to the autopilot's clock, which restarts with the autopilot. Payload processes receive
+    /// simulation time, so scores use a single clock.
     #[must_use]
     pub fn since_boot(&self, at: SimTime) -> SimTime {
         if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_booted) }
@@ -42,8 +42,8 @@ impl VehicleClock {
         self.since_boot(self.now).us().max(0).cast_unsigned()
     }
 
-    /// Returns the time since simulation start, ms, modulo 2^32: the clock of the camera and the scoring data, unaffected by
-    /// autopilot reboots.
+    /// Returns the time since simulation start, ms, modulo 2^32: the clock of the camera and the scoring data,
+    /// unaffected by autopilot reboots.
     #[must_use]
     pub fn sim_ms(&self) -> u32 {
         self.now.ms() as u32

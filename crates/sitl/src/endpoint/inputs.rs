@@ -1,4 +1,4 @@
-//! The inputs of both halves, built from the simulated aircraft and its autopilot.
+//! Inputs of the autopilot and payload interfaces, built from the simulated aircraft and its autopilot.
 
 use super::link::LinkKind;
 use super::payload::{PayloadInput, PayloadLink, PayloadSnapshot};

@@ -1,5 +1,5 @@
 //! Requests for messages and message rates, by the current commands and by the superseded ones that clients still send.
-#![allow(deprecated, reason = "clients still send the superseded commands")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::component_ids::{AUTOPILOT, CAMERA};
 use super::inputs::{StreamInputs, payload_input};
@@ -12,7 +12,7 @@ use super::vehicle_link::VehicleLink;
 use crate::autopilot::Autopilot;
 use spandrel_mavlink::dialect::{MESSAGE_INTERVAL_DATA, MavCmd, MavMessage, MavResult};
 
-/// Both halves of the interface, and the link that the request came from.
+/// The autopilot and payload interfaces, and the link that the request came from.
 pub(super) struct MessageRequest<'a, 'v> {
     pub link: LinkId,
     pub links: &'a mut Links,
@@ -31,7 +31,7 @@ const COUNTED: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
-/// MAV_CMD_DO_SEND_BANNER of ArduPilot's dialect.
+/// MAV_CMD_DO_SEND_BANNER, from ArduPilot's dialect.
 const SEND_BANNER: u16 = 42_428;
 
 pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavResult> {

@@ -1,8 +1,8 @@
-//! The vehicle's MAVLink interface, in one of three flavours. It processes the datagrams of all links and produces outgoing ones;
-//! it does not read a clock.
+//! The vehicle's MAVLink interface, in one of three flavors. It processes the incoming datagrams of all links and
+//! produces outgoing ones; it never reads a clock.
 //!
-//! Two halves share the links: [`vehicle_link`] is the autopilot's interface, [`payload`] that of the aircraft's equipment and the
-//! scoring feed. The second does not know the first.
+//! Two halves share the links: [`vehicle_link`] is the autopilot interface; [`payload`] is the interface of the
+//! aircraft's equipment and includes the scoring feed. `payload` does not depend on `vehicle_link`.
 
 mod clock;
 mod component_ids;
@@ -32,14 +32,14 @@ pub use vehicle_command::VehicleCommand;
 pub use vehicle_link::{FailureInjection, StorageRequest, VehicleLink};
 pub use vehicle_link::{flavour, logs, params, snapshot};
 
-/// The vehicle's end of all links.
+/// The vehicle's MAVLink endpoint.
 #[derive(Debug, Clone)]
 pub struct Endpoint {
     /// The links.
     pub links: Links,
-    /// The autopilot's half.
+    /// The autopilot interface.
     pub vehicle: VehicleLink,
-    /// The half of the equipment and the scoring feed.
+    /// The equipment interface and the scoring feed.
     pub payload: PayloadLink,
     /// Inputs that affected the vehicle and are not yet in the digest.
     digest_input: Vec<u8>,
@@ -73,12 +73,12 @@ impl Endpoint {
         self.payload.forget(id);
     }
 
-    /// Applies the flavour's parameter defaults to a new autopilot.
+    /// Applies the flavor's parameter defaults to a new autopilot.
     pub fn prepare(&mut self, autopilot: &mut Autopilot) {
         self.vehicle.prepare(autopilot, &mut self.payload.equipment);
     }
 
-    /// Applies parameters and plans to an autopilot that restarted, and resets the links to their default rates.
+    /// Applies parameters and plans to a restarted autopilot, and resets the links to their default rates.
     pub fn boot(&mut self, aircraft: &SimulatedAircraft, autopilot: &mut Autopilot) {
         self.vehicle.boot(aircraft.plane, autopilot, &mut self.payload.equipment);
         for (_, link) in self.links.iter_mut() {
@@ -87,9 +87,9 @@ impl Endpoint {
         self.vehicle.push_text(MavSeverity::MAV_SEVERITY_INFO, "Autopilot restarted");
     }
 
-    /// Sets the simulation speed, in seconds of simulation time per second of client time. Timeouts of clients that are not in
-    /// lockstep are scaled by it, and logs record it: as a text now, and as NAMED_VALUE_FLOAT `speed_factor` with the other slow
-    /// values.
+    /// Sets the simulation speed, in seconds of simulation time per second of client time. It scales the timeouts of
+    /// clients that are not in lockstep. Logs record it as a text now and as NAMED_VALUE_FLOAT `speed_factor` with the
+    /// other slow values.
     pub fn set_speed_factor(&mut self, factor: f64, autopilot: &mut Autopilot) {
         self.vehicle.set_speed_factor(factor, autopilot);
         self.payload.speed_factor = factor;

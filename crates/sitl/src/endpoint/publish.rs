@@ -1,4 +1,4 @@
-//! Outgoing messages of a tick: changes, streams, texts and lists, each to the links concerned.
+//! Outgoing messages of a tick: changes, streams, texts and lists, each sent only on the links that need it.
 
 use super::Endpoint;
 use super::component_ids::{AUTOPILOT, CAMERA};
@@ -13,8 +13,8 @@ use spandrel_mavlink::dialect::MavSeverity;
 /// Message ID of HEARTBEAT.
 const HEARTBEAT: u32 = 0;
 
-/// Repeats the autopilot's heartbeat after the camera's in the same datagram, for clients that keep only the last heartbeat and
-/// don't use the camera.
+/// Repeats the autopilot's heartbeat after the camera's heartbeat in the same datagram, for clients that use only the
+/// last heartbeat and don't use the camera.
 fn repeat_autopilot(link: &mut PeerLink, inputs: &StreamInputs) {
     if link.uses_camera() || link.kind == LinkKind::Payload {
         return;
@@ -54,8 +54,8 @@ impl Endpoint {
         self.vehicle.repeat_plan_request(&inputs.vehicle, &mut self.links);
     }
 
-    /// Sends heartbeats and texts only, while simulation time is paused. The camera's heartbeat goes only to links that use the
-    /// camera.
+    /// Sends only heartbeats and texts, while simulation time is paused. The camera's heartbeat is sent only on links
+    /// that use the camera.
     pub fn send_heartbeats(&mut self, aircraft: &SimulatedAircraft, autopilot: &Autopilot) {
         let input = payload_input(&self.vehicle, aircraft, autopilot);
         let inputs = StreamInputs::new(&self.vehicle, &self.payload, aircraft, autopilot, &input);

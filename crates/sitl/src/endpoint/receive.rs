@@ -1,5 +1,6 @@
-//! Received datagrams: each frame is routed, and those addressed to this vehicle are handled by the half that they concern.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+//! Received datagrams: each frame is routed, and frames addressed to this vehicle are handled by the autopilot or
+//! payload interface.
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::component_ids::{AUTOPILOT, CAMERA};
 use super::inputs::{StreamInputs, payload_input};
@@ -63,8 +64,8 @@ impl Endpoint {
         }
     }
 
-    /// Records inputs that affect the vehicle, with their sender, for the digest. Sequence numbers, checksums and client clocks
-    /// are excluded.
+    /// Records inputs that affect the vehicle, with their sender, for the digest. Sequence numbers, checksums and
+    /// client clocks are excluded.
     fn record_for_digest(&mut self, frame: &ReceivedFrame) {
         let clock_len = match frame.message_id {
             // Time requests: they don't affect the vehicle, and they contain wall time.
@@ -81,8 +82,8 @@ impl Endpoint {
         self.digest_input.extend(&frame.payload(255)[clock_len..]);
     }
 
-    /// Handles a frame addressed to this system: by default as the autopilot component; the camera component has commands,
-    /// settings and files of its own.
+    /// Handles a frame addressed to this system: by default as the autopilot component; the camera component has its
+    /// own commands, settings and files.
     fn handle_frame(&mut self, id: LinkId, frame: &ReceivedFrame, aircraft: &SimulatedAircraft, autopilot: &mut Autopilot) {
         let (system, component) = router::target(frame);
         if system != 0 && system != self.links.system_id() {

@@ -1,4 +1,4 @@
-//! The simulated aircraft as the interface reads it, whichever autopilot flies it.
+//! The simulated aircraft as seen by the interface, independent of the autopilot.
 
 use super::clock::VehicleClock;
 use super::payload::ScoringTruth;

@@ -1,5 +1,5 @@
 //! Streamed and requestable messages: one row per message, with its rates by kind of link (docs/src/reference/wire.md,
-//! "Streams"). The two halves of the interface build them.
+//! "Streams"). The autopilot and payload interfaces build the messages.
 
 pub use super::component_ids::{AUTOPILOT, CAMERA};
 use super::inputs::StreamInputs;
@@ -23,7 +23,7 @@ pub struct StreamSpec {
     rates_hz: [f64; 3],
     /// Component that sends it.
     pub component: u8,
-    /// Whether only the ArduPilot flavour sends it, regardless of the dialect that defines it.
+    /// Whether only the ArduPilot flavor sends it, regardless of the dialect that defines it.
     of_ardupilot: bool,
     source: MessageSource,
 }
@@ -34,13 +34,13 @@ enum MessageSource {
     Payload(fn(&PayloadSnapshot) -> Option<MavMessage>),
     Vehicle(fn(&VehicleSnapshot) -> Option<MavMessage>),
     ArduPilot(fn(&VehicleSnapshot) -> Option<ardupilotmega::DialectMessage>),
-    /// RC_CHANNELS: stick positions for payload processes, the transmitter's pulses for others.
+    /// RC_CHANNELS: stick positions for payload processes, transmitter pulses for all other peers.
     RcChannels,
 }
 
 /// An outgoing message.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "it lives for one call; a box would cost an allocation for each message")]
+#[expect(clippy::large_enum_variant, reason = "the value is short-lived; boxing would allocate for every message")]
 pub enum OutgoingMessage {
     /// A message of the common dialect.
     Common(MavMessage),
@@ -76,7 +76,7 @@ impl StreamSpec {
         }
     }
 
-    /// Checks whether a flavour sends this message.
+    /// Checks whether a flavor sends this message.
     #[must_use]
     pub fn is_sent(&self, flavour: &Flavour) -> bool {
         flavour.dialect_of_ardupilot || !self.of_ardupilot
@@ -105,12 +105,13 @@ const fn ardupilot_row(id: u32, source: MessageSource) -> StreamSpec {
     StreamSpec { id, rates_hz: [0.0; 3], component: AUTOPILOT, of_ardupilot: true, source }
 }
 
-/// All streams. HIL_STATE_QUATERNION comes first, so that the messages after it in the same datagram belong to the same instant.
+/// All streams. HIL_STATE_QUATERNION comes first, so that later messages in the same datagram belong to the same
+/// instant.
 pub const STREAMS: &[StreamSpec] = &[
     row(115, [50.0, 50.0, 50.0], MessageSource::Payload(truth::state)),
     row(0, [1.0, 1.0, 1.0], MessageSource::Vehicle(system::heartbeat)),
-    // Sent after the autopilot's, so that a client that uses the first heartbeat gets the vehicle; sent once a second if the
-    // camera is used (`PeerLink`).
+    // Sent after the autopilot's heartbeat, so that a client that uses the first heartbeat detects the vehicle; sent
+    // once per second if the camera is used (`PeerLink`).
     camera_row(0, [0.25, 0.25, 1.0], MessageSource::Payload(camera::heartbeat)),
     row(1, [2.0, 2.0, 2.0], MessageSource::Vehicle(system::sys_status)),
     row(2, [1.0, 1.0, 1.0], MessageSource::Vehicle(system::system_time)),

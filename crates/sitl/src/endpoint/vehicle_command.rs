@@ -1,4 +1,4 @@
-//! A command in the form that COMMAND_LONG, COMMAND_INT and mission items share.
+//! Common representation of commands from COMMAND_LONG, COMMAND_INT and mission items.
 
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::MISSION_ITEM_INT_DATA;
@@ -11,7 +11,7 @@ const NOT_GIVEN: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
 pub struct VehicleCommand {
     /// MAV_CMD number.
     pub number: u16,
-    /// Parameters 1 to 7. Parameters 5 and 6 are in degrees or meters, whichever message they came from.
+    /// Parameters 1 to 7. Parameters 5 and 6 are in degrees or meters, regardless of the message.
     pub p: [f64; 7],
     /// MAV_FRAME number. COMMAND_LONG counts as global with altitude above mean sea level.
     pub frame: u8,
@@ -31,8 +31,8 @@ const LONG: u32 = 76;
 const INT: u32 = 75;
 
 impl VehicleCommand {
-    /// Reads a command from a received frame; `None` for other messages. Parses the raw bytes so that unknown command numbers are
-    /// accepted.
+    /// Reads a command from a received frame; `None` for other messages. Parses the raw bytes so that unknown command
+    /// numbers are accepted.
     #[must_use]
     pub fn of(frame: &ReceivedFrame) -> Option<Self> {
         let from = (frame.system_id, frame.component_id);
@@ -50,7 +50,8 @@ impl VehicleCommand {
         }
         let scaled = |at: usize| {
             let whole = i32::from_le_bytes(four(at));
-            // INT32_MAX means "not set" (MAVLink: COMMAND_INT); the others result from clients that convert NaN to an integer.
+            // INT32_MAX means "not set" (MAVLink: COMMAND_INT); the other values result from clients that convert NaN
+            // to an integer.
             if NOT_GIVEN.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
         };
         (p[4], p[5]) = (scaled(16), scaled(20));
@@ -89,14 +90,14 @@ impl VehicleCommand {
         Some(self.p[k]).filter(|v| v.is_finite())
     }
 
-    /// Checks for latitude 0, longitude 0, by which clients clear the region of interest. A mission item may also leave the
-    /// coordinates unset.
+    /// Checks for latitude 0, longitude 0, which clients send to clear the region of interest. A mission item may also
+    /// leave the coordinates unset.
     #[must_use]
     pub fn clears_region_of_interest(&self) -> bool {
         [4, 5].iter().all(|k| self.p[*k] == 0.0 || (self.own && self.p[*k].is_nan()))
     }
 
-    /// Returns a parameter that is a small integer, if it is set. As parameter 5 or 6 of COMMAND_INT and of mission items it
+    /// Returns a small integer parameter, if it is set. As parameter 5 or 6 of COMMAND_INT and of mission items it
     /// should not be scaled, but some ground stations scale it anyway.
     #[must_use]
     pub fn small_integer(&self, k: usize) -> Option<f64> {

@@ -1,5 +1,5 @@
-//! Flight log: a ULog with PX4's topic names, which PX4's tools can open (pyulog, Flight Review, PlotJuggler), and a parallel
-//! recording for Foxglove.
+//! Flight log: a ULog file with PX4's topic names, which PX4's tools (pyulog, Flight Review, PlotJuggler) can open, and
+//! a parallel recording for Foxglove.
 
 mod row;
 mod scene;
@@ -46,7 +46,7 @@ impl FlightLogEncoder {
         Self { writer, due }
     }
 
-    /// Writes the rows whose time has come. With `last`, writes every topic regardless of its schedule.
+    /// Writes the rows that are due. With `last`, writes every topic regardless of its schedule.
     pub fn observe(&mut self, view: &VehicleSnapshot, last: bool) {
         for ((number, topic), due) in (0u16..).zip(TOPICS).zip(&mut self.due) {
             if !due.fire(view.clock.now) && !last {
@@ -88,7 +88,7 @@ impl From<params::ParamValue> for UlogValue<'_> {
 /// Output of the flight recorder for the host to store.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LogOutput {
-    /// A new log starts. The value is its UTC timestamp for the file name, in microseconds since the Unix epoch.
+    /// The start of a new log. The value is its UTC timestamp for the file name, in microseconds since the Unix epoch.
     Begin(u64),
     /// Bytes to append to the ULog file.
     Bytes(Vec<u8>),
@@ -98,7 +98,7 @@ pub enum LogOutput {
     End,
 }
 
-/// Records a log from arming to disarming while enabled.
+/// Records a log from arming to disarming, while logging is enabled.
 #[derive(Debug, Clone, Default)]
 pub struct FlightRecorder {
     on: bool,
@@ -115,7 +115,7 @@ impl FlightRecorder {
         self.on = true;
     }
 
-    /// Checks whether logging is enabled.
+    /// Returns true if logging is enabled.
     #[must_use]
     pub fn is_enabled(&self) -> bool {
         self.on

@@ -1,5 +1,5 @@
-//! Table of logged topics, one row each. Topics have PX4's names where possible, so that PX4's tools show their
-//! standard plots.
+//! Table of logged topics, one row each. Topics use PX4's names where possible, so that PX4's tools show their standard
+//! plots.
 
 use super::row::LogRow;
 use crate::autopilot::{FlightMode, LandedState};

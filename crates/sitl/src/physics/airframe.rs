@@ -15,7 +15,7 @@ pub struct AirframeModel {
     pub(super) inverse_mass: f64,
     pub(super) inertia: Vector3<f64>,
     pub(super) inverse_inertia: Vector3<f64>,
-    /// Factor on gravity: 1 on Earth, 0 in tests of torque-free motion.
+    /// Gravity factor: 1 on Earth, 0 in tests of torque-free motion.
     pub gravity_scale: f64,
     pub(super) rotors: Vec<Rotor>,
     pub(super) rotor: RotorModel,
@@ -65,14 +65,14 @@ impl AirframeModel {
         math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
     }
 
-    /// Returns the rotor speed in hover, rad/s.
+    /// Returns the rotor speed at hover, rad/s.
     #[must_use]
     pub fn hover_rotor_rad_s(&self) -> f64 {
         let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
         (per_rotor / self.rotor.thrust_coefficient_n_s2).sqrt()
     }
 
-    /// Returns the motor command (0 to 1) in hover with a full battery.
+    /// Returns the motor command (0 to 1) at hover with a full battery.
     #[must_use]
     pub fn hover_command(&self) -> f64 {
         let speed = self.hover_rotor_rad_s();

@@ -1,5 +1,5 @@
-//! Battery model: open-circuit voltage as a function of charge, internal resistance and power draw; or the fixed
-//! endurance given in the TASBID paper.
+//! Battery model: open-circuit voltage as a function of charge, internal resistance and power draw; or, alternatively,
+//! the fixed endurance from the TASBID paper.
 
 use super::airframe::AirframeModel;
 use super::state::{PhysicsState as Physics, PowerLoad};

@@ -1,11 +1,11 @@
-//! The environment as the physics sees it: contacts, clearance and rays.
+//! The physics models' view of the environment: contacts, clearance and rays.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::{Contact, HullProbe, ObjectId, RayHit, Site, Surface};
 use spandrel_model::time::SimTime;
 
-/// Upper bound for the speed of objects at the site, m/s: cars drive at most 35 m/s, and lane speeds vary by a tenth.
-/// It limits how long a measured clearance stays valid.
+/// Upper bound on the speed of objects at the site, m/s: cars drive at no more than 35 m/s, and lane speeds vary by a
+/// tenth. It limits how long a measured clearance stays valid.
 pub const MAX_OBJECT_SPEED_M_S: f64 = 38.5;
 
 /// Collision queries against the environment. [`Site`] implements this trait; tests use planes and boxes.
@@ -54,5 +54,5 @@ pub fn more_severe_surface(a: Surface, b: Surface) -> Surface {
     if rank(a) <= rank(b) { a } else { b }
 }
 
-/// ID of a touched object, re-exported for reports.
+/// ID of an object in contact, re-exported for reports.
 pub type Touched = ObjectId;

@@ -1,5 +1,5 @@
 //! Free flight: one classical Runge-Kutta step for rigid body and rotors. Within the step, rotor speeds follow their
-//! exact exponential, so that only the rigid body is integrated numerically.
+//! exact exponential solution, so that only the rigid body is integrated numerically.
 
 use super::airframe::AirframeModel;
 use super::state::{AirState, MAX_ROTORS, RigidState};
@@ -121,8 +121,8 @@ fn body_drag(model: &AirframeModel, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Ve
 }
 
 impl AirframeModel {
-    /// Returns the rotor speeds and accelerations when the distance to the target is the fraction `left` of its initial
-    /// value.
+    /// Returns the rotor speeds and accelerations when the difference from the target has decayed to the fraction
+    /// `left` of its initial value.
     fn rotor_instant(&self, state: &RigidState, target_rad_s: &[f64; MAX_ROTORS], left: f64) -> RotorInstant {
         let mut out = RotorInstant { speed: [0.0; MAX_ROTORS], acceleration: [0.0; MAX_ROTORS] };
         let pairs = state.rotor_rad_s.iter().zip(target_rad_s).take(self.rotors.len());

@@ -52,7 +52,7 @@ impl AirState {
     pub const STILL: Self = Self { velocity_m_s: Vec3::zero(), density_kg_m3: AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
 }
 
-/// Inputs to the battery model for one step.
+/// Battery model inputs for one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PowerLoad {
     /// Whether the lamp is on.
@@ -158,8 +158,8 @@ pub struct PhysicsState {
     pub(super) clear_sphere: ClearSphere,
 }
 
-/// A sphere that was free of obstacles at one time. For some time after that, no contacts are possible well inside the
-/// sphere.
+/// A sphere that was free of obstacles at a known time. For a while after that, contacts well inside the sphere are
+/// impossible.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ClearSphere {
     pub(super) center_m: Vec3<Enu>,

@@ -1,4 +1,4 @@
-//! Ground and ceiling effect of each rotor as a thrust factor at a given rotor speed.
+//! Ground and ceiling effects on each rotor, as a thrust factor at a given rotor speed.
 
 use super::airframe::AirframeModel;
 use super::obstacles::Obstacles;
@@ -16,8 +16,8 @@ pub fn reach_m(model: &AirframeModel) -> f64 {
     REACH_RADII * model.rotor.radius_m
 }
 
-/// Returns the thrust in ground effect divided by the thrust out of it at equal power, after Cheeseman and Bennett.
-/// Valid for z > R/2; constant below.
+/// Returns the thrust in ground effect divided by the thrust out of ground effect at equal power, after Cheeseman and
+/// Bennett. Valid for z > R/2; constant below.
 #[must_use]
 pub fn ground_factor(height_over_radius: f64) -> f64 {
     let z = height_over_radius.max(0.5);
@@ -25,7 +25,7 @@ pub fn ground_factor(height_over_radius: f64) -> f64 {
     1.0 / (1.0 - r * r)
 }
 
-/// Returns the ratio of induced velocities without and with a ceiling, gamma of Hsiao and Chirarattananon. Constant
+/// Returns the ratio of induced velocities without and with a ceiling, the gamma of Hsiao and Chirarattananon. Constant
 /// below R/4, as in the public Crazyflie firmware.
 #[must_use]
 pub fn ceiling_gamma(distance_over_radius: f64) -> f64 {
@@ -109,7 +109,7 @@ mod tests {
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
         let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
         let radius = vehicle.rotor.radius_m;
-        // The hubs are 3 cm above the center. The ceiling is one radius away and the floor two radii.
+        // The hubs are 3 cm above the center. The ceiling is one radius away, and the floor two radii.
         let slabs = FloorAndCeiling(0.03 - 2.0 * radius, 0.03 + radius);
         let state = crate::physics::PhysicsState::at_rest(Vec3::zero(), 0.0);
         let got = factors(&model, &state.rigid, &slabs, SimTime::ZERO);

@@ -1,6 +1,6 @@
-//! Optical flow: horizontal velocity relative to any lit surface within range-finder reach, in any direction (the
-//! cameras cover all sides, as on current inspection aircraft). There is no measurement over distant water or in the
-//! dark.
+//! Optical flow: horizontal velocity relative to any lit surface within range of the range finders, in any direction
+//! (the cameras cover all sides, as on current inspection aircraft). It returns no measurement over distant water or in
+//! the dark.
 
 use super::readings::FlowReading;
 use crate::physics::RigidState;
@@ -46,7 +46,8 @@ impl OpticalFlow {
         self.due.fire(now)
     }
 
-    /// Returns the reading for a surface at `nearest_m` under `lux`, or `None` if tracking is impossible.
+    /// Returns the reading for a surface at the distance `nearest_m` with the illuminance `lux`, or `None` if tracking
+    /// is impossible.
     pub fn read(&mut self, rigid: &RigidState, nearest_m: f64, lux: f64) -> Option<FlowReading> {
         let (a, b) = (self.stream.normal(), self.stream.normal());
         if lux < MIN_LUX || nearest_m >= self.reach_m {

@@ -1,6 +1,6 @@
-//! GNSS receiver under a fixed constellation. Structures hide satellites, and the dilution of precision follows from
-//! the visible ones. Position errors combine slow drift, white noise, and multipath that grows with the hidden fraction
-//! of the sky.
+//! GNSS receiver with a fixed satellite constellation. Structures hide satellites, and the dilution of precision
+//! follows from the visible ones. Position errors combine slow drift, white noise, and multipath that grows with the
+//! hidden fraction of the sky.
 
 use super::readings::GnssReading;
 use super::surroundings::Surroundings;
@@ -18,11 +18,11 @@ pub const SATELLITES: usize = 22;
 const MASK_RAD: f64 = 0.174_533;
 /// Minimum number of satellites for a fix (four unknowns plus one for consistency).
 const MIN_SATELLITES: usize = 5;
-/// Maximum horizontal dilution for a fix (estimate: receivers flag larger values as unusable).
+/// Maximum horizontal dilution of precision for a fix (estimate: receivers flag larger values as unusable).
 const MAX_HDOP: f64 = 8.0;
-/// Range within which structures hide satellites, m (the sites are smaller than that).
+/// Range within which structures hide satellites, m (larger than any site).
 const REACH_M: f64 = 400.0;
-/// Slowly drifting fraction of the position noise; the white fraction supplies the remaining variance.
+/// Slowly drifting fraction of the position noise; the white fraction accounts for the remaining variance.
 pub const DRIFT_SHARE: f64 = 0.8;
 /// White fraction of the position noise: `DRIFT_SHARE`² + `WHITE_SHARE`² = 1.
 pub const WHITE_SHARE: f64 = 0.6;

@@ -1,4 +1,4 @@
-//! Accelerometer and gyroscope: mean over each sampling interval plus white noise and a slowly varying bias.
+//! Accelerometer and gyroscope: the mean over each sampling interval, plus white noise and a slowly varying bias.
 
 use super::readings::ImuReading;
 use spandrel_model::frames::{Frd, Vec3};
@@ -10,7 +10,7 @@ use spandrel_model::vehicle;
 /// percent of their bias per minute).
 pub const BIAS_WALK_SHARE: f64 = 0.005;
 
-/// Samples between updates of the bias walk.
+/// Number of samples between updates of the bias random walk.
 const BIAS_WALK_SAMPLES: u32 = 40;
 
 /// State of the inertial sensors.
@@ -109,7 +109,7 @@ mod tests {
             imu.integrate(Vec3::new(push, 0.0, -9.806_65), Vec3::zero(), step);
         }
         let gained = imu.read().map(|r| r.specific_force_m_s2.forward() * 0.0025);
-        // 2000 m/s² over 0.5 ms is 1 m/s; tolerance for rounding only.
+        // 2000 m/s² over 0.5 ms is 1 m/s; the tolerance covers rounding only.
         assert!(gained.is_some_and(|v| (v - 1.0).abs() < 1e-12), "{gained:?}");
     }
 }

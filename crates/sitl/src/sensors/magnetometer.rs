@@ -1,5 +1,5 @@
-//! Magnetometer in the Earth's dipole field, with the bias that remains after calibration of the aircraft. Steel
-//! structures do not disturb the field.
+//! Magnetometer in the Earth's dipole field, with the bias that remains after calibration. Steel structures do not
+//! disturb the field.
 
 use crate::physics::RigidState;
 use spandrel_model::frames::{Frd, Ned, Vec3};
@@ -80,7 +80,7 @@ mod tests {
             assert!((first - later).norm() < 1e-12, "{first:?} {later:?}");
             squares += first.norm_squared() / 1200.0;
         }
-        // With 1,200 draws, three standard errors of the standard deviation are 6 %.
+        // With 1,200 samples, three standard errors of the standard deviation are 6 %.
         assert!((squares.sqrt() / 0.01 - 1.0).abs() < 0.06, "{}", squares.sqrt());
     }
 

@@ -1,4 +1,4 @@
-//! Sensor models, one file each, with individual noise, bias and rate. The autopilot gets no other information about
+//! Sensor models, one per file, each with its own noise, bias and rate. The autopilot gets no other information about
 //! the vehicle.
 
 pub mod baro;
@@ -81,7 +81,7 @@ impl Sensors {
         self.imu.integrate(specific_force_m_s2, rigid.rates_rad_s, dt);
     }
 
-    /// Returns all readings whose sample time has come at `now`.
+    /// Returns all readings that are due at `now`.
     pub fn sample<S: Surroundings>(&mut self, truth: &SensorInputs<'_>, site: &S, now: SimTime) -> Readings {
         let rigid = truth.rigid;
         let position_m = rigid.position_m.enu();
@@ -149,7 +149,7 @@ pub(crate) mod tests {
     use spandrel_model::frames::Rotation;
     use spandrel_model::vehicle;
 
-    /// Returns sensors without errors, for tests of single mechanisms.
+    /// Returns sensors without errors, for tests of individual mechanisms.
     pub(crate) fn error_free_sensors() -> vehicle::SensorSpec {
         vehicle::SensorSpec {
             imu_rate_hz: 400.0,

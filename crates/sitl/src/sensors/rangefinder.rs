@@ -1,4 +1,4 @@
-//! Range finders: one down, one up and eight around in the body plane, modeled as rays into the site.
+//! Range finders: one pointing down, one up and eight spread around the body plane, modeled as rays into the site.
 
 use super::surroundings::Surroundings;
 use crate::physics::RigidState;
@@ -8,7 +8,7 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
-/// Readings of all range finders at one instant, m; infinite beyond reach.
+/// Readings of all range finders at one instant, m; infinite if nothing is in range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RangeReadings {
     /// Downward range.
@@ -33,14 +33,14 @@ pub struct RangeFinders {
     stream: RandomStream,
     due: Schedule,
     noise_m: f64,
-    /// Bias of each sensor: down, up, then the eight around.
+    /// Bias of each sensor: down, up, then the eight horizontal ones.
     bias_m: [f64; 10],
     max_m: f64,
     around: [Vec3<Frd>; 8],
 }
 
 impl RangeFinders {
-    /// Creates the sensors with the aircraft's rate, noise and reach.
+    /// Creates the sensors with the aircraft's rate, noise and maximum range.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut around = [Vec3::zero(); 8];

@@ -1,8 +1,8 @@
-//! What the sensors report, as plain data.
+//! Sensor readings as plain data.
 
 use spandrel_model::frames::{Frd, Ned, Vec3};
 
-/// One sample of accelerometer and gyroscope.
+/// One accelerometer and gyroscope sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImuReading {
     /// Specific force, m/s² (at rest and level: down = -9.81).
@@ -45,11 +45,11 @@ pub struct Readings {
     pub pressure_pa: Option<f64>,
     /// Magnetic field, gauss, in body axes.
     pub mag_gauss: Option<Vec3<Frd>>,
-    /// Downward range, m; `Some(f64::INFINITY)` if nothing is within reach.
+    /// Downward range, m; `Some(f64::INFINITY)` if nothing is in range.
     pub range_down_m: Option<f64>,
-    /// Upward range, m; infinite if nothing is within reach.
+    /// Upward range, m; infinite if nothing is in range.
     pub range_up_m: Option<f64>,
-    /// Horizontal ranges in eight sectors clockwise from the nose, m; infinite if nothing is within reach.
+    /// Horizontal ranges in eight sectors clockwise from the nose, m; infinite if nothing is in range.
     pub range_around_m: Option<[f64; 8]>,
     /// Optical-flow velocity over ground.
     pub flow: Option<FlowReading>,
@@ -73,7 +73,7 @@ impl Readings {
     }
 }
 
-/// Optical-flow velocity in the heading frame of the body (forward, right).
+/// Optical-flow velocity in the body's heading frame (forward, right).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlowReading {
     /// Forward velocity relative to the surface, m/s.
@@ -84,7 +84,7 @@ pub struct FlowReading {
     pub quality: f64,
 }
 
-/// Battery measurement of the power module.
+/// Battery measurement from the power module.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatteryReading {
     /// Terminal voltage, V.

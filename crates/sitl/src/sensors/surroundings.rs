@@ -1,4 +1,4 @@
-//! The environment as the sensors see it: rays and ambient light.
+//! The sensors' view of the environment: rays and ambient light.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;
@@ -9,7 +9,7 @@ pub trait Surroundings {
     /// Returns the distance to the first hit along a unit direction, m, or `None` if there is none within `max_m`.
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
     /// Returns true only if there is nothing solid within `max_m` in any direction, including the landing pad.
-    /// Returning false is always allowed and only costs time.
+    /// Returning false is always safe and only costs time.
     fn nothing_within(&self, _position_m: Vec3<Enu>, _max_m: f64, _at: SimTime) -> bool {
         false
     }

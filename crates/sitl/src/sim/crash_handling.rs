@@ -1,4 +1,4 @@
-//! Consequences of a step: lift-off, contact, empty battery and respawn, plus clearance and light for scoring.
+//! Consequences of a step: liftoff, contact, empty battery and respawn, plus clearance and light for scoring.
 
 use super::{CLEARANCE_SEARCH_RADIUS_M, Sim, SimEvent};
 use crate::autopilot::LandedState;
@@ -9,7 +9,7 @@ use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::scenario::AfterCrash;
 use spandrel_model::site::Surface;
 
-/// Height above the start position that counts as lift-off, m (docs/src/reference/assessment.md, "Frames").
+/// Height above the start position that counts as liftoff, m (docs/src/reference/assessment.md, "Frames").
 const LIFT_OFF_M: f64 = 0.3;
 /// Minimum clearance of a safe hover, m.
 const SAFE_CLEARANCE_M: f64 = 1.0;
@@ -23,7 +23,7 @@ const GENTLE_CONTACT_M_S: f64 = 1.0;
 const AIRBORNE_AFTER_S: f64 = 0.5;
 
 impl Sim {
-    /// Handles lift-off, contact, empty battery and respawn.
+    /// Handles liftoff, contact, empty battery and respawn.
     pub(super) fn handle_crash_and_respawn(&mut self) {
         let up = -self.state.rigid.position_m.down();
         if !self.has_lifted_off && up > self.standing_up_m + LIFT_OFF_M {
@@ -47,8 +47,8 @@ impl Sim {
         }
     }
 
-    /// Updates the current contact and counts new ones. Gentle contact with the landing pad, near home or before lift-off does
-    /// not count.
+    /// Updates the current contact and counts new ones. Gentle contact with the landing pad, near home or before
+    /// liftoff does not count.
     fn note_contact(&mut self) {
         let report = self.state.contact;
         let contact = match report.surface {
@@ -84,15 +84,15 @@ impl Sim {
         place && impact_m_s < GENTLE_CONTACT_M_S
     }
 
-    /// Returns true if the vehicle rests on its side or back. Near home this is gentle contact and not a crash, but the vehicle
-    /// cannot take off.
+    /// Returns true if the vehicle is lying on its side or back. Near home, this is gentle contact and not a crash, but
+    /// the vehicle cannot take off.
     fn is_upside_down(&self) -> bool {
         const UPRIGHT: f64 = 0.8;
         let down = self.state.rigid.attitude * Vec3::<spandrel_model::frames::Frd>::new(0.0, 0.0, 1.0);
         self.state.contact.touching() && down.down() < UPRIGHT
     }
 
-    /// Returns true after a gentle, upright landing outside water. The vehicle stays and can take off again.
+    /// Returns true after a gentle, upright landing that is not in water. The vehicle stays and can take off again.
     fn has_landed_upright(&self) -> bool {
         let landed =
             self.backend.builtin().is_some_and(|a| matches!(a.status().landed, LandedState::OnGround | LandedState::TakingOff));
@@ -256,7 +256,7 @@ mod tests {
             let mut sim = flown(|_| ());
             touches(&mut sim, Some(surface), 2.0);
             sim.state.rigid.velocity_m_s = velocity;
-            // The vehicle is down from the first tick.
+            // The crash counts from the first tick.
             assert_eq!(crashes(&pass(&mut sim, 3_000)), 1, "{surface:?}");
             assert_eq!(sim.scoring.respawns, 0, "{surface:?}: too early");
             let events = pass(&mut sim, 1);
@@ -321,7 +321,7 @@ mod tests {
 
     #[test]
     fn exact_empty_battery_prevents_respawn() {
-        // One millisecond before the respawn, and exactly at it.
+        // One millisecond before the respawn, and exactly at the respawn.
         for ms in [2_999, 3_000] {
             let mut sim = flown(|_| ());
             touches(&mut sim, Some(Surface::Bridge), 2.0);

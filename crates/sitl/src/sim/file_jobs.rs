@@ -28,7 +28,7 @@ impl FileJobScheduler {
         self.next_is_log(vehicle, now).is_some()
     }
 
-    /// Returns whether the next allowed job is a log transfer.
+    /// Returns true if the next allowed job is a log transfer.
     fn next_is_log(&self, vehicle: &VehicleLink, now: SimTime) -> Option<bool> {
         let (files, logs) = (vehicle.files.next_action(), vehicle.logs.next_action());
         let is_log = logs.is_some() && (self.logs_next || files.is_none());

@@ -54,7 +54,7 @@ impl Sim {
     /// Restores the signing state of an earlier run.
     ///
     /// # Errors
-    /// The one-based number of the first invalid line.
+    /// Returns the one-based number of the first invalid line.
     pub fn restore_signing(&mut self, memory: &str) -> Result<(), usize> {
         self.endpoint.links.restore_signing(memory)
     }
@@ -82,10 +82,10 @@ impl Sim {
         self.endpoint.vehicle.parameter_text()
     }
 
-    /// Sets the parameters of a parameter file.
+    /// Sets parameters from a parameter file.
     ///
     /// # Errors
-    /// All invalid lines. No parameter is changed in that case.
+    /// Returns all invalid lines. In that case, no parameter is changed.
     pub fn read_parameters(&mut self, text: &str) -> Result<(), Vec<ParamFileProblem>> {
         let Backend::Builtin(autopilot) = &mut self.backend;
         self.endpoint.read_parameters(text, autopilot)
@@ -96,7 +96,7 @@ impl Sim {
         self.endpoint.vehicle.keep_parameters();
     }
 
-    /// Returns the next storage request of a client.
+    /// Returns the next storage request from a client.
     pub fn poll_storage(&mut self) -> Option<StorageRequest> {
         self.endpoint.vehicle.poll_storage()
     }
@@ -122,7 +122,7 @@ impl Sim {
         self.recorder.poll()
     }
 
-    /// Returns the next file job of a client, within the per-tick limit of [`crate::endpoint::files::job_allowance`].
+    /// Returns the next file job from a client, within the per-tick limit of [`crate::endpoint::files::job_allowance`].
     pub fn poll_file_job(&mut self) -> Option<FileJob> {
         self.file_jobs.poll(&mut self.endpoint.vehicle, self.now)
     }

@@ -1,4 +1,4 @@
-//! Receive queues, bounded per link so that a flooding peer cannot use up the processing time or memory of the others.
+//! Receive queues, bounded per link so that a flooding peer cannot use up the processing time or memory of other links.
 
 use crate::endpoint::{LinkId, ReceivedDatagram};
 use spandrel_model::time::SimTime;
@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// Maximum datagrams processed per link and tick. At 1,000 ticks/s this exceeds what any client sends (estimate).
 pub const MAX_DATAGRAMS_PER_TICK: usize = 8;
-/// Maximum bytes processed per link and tick, and the maximum datagram length. A frame has at most 280 bytes, and clients send
-/// one or a few per datagram.
+/// Maximum bytes processed per link and tick, and the maximum datagram length. A frame has at most 280 bytes, and
+/// clients send only a few per datagram.
 pub const MAX_BYTES_PER_TICK: usize = 4_096;
 /// Maximum queued datagrams per link. With the limits above, the queue drains within about 130 ms.
 const MAX_QUEUED_DATAGRAMS: usize = 1_024;

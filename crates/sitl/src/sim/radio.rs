@@ -1,11 +1,11 @@
-//! Radio impairment set by an instructor: delay and packet loss for datagrams of ground stations and SDKs, in both directions.
+//! Radio impairment set by an instructor: delay and packet loss for datagrams to and from ground stations and SDKs.
 
 use crate::endpoint::{LinkId, Transmit};
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Maximum datagrams in flight per direction: one second of fifty busy links.
+/// Maximum datagrams in flight per direction: one second of traffic on fifty busy links.
 const MAX_DATAGRAMS_IN_FLIGHT: usize = 16_384;
 
 /// Datagrams in flight, packet loss and delay.
@@ -19,7 +19,7 @@ pub struct RadioLink {
 }
 
 impl RadioLink {
-    /// Creates a link without loss or delay.
+    /// Creates a radio link without loss or delay.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let stream = RandomStream::new(seed, "radio");

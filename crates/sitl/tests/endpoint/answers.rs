@@ -81,7 +81,7 @@ fn wire_camera_component_rejects_flight_commands() {
 fn wire_messages_can_be_requested_once_or_at_a_rate() {
     use spandrel_sitl::endpoint::streams::STREAMS;
     let mut station = Station::airborne("two-bridges", 7);
-    // Starts an orbit, so that the orbit stream has data.
+    // Start an orbit to provide data for the orbit stream.
     let orbit = [3.0, 0.5, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(20);
@@ -126,7 +126,7 @@ fn wire_messages_can_be_requested_once_or_at_a_rate() {
         assert_eq!((interval, told), (MavResult::MAV_RESULT_ACCEPTED, Some((stream.id as u16, -1))));
         accepted(&mut station, 0.0);
     }
-    assert_eq!(unspoken, 7, "POWER_STATUS, SIM_STATE and messages of ArduPilot's dialect");
+    assert_eq!(unspoken, 7, "only POWER_STATUS, SIM_STATE and ArduPilot dialect messages may be absent");
     let unknown = [9_999.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, unknown), MavResult::MAV_RESULT_FAILED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, unknown), MavResult::MAV_RESULT_DENIED);

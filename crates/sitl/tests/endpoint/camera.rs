@@ -19,7 +19,7 @@ const VIDEO_MIB_S: f32 = 60e6 / 8.0 / 1_048_576.0;
 /// Tolerance for the ticks between a command and its effect, s of recording.
 const TICKS_S: f32 = 0.01;
 
-/// The only supplied aircraft with a zoom lens.
+/// The only shipped aircraft with a zoom lens.
 const ZOOMS: &str = "m30";
 
 fn on_the_pad(vehicle: &str) -> Station {
@@ -93,7 +93,7 @@ fn wire_formatting_empties_the_card_and_is_rejected_while_recording() {
     assert_eq!([take(&mut station), take(&mut station)], [OK, OK]);
     assert_eq!(used_mib(&mut station), 2.0 * PICTURE_MIB);
     let format = MavCmd::MAV_CMD_STORAGE_FORMAT;
-    assert_eq!(station.command(CAMERA, format, p(&[2.0, 1.0, 1.0])), DENIED, "a second card does not exist");
+    assert_eq!(station.command(CAMERA, format, p(&[2.0, 1.0, 1.0])), DENIED, "the camera must not have a second card");
     assert_eq!(station.command(CAMERA, format, p(&[1.0, 0.0, 1.0])), OK);
     assert_eq!((used_mib(&mut station), status(&mut station).image_count), (2.0 * PICTURE_MIB, 0), "only the log must remain");
     assert_eq!(station.command(CAMERA, format, p(&[1.0, 1.0, 1.0])), OK);
@@ -132,14 +132,14 @@ fn wire_every_zoom_type_works_within_the_zoom_range() {
         assert!(settings(&station).is_some(), "the camera must answer with its settings");
         station.run_ms(4_000);
         let told = settings(&station).unwrap().1;
-        assert!((told - level).abs() < 0.01, "{kind} {value}: {told} for {level}");
+        assert!((told - level).abs() < 0.01, "{kind} {value}: {told} instead of {level}");
         assert_eq!(ask(&mut station, 271), OK);
         let field =
             station.last_message(|m| if let MavMessage::CAMERA_FOV_STATUS(f) = m { Some((f.hfov, f.vfov)) } else { None });
         let (hfov, vfov) = field.unwrap();
         assert!((f64::from(hfov) - field_deg(f64::from(level) / 100.0)).abs() < 0.01, "{level}: {hfov}");
         let tall = (0.5 * vfov.to_radians()).tan() / (0.5 * hfov.to_radians()).tan();
-        assert!((tall - 0.75).abs() < 1e-4, "3000 lines of 4000 pixels: ratio {tall}");
+        assert!((tall - 0.75).abs() < 1e-4, "a sensor of 4000 by 3000 pixels: ratio {tall}");
         assert_eq!(ask(&mut station, 269), OK);
         let stream = station.last_message(|m| if let MavMessage::VIDEO_STREAM_INFORMATION(s) = m { Some(s.hfov) } else { None });
         assert!((f32::from(stream.unwrap()) - hfov).abs() <= 0.5);
@@ -309,8 +309,8 @@ fn wire_repeated_picture_command_takes_one_picture_and_other_cameras_are_ignored
     for (camera, result) in [(0.0, OK), (100.0, OK), (2.0, DENIED), (101.0, DENIED)] {
         assert_eq!(station.command(1, shoot, p(&[camera, 0.0, 1.0])), result, "{camera}");
     }
-    assert_eq!(station.command(1, shoot, p(&[1.0, 0.0, 1.0])), DENIED, "the autopilot does not have a camera");
-    assert_eq!(station.command(CAMERA, shoot, p(&[1.0, 0.0, 1.0])), OK, "the camera has a first sensor");
+    assert_eq!(station.command(1, shoot, p(&[1.0, 0.0, 1.0])), DENIED, "the autopilot must not have a camera sensor");
+    assert_eq!(station.command(CAMERA, shoot, p(&[1.0, 0.0, 1.0])), OK, "the camera must have a first sensor");
 }
 
 #[test]
@@ -360,7 +360,7 @@ fn wire_mission_items_have_the_same_effect_as_commands() {
         act(6, M::MAV_CMD_DO_MOUNT_CONFIGURE, [2.0, 1.0, 1.0, 0.0], 0, 0.0),
         act(7, M::MAV_CMD_DO_MOUNT_CONTROL, [-50.0, 0.0, 0.0, 0.0], 0, 2.0),
         item(8, M::MAV_CMD_NAV_WAYPOINT, north + 8.0, 6.0),
-        // One is as MAVLink defines it, the other as stations send it that scale every fifth parameter.
+        // One command as MAVLink defines it, and one as sent by stations that always scale parameter 5.
         act(9, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 1, 0.0),
         item(10, M::MAV_CMD_NAV_WAYPOINT, north, 6.0),
         act(11, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 10_000_000, 0.0),
@@ -394,8 +394,8 @@ fn wire_mission_items_have_the_same_effect_as_commands() {
         false
     });
     assert!(ended, "the mission must end with a landing");
-    assert!((lowest.to_degrees() + 50.0).abs() < 1.0, "mount control: {}", lowest.to_degrees());
-    assert_eq!((changes, lamp), (5, true), "the servo switches it on, the relay off and on twice");
+    assert!((lowest.to_degrees() + 50.0).abs() < 1.0, "lowest pitch after mount control: {}", lowest.to_degrees());
+    assert_eq!((changes, lamp), (5, true), "the servo must switch the lamp on, and the relay off and on twice");
     let done = status(&mut station);
     assert_eq!((done.image_count, done.video_status), (2, 0));
     let video_mib = used_mib(&mut station) - 2.0 * PICTURE_MIB;

@@ -168,7 +168,7 @@ fn wire_camera_serves_only_its_definition_file() {
     for setting in ["CAM_PHOTOQUAL", "CAM_VIDRATE"] {
         assert!(xml.contains(&format!("<parameter name=\"{setting}\" type=\"uint32\"")), "{setting}");
     }
-    // Uses a path as QGroundControl parses it.
+    // Uses the path as parsed by QGroundControl.
     let rooted = transfer(&mut station, CAMERA, Opcode::OpenFileRo, (0, 0), b"/camera.xml", 11);
     assert_eq!((rooted.opcode, number(&rooted.data)), (ACK, size));
     for (component, path) in [(CAMERA, "/etc/extras/parameter.json.xz"), (CAMERA, "../camera"), (1, "camera.xml")] {

@@ -78,7 +78,7 @@ fn flight_mission_heading_follows_the_region_of_interest_until_cleared() {
     let east = 3_000.0 * 1e-7 * 40_000_000.0 / 360.0 * 46.7f32.to_radians().cos();
     let p = station.place();
     let wanted = (east - p[1]).atan2(home as f32 + 20.0 - p[0]);
-    assert!(angle_between(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} not {wanted} at {p:?}", yaw(&station));
+    assert!(angle_between(yaw(&station), wanted) < 2.0 * YAW_TOLERANCE, "{} instead of {wanted} at {p:?}", yaw(&station));
     assert!(station.run_until(60.0, |s| s.mode() == Some(3 << 24 | 4 << 16)));
     assert!(
         angle_between(yaw(&station), std::f32::consts::PI) < 2.0 * YAW_TOLERANCE,
@@ -152,7 +152,7 @@ fn flight_yaw_command_does_not_interrupt_the_mission() {
     assert!(angle_between(yaw(&station), std::f32::consts::FRAC_PI_2) < YAW_TOLERANCE, "{}", yaw(&station));
 }
 
-/// Sets a home position relative to home; the height counts from the current home.
+/// Sets a home position relative to home; its height is relative to the current home.
 #[test]
 fn wire_home_accepts_relative_heights_and_rejects_other_frames() {
     let mut station = ready(7);
@@ -187,8 +187,8 @@ fn orbit_center(station: &Station) -> (i32, i32, f32) {
     station.last_message(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
 }
 
-/// QGroundControl's orbit does not set a yaw behavior (5, unchanged). A PX4 that is not in an orbit yet then turns its
-/// nose to the center.
+/// QGroundControl's orbit does not set a yaw behavior (5, unchanged). A PX4 vehicle that is not yet in an orbit then
+/// turns its nose toward the center.
 #[test]
 fn regress_orbit_with_yaw_unchanged_keeps_the_current_yaw_behavior() {
     let mut station = Station::airborne("drill-hover", 7);

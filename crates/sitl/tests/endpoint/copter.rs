@@ -1,4 +1,4 @@
-//! Flying as an ArduCopter: modes, arming, takeoff, GUIDED, and manual control.
+//! The ArduCopter interface in flight: modes, arming, takeoff, GUIDED, and manual control.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter_plans::item;
@@ -237,7 +237,7 @@ fn flight_goto_requires_or_enters_guided_and_brake_stops_it() {
     let [second, ..] = station.local_position_after(2_000);
     assert!((first - second).abs() < 0.3 && first < 39.0, "the vehicle must have stopped before the target: {first} {second}");
     assert_eq!(next_beat(&mut station).custom_mode, BRAKE as u32);
-    // The single-item form that MAVProxy and older ground stations use.
+    // The single-item message that MAVProxy and older ground stations use.
     station.command(1, SET_MODE, mode(GUIDED));
     let errand = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 6.0);
     let answer = station.ask(&MavMessage::MISSION_ITEM_INT(MISSION_ITEM_INT_DATA { current: 2, ..errand }), |m| match m {

@@ -103,7 +103,7 @@ fn regress_attitude_thrust_in_guided_follows_guid_options() {
         station.run_ms(5);
         station.last_message(|m| if let MavMessage::ATTITUDE_TARGET(a) = m { Some(a.thrust) } else { None }).unwrap()
     };
-    // A thrust of 0.5 keeps the height.
+    // A thrust of 0.5 holds the height.
     let hover = thrust_after(&mut station, 0.5);
     let asked = hover + 0.1;
     assert!((thrust_after(&mut station, asked) - asked).abs() > 0.02, "thrust must be a climb rate by default");

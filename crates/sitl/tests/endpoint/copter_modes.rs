@@ -53,8 +53,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// QGroundControl's altitude slider: mode GUIDED, then one offset in which only the position bits of the mask are
-/// clear.
+/// QGroundControl's altitude slider: mode GUIDED, then one offset with only the position bits of the mask clear.
 #[test]
 fn regress_qgroundcontrols_altitude_slider_climbs_a_copter() {
     for before in [GUIDED, BRAKE] {
@@ -211,7 +210,7 @@ fn regress_attitude_thrust_sets_the_climb_rate() {
         })
     };
     set_param(&mut station, "WPNAV_SPEED_UP", 250.0, MavParamType::MAV_PARAM_TYPE_REAL32);
-    // 0.5 keeps the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 is half of WPNAV_SPEED_DN (150 cm/s).
+    // 0.5 holds the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 is half of WPNAV_SPEED_DN (150 cm/s).
     for (thrust, climb) in [(0.5, 0.0), (0.7, 1.0), (0.25, -0.75)] {
         for _ in 0..60 {
             station.send(&level(thrust));
@@ -264,10 +263,10 @@ fn regress_pause_holds_and_continue_resumes_in_guided() {
     assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
     assert!(station.run_until(20.0, |s| distance(s.place(), target) < 1.0), "{:?}", station.place());
     assert_eq!(station.command(1, SET_MODE, mode(BRAKE)), ACCEPTED);
-    assert_eq!(station.command(1, pause, one(0.0)), FAILED, "other modes must reject pause");
+    assert_eq!(station.command(1, pause, one(0.0)), FAILED, "pause must be rejected in other modes");
 }
 
-/// The mission takes off, waits until a time of day, and lands; the drill's day begins on a whole minute.
+/// The mission takes off, waits until a time of day, and lands; the drill starts on a whole minute.
 #[test]
 fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
     let mut station = copter_at(5.0);
@@ -299,7 +298,7 @@ fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
     assert!((station.place()[0] - home - 4.0).abs() < 1.5, "the vehicle must wait: {:?}", station.place());
     assert!(
         station.run_until(12.0, |s| s.place()[0] > home + 8.0),
-        "the vehicle must continue at the set time: {:?}",
+        "the vehicle must continue at the planned time: {:?}",
         station.place()
     );
     let pause = MavCmd::MAV_CMD_DO_PAUSE_CONTINUE;
@@ -379,7 +378,7 @@ fn regress_follow_mode_keeps_its_offset() {
     let here = station.place();
     // The target is 8 m south of the person and 4 m above.
     let (n, e) = (here[0] - home[0] - 2.0, f64::from(here[1] - home[1]) - east);
-    assert!(n.abs() < 1.5 && e.abs() < 2.5, "{n} m north, {e} m east of the target");
+    assert!(n.abs() < 1.5 && e.abs() < 2.5, "{n} m north and {e} m east of the target");
     assert_eq!(next_beat(&mut station).custom_mode, 23);
 }
 

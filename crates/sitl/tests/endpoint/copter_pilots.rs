@@ -1,5 +1,5 @@
-//! Compatibility with pilots and scripts made for ArduCopter: switches on channels, arming by mode, the end of a
-//! mission, and the order of responses (all of them used by ArduPilot's autotest).
+//! Compatibility with pilots and scripts made for ArduCopter: channel switches, arming by mode, the end of a mission,
+//! and the order of responses (all used by ArduPilot's autotest).
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, GUIDED, LOITER, SET_MODE, copter, copter_at, mode, next_beat};
@@ -299,10 +299,10 @@ fn flight_return_uses_the_rally_points_height_and_restores_the_heading() {
     assert!((highest - 12.0).abs() < HEIGHT_M, "{highest} m");
     station.run_ms(4_500);
     let off = (heading(&mut station) - armed + 540.0).rem_euclid(360.0) - 180.0;
-    assert!(off.abs() < HEADING_DEG, "{off} degrees from the heading at arming");
+    assert!(off.abs() < HEADING_DEG, "heading {off} degrees off the one at arming");
 }
 
-/// Tolerances of the height, m, and of the heading, degrees, during a return (ArduPilot's autotest: 5 degrees).
+/// Height tolerance, m, and heading tolerance, degrees, during a return (ArduPilot's autotest: 5 degrees).
 const HEIGHT_M: f32 = 1.0;
 const HEADING_DEG: f32 = 5.0;
 

@@ -1,4 +1,5 @@
-//! Missions and fences as an ArduCopter: item 0 is home, and the fence is active if its parameter enables it.
+//! Missions and fences in the ArduCopter interface: item 0 is home, and the fence is active if its parameter enables
+//! it.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
@@ -59,7 +60,7 @@ fn flight_fence_acts_only_if_enabled() {
     }
 }
 
-/// After a fence has stopped the vehicle, setpoints that lead outside must be ignored, although they keep arriving.
+/// After a fence has stopped the vehicle, setpoints outside the fence must be ignored, although they keep arriving.
 #[test]
 fn flight_fence_breach_ends_guided_flight() {
     let mut station = copter_at(5.0);
@@ -89,14 +90,14 @@ fn flight_fence_breach_ends_guided_flight() {
 }
 
 #[test]
-#[expect(clippy::too_many_lines, reason = "one flight from start to end")]
+#[expect(clippy::too_many_lines, reason = "one complete flight")]
 fn wire_mission_item_0_is_home() {
     let mut station = copter();
     let accepted = MavMissionResult::MAV_MISSION_ACCEPTED;
     let place = MavCmd::MAV_CMD_NAV_WAYPOINT;
     assert_eq!(counted(&mut station), 0);
     assert_eq!(current(&mut station), (0, 0));
-    // The content of item 0 must not matter, not even an unreachable position.
+    // Any content of item 0 must be accepted, even an unreachable position.
     let home = MISSION_ITEM_INT_DATA { x: 1_900_000_000, z: 1e9, ..item(0, place, 0.0, 0.0) };
     let jump = MISSION_ITEM_INT_DATA { param1: 1.0, param2: 1.0, ..item(3, MavCmd::MAV_CMD_DO_JUMP, 0.0, 0.0) };
     let items = [home.clone(), item(1, place, 10.0, 5.0), item(2, place, 20.0, 5.0), jump];
@@ -140,7 +141,7 @@ fn wire_mission_item_0_is_home() {
     };
     assert_eq!(station.ask(&part(2, 2), answer), Some(Ok(2)));
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(item(2, place, 30.0, 6.0)), answer), Some(Err(accepted)));
-    assert_eq!(station.ask(&part(0, 1), answer), Some(Ok(0)), "item 0 may also be replaced, without effect");
+    assert_eq!(station.ask(&part(0, 1), answer), Some(Ok(0)), "replacing item 0 must be accepted, without effect");
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(items[0].clone()), answer), Some(Ok(1)));
     assert_eq!(station.ask(&MavMessage::MISSION_ITEM_INT(item(1, place, 12.0, 7.0)), answer), Some(Err(accepted)));
     let heights: Vec<f32> = (1..=3).map(|seq| fetch(&mut station, seq).unwrap().z).collect();
@@ -180,7 +181,7 @@ fn flight_mission_uses_copters_item_numbers() {
     ];
     assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
-    assert_eq!(station.command(1, ARM, one(1.0)), FAILED, "AUTO is not armable");
+    assert_eq!(station.command(1, ARM, one(1.0)), FAILED, "AUTO must not be armable");
     station.command(1, SET_MODE, mode(GUIDED));
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, one(0.0)), ACCEPTED);

@@ -31,7 +31,8 @@ fn set_real(station: &mut Station, name: &str, value: f32) {
     set(station, name, value, MavParamType::MAV_PARAM_TYPE_REAL32);
 }
 
-/// Enables failure injection. ArduPilot encodes integers as floating-point numbers, the others bit by bit.
+/// Enables failure injection. ArduPilot sends integers as floating-point numbers; the other autopilots send their bit
+/// pattern.
 fn allow_failures(station: &mut Station, flavour: &Flavour) {
     let one = if flavour.name == ardupilot::FLAVOUR.name { 1.0 } else { f32::from_bits(1) };
     set(station, "SYS_FAILURE_EN", one, MavParamType::MAV_PARAM_TYPE_INT32);
@@ -149,7 +150,7 @@ fn wire_missing_compass_or_barometer_prevents_arming() {
     }
 }
 
-/// Without a compass, the gyroscopes keep the heading well enough for holding and landing.
+/// Without a compass, the gyroscopes maintain the heading well enough to hold position and land.
 #[test]
 fn flight_compass_loss_is_reported_and_hold_continues() {
     let mut station = holding();
@@ -161,14 +162,14 @@ fn flight_compass_loss_is_reported_and_hold_continues() {
     assert!((now - before).norm() < 3.0, "{before:?} to {now:?}");
 }
 
-/// A sensor that is stuck on the ground must be announced in the emulated autopilot's words, prevent arming, and
+/// A sensor that gets stuck on the ground must be reported in the emulated autopilot's wording, prevent arming, and
 /// recover.
 #[test]
 fn wire_stuck_sensor_is_announced_and_prevents_arming() {
     use MavSysStatusSensor as S;
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
-    // Two seconds with the same value, and SYS_STATUS twice per second, s.
+    // Time limit, s: two seconds with the same value, SYS_STATUS twice per second, and margin.
     const WITHIN_S: f64 = 4.0;
     let arm = p(&[1.0]);
     for (flavour, unit, bit, words) in [
@@ -197,12 +198,12 @@ fn wire_stuck_sensor_is_announced_and_prevents_arming() {
     }
 }
 
-/// Flow of issue 16: reposition to 12 m, with the barometer getting stuck during the climb.
+/// Scenario of issue 16: go to a height of 12 m; the barometer gets stuck during the climb.
 #[test]
 fn regress_stuck_barometer_is_announced_and_the_climb_succeeds() {
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
-    // Only the receiver's height remains, m.
+    // Height tolerance, m: only the GNSS height remains.
     const HEIGHT_M: f64 = 2.5;
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m.enu();
@@ -223,7 +224,7 @@ fn regress_stuck_barometer_is_announced_and_the_climb_succeeds() {
     assert!((climbed - 7.0).abs() < HEIGHT_M, "{climbed} m instead of 7 m");
 }
 
-/// With one motor stopped, the vehicle cannot stay level and turns; it must report that before it has fallen.
+/// With one motor stopped, the vehicle tilts and spins; it must report that before it has fallen.
 #[test]
 fn flight_motor_failure_changes_attitude_and_is_reported() {
     let mut station = holding();
@@ -237,7 +238,7 @@ fn flight_motor_failure_changes_attitude_and_is_reported() {
         (tilt, turn) = (tilt.max(now.roll.abs().max(now.pitch.abs())), turn.max(now.yawspeed.abs()));
         has_text(s, "Attitude lost: motor or propeller failure?")
     });
-    assert!(told && tilt > 0.7 && turn > 0.5, "reported {told}, tilted {tilt} rad, turned at {turn} rad/s");
+    assert!(told && tilt > 0.7 && turn > 0.5, "reported {told}, tilt {tilt} rad, turn rate {turn} rad/s");
     let obeys = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION;
     assert!(station.run_until(1.0, |s| health(s).is_some_and(|health| !health.contains(obeys))));
 }
@@ -281,7 +282,7 @@ fn wire_battery_failure_is_reported() {
     assert!(left.unwrap() <= 5, "{left:?}");
 }
 
-/// A failed cell must be shown, reduce the pack's voltage, and recover.
+/// A failed cell must be reported, reduce the pack's voltage, and recover.
 #[test]
 fn wire_failed_cell_is_reported_and_reduces_the_voltage() {
     let mut station = holding();
@@ -314,7 +315,7 @@ fn flight_instructor_wind_takes_effect() {
         f64::from(station.last_message(|m| if let MavMessage::WIND_COV(w) = m { Some(w.wind_y) } else { None }).unwrap())
     });
     let east = mean.sum::<f64>() / 50.0;
-    assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "west wind: {east} m/s to the east");
+    assert!((east - 8.0).abs() < WIND_TOLERANCE_M_S, "west wind: {east} m/s eastward");
 }
 
 #[test]
@@ -336,13 +337,13 @@ fn wire_telemetry_reproduces_traffic_on_closed_bridges() {
         station.run_ms(wait_ms);
         let heard = BridgeClosures::from_codes(codes(&station));
         assert_eq!(station.sim.site().traffic().closures(), &heard);
-        // A program with scenario, seed and telemetry must see the same cars.
+        // A program that has the scenario, the seed and the telemetry must compute the same cars.
         let theirs = Site::build(&scenario("two-bridges"), 7).with_closures(heard);
         let now = station.sim.now();
         let (here, there) = (station.sim.site().traffic().solids(now), theirs.traffic().solids(now));
         assert_eq!(here, there);
         let driving = here.iter().filter(|(object, surface, _)| *surface == Surface::Vehicle && *object != CREW_TRUCK).count();
-        assert_eq!(driving > 0, open == 1, "{driving} vehicle parts after 90 s");
+        assert_eq!(driving > 0, open == 1, "{driving} vehicle parts on the bridges after 90 s");
     }
 }
 
@@ -371,7 +372,7 @@ fn wire_link_impairment_loses_and_delays_datagrams() {
     set_real(&mut station, "SIM_LINK_LOSS", 50.0);
     let share = frames(&mut station) / good;
     assert!((0.35..0.65).contains(&share), "{share}");
-    // The command to restore the radio must pass through the bad link.
+    // The command to restore the radio must get through the degraded link.
     let healed = (0..100).any(|_| station.set("SIM_LINK_LOSS", 0.0, MavParamType::MAV_PARAM_TYPE_REAL32).is_some());
     assert!(healed);
     station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {

@@ -193,6 +193,6 @@ fn wire_interrupted_mission_resumes_at_the_interruption_point() {
     assert!(nearest < 1.5, "passed {nearest} m from the interruption point");
     assert!(
         furthest_before < away[0].max(left[0]) + 1.0,
-        "the vehicle must return before it continues: {furthest_before} of {left:?}"
+        "the vehicle must return before it continues: {furthest_before}, interrupted at {left:?}"
     );
 }

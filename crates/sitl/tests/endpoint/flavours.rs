@@ -1,4 +1,4 @@
-//! The same vehicle emulating three autopilots: identification, modes, parameters, files, streams.
+//! The vehicle as an emulation of three autopilots: identification, modes, parameters, files, streams.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_beat};
@@ -77,7 +77,7 @@ fn wire_every_available_mode_can_be_entered_by_each_message() {
             let standard = |m: &AVAILABLE_MODES_DATA| m.standard_mode != MavStandardMode::MAV_STANDARD_MODE_NON_STANDARD;
             assert!(modes.iter().filter(|mode| offered(mode)).all(standard), "only standard modes must be offered");
             assert_eq!(station.command(1, SET_MODE, mode(f32::from(4u8) * 65_536.0 + 5.0 * 16_777_216.0)), ACCEPTED);
-            assert_eq!(next_beat(&mut station).custom_mode, 4 << 16 | 5 << 24, "parameter 2 may contain a complete custom mode");
+            assert_eq!(next_beat(&mut station).custom_mode, 4 << 16 | 5 << 24, "parameter 2 must accept a complete custom mode");
         }
     }
 }
@@ -88,11 +88,7 @@ fn wire_copter_parameters_are_cast_to_float_and_take_effect() {
     station.send(&MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 }));
     station.run_ms(500);
     let values = station.all(|m| if let MavMessage::PARAM_VALUE(v) = m { Some(v.clone()) } else { None });
-    assert_eq!(
-        values.len(),
-        usize::from(values[0].param_count),
-        "each parameter must arrive once, without a checksum before them"
-    );
+    assert_eq!(values.len(), usize::from(values[0].param_count), "each parameter must arrive once, without a leading checksum");
     let of = |name: &str| values.iter().find(|v| v.param_id.to_str() == Ok(name)).unwrap_or_else(|| panic!("{name}"));
     assert_eq!((of("FRAME_CLASS").param_value, of("FRAME_CLASS").param_type), (1.0, MavParamType::MAV_PARAM_TYPE_INT8));
     assert_eq!(of("RTL_ALT").param_value, 3_000.0);

@@ -11,7 +11,8 @@ use spandrel_testkit::plans::{home_north, item};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Values from the issue: lost fraction, range of the delay (which reorders datagrams), duplicated fraction.
+/// Values from the issue: fraction of lost datagrams, delay range (which reorders datagrams), fraction of duplicated
+/// datagrams.
 const LOSS: f64 = 0.3;
 const DELAY_MS: (f64, f64) = (100.0, 300.0);
 const DUPLICATE_PROBABILITY: f64 = 0.1;
@@ -138,7 +139,7 @@ fn up_and_down(client: &mut Client, number: u16) {
     let home = home_north(&client.station);
     let waypoint = |k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0 * f64::from(k), 6.0);
     let items: Vec<_> = (0..number).map(waypoint).collect();
-    // The vehicle requests the items one after the other; the client sends the latest one requested.
+    // The vehicle requests the items one by one; the client sends the latest one requested.
     let next = |m: &MavMessage| match m {
         MavMessage::MISSION_REQUEST_INT(r) => Some(Some(r.seq)),
         MavMessage::MISSION_ACK(a) if a.mavtype == MavMissionResult::MAV_MISSION_ACCEPTED => Some(None),
@@ -182,7 +183,7 @@ fn wire_parameters_are_read_and_set_over_a_bad_link() {
             }
         }
     }
-    let total = total.expect("a part of the list must arrive");
+    let total = total.expect("part of the list must arrive");
     assert!(seen.len() < usize::from(total), "the link must lose some parameters");
     for index in (0..total).filter(|index| !seen.contains(index)) {
         let read =
@@ -227,8 +228,8 @@ fn requests_or_ack(station: &mut Station) -> Vec<(i64, Option<u16>)> {
     heard
 }
 
-/// A client whose items were lost is asked again four times per second, and one whose acknowledgment may have been lost
-/// receives it again. On a link without losses, there is only one acknowledgment, as from PX4.
+/// The vehicle repeats its request four times per second to a client whose items were lost, and repeats an
+/// acknowledgment that may have been lost. On a link without losses, there is only one acknowledgment, as from PX4.
 #[test]
 fn regress_upload_requests_are_repeated_after_250_ms() {
     let mut station = Station::new("drill-hover", 7);
@@ -249,8 +250,8 @@ fn regress_upload_requests_are_repeated_after_250_ms() {
         let acknowledged = heard.iter().filter(|(_, asked)| asked.is_none()).count();
         assert_eq!(acknowledged, if loses { 5 } else { 1 }, "{heard:?}");
     }
-    // A client that has responded within a few milliseconds is asked again sooner, after 120 ms counted from the
-    // control tick (2.5 ms) of the request, so that more requests fit into the client's timeout.
+    // The vehicle repeats its request sooner to a client that has responded within a few milliseconds: 120 ms after the
+    // control tick (2.5 ms) of the request, so more requests fit into the client's timeout.
     station.sim.handle_datagram(GCS, &encoder.encode(&count(2)));
     station.run_ms(3);
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));
@@ -347,7 +348,7 @@ fn regress_upload_continues_after_a_delayed_request() {
     assert_eq!(requests, led, "item 16 must follow the repeated item 15, and each must be requested once");
 }
 
-/// Same as above, but the repeated item is lost, so that the vehicle must request earlier and earlier items.
+/// Same as above, but the repeated item is lost, so the vehicle must request earlier and earlier items.
 #[test]
 fn regress_upload_continues_after_a_lost_repeated_item() {
     let mut client = Uploader::begin(30);
@@ -369,7 +370,7 @@ fn regress_duplicated_item_causes_no_further_request() {
     client.send(4);
     client.answer(5);
     assert_eq!(client.answer_until(None), [6, 7, 8, 9]);
-    // Nor may a datagram that arrives after the acknowledgment undo it.
+    // A datagram that arrives after the acknowledgment must not undo the upload.
     client.send(7);
     let answers: Vec<_> = (0..50).flat_map(|_| client.tick()).filter(|m| matches!(m, MavMessage::MISSION_ACK(_))).collect();
     assert!(answers.is_empty(), "{answers:?}");

@@ -11,14 +11,14 @@ use spandrel_sitl::endpoint::params::{metadata, param_view};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::BTreeMap;
 
-/// Retry interval of a client that repeats requests before a response can arrive, so that its repetitions arrive after
-/// its next requests, ms.
+/// Retry interval of a client that repeats requests before a response can arrive, ms. Its repeats therefore arrive
+/// after its next requests.
 const SHORT_TIMEOUT_MS: i64 = 350;
 /// Time without data after which a burst counts as complete, ms.
 const SILENCE_MS: i64 = 700;
 const PARAMETER_FILE: &str = "/etc/extras/parameter.json.xz";
 
-/// Files in memory, by path.
+/// In-memory files by path.
 #[derive(Default)]
 pub(super) struct Disk(BTreeMap<String, Vec<u8>>);
 
@@ -178,7 +178,7 @@ fn wire_burst_download_survives_a_bad_link() {
     let (file, bursts) = ftp.read_in_bursts("/survey.bin");
     assert!(file == long, "{} of {} bytes", file.len(), long.len());
     // Without losses, 100 kB take four bursts.
-    assert!(bursts > 4, "{bursts} bursts: the link must lose some parts");
+    assert!(bursts > 4, "{bursts} bursts: the link must lose some packets");
     let (shipped, _) = ftp.read_in_bursts(PARAMETER_FILE);
     assert!(shipped == metadata::files(&param_view::PX4).parameter.bytes.to_vec());
 }
@@ -196,7 +196,7 @@ fn wire_file_upload_survives_a_bad_link() {
     }
 }
 
-/// Content so long that its checksum takes more jobs than the ticks have accumulated.
+/// Returns a file whose checksum takes more jobs than the accumulated allowance.
 fn long_file() -> Vec<u8> {
     content(200 * CHECKSUM_SLICE as usize + 5)
 }

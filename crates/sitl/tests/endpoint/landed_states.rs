@@ -6,7 +6,7 @@ use spandrel_testkit::plans::{home_north, item, ready, upload};
 use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
-/// Height above the ground that is well above the height at which liftoff is detected, m.
+/// Height above the ground, m, well above the liftoff detection height.
 const CLEAR_M: f64 = 1.5;
 /// Takeoff height in these tests, m above home, and distance within which it counts as reached (the autopilot's 0.4 m
 /// and the error of the estimate).
@@ -40,7 +40,7 @@ fn assert_take_off_states(seen: &[(MavLandedState, f64)]) {
     let order: Vec<L> = seen.iter().map(|(state, _)| *state).filter(|state| *state != L::MAV_LANDED_STATE_ON_GROUND).collect();
     assert_eq!(order, [L::MAV_LANDED_STATE_TAKEOFF, L::MAV_LANDED_STATE_IN_AIR], "{seen:?}");
     let up = seen.last().map_or(0.0, |(_, up)| *up);
-    assert!(up > CLEAR_M && up > f64::from(HEIGHT_M) - HEIGHT_TOLERANCE_M, "IN_AIR from {up} m: {seen:?}");
+    assert!(up > CLEAR_M && up > f64::from(HEIGHT_M) - HEIGHT_TOLERANCE_M, "IN_AIR first reported at {up} m: {seen:?}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Duration of commands and settings: across arming, across a pause, until the end of the flight.
+//! Lifetime of commands and settings: across arming, across a pause, and until the end of the flight.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
@@ -71,13 +71,13 @@ fn wire_fence_disabled_in_flight_is_enabled_after_landing() {
         ..item(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, 0.0, 0.0)
     };
     let back = MISSION_ITEM_INT_DATA { mission_type: FENCE, ..item(1, MavCmd::MAV_CMD_NAV_FENCE_RETURN_POINT, 0.0, 5.0) };
-    assert_eq!(upload(&mut station, &[area, back]), ACCEPTED, "with a return point");
+    assert_eq!(upload(&mut station, &[area, back]), ACCEPTED, "a fence with a return point");
     station.run_ms(10);
     assert!(has_text(&station, "Fence return point not used"));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FENCE_ENABLE, one(0.0)), OK);
     assert!(!has_fence(&mut station));
     set(&mut station, "MIS_TAKEOFF_ALT", 3.0);
-    assert!(!has_fence(&mut station), "another parameter must have no effect");
+    assert!(!has_fence(&mut station), "the other parameter must have no effect");
     assert_eq!(station.command(1, ARM, FORCED), OK);
     assert!(has_fence(&mut station));
 }
@@ -121,7 +121,7 @@ fn flight_disarming_discards_an_unreached_takeoff_height() {
     assert_eq!(station.command(1, ARM, one(1.0)), OK);
     station.run_ms(12_000);
     let height = ground - station.place()[2];
-    assert!((1.5..4.0).contains(&height), "the parameter's 2.5 m, not {height}");
+    assert!((1.5..4.0).contains(&height), "{height} m instead of the parameter's 2.5 m");
 }
 
 #[test]

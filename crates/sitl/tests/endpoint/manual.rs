@@ -38,7 +38,7 @@ fn wire_rc_override_acts_like_sticks_with_transmitter_pitch() {
         station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw) } else { None }).unwrap(),
     );
     let forward = v[0] * yaw.cos() + v[1] * yaw.sin();
-    assert!(forward > 2.0, "a pitch channel below its middle flies forward: {forward}");
+    assert!(forward > 2.0, "a pitch pulse below center must fly forward: {forward}");
 }
 
 /// Returns the echoed channels 1 to 4 on each link after `send`.
@@ -78,19 +78,19 @@ fn wire_stick_echo_matches_the_input_on_each_link() {
             assert!(flavour.asks_first || heard.contains(&(SDK, others)), "{}: {heard:?}", flavour.name);
         };
         wait(&mut station, |s| channels(s, 1300, 1600), [[1500, 1300, 1600, 1500], [1500, 1700, 1600, 1500]]);
-        // Values beyond full deflection must be limited.
+        // Values beyond full deflection must be clamped.
         wait(&mut station, |s| channels(s, 900, 2100), [[1500, 900, 2100, 1500], [1500, 2000, 2000, 1500]]);
         let sticks = |s: &mut Station| s.sticks(400, 200, 750, -1000);
         wait(&mut station, sticks, [[1600, 1300, 1750, 1000], [1600, 1700, 1750, 1000]]);
         let again = [65.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, again), MavResult::MAV_RESULT_ACCEPTED);
         let asked = station.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan2_raw) } else { None });
-        assert_eq!(asked, Some(1300), "{}: requested by the ground station", flavour.name);
+        assert_eq!(asked, Some(1300), "{}: response to the ground station's request", flavour.name);
     }
 }
 
-/// Session records depend on this: the monitor's link carries every stick sample, even several within one control tick,
-/// and those of senders that do not control the sticks.
+/// Session records depend on this: the monitor's link receives every stick sample, even several within one control
+/// tick, including samples from senders that do not have control.
 #[test]
 fn wire_sidecar_receives_every_stick_sample() {
     let sidecar = LinkId(6);
@@ -132,7 +132,7 @@ fn wire_negative_throttle_selects_the_symmetric_range() {
     for (z, us) in [(500, 1500), (0, 1000), (1000, 2000), (-2000, 1500), (500, 1500)] {
         assert_eq!(up(&mut station, z), us, "{z}");
     }
-    let told = |s: &Station| texts(s).iter().filter(|text| text.ends_with("throttle is -1000 to 1000")).count();
+    let told = |s: &Station| texts(s).iter().filter(|text| text.ends_with("throttle range -1000 to 1000")).count();
     assert_eq!(told(&station), 0);
     for (z, us) in [(-1, 1500), (-1000, 1000), (0, 1500), (500, 1750), (1000, 2000), (i16::MAX, 1500), (-500, 1250)] {
         assert_eq!(up(&mut station, z), us, "{z}");
@@ -140,7 +140,7 @@ fn wire_negative_throttle_selects_the_symmetric_range() {
     assert_eq!(told(&station), 1, "once: {:?}", texts(&station));
     station.run_ms(600);
     station.send_as(254, 190);
-    assert_eq!(up(&mut station, 0), 1000, "the center for another sender must be 500");
+    assert_eq!(up(&mut station, 0), 1000, "another sender's center must be 500");
 }
 
 #[test]
@@ -163,8 +163,8 @@ fn wire_released_channels_are_not_stick_input() {
     assert!(station.all(|m| matches!(m, MavMessage::RC_CHANNELS(_)).then_some(())).is_empty());
 }
 
-/// Returns the time without messages from the client until the failsafe of a manually flown vehicle, s, at a simulation
-/// speed.
+/// Returns the time from the client's last message to the failsafe of a manually flown vehicle, s, at the given
+/// simulation speed.
 fn timeout_s(pace: f64, lockstep: bool) -> f64 {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.set_speed_factor(pace);
@@ -191,7 +191,7 @@ fn timeout_s(pace: f64, lockstep: bool) -> f64 {
     (station.sim.now() - silent_since).s()
 }
 
-/// The lockstep peer responds immediately, so that time advances.
+/// The lockstep peer responds immediately, so time advances.
 fn answer_lockstep(station: &mut Station) {
     if station.sim.waiting() {
         let now = station.sim.now().ns();
@@ -206,7 +206,10 @@ fn wire_client_timeouts_scale_with_the_speed_without_lockstep() {
     // COM_RC_LOSS_T is 0.5 s; the failsafe check runs every 50 ms.
     for (pace, lockstep, expected_s) in [(1.0, false, 0.5), (8.0, false, 4.0), (8.0, true, 0.5), (0.5, false, 0.5)] {
         let s = timeout_s(pace, lockstep);
-        assert!((expected_s..expected_s + 0.15).contains(&s), "pace {pace}, lockstep {lockstep}: {s} s for {expected_s} s");
+        assert!(
+            (expected_s..expected_s + 0.15).contains(&s),
+            "pace {pace}, lockstep {lockstep}: {s} s instead of {expected_s} s"
+        );
     }
     let mut station = Station::new("drill-hover", 7);
     station.sim.set_speed_factor(8.0);
@@ -315,7 +318,7 @@ fn wire_first_sender_keeps_the_sticks_until_its_timeout() {
         send_from_other_link(&mut station, 1000);
         station.run_ms(20);
     }
-    assert_eq!(roll_echo(&station), 2000, "control must pass on when the first sender stops");
+    assert_eq!(roll_echo(&station), 2000, "the second sender must take control when the first stops");
     assert!(texts(&station).iter().any(|text| text.contains("took control of the sticks")), "{:?}", texts(&station));
 }
 
@@ -384,5 +387,5 @@ fn wire_buttons_trigger_their_configured_action_once_per_press() {
     assert_eq!(station.last_message(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
     let pitch = station
         .last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(2.0 * g.q[2].asin()) } else { None });
-    assert!(pitch.unwrap() < -0.5, "the gimbal's axis points down: {pitch:?}");
+    assert!(pitch.unwrap() < -0.5, "the gimbal must point down: {pitch:?}");
 }

@@ -41,7 +41,7 @@ fn control(station: &Station) -> Option<[(u8, u8); 2]> {
 }
 
 /// A region of interest 50 m north of the pad and 50 m above it, with the height above sea level in a frame relative to
-/// home, as MAVSDK sends it. PX4 uses only the number; others respect the frame.
+/// home, as MAVSDK sends it. PX4 uses only the value; the other autopilots respect the frame.
 #[test]
 fn wire_region_of_interest_height_follows_the_flavor() {
     for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
@@ -102,7 +102,7 @@ fn wire_gimbal_angle_respects_its_rate_and_integer_flags() {
     station.run_ms(2_000);
     let q = attitude(&station).q;
     let slow = (2.0 * q[2].atan2(q[0])).to_degrees();
-    assert!((slow + 20.0).abs() < 2.0, "10 degrees a second for two seconds: {slow}");
+    assert!((slow + 20.0).abs() < 2.0, "10 degrees per second for two seconds: {slow}");
     assert!((attitude(&station).angular_velocity_y.to_degrees() + 10.0).abs() < 0.1);
     // In COMMAND_INT, the flags are an unscaled integer (MAVSDK sends rates this way).
     let whole = |flags| {
@@ -193,7 +193,7 @@ fn wire_superseded_mount_commands_follow_their_modes() {
     assert_eq!(
         station.command(1, configure, p(&[2.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0])),
         OK,
-        "the configuration must make pitch a rate"
+        "the configuration must turn pitch into a rate"
     );
     assert_eq!(station.command(1, control, p(&[5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0])), OK);
     let turned = pitch_deg(&mut station);

@@ -1,4 +1,4 @@
-//! Many peers, a flood, a slow radio, an old client: the load of one link must not affect the others.
+//! Many peers, a flood, a slow radio, an old client: the load on one link must not affect the other links.
 
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;
@@ -82,7 +82,7 @@ fn wire_timesync_responses_are_forwarded_from_a_lockstep_link() {
     assert_eq!(
         heard.get(&GCS).map(answers).unwrap_or_default(),
         [(78, 0, 0)],
-        "broadcasts must reach all links, others only their target"
+        "broadcasts must reach all links; other messages must reach only their target"
     );
 }
 
@@ -92,11 +92,11 @@ fn own(frames: &[ReceivedFrame]) -> Vec<(u32, u8)> {
 
 /// Returns the maximum number of responses and forwarded frames of one link in a tick.
 fn share_of_a_tick(first: bool) -> usize {
-    // The first call processes datagrams at both of its ends.
+    // The first call processes datagrams at its beginning and at its end.
     if first { 2 * MAX_DATAGRAMS_PER_TICK } else { MAX_DATAGRAMS_PER_TICK }
 }
 
-/// Runs fifty ground stations besides the first, and a vehicle with and without a flooding peer.
+/// Runs one vehicle with and one without a flooding peer, each with fifty additional ground stations.
 #[test]
 fn wire_flood_is_bounded_per_tick_and_does_not_affect_fifty_peers() {
     const TICKS: i64 = 1_000;
@@ -136,7 +136,7 @@ fn wire_flood_is_bounded_per_tick_and_does_not_affect_fifty_peers() {
         acted += answers;
         handed_on += heard(&GCS).iter().filter(|f| f.system_id == 77 && f.message_id == 253).count();
     }
-    assert_eq!(answered, asked, "every request of a calm peer must be acknowledged in both runs");
+    assert_eq!(answered, asked, "every request from the peers must be acknowledged in both runs");
     assert!(acted > 500 && handed_on > 500, "{acted} {handed_on}");
     // Datagrams that are neither processed nor dropped are queued, and the queue must stay short.
     let waiting = sent - flooded.dropped() - (acted + handed_on) as u64;
@@ -172,7 +172,7 @@ fn wire_fifty_peers_receive_the_same_as_one() {
     for peer in &peers {
         assert_eq!(streams(peer), streams(&peers[0]), "{peer:?}");
         let others = heard[peer].iter().filter(|f| f.message_id == 0 && f.system_id >= 100).count();
-        assert_eq!(others, 3 * 49, "{peer:?} must receive the other ground stations");
+        assert_eq!(others, 3 * 49, "{peer:?} must receive heartbeats of the other ground stations");
     }
     assert_eq!(sim.dropped(), 0);
 }
@@ -209,10 +209,10 @@ fn wire_radio_stays_within_its_capacity_with_prompt_responses() {
         let carried = (RADIO_BYTES_S as usize) * (second + 1) + RADIO_BURST;
         assert!(bytes <= carried, "{bytes} of {carried} bytes after {second} s");
     }
-    // One per second, and one after each heartbeat of the camera, which are 4 s apart.
+    // One per second, and another after each camera heartbeat, every 4 s.
     assert!((36..=39).contains(&beats), "{beats} heartbeats");
     assert!(parameters >= total && total > 50, "{parameters} of {total} parameters");
-    assert!(worst_ms < 500, "an acknowledgement took {worst_ms} ms");
+    assert!(worst_ms < 500, "an acknowledgment took {worst_ms} ms");
     assert!(attitudes > 30, "{attitudes}: streams must slow down, but not stop");
     assert!(bytes as f64 > 0.6 * 30.0 * RADIO_BYTES_S, "{bytes}: the radio's capacity must be used");
 }
@@ -280,6 +280,6 @@ fn regress_unknown_peer_gets_no_streams_before_its_heartbeat() {
     sim.handle_datagram(peer, &encoder.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default())));
     let heard = run_ms(&mut sim, 1_500).remove(&peer).unwrap_or_default();
     let count = |id: u32| heard.iter().filter(|frame| frame.message_id == id && frame.component_id == 1).count();
-    // 50 Hz to a sidecar within one and a half seconds.
-    assert!(count(0) >= 1 && count(115) > 70, "heartbeats {}, truths {}", count(0), count(115));
+    // A sidecar receives ground truth at 50 Hz for one and a half seconds.
+    assert!(count(0) >= 1 && count(115) > 70, "{} heartbeats, {} ground truth messages", count(0), count(115));
 }

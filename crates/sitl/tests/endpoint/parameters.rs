@@ -88,10 +88,10 @@ fn regress_90_percent_of_setup_page_and_test_suite_parameters_exist() {
         let missing: Vec<&&str> = all.iter().filter(|name| own.find(name).is_none()).collect();
         let share = 1.0 - missing.len() as f64 / all.len() as f64;
         println!("flavor {}: {} of {} names, {:.1} %", face.number, all.len() - missing.len(), all.len(), 100.0 * share);
-        assert!(share >= MIN_FRACTION, "flavor {}: {share}, without {missing:?}", face.number);
+        assert!(share >= MIN_FRACTION, "flavor {}: {share}, missing {missing:?}", face.number);
         let suite = names(lists[1]);
         let known = suite.iter().filter(|(name, _)| own.find(name).is_some()).count();
-        println!("flavor {}: suite alone {known} of {}", face.number, suite.len());
+        println!("flavor {}: suite only, {known} of {}", face.number, suite.len());
         assert!(known as f64 >= MIN_FRACTION * suite.len() as f64, "flavor {}: {known} of {}", face.number, suite.len());
     }
 }
@@ -157,7 +157,7 @@ fn exact_px4_parameters_change_their_settings() {
         ("MIS_TAKEOFF_ALT", 100.0, |t| t.takeoff_height_m == 100.0),
     ];
     for (name, value, holds) in checks {
-        assert!(!holds(&Tuning::default()), "{name}: the check already passes before the change");
+        assert!(!holds(&Tuning::default()), "{name}: the check must not pass before the change");
         assert!(holds(&tuning_after(&PX4, name, value)), "{name} = {value}");
     }
 }
@@ -195,7 +195,7 @@ fn exact_copter_parameters_change_their_settings() {
     for (name, value, holds) in checks {
         let mut before = Tuning::default();
         params(&COPTER).apply(&mut before);
-        assert!(!holds(&before), "{name}: the check already passes before the change");
+        assert!(!holds(&before), "{name}: the check must not pass before the change");
         assert!(holds(&tuning_after(&COPTER, name, value)), "{name} = {value}");
     }
     assert_eq!(tuning_after(&COPTER, "MAV_GCS_SYSID", 42.0).rules, tuning_after(&COPTER, "SYSID_MYGCS", 42.0).rules);
@@ -249,14 +249,14 @@ fn wire_sticks_are_accepted_only_from_sysid_mygcs() {
         station.send(&pulses([1_500, 1_300, 1_500, 1_500]));
         station.run_ms(100);
     }
-    assert!(station.speed() < 0.5, "sticks of system 255 were obeyed: {} m/s", station.speed());
+    assert!(station.speed() < 0.5, "sticks from system 255 must be ignored: {} m/s", station.speed());
     station.send_as(42, 190);
     // For a while, the other station still counts as the controlling one.
     for _ in 0..45 {
         station.send(&pulses([1_500, 1_300, 1_500, 1_500]));
         station.run_ms(100);
     }
-    assert!(station.speed() > 1.0, "sticks of system 42: {} m/s", station.speed());
+    assert!(station.speed() > 1.0, "sticks from system 42 must be applied: {} m/s", station.speed());
 }
 
 #[test]
@@ -294,8 +294,8 @@ fn wire_auto_options_allow_arming_in_auto_and_mis_total_counts_the_mission() {
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
     let ground = station.local_position_after(100)[2];
     station.run_ms(4_000);
-    assert!((ground - station.place()[2]).abs() < 0.2, "took off without raised throttle");
-    // With the other bit, the vehicle also takes off.
+    assert!((ground - station.place()[2]).abs() < 0.2, "took off without raising the throttle");
+    // With the second option bit set, the vehicle also takes off.
     set(&mut station, "AUTO_OPTIONS", 3.0);
     assert!(station.run_until(15.0, |s| ground - s.place()[2] > 2.0), "no takeoff: {:?}", station.texts());
 }

@@ -79,7 +79,7 @@ fn wire_gimbal_follows_manager_messages() {
     ] {
         station.send(&message);
         station.run_ms(GIMBAL_MOVE_MS);
-        assert!((pitch(&station) - expected).abs() < 2.0 * NEAR, "{message:?}: {} for {expected}", pitch(&station));
+        assert!((pitch(&station) - expected).abs() < 2.0 * NEAR, "{message:?}: {} instead of {expected}", pitch(&station));
     }
 }
 
@@ -233,7 +233,7 @@ fn wire_single_picture_does_not_end_a_series() {
     let one = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, one), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(3_000);
-    // The single picture and those of three more seconds of the series.
+    // The single picture, and the pictures from three more seconds of the series.
     assert_eq!(taken(&station), 4);
 }
 

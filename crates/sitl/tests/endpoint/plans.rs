@@ -1,4 +1,4 @@
-//! Plans: uploaded completely and in parts, downloaded, flown.
+//! Plans: full and partial uploads, downloads, and execution.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
@@ -78,7 +78,7 @@ fn wire_upload_recovers_from_lost_duplicated_and_reordered_items() {
     assert_eq!(station.ask(&count(4, PLAN), asked), Some(0), "a repeated count must repeat the request");
     assert_eq!(send(&mut station, 0), Some(Ok(1)));
     assert_eq!(send(&mut station, 0), None, "a duplicate must not cause another request");
-    assert_eq!(send(&mut station, 2), None, "an item out of order must not be answered");
+    assert_eq!(send(&mut station, 2), None, "an out-of-order item must not be answered");
     // Without a response from the client, the vehicle must repeat its request.
     station.received.clear();
     station.run_ms(2_000);

@@ -9,10 +9,10 @@ use std::io::Cursor;
 
 const SET_MODE: MavCmd = MavCmd::MAV_CMD_DO_SET_MODE;
 
-/// Returns the messages by event ID, from the file that the vehicle serves.
+/// Returns the messages by event ID, from the definition file on the vehicle.
 fn definitions() -> BTreeMap<u32, String> {
     let mut text = Vec::new();
-    let file = metadata::files(&PX4).events.as_ref().expect("a file about events");
+    let file = metadata::files(&PX4).events.as_ref().expect("the metadata must list an event file");
     lzma_rs::xz_decompress(&mut Cursor::new(&file.bytes), &mut text).unwrap();
     let file: serde_json::Value = serde_json::from_slice(&text).unwrap();
     let mut out = BTreeMap::new();

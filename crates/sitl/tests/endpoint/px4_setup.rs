@@ -201,7 +201,7 @@ fn regress_arming_checks_are_events_that_can_be_requested_again() {
     station.run_ms(5);
     let error = station.last_message(|m| if let MavMessage::RESPONSE_EVENT_ERROR(e) = m { Some(e.sequence) } else { None });
     assert_eq!(error, Some(last + 100));
-    // If several events are missing, one response must say where to continue.
+    // If several events are missing, a single response must report where to continue.
     station.received.clear();
     station.send(&MavMessage::REQUEST_EVENT(REQUEST_EVENT_DATA {
         first_sequence: last + 100,

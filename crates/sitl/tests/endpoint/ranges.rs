@@ -16,7 +16,7 @@ use std::f64::consts::FRAC_PI_4;
 const TOLERANCE_M: f64 = 0.12;
 const REACH_M: f64 = 10.0;
 
-/// Returns the directions of the range finders: down, up, and around clockwise from the nose.
+/// Returns the directions of the range finders: down, up, then clockwise from the nose.
 fn finders() -> Vec<(MavSensorOrientation, Vec3<Frd>)> {
     use MavSensorOrientation as O;
     let around = [
@@ -78,9 +78,9 @@ fn reported_range(station: &Station, orientation: MavSensorOrientation) -> (f64,
 fn assert_range(told: f64, there: Option<f64>, what: &str) {
     match there {
         Some(distance) if distance < REACH_M - TOLERANCE_M => {
-            assert!((told - distance).abs() < TOLERANCE_M, "{what}: {told} for {distance}");
+            assert!((told - distance).abs() < TOLERANCE_M, "{what}: {told} instead of {distance}");
         }
-        Some(_) => assert!(told > REACH_M - 2.0 * TOLERANCE_M, "{what}: {told} near the reach"),
+        Some(_) => assert!(told > REACH_M - 2.0 * TOLERANCE_M, "{what}: {told} near the maximum range"),
         None => assert!(told > REACH_M, "{what}: {told} without an obstacle"),
     }
 }

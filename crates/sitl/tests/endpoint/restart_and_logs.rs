@@ -74,7 +74,7 @@ fn flight_speed_and_region_of_interest_end_with_the_flight() {
     let usual = fastest_of_a_flight(&mut station, None);
     assert!(usual > 3.0, "{usual}");
     let ahead = heading_deg(&station);
-    assert!((ahead - looked).abs() > 20.0, "{ahead} after {looked}: the region of interest is still active");
+    assert!((ahead - looked).abs() > 20.0, "{ahead} after {looked}: the region of interest must be cleared");
 }
 
 fn reached(station: &Station) -> Vec<u16> {
@@ -118,7 +118,7 @@ fn flight_copter_spline_is_flown_as_a_waypoint() {
     assert!((f64::from(station.place()[0]) - north - 14.0).abs() < NEAR_M, "{:?}", station.place());
 }
 
-/// The controlling client must keep the gimbal, but any client may end the vehicle's region of interest.
+/// The controlling client must keep gimbal control, but any client may clear the vehicle's region of interest.
 #[test]
 fn flight_clearing_the_region_of_interest_keeps_gimbal_control() {
     let mut station = Station::airborne("drill-hover", 7);

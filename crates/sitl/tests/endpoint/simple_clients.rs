@@ -1,6 +1,6 @@
 //! Behavior that simple clients rely on: order of heartbeats, clocks that start with the autopilot, the older request
 //! for mission items, and items without a position.
-#![allow(deprecated, reason = "simple clients know nothing else")]
+#![allow(deprecated, reason = "simple clients support nothing newer")]
 
 use super::copter::{ARM, AUTO, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode};
 use super::copter_plans::item;
@@ -45,7 +45,7 @@ fn regress_autopilot_heartbeat_is_first_and_last_in_every_datagram() {
         autopilot += of.iter().filter(|component| **component == 1).count();
         camera += of.iter().filter(|component| **component == 100).count();
     }
-    // From 0 s to 20 s: one heartbeat per second, and one after each of the camera's, which are 4 s apart.
+    // From 0 s to 20 s: one heartbeat per second, and another after each camera heartbeat, every 4 s.
     assert_eq!((autopilot, camera), (27, 6));
 }
 
@@ -71,7 +71,7 @@ fn regress_camera_heartbeat_depends_on_its_use() {
     assert_eq!(
         station.command(1, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, p(&[0.0, 0.0, 1.0])),
         ACCEPTED,
-        "pictures must still be possible"
+        "taking pictures must still work"
     );
     station.send(&set(1));
     station.run_ms(20);
@@ -117,7 +117,7 @@ fn regress_gps_raw_reports_the_ellipsoid_height() {
     let station = ready(7);
     let (alt, ellipsoid) = station
         .last_message(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some((g.alt, g.alt_ellipsoid)) } else { None })
-        .expect("GPS_RAW_INT is streamed");
+        .expect("GPS_RAW_INT must be streamed");
     // The simulator's sea level equals the ellipsoid.
     assert_eq!(alt, ellipsoid);
     assert!(alt > 400_000, "{alt} mm");
@@ -171,9 +171,9 @@ fn regress_upload_uses_the_request_form_that_the_client_answers() {
     assert_eq!(station.ask(&mission_count(3), question), Some((0, false)));
     station.received.clear();
     assert!(station.run_until(3.0, |s| s.last_message(question) == Some((0, true))), "the other form must be tried");
-    assert_eq!(station.ask(&to_mission_item(&items[0]), question), Some((1, true)), "the form that was answered must be kept");
+    assert_eq!(station.ask(&to_mission_item(&items[0]), question), Some((1, true)), "the answered form must be kept");
     assert_eq!(station.ask(&to_mission_item(&items[1]), question), Some((2, true)));
-    // If a client rejects one form, the other must be used immediately.
+    // If a client rejects one request form, the vehicle must use the other one immediately.
     assert_eq!(station.ask(&mission_count(3), question), Some((0, false)));
     let refusal = MavMessage::MISSION_ACK(MISSION_ACK_DATA {
         mavtype: MavMissionResult::MAV_MISSION_UNSUPPORTED,
@@ -296,7 +296,7 @@ fn regress_lockstep_starts_with_the_first_response() {
     sim.handle_datagram(PEER, &answer(6, 1_020_000_000));
     sim.handle_timeout(SimTime::from_ms(5_000));
     assert_eq!(sim.now(), SimTime::from_ms(1_040));
-    assert_eq!(sim.awaits_first_response(), None, "a pending response must not count as the first one");
+    assert_eq!(sim.awaits_first_response(), None, "the vehicle must no longer wait for a first response");
 }
 
 #[test]

@@ -9,7 +9,10 @@ use spandrel_testkit::station::Station;
 fn wire_heartbeat_is_immediate_and_arming_possible_within_2_s() {
     let mut station = Station::new("two-bridges", 7);
     station.run_ms(100);
-    assert!(station.last_message(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(())).is_some(), "heartbeat within 0.1 s");
+    assert!(
+        station.last_message(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(())).is_some(),
+        "a heartbeat must arrive within 0.1 s"
+    );
     station.run_ms(1900);
     let healthy = station.last_message(|m| match m {
         MavMessage::SYS_STATUS(s) => Some(s.onboard_control_sensors_health),
@@ -95,7 +98,7 @@ fn wire_manual_flight_with_pictures_and_lamp() {
         MavMessage::LOCAL_POSITION_NED(p) => Some(-p.z),
         _ => None,
     });
-    assert!(up.unwrap() > 7.0, "climbed from 5 m: {up:?}");
+    assert!(up.unwrap() > 7.0, "climb from 5 m: {up:?}");
     let one = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, one), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(5);

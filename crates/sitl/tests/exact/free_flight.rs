@@ -12,7 +12,7 @@ use spandrel_testkit::aircraft::quad;
 
 const DT: SimTime = SimTime::from_ms(1);
 
-/// Returns the aircraft as a body without rotors, drag and damping.
+/// Returns the aircraft as a body without rotors, drag or damping.
 fn bare() -> Vehicle {
     let mut vehicle = quad();
     vehicle.rotors.clear();
@@ -166,7 +166,7 @@ fn exact_integrator_is_fourth_order() {
         run(&model, &mut state, &Actuators { motors, armed: true }, &air, dt, 2 * per_second);
         state.rigid.position_m
     };
-    // Rates whose periods are integer nanoseconds.
+    // Rates whose periods are whole nanoseconds.
     let reference = end(3200);
     let (coarse, fine) = ((end(100) - reference).norm(), (end(200) - reference).norm());
     let order = math::ln(coarse / fine) / math::ln(2.0);

@@ -1,4 +1,4 @@
-//! Aircraft on and against members of the supplied bridges, and next to steep ground.
+//! Aircraft on and against members of the shipped bridges, and next to steep ground.
 
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math::{self, GRAVITY_M_S2};
@@ -111,7 +111,7 @@ fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
             });
             assert!(worst < DRIFT_M, "{} on {member}: {worst} m", vehicle.id);
             let share = force / 5000.0 / (vehicle.mass_kg * GRAVITY_M_S2);
-            // On the sloping rib, friction carries a part of the weight.
+            // On the sloping rib, friction carries part of the weight.
             let least = if member.contains("rib") { 0.9 } else { 1.0 - FORCE };
             assert!((least..1.0 + FORCE).contains(&share), "{} on {member}: {share} of its weight", vehicle.id);
         }
@@ -248,7 +248,7 @@ fn exact_members_stop_aircraft_at_30_m_s() {
     }
 }
 
-/// The site with contact queries in every step.
+/// A site that performs contact queries in every step.
 struct Always<'a>(&'a Site);
 
 impl Obstacles for Always<'_> {

@@ -216,7 +216,7 @@ fn flight_stick_movement_interrupts_automatic_modes() {
     bench.run(0.2, |_| ());
     bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.run(1.0, |_| ());
-    assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "an idle throttle at its end must not take over");
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "an idle throttle stick at its stop must not take over");
     bench.sticks = Some(Sticks { forward: 0.6, up: -1.0, ..Sticks::default() });
     bench.run(0.2, |_| ());
     assert_eq!(bench.autopilot.status().mode, FlightMode::Position);

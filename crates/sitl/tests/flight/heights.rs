@@ -9,8 +9,8 @@ use spandrel_sitl::sensors::Readings;
 /// Final value of a sensor's slow error, m, and start and end of its growth, s.
 const ERROR_M: f64 = 6.0;
 const GROWTH_INTERVAL_S: (f64, f64) = (20.0, 80.0);
-/// The height follows a sensor if it is within this distance of it, and does not follow one if it shows less than this
-/// of its error, m (the receiver alone: 0.64 m, 1 sigma).
+/// The height counts as following a sensor if it is within this distance of it, m, and as not following if it contains
+/// less than this part of its error, m (the receiver alone: 0.64 m, 1 sigma).
 const NEAR_M: f64 = 1.5;
 
 fn error_at_m(now: SimTime) -> f64 {

@@ -1,4 +1,4 @@
-//! Stick-flown hover, step, stop, turn, circle and gust maneuvers, with stated bounds, for every supplied aircraft.
+//! Manually flown hover, step, stop, turn, circle and gust maneuvers, with stated bounds, for every shipped aircraft.
 
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;
@@ -74,7 +74,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
             back = back.min(b.state.rigid.velocity_m_s.north());
             sag = sag.max((b.position().down() - height).abs());
         });
-        assert!(back > -BACK_M_S && sag < HEIGHT_M, "{name}: {back} m/s backward, {sag} m of height lost");
+        assert!(back > -BACK_M_S && sag < HEIGHT_M, "{name}: {back} m/s backward, lost {sag} m of height");
     }
 }
 
@@ -165,7 +165,7 @@ fn flight_saturated_motors_keep_the_vehicle_upright() {
             });
         }
         assert!(full, "{name}: no motor was saturated, so the test is pointless");
-        assert!(lean < aircraft.limits.tilt_rad + BEYOND_RAD, "{name}: leaned {lean} rad");
+        assert!(lean < aircraft.limits.tilt_rad + BEYOND_RAD, "{name}: tilt {lean} rad");
         bench.sticks = Some(Sticks::default());
         bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
         bench.run(8.0, |_| ());
@@ -192,7 +192,8 @@ fn flight_stops_from_full_speed_in_time() {
     }
 }
 
-/// Releases a full yaw stick and returns how far the nose swings back, rad, and how far it turned on before, rad.
+/// Releases a full yaw stick. Returns the angle by which the nose swings back and the angle by which it first turned
+/// further, rad.
 fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
     const HELD_S: f64 = 3.0;
     const SETTLED_S: f64 = 5.0;

@@ -9,7 +9,7 @@ use spandrel_testkit::shipped::vehicle;
 
 const STEP_S: f64 = 0.0025;
 const SPEEDS: SpeedLimits = SpeedLimits { default_m_s: 5.0, max_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
-/// Accelerations along the leg and across it, each within its own limit of 2, combined, m/s².
+/// Combined acceleration along and across the leg, each limited to 2, m/s².
 const ACCELERATION_M_S2: f64 = 3.0;
 /// Jerk of the speed (4) and of the corner (2.5), plus the effect of speed changes within a corner, m/s³.
 const JERK_M_S3: f64 = 10.0;
@@ -36,7 +36,7 @@ fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
             })
             .collect();
         let mut way = Trajectory::join(TrajectoryPoint::default(), &waypoints, AccelerationLimits::within(6.0, 4.0))
-            .expect("there are waypoints");
+            .expect("the list has waypoints");
         let mut nearest = vec![f64::INFINITY; waypoints.len()];
         let mut before = way.planned();
         for _ in 0..(400.0 / STEP_S) as usize {
@@ -102,7 +102,7 @@ fn regress_straight_leg_keeps_its_speed_through_waypoints() {
             }
         });
         assert!(bench.autopilot.status().mission_finished, "{name}: {:?}", bench.position());
-        // Overshoot of the mission's speed: the error of the estimate, m/s.
+        // Overshoot of the mission speed, m/s: the error of the estimate.
         assert!(slowest >= HELD_M_S && fastest < 5.5, "{name}: {slowest} to {fastest} m/s");
     }
 }

@@ -15,9 +15,9 @@ use spandrel_testkit::shipped::vehicle;
 
 /// Overshoot factor for speed limits: the velocity loop overshoots slightly.
 const SPEED_SHARE: f64 = 1.1;
-/// Tolerance of accelerations, m/s²: added by the control loops.
+/// Acceleration tolerance, m/s²: contribution of the control loops.
 const ACCELERATION_M_S2: f64 = 0.5;
-/// Tolerance of heights, m: barometer noise and control loops.
+/// Height tolerance, m: barometer noise and control loops.
 const HEIGHT_M: f64 = 0.8;
 
 fn airborne(change: impl Fn(&mut Tuning)) -> Bench {

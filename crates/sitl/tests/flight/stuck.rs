@@ -1,4 +1,4 @@
-//! Sensors that repeat their last value or contradict the others, with the fault injected in flight.
+//! Sensors that repeat their last value or contradict other sensors, with the fault injected in flight.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
@@ -8,8 +8,8 @@ use spandrel_sitl::sensors::Readings;
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
-/// Height tolerance, m: without its barometer, the vehicle holds its height with the receiver only, whose height drifts
-/// by 0.64 m (1 sigma).
+/// Height tolerance, m: without its barometer, the vehicle holds its height with GNSS alone, which drifts by 0.64 m (1
+/// sigma).
 const HEIGHT_M: f64 = 2.5;
 /// Horizontal tolerance, m, with the receiver (0.4 m, 1 sigma) or optical flow.
 const POSITION_TOLERANCE_M: f64 = 2.5;
@@ -102,7 +102,7 @@ fn regress_inconsistent_sensor_is_announced_and_excluded() {
     }
 }
 
-/// Drift rate of a tampered height, m/s: so slow that no single reading is an outlier.
+/// Drift rate of a falsified height, m/s: too slow for any single reading to be an outlier.
 const DRIFT_M_S: f64 = 0.4;
 /// Time at which the drift begins, when the vehicle hovers, s.
 const DRIFT_START_S: f64 = 30.0;
@@ -125,8 +125,8 @@ fn drifting_receiver(readings: &mut Readings, now: SimTime) {
 /// two drifts away.
 #[test]
 fn regress_slow_altitude_drift_is_not_tracked() {
-    // The receiver's height counts as contradicted at five times its error of 0.8 m; up to there, the vehicle follows
-    // it, m.
+    // The receiver's height counts as contradicted at five times its error of 0.8 m; up to that error, the vehicle
+    // follows it, m.
     const FOLLOWED_M: f64 = 4.5;
     for name in VEHICLES {
         for (modify_readings, text) in [

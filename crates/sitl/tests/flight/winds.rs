@@ -1,4 +1,4 @@
-//! Takeoff, hover and landing of every supplied vehicle in the supplied job at every wind level with many seeds.
+//! Takeoff, hover and landing of every shipped vehicle in the shipped job at every wind level with many seeds.
 
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavModeFlag, MavResult};
 use spandrel_model::frames::{Enu, Vec3};
@@ -10,8 +10,8 @@ use spandrel_testkit::station::{Station, p};
 
 /// Values of `wind.level`.
 const LEVELS: [&str; 4] = ["calm", "light", "gentle", "medium"];
-/// Distance from the pad beyond which a vehicle counts as lost, m. Gusts of 15 m/s in medium wind push the lightest
-/// one, which can tilt enough for 13 m/s, up to 15 m away; before the fix, the caged one drifted 100 to 400 m.
+/// Distance from the pad beyond which a vehicle counts as lost, m. In medium wind, gusts of 15 m/s push the lightest
+/// vehicle, which can tilt enough for 13 m/s, up to 15 m away; before the fix, the caged vehicle drifted 100 to 400 m.
 const MAX_DISTANCE_M: f64 = 20.0;
 /// Time within which the vehicle must be ready to arm, s: alignment waits for half a second without motion, the
 /// receiver for its first fix.
@@ -28,7 +28,7 @@ struct Flight {
     seed: u64,
 }
 
-/// Returns the supplied job with another wind level.
+/// Returns the shipped job with another wind level.
 fn job(level: &str) -> Scenario {
     let text = text("scenarios/two-bridges.toml").replace("level = \"light\"", &format!("level = \"{level}\""));
     assert!(text.contains(&format!("level = \"{level}\"")));
@@ -75,7 +75,7 @@ fn armed(station: &mut Station) -> bool {
         MavMessage::HEARTBEAT(beat) if beat.custom_mode != 0 => Some(beat.base_mode),
         _ => None,
     });
-    beat.expect("one heartbeat per second").contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
+    beat.expect("a heartbeat must arrive every second").contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
 }
 
 /// Arms as soon as the vehicle allows it, takes off to the default height, hovers for a minute, and lands.

@@ -24,7 +24,7 @@ const FRAMES_A_TICK: usize = 800;
 /// A vehicle under test, or one with a planted fault.
 pub trait TestVehicle {
     fn receive(&mut self, bytes: &[u8]);
-    /// Lets the vehicle process received datagrams without a tick.
+    /// Processes received datagrams without advancing a tick.
     fn look(&mut self);
     /// Advances by some ticks.
     fn tick(&mut self);
@@ -42,7 +42,7 @@ impl Vehicle {
         Self(sim)
     }
 
-    /// Answers file jobs like a storage in which everything exists, with extreme or unusual contents.
+    /// Answers file jobs as if every file existed, with extreme or unusual contents.
     fn do_jobs(&mut self) {
         while let Some(job) = self.0.poll_file_job() {
             let outcome = match (job.ticket % 5, job.action) {
@@ -96,7 +96,7 @@ pub struct Finding {
     pub datagram: Vec<u8>,
 }
 
-/// Coverage of a run: counts of the vehicle's reactions.
+/// Coverage of a run: counts of vehicle reactions.
 #[derive(Debug, Default)]
 pub struct Coverage {
     pub datagrams: usize,
@@ -218,7 +218,7 @@ impl Driver<'_> {
             heard.extend(Decoder::new().datagram(&bytes).iter().map(|f| f.message_id));
         }
         let missing: Vec<&u32> = [0, 22, 77].iter().filter(|id| !heard.contains(id)).collect();
-        if missing.is_empty() { Ok(()) } else { Err(format!("no more responses: {missing:?} missing")) }
+        if missing.is_empty() { Ok(()) } else { Err(format!("no more responses: missing {missing:?}")) }
     }
 }
 

@@ -20,8 +20,8 @@ use spandrel_testkit::station::Station;
 
 /// Number of datagrams in the whole run (requirement: 20,000).
 const DATAGRAMS: usize = 40_000;
-/// Number of datagrams before the vehicle restarts from one of its situations, so that most of them reach a vehicle in
-/// flight.
+/// Number of datagrams before the vehicle restarts from one of the situations, so that most datagrams reach a vehicle
+/// in flight.
 const BATCH: usize = 400;
 
 /// Returns the commands that the vehicle does not report as unsupported.
@@ -50,7 +50,7 @@ fn known_commands(sim: &Sim) -> Vec<u16> {
     known
 }
 
-/// Returns the situations from which the runs start.
+/// Returns the initial situations of the runs.
 fn situations() -> Vec<Sim> {
     let mut ground = Station::new("drill-hover", 3);
     ground.run_ms(2_500);
@@ -83,7 +83,7 @@ fn situations() -> Vec<Sim> {
     vec![ground.vehicle.sim, flown.vehicle.sim, mission.vehicle.sim, offboard.vehicle.sim, copter.vehicle.sim, guided.vehicle.sim]
 }
 
-/// Fuzzes one situation after the other, with a new copy for each batch, until an invariant is violated.
+/// Fuzzes the situations in turn, with a new copy for each batch, until an invariant is violated.
 fn run(seed: u64, wrap: impl Fn(Vehicle) -> Box<dyn TestVehicle>) -> Result<Coverage, Finding> {
     let situations = situations();
     let mut numbers = known_commands(&situations[0]);
@@ -173,8 +173,7 @@ fn prop_fuzzer_finds_planted_faults() {
     // The planted faults panic on purpose.
     std::panic::set_hook(Box::new(|_| {}));
     for (fault, needle) in planted::FAULTS {
-        // Each fault affects one value of one field of one message among dozens, so that more than one run may be
-        // needed.
+        // Each fault affects one value of one field of one message among dozens, so more than one run may be needed.
         let found = (11..15).find_map(|seed| run(seed, |vehicle| Box::new(planted::FaultyVehicle::new(vehicle, fault))).err());
         let found = found.unwrap_or_else(|| panic!("{fault:?} was not found"));
         assert!(found.what.contains(needle), "{fault:?}: {}", found.what);

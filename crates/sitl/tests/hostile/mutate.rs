@@ -26,7 +26,7 @@ const F32_VALUES: [f32; 14] = [
 const I32_VALUES: [i32; 9] = [i32::MIN, i32::MAX, -1, 0, 1, 900_000_001, -900_000_001, 1_800_000_001, 467_052_000];
 const U16_VALUES: [u16; 14] = [0, 1, 2, 3, 4, 5, 2000, 2001, 32_767, 32_768, 65_534, 65_535, 255, 256];
 const BYTES: [u8; 10] = [0, 1, 2, 3, 7, 8, 127, 128, 254, 255];
-/// PX4's number of the mission mode.
+/// PX4's number for the mission mode.
 const MISSION_MODE: u32 = 4 << 16 | 4 << 24;
 /// Bytes that are not valid UTF-8.
 const TEXT: [u8; 4] = [0xC3, 0x28, 0xFF, 0xFE];
@@ -61,8 +61,7 @@ pub fn payload(message: &MavMessage) -> Vec<u8> {
     bytes[..used.max((base + 4).min(255))].to_vec()
 }
 
-/// Changes bytes that are or could be a field: MAVLink orders fields by size, so that any offset is valid for some
-/// type.
+/// Changes bytes that are or could be a field: MAVLink orders fields by size, so any offset is valid for some type.
 pub fn field(bytes: &mut [u8], stream: &mut RandomStream) {
     fn put<const N: usize>(bytes: &mut [u8], value: [u8; N], stream: &mut RandomStream) {
         let places = bytes.len() / N;
@@ -85,7 +84,7 @@ pub fn field(bytes: &mut [u8], stream: &mut RandomStream) {
     }
 }
 
-/// Returns a frame of a message that is handled: one in three is unchanged, the others have some changed fields.
+/// Returns a frame with a handled message: one in three is unchanged; the rest have some changed fields.
 fn handled(numbers: &[u16], stream: &mut RandomStream) -> Vec<u8> {
     let (id, mut bytes) = if stream.below(4) == 0 {
         seeds::command(numbers[stream.below(numbers.len())], stream)

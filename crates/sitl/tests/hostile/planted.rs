@@ -17,7 +17,7 @@ pub enum Fault {
     Deaf,
 }
 
-/// All faults, each with a part of the message that must be reported.
+/// All faults, each with part of the message that must be reported.
 pub const FAULTS: [(Fault, &str); 4] = [
     (Fault::Index, "panic: item 65535"),
     (Fault::Poison, "NaN or infinity in"),

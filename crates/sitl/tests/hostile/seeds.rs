@@ -1,4 +1,4 @@
-//! One or more valid messages of every kind that the vehicle handles, from which the mutation starts.
+//! One or more valid messages of every type that the vehicle handles, as starting points for mutation.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use mavlink::Message;
@@ -364,7 +364,7 @@ fn commands() -> Vec<MavMessage> {
 
 /// Returns a command with any number and parameters that are often small integers, as in real commands.
 pub fn command(number: u16, stream: &mut RandomStream) -> (u32, Vec<u8>) {
-    // Requests for messages, mostly for ones that the vehicle sends.
+    // Message requests, mostly for messages that the vehicle sends.
     let spoken = &spandrel_sitl::endpoint::streams::STREAMS;
     let asks = matches!(number, 510..=512) && stream.below(4) > 0;
     let whole = stream.below(3) > 0;

@@ -1,5 +1,5 @@
-//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. A new type takes one new file
-//! here, with the table of its dimensions, and one variant of [`BridgeKind`].
+//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. To add a type, add a
+//! file here with a table of its dimensions, and a variant of [`BridgeKind`].
 
 pub mod arch;
 pub mod dimensions;

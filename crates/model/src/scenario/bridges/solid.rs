@@ -10,7 +10,7 @@ use crate::math;
 pub struct Member {
     /// Member name, unique within the site, such as `arch/rib-left/07`.
     pub name: String,
-    /// Bridge element to which the member belongs.
+    /// Bridge element that the member belongs to.
     pub element: Element,
     /// Solid of the member, in site coordinates.
     pub solid: Solid,

@@ -103,7 +103,8 @@ impl Suspension {
         out
     }
 
-    /// Returns the positions at which deck panels end: the ends of the deck, the anchorages, the towers and the floorbeams.
+    /// Returns the positions where deck panels end: the ends of the deck, the anchorages, the towers and the
+    /// floorbeams.
     #[must_use]
     pub fn panel_ends(&self) -> Vec<f64> {
         let half = 0.5 * self.main_span_m;
@@ -158,7 +159,7 @@ impl Suspension {
         self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_HEIGHT_M
     }
 
-    /// Returns the height at which the cable leaves the saddle, at the faces of the tower legs, m.
+    /// Returns the height where the cable leaves the saddle, at the faces of the tower legs, m.
     fn saddle_edge_z_m(&self) -> f64 {
         let (half, reach) = (0.5 * self.main_span_m, 0.5 * self.leg_x_m);
         self.cable_z_m(half - reach).min(self.cable_z_m(half + reach))

@@ -1,4 +1,4 @@
-//! Properties of the aircraft other than the gains.
+//! Aircraft properties other than the control gains.
 
 use spandrel_model::scenario::{BatteryModel, SessionRules};
 use spandrel_model::vehicle::{FlightLimits, Vehicle};
@@ -10,7 +10,7 @@ pub struct Airframe {
     pub mass_kg: f64,
     /// Flight limits.
     pub limits: FlightLimits,
-    /// Voltage of the full battery, V.
+    /// Voltage of the fully charged battery, V.
     pub full_v: f64,
     /// Whether voltage sag affects the motors.
     pub voltage_sags: bool,
@@ -19,7 +19,7 @@ pub struct Airframe {
 }
 
 impl Airframe {
-    /// Returns the properties of an aircraft under the rules of a session.
+    /// Returns the aircraft's properties under the session's rules.
     #[must_use]
     pub fn new(vehicle: &Vehicle, rules: &SessionRules) -> Self {
         let battery = &vehicle.battery;

@@ -14,7 +14,7 @@ const YAW_RATE_LIMIT_FACTOR: f64 = 1.2;
 /// Tilt error above which heading control is suspended, rad.
 const HEADING_CONTROL_MAX_TILT_RAD: f64 = 0.9;
 
-/// State of the loops.
+/// State of the attitude and rate loops.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AttitudeLoop {
     integral: Vec3<Frd>,

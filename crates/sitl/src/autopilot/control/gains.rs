@@ -6,19 +6,20 @@ use spandrel_model::vehicle::Vehicle;
 
 /// Lead factor that compensates for motor lag (first order; a higher factor would amplify gyroscope noise).
 const MOTOR_LEAD_FACTOR: f64 = 2.0;
-/// Delay of sampling, filtering and computation, s: one and a half control ticks.
+/// Delay from sampling, filtering and computation, s: one and a half control ticks.
 const DELAY_S: f64 = 0.004;
 /// Product of rate-loop bandwidth and lag; 0.35 gives a damping ratio of 0.85 for an integrator with a first-order lag.
 const RATE_BANDWIDTH_LAG_PRODUCT: f64 = 0.35;
 /// Maximum bandwidth of the rate loop, rad/s.
 const RATE_BANDWIDTH_MAX_RAD_S: f64 = 22.0;
-/// Bandwidth ratio of each outer loop to its inner loop.
+/// Ratio of each outer loop's bandwidth to that of its inner loop.
 const ATTITUDE_BANDWIDTH_RATIO: f64 = 0.3;
 const VELOCITY_BANDWIDTH_RATIO: f64 = 0.4;
 const POSITION_BANDWIDTH_RATIO: f64 = 0.5;
-/// Bandwidth ratio of yaw rate loop to roll and pitch rate loop; rotor drag gives little yaw torque.
+/// Ratio of the yaw rate bandwidth to the roll and pitch rate bandwidth; rotor drag produces little yaw torque.
 const YAW_BANDWIDTH_RATIO: f64 = 0.3;
-/// Fraction of the acceleration at full tilt that plans may use. The rest is reserved for wind and errors.
+/// Fraction of the full-tilt acceleration available to trajectory plans. The rest is reserved for wind and control
+/// errors.
 const PLANNED_ACCELERATION_FRACTION: f64 = 0.85;
 /// Air density at sea level, kg/m³ (ISA).
 const AIR_DENSITY_KG_M3: f64 = 1.225;
@@ -30,11 +31,11 @@ const CONTROL_RESERVE: f64 = 0.08;
 pub struct Gains {
     /// Moments of inertia about forward, right, down, kg m².
     pub inertia_kg_m2: [f64; 3],
-    /// Factor of the motor lag compensation.
+    /// Lead factor of the motor lag compensation.
     pub lead: f64,
     /// Roll and pitch rate gain, rad/s² per rad/s.
     pub rate: f64,
-    /// Integral gain of the roll and pitch rate error, 1/s².
+    /// Integral gain on the roll and pitch rate error, 1/s².
     pub rate_integral: f64,
     /// Yaw rate gain, rad/s² per rad/s.
     pub yaw_rate: f64,
@@ -44,13 +45,13 @@ pub struct Gains {
     pub yaw: f64,
     /// Horizontal velocity gain, m/s² per m/s.
     pub velocity: f64,
-    /// Integral gain of the horizontal velocity error, 1/s².
+    /// Integral gain on the horizontal velocity error, 1/s².
     pub velocity_integral: f64,
     /// Horizontal position gain, m/s per m.
     pub position: f64,
     /// Vertical velocity gain, m/s² per m/s.
     pub climb: f64,
-    /// Integral gain of the vertical velocity error, 1/s².
+    /// Integral gain on the vertical velocity error, 1/s².
     pub climb_integral: f64,
     /// Height gain, m/s per m.
     pub height: f64,

@@ -1,30 +1,31 @@
-//! Take-off and landing detection from the estimate and the range finder. A landing is a commanded descent without movement, with
-//! a surface directly below.
+//! Takeoff and landing detection from the estimate and the range finder. A landing is a commanded descent without
+//! movement, with a surface directly below.
 
 use crate::autopilot::estimator::estimate::Estimate;
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Vertical speed that counts as stopped during a commanded descent, m/s, and its minimum duration, s.
+/// Vertical speed below which the vehicle counts as stopped during a commanded descent, m/s, and the minimum duration,
+/// s.
 const STOPPED_M_S: f64 = 0.2;
 const STOPPED_DURATION_S: f64 = 0.3;
 /// Minimum commanded descent rate, m/s.
 const DESCENT_MIN_M_S: f64 = 0.25;
-/// Time over which the thrust fades out after ground contact, s. The landing is then complete.
+/// Time over which the thrust fades out after ground contact, s. After that, the landing is complete.
 const THRUST_FADE_S: f64 = 0.5;
-/// Maximum range finder reading above its value on the ground that still counts as on the ground, m.
+/// Margin above the on-ground range finder reading within which the vehicle still counts as on the ground, m.
 const RANGE_MARGIN_M: f64 = 0.35;
 /// Minimum cosine of the tilt on the ground (40 degrees).
 const MIN_TILT_COSINE: f64 = 0.766;
 /// Height, m, or climb rate, m/s, at which the vehicle counts as off the ground.
 const OFF_GROUND_M: f64 = 0.35;
 const OFF_GROUND_M_S: f64 = 0.4;
-/// Time after which an abandoned take-off ends, s.
+/// Time without a takeoff command after which a takeoff that has not left the ground is abandoned, s.
 const TAKEOFF_TIMEOUT_S: f64 = 1.0;
-/// Thrust ramp time at take-off, s.
+/// Thrust ramp time at takeoff, s.
 const SPOOL_UP_S: f64 = 0.6;
 
-/// Phase of a flight.
+/// Flight phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FlightPhase {
     /// On the ground.
@@ -36,34 +37,34 @@ pub enum FlightPhase {
     InAir,
 }
 
-/// A change of the flight phase, or expiry of the automatic disarm timeout.
+/// A flight phase change, or expiry of the automatic disarm timeout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PhaseChange {
-    /// The motors spool up for a take-off.
+    /// The motors spool up for a takeoff.
     LiftingOff,
     /// The vehicle is off the ground.
     TakenOff,
-    /// The take-off was abandoned on the ground.
+    /// The takeoff was abandoned on the ground.
     TakeoffAbandoned,
     /// The vehicle has landed.
     Landed,
     /// The vehicle has been armed on the ground for longer than the automatic disarm timeout.
     StandingTimeout {
-        /// Whether it has flown since arming.
+        /// Whether the vehicle has flown since arming.
         flown: bool,
     },
 }
 
-/// Inputs of one tick.
+/// Inputs for one tick.
 #[derive(Debug, Clone, Copy)]
 pub struct LandingInput<'a> {
     /// Estimated state.
     pub estimate: &'a Estimate,
-    /// Reading of the range finder that points down, m.
+    /// Downward range finder reading, m.
     pub range_down_m: Option<f64>,
     /// Height of the center of mass above ground on the landing gear, m.
     pub standing_m: f64,
-    /// Whether the mode commands a take-off.
+    /// Whether the mode commands a takeoff.
     pub wants_to_fly: bool,
     /// Time on the ground after which the vehicle disarms, before and after a flight, s; 0 or less for never.
     pub standing_limit_s: [f64; 2],
@@ -73,20 +74,20 @@ pub struct LandingInput<'a> {
     pub dt_s: f64,
 }
 
-/// State of take-off and landing detection.
+/// State of takeoff and landing detection.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LandingDetector {
-    /// Phase of the flight.
+    /// Flight phase.
     pub phase: FlightPhase,
-    /// Start of the time on the ground.
+    /// Time at which the vehicle was last armed on the ground or touched down.
     pub standing_since: SimTime,
-    /// Ground level at the last position on the ground, m down.
+    /// Ground level where the vehicle last stood on the ground, m down.
     pub ground_down_m: f64,
     /// Commanded descent rate, m/s.
     pub descent_m_s: f64,
     /// Whether the vehicle has flown since arming.
     flown: bool,
-    /// Time of the last lift-off.
+    /// Time of the last liftoff.
     left_ground: SimTime,
     stopped_s: f64,
     fade_s: f64,
@@ -94,18 +95,18 @@ pub struct LandingDetector {
 }
 
 impl LandingDetector {
-    /// Starts a flight on the ground, at arming.
+    /// Starts a flight on the ground when the vehicle arms.
     pub fn arm(&mut self, now: SimTime) {
         (self.phase, self.standing_since, self.flown) = (FlightPhase::OnGround, now, false);
     }
 
-    /// Ends the flight, at disarming.
+    /// Ends the flight when the vehicle disarms.
     pub fn disarm(&mut self) {
         (self.phase, self.flown) = (FlightPhase::OnGround, false);
         self.clear_timers();
     }
 
-    /// Continues in the air with full thrust, after a respawn. The next landing counts.
+    /// Continues in the air at full thrust after a respawn. The vehicle counts as flown.
     pub fn continue_in_air(&mut self, now: SimTime) {
         (self.phase, self.flown) = (FlightPhase::InAir, true);
         self.left_ground = now - SimTime::from_s(SPOOL_UP_S);
@@ -128,7 +129,7 @@ impl LandingDetector {
         1.0 - self.fade_s / THRUST_FADE_S
     }
 
-    /// Advances by one tick while armed. Returns a change of the phase.
+    /// Advances by one tick while armed. Returns the phase change, if any.
     pub fn update(&mut self, input: &LandingInput) -> Option<PhaseChange> {
         match self.phase {
             FlightPhase::OnGround => self.stand(input),

@@ -1,5 +1,5 @@
-//! Control allocation: torque and thrust to motor commands, from the rotor geometry. On saturation, yaw is reduced first, then
-//! collective thrust, then roll and pitch in proportion.
+//! Control allocation: converts torque and thrust to motor commands, based on the rotor geometry. On saturation, yaw is
+//! reduced first, then collective thrust, then roll and pitch in proportion.
 
 use crate::physics::{Actuators, MAX_ROTORS};
 use nalgebra::{Matrix4, Vector4};
@@ -7,7 +7,7 @@ use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 use spandrel_model::vehicle::Vehicle;
 
-/// Demand of the attitude loops.
+/// Demand from the attitude loops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueThrustSetpoint {
     /// Torque about the body axes, N m.
@@ -26,7 +26,7 @@ pub struct AllocationStatus {
 }
 
 impl AllocationStatus {
-    /// The whole demand was allocated.
+    /// The entire demand was allocated.
     pub const COMPLETE: Self = Self { tilt: 1.0, yaw: 1.0 };
 }
 
@@ -105,8 +105,8 @@ impl Mixer {
         (out, allocated)
     }
 
-    /// Compensates for rotor inertia. An accelerating rotor applies torque immediately through its inertia and permanently
-    /// through its drag. A lag on the yaw torque makes the sum of both follow the demand.
+    /// Compensates for rotor inertia. An accelerating rotor applies torque immediately through its inertia and
+    /// permanently through its drag. Filtering the yaw torque with a lag makes the total follow the demand.
     fn compensate_rotor_spin(&mut self, torque: Vec3<Frd>, dt_s: f64) -> Vec3<Frd> {
         self.yaw_n_m += (torque.down() - self.yaw_n_m) * dt_s / (dt_s + self.spin_time_s);
         Vec3::new(torque.forward(), torque.right(), self.yaw_n_m)
@@ -140,7 +140,8 @@ impl Mixer {
             highest = highest.max(tilt[i]);
         }
         let tilt_share = ((high - low) / (highest - lowest).max(1e-9)).min(1.0);
-        // Adjusts the collective thrust to fit roll and pitch. The shift is the same for all rotors of equal collective share.
+        // Adjusts the collective thrust to leave headroom for roll and pitch. The shift is the same for all rotors with
+        // an equal collective share.
         let each = self.columns[0][3].max(1e-6);
         let room = (low - lowest * tilt_share, high - highest * tilt_share);
         let common = (demand.thrust_n * each).max(room.0).min(room.1) / each;
@@ -164,7 +165,7 @@ mod tests {
     use crate::autopilot::testing::vehicle_with;
     use crate::sensors::tests::error_free_sensors;
 
-    /// N and N m; rounding of a dozen products.
+    /// N and N m; rounding error of a dozen products.
     const ROUNDING: f64 = 1e-10;
 
     fn wrench(vehicle: &Vehicle, thrusts: &[f64; MAX_ROTORS]) -> [f64; 4] {

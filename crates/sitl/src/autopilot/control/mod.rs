@@ -1,4 +1,5 @@
-//! Control: setpoints to motor commands by the velocity, attitude and rate loops and the mixer; take-off and landing detection.
+//! Control: converts setpoints to motor commands with the velocity, attitude and rate loops and the mixer, and detects
+//! takeoff and landing.
 
 pub mod airframe;
 mod attitude;
@@ -26,16 +27,16 @@ use spandrel_model::vehicle::Vehicle;
 /// Minimum voltage fraction that the mixer compensates for.
 const MIN_VOLTAGE_FRACTION: f64 = 0.6;
 
-/// Inputs of one tick.
+/// Inputs for one tick.
 #[derive(Debug, Clone, Copy)]
 pub struct ControlInput<'a> {
     /// Estimated state.
     pub estimate: &'a Estimate,
-    /// Properties of the aircraft.
+    /// Aircraft properties.
     pub airframe: &'a Airframe,
     /// Latest battery reading.
     pub battery: Option<BatteryReading>,
-    /// Feedforward of the heading rate, rad/s.
+    /// Heading rate feedforward, rad/s.
     pub yaw_rate_rad_s: f64,
     /// Time of this tick.
     pub now: SimTime,
@@ -43,12 +44,12 @@ pub struct ControlInput<'a> {
     pub dt_s: f64,
 }
 
-/// State of the control loops.
+/// Control loop state.
 #[derive(Debug, Clone)]
 pub struct Control {
-    /// Gains of all loops.
+    /// Gains of all control loops.
     pub gains: Gains,
-    /// Take-off and landing detection.
+    /// Takeoff and landing detection.
     pub landing: LandingDetector,
     /// Attitude setpoint.
     pub attitude_target: Rotation<Frd, Ned>,
@@ -63,7 +64,7 @@ pub struct Control {
 }
 
 impl Control {
-    /// Creates the loops for an aircraft on the ground.
+    /// Creates the control loops for an aircraft on the ground.
     #[must_use]
     pub fn new(vehicle: &Vehicle) -> Self {
         let gains = Gains::new(vehicle);
@@ -80,13 +81,13 @@ impl Control {
         }
     }
 
-    /// Starts a flight on the ground, at arming.
+    /// Starts a flight on the ground when the vehicle arms.
     pub fn begin_flight(&mut self, now: SimTime) {
         self.landing.arm(now);
         self.attitude_error_cosine = 1.0;
     }
 
-    /// Resets the integrals of the loops.
+    /// Resets the integrals of all loops.
     pub fn reset(&mut self) {
         self.velocity_loop.reset();
         self.attitude_loop.reset();
@@ -168,7 +169,7 @@ impl Control {
         self.mix(&TorqueThrustSetpoint { torque_n_m, thrust_n }, input)
     }
 
-    /// Ramps the thrust up at take-off and down after touchdown.
+    /// Ramps the thrust up at takeoff and down after touchdown.
     fn ramp_thrust(&mut self, thrust_n: f64, now: SimTime) -> f64 {
         let spool = self.landing.spool_up_fraction(now);
         let thrust_n = thrust_n.min(self.gains.thrust_max_n * spool) * self.landing.thrust_fraction();
@@ -183,7 +184,7 @@ impl Control {
     }
 }
 
-/// Battery voltage as a fraction of the full voltage.
+/// Battery voltage as a fraction of the full-charge voltage.
 fn voltage_share(input: &ControlInput) -> f64 {
     match input.battery {
         Some(b) if input.airframe.voltage_sags => (b.voltage_v / input.airframe.full_v).clamp(MIN_VOLTAGE_FRACTION, 1.0),

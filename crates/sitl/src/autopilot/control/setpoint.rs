@@ -6,7 +6,7 @@ use spandrel_model::frames::{Frd, Vec3};
 /// A setpoint for the control loops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Setpoint {
-    /// Motors at idle, on the ground.
+    /// Motors idling on the ground.
     Idle,
     /// Velocity.
     Velocity(VelocitySetpoint),

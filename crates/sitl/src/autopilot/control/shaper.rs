@@ -1,5 +1,5 @@
-//! Shapes position and velocity targets into a velocity that the aircraft can follow: limited acceleration and jerk, and timely
-//! braking.
+//! Shapes position and velocity targets into a velocity that the aircraft can follow, with limited acceleration and
+//! jerk and timely braking.
 
 use super::gains::Gains;
 use spandrel_model::frames::{Ned, Vec3};
@@ -12,7 +12,7 @@ pub const JERK_S: f64 = 0.15;
 /// Time to build up full horizontal acceleration in a mission or return, s (estimate: about 50 deg/s of tilt).
 pub const AUTO_JERK_S: f64 = 0.5;
 
-/// Limits of shaped motion.
+/// Motion limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionLimits {
     /// Horizontal acceleration, m/s².
@@ -24,7 +24,7 @@ pub struct MotionLimits {
 }
 
 impl MotionLimits {
-    /// Returns the limits of the airframe in automatic modes.
+    /// Returns the airframe's limits in automatic modes.
     #[must_use]
     pub fn automatic(gains: &Gains) -> Self {
         let (horizontal_m_s2, vertical_m_s2) = (0.7 * gains.acceleration_m_s2, 0.7 * gains.climb_acceleration_m_s2);
@@ -61,7 +61,8 @@ impl MotionShaper {
     }
 }
 
-/// Speed at which to approach a target so that a deceleration stops there: linear near the target, square root farther away.
+/// Approach speed from which a given deceleration stops at the target: linear in distance near the target, square root
+/// farther away.
 #[must_use]
 pub fn approach_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64 {
     let bend = deceleration_m_s2 / (gain * gain);
@@ -82,7 +83,7 @@ pub fn towards(gains: &Gains, from_m: Vec3<Ned>, to_m: Vec3<Ned>, horizontal: f6
     Vec3::new(flat.north(), flat.east(), vertical)
 }
 
-/// Position at which a body with this velocity comes to rest, m.
+/// Position at which the vehicle comes to rest from this velocity, m.
 #[must_use]
 pub fn stopping_point(gains: &Gains, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
     let speed = velocity_m_s.horizontal_norm();

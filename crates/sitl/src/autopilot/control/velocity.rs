@@ -1,4 +1,4 @@
-//! Velocity loop: velocity and acceleration setpoints to attitude and collective thrust.
+//! Velocity loop: converts velocity and acceleration setpoints to an attitude and a collective thrust.
 
 use super::gains::Gains;
 use crate::autopilot::estimator::estimate::Estimate;
@@ -52,7 +52,7 @@ impl VelocityLoop {
         motion: &VelocitySetpoint,
         dt_s: f64,
     ) -> AttitudeThrustSetpoint {
-        // The attitude response lags, so the velocity is compared with the plan one lag earlier.
+        // The attitude response lags, so the velocity is compared with the plan as it was one lag earlier.
         let late = motion.acceleration_m_s2 * gains.attitude_lag_s;
         let planned = motion.velocity_m_s - Vec3::new(late.north(), late.east(), 0.0);
         let error = planned - now.velocity_m_s;
@@ -91,7 +91,7 @@ impl VelocityLoop {
     }
 
     fn climb(&mut self, gains: &Gains, error: f64, free: bool, dt_s: f64) {
-        // At a thrust limit the integral may only decrease in magnitude.
+        // At a thrust limit, the integral can only decrease in magnitude.
         if free || error * self.integral.down() < 0.0 {
             self.integral += Vec3::new(0.0, 0.0, gains.climb_integral * error * dt_s);
         }
@@ -111,7 +111,7 @@ fn drag(gains: &Gains, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
 }
 
 /// Specific force for a desired acceleration within tilt and thrust limits, vertical before horizontal, and whether the
-/// horizontal and vertical parts were left unchanged.
+/// horizontal and the vertical part are within those limits.
 fn limit_acceleration(gains: &Gains, mass_kg: f64, wanted_m_s2: Vec3<Ned>) -> (Vec3<Ned>, bool, bool) {
     let (low, high) = (gains.thrust_min_n / mass_kg, gains.thrust_max_n / mass_kg);
     let lift = GRAVITY_M_S2 - wanted_m_s2.down();
@@ -138,7 +138,7 @@ fn attitude_thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, yaw_rad: f64,
 fn thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, gains: &Gains) -> f64 {
     let upright = (now.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
     if upright <= 0.0 {
-        // Thrust would point down: use the minimum needed for control.
+        // The thrust would point down, so use the minimum needed for control.
         return gains.thrust_min_n;
     }
     (mass_kg * -force.down() / upright.max(0.5)).clamp(gains.thrust_min_n, gains.thrust_max_n)

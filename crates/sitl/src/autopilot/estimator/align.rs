@@ -12,8 +12,8 @@ const REST_RATE_MAX_RAD_S: f64 = 0.15;
 const REST_FORCE_TOLERANCE_M_S2: f64 = 1.5;
 /// Mean rates beyond this many standard deviations of the gyroscope bias count as motion.
 const BIAS_SIGMAS: f64 = 5.0;
-/// Residual rocking of a body at rest, as a fraction of the gyroscope bias (1 sigma, estimate). It limits the accuracy of the
-/// bias from the mean rate; the filter estimates the rest in flight.
+/// Residual rocking of a vehicle at rest, as a fraction of the gyroscope bias (1 sigma, estimate). It limits the
+/// accuracy of the bias from the mean rate; the filter estimates the rest in flight.
 pub const ROCKING_BIAS_FRACTION: f64 = 0.1;
 
 /// Gyroscope characteristics from the data sheet.
@@ -98,7 +98,7 @@ impl Alignment {
         self.gyro.sample_rad_s * self.gyro.sample_rad_s / samples + least * least
     }
 
-    /// Returns the result once enough samples are averaged. `field` is the earth's magnetic field at the site.
+    /// Returns the result once enough samples have been averaged. `field` is the Earth's magnetic field at the site.
     #[must_use]
     pub fn done(&self, field: Vec3<Ned>) -> Option<AlignmentResult> {
         if self.time_s < ALIGN_S || self.mag_samples == 0 {
@@ -163,7 +163,7 @@ mod tests {
         }
         let aligned = alignment.done(field);
         let error = aligned.map(|a| (a.attitude.inverse().then(truth)).raw().angle());
-        // Rounding of trigonometric functions.
+        // Rounding error of trigonometric functions.
         assert!(error.is_some_and(|e| e < 1e-7), "{error:?}");
         assert!(aligned.is_some_and(|a| (a.gyro_bias_rad_s - Vec3::new(0.01, -0.02, 0.03)).norm() < 1e-12));
     }

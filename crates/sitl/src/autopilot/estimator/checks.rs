@@ -1,5 +1,4 @@
-//! Innovation consistency checks. A source whose measurements keep failing their gate is rejected, and is used again once they
-//! fit.
+//! Innovation consistency checks. A source whose measurements keep failing the gate is rejected until they pass again.
 
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
@@ -11,9 +10,10 @@ const REJECTION_AVERAGING_S: f64 = 0.5;
 const DROP_THRESHOLD: f64 = 0.8;
 /// Rejection rate below which a source is used again; reached after 2 s of consistent measurements.
 const RECOVERY_THRESHOLD: f64 = 0.02;
-/// Maximum interval between measurements in the average, s: one rejection after a long gap does not drop a source.
+/// Maximum interval between measurements that the average counts, s, so that one rejection after a long gap does not
+/// drop a source.
 const MAX_INTERVAL_S: f64 = 0.25;
-/// Time after which a rejected source is used again if no better one remains, s.
+/// Time after which a rejected source is used again if no better source remains, s.
 pub const REJECTION_TIMEOUT_S: f64 = 3.0;
 
 /// Consistency of one source with the filter.
@@ -46,7 +46,7 @@ impl InnovationCheck {
         (self.refused_share, self.dropped) = (1.0, true);
     }
 
-    /// Clears the check after the filter was reset to the source.
+    /// Clears the check after a filter reset to this source.
     pub fn clear(&mut self) {
         (self.refused_share, self.dropped) = (0.0, false);
     }
@@ -59,7 +59,8 @@ pub struct RejectionMonitor {
 }
 
 impl RejectionMonitor {
-    /// Records an offset from the filter, m. Returns the time for which it has stayed within `tolerance_m`, s.
+    /// Records an offset from the filter, m. Returns the time for which the offset has stayed constant within
+    /// `tolerance_m`, s.
     pub fn hold_s(&mut self, distance_m: Vec3<Ned>, tolerance_m: f64, now: SimTime) -> f64 {
         match self.previous {
             Some((then, since)) if (distance_m - then).norm() <= tolerance_m => (now - since).s(),
@@ -70,7 +71,7 @@ impl RejectionMonitor {
         }
     }
 
-    /// Clears the monitor once the source fits again.
+    /// Clears the monitor once the source agrees with the filter again.
     pub fn clear(&mut self) {
         self.previous = None;
     }

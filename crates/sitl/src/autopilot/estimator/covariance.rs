@@ -1,4 +1,5 @@
-//! The 23 by 23 error covariance, propagated by its few non-zero blocks instead of full matrix products.
+//! The 23 by 23 error covariance, propagated through the few non-zero blocks of the transition matrix instead of full
+//! matrix products.
 //!
 //! Errors are true minus estimated, in this order: position, velocity, attitude (a rotation vector in NED, applied after the
 //! estimated attitude), gyroscope bias, accelerometer bias (both in body axes), GNSS drift, barometer offset, optical-flow scale,
@@ -46,7 +47,7 @@ pub struct ProcessNoise {
     pub baro_walk: f64,
 }
 
-/// Correction of all error states.
+/// Correction for each error state.
 pub type StateCorrection = [f64; STATES];
 
 /// Row length, padded to a multiple of four so that loops over a row have no remainder. The padding stays zero.
@@ -75,7 +76,7 @@ impl Covariance {
         self.m[i][i]
     }
 
-    /// One element.
+    /// Returns one element.
     #[must_use]
     pub fn at(&self, i: usize, j: usize) -> f64 {
         self.m[i][j]
@@ -87,7 +88,7 @@ impl Covariance {
         self.m[j][i] = value;
     }
 
-    /// Resets `count` error states from `first` to one variance, uncorrelated with all others.
+    /// Resets `count` error states starting at `first` to one variance, uncorrelated with all other states.
     pub fn reset(&mut self, first: usize, count: usize, variance: f64) {
         for i in first..first + count {
             for j in 0..STATES {
@@ -100,7 +101,7 @@ impl Covariance {
     }
 
     /// Propagates the covariance by `dt_s`. `gained_m_s` is the velocity change from specific force in this step (NED),
-    /// `attitude` the rotation matrix from body to NED, `jolt` additional velocity variance for shocks, (m/s)².
+    /// `attitude` the rotation matrix from body to NED, `jolt` the additional velocity variance for shocks, (m/s)².
     pub fn propagate(&mut self, attitude: &Matrix3<f64>, gained_m_s: &Vector3<f64>, dt_s: f64, noise: &ProcessNoise, jolt: f64) {
         let g = gained_m_s;
         // d(velocity)/d(attitude): theta x gained.
@@ -153,8 +154,8 @@ impl Covariance {
         }
     }
 
-    /// Multiplies the matrix by F transposed in place. F has off-diagonal elements only in its first rows; the half below them is
-    /// mirrored afterward.
+    /// Multiplies the matrix by F transposed in place. F has off-diagonal elements only in its first rows; the part
+    /// below them is mirrored afterward.
     fn columns(&mut self, a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], dt_s: f64) {
         for row in &mut self.m[..BG] {
             for i in 0..3 {
@@ -197,9 +198,9 @@ impl Covariance {
         expected > 0.0 && innovation.is_finite() && innovation * innovation <= gate * gate * expected
     }
 
-    /// Fuses one scalar measurement. `slopes` holds the non-zero partial derivatives with respect to the errors, and `innovation`
-    /// is measured minus expected. Returns `None`, without changing the covariance, if the innovation exceeds `gate` standard
-    /// deviations.
+    /// Fuses one scalar measurement. `slopes` lists the non-zero partial derivatives with respect to the errors, and
+    /// `innovation` is measured minus expected. Returns `None`, without changing the covariance, if the innovation
+    /// exceeds `gate` standard deviations.
     pub fn fuse(&mut self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> Option<StateCorrection> {
         let mut ph = [0.0; WIDTH];
         for (index, slope) in slopes {
@@ -229,7 +230,7 @@ mod tests {
     use nalgebra::SMatrix;
 
     type SquareMatrix = SMatrix<f64, STATES, STATES>;
-    /// Rounding of sums of products of order one, dimensionless.
+    /// Rounding error of sums of order-one products, dimensionless.
     const ROUNDING: f64 = 1e-12;
 
     fn full(c: &Covariance) -> SquareMatrix {

@@ -11,16 +11,16 @@ use spandrel_model::time::SimTime;
 
 /// Innovation gate, standard deviations.
 pub(super) const INNOVATION_GATE: f64 = 5.0;
-/// Weight of the reported GNSS variance beyond the open-sky error. That part is mostly multipath, which lasts for seconds (about
-/// twice its time constant times the fix rate, halved because part of it is white).
+/// Weight of the reported GNSS variance in excess of the open-sky error. The excess is mostly multipath, which lasts
+/// for seconds (about twice its time constant times the fix rate, halved because part of it is white).
 const MULTIPATH_WEIGHT: f64 = 40.0;
-/// Time after its last fusion for which optical flow counts as an independent velocity source, s.
+/// Time for which optical flow counts as an independent velocity source after its last fusion, s.
 const FLOW_FRESH_S: f64 = 1.0;
 /// Time for which a fix counts as current, s (estimate: five fixes at the usual rate).
 const FIX_FRESH_S: f64 = 1.0;
-/// Standard deviations beyond which the barometer contradicts the GNSS drift.
+/// Deviation beyond which the barometer contradicts the GNSS drift, standard deviations.
 const DRIFT_SIGMAS: f64 = 4.0;
-/// Standard deviations within which GNSS and filter agree on height.
+/// Deviation within which GNSS and filter agree on height, standard deviations.
 const AGREEMENT_SIGMAS: f64 = 1.5;
 /// Standard deviation of the barometer offset after a reset, m (estimate).
 const RESET_OFFSET_SIGMA_M: f64 = 0.3;
@@ -66,7 +66,8 @@ impl Estimator {
             self.checks.gnss_off.clear();
             return;
         }
-        // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, a constant offset is accepted, noise never.
+        // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, a constant offset is accepted, but
+        // noise is not.
         let off = self.fix_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
         let steady_s = self.checks.gnss_off.hold_s(flat, INNOVATION_GATE * (2.0 * variance).sqrt(), now);
@@ -106,7 +107,7 @@ impl Estimator {
         }
     }
 
-    /// Slowly varying error of the GNSS height, m (1 sigma): drift and recently reported multipath.
+    /// Slowly varying error of the GNSS height, m (1 sigma): drift and recently reported multipath error.
     fn slow_height_error_m(&mut self, fix: &GnssReading, now: SimTime) -> f64 {
         let (drift, white) = (self.noise.gnss_drift_m[1], self.noise.gnss_white_m[1]);
         let since_s = self.latest_fix.map_or(0.0, |(_, at)| (now - at).s());
@@ -188,8 +189,8 @@ impl Estimator {
         }
     }
 
-    /// Recovers when no height source fits the filter: resets to GNSS, or otherwise continues from the current height with the
-    /// barometer if its offset is constant.
+    /// Recovers when no height source agrees with the filter: resets to GNSS or, failing that, continues from the
+    /// current height with the barometer if its offset is constant.
     fn recover_height(&mut self, innovation_m: f64, now: SimTime) {
         let tolerance_m = INNOVATION_GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();
         let steady_s = self.checks.baro_off.hold_s(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
@@ -209,7 +210,7 @@ impl Estimator {
         }
     }
 
-    /// Fuses the component that rotates with heading only, so that a disturbed field cannot tilt the attitude estimate.
+    /// Fuses only the component that depends on heading, so that a disturbed field cannot tilt the attitude estimate.
     pub(super) fn fuse_mag(&mut self, gauss: Vec3<Frd>, share: f64, now: SimTime) {
         let field = self.field_gauss;
         let across = Vec3::<Ned>::new(-field.east(), field.north(), 0.0).unit();
@@ -235,7 +236,7 @@ impl Estimator {
         } else if (now - self.last_fused.heading).s() > REJECTION_TIMEOUT_S
             && (self.parked || self.checks.gnss_velocity.dropped())
         {
-            // In flight the gyroscopes are the better heading source, unless the velocities contradict it too.
+            // In flight, the gyroscopes are the better heading source unless the velocities contradict the heading too.
             let measured = self.attitude * gauss;
             let error = math::atan2(field.east(), field.north()) - math::atan2(measured.east(), measured.north());
             self.turn(Vec3::new(0.0, 0.0, math::wrap_pi(error)));

@@ -1,7 +1,7 @@
 //! Height arbitration by range finder: the height that keeps the ground level constant is correct.
 
-/// Decision threshold, as a fraction of the height difference: the ground level moves less than this with one height and more
-/// than the rest with the other.
+/// Decision threshold, as a fraction of the height difference: the ground level must move by less than this according
+/// to one height and by more than the remainder according to the other.
 const DECISION_FRACTION: f64 = 0.3;
 
 /// Ground level from the range finder, relative to each height, m down.
@@ -12,7 +12,7 @@ pub struct GroundEstimate {
 }
 
 impl GroundEstimate {
-    /// Adds the vertical distance to the ground, m; infinite beyond reach.
+    /// Adds the vertical distance to the ground, m; infinite if the ground is out of range.
     pub fn add_measurement(&mut self, range_m: f64) {
         self.range_m = Some(range_m).filter(|range| range.is_finite());
         if self.range_m.is_none() {
@@ -20,7 +20,7 @@ impl GroundEstimate {
         }
     }
 
-    /// Records the ground levels while filter height and GNSS height agree, m down.
+    /// Records the ground levels while the filter height and the GNSS height agree, m down.
     pub fn samples_agree(&mut self, filter_down_m: f64, receiver_down_m: f64) {
         self.agreed = self.range_m.map(|range| [filter_down_m + range, receiver_down_m + range]);
     }
@@ -45,9 +45,9 @@ mod tests {
         let mut ground = GroundEstimate::default();
         ground.add_measurement(5.0);
         ground.samples_agree(-5.0, -5.2);
-        // The GNSS height rises, the range stays constant.
+        // The GNSS height rises while the range stays constant.
         assert!(ground.agrees_with_filter(-5.1, -9.0));
-        // The filter height is constant, the range grows with the GNSS height.
+        // The filter height is constant while the range increases with the GNSS height.
         ground.add_measurement(9.0);
         assert!(!ground.agrees_with_filter(-5.0, -9.1));
         ground.add_measurement(f64::INFINITY);

@@ -1,5 +1,6 @@
-//! Height reference selection. The other height sensors get large, slow errors so that they contribute only fast changes. If the
-//! reference falls silent or contradicts the filter, GNSS takes over and the height converges to it.
+//! Height reference selection. The other height sensors are assigned large, slowly varying errors, so that they
+//! contribute only to fast changes. If the reference times out or contradicts the filter, GNSS takes over and the
+//! height converges to it.
 
 use super::Estimator;
 use super::checks::REJECTION_TIMEOUT_S;
@@ -13,7 +14,7 @@ use spandrel_model::time::SimTime;
 /// Height uncertainty of a sensor that is not the reference, m (1 sigma; estimate: a pressure change of 1 hPa corresponds to 8
 /// m).
 const NON_REFERENCE_SIGMA_M: f64 = 10.0;
-/// Timeout of a height reference, s (estimate: ten readings of a range finder at 10 Hz).
+/// Timeout for a height reference, s (estimate: ten readings of a range finder at 10 Hz).
 const SILENT_S: f64 = 1.0;
 /// Roughness of the ground below the range finder, m (1 sigma; estimate: grass, gravel).
 const GROUND_ROUGHNESS_M: f64 = 0.05;
@@ -24,7 +25,7 @@ impl Estimator {
         self.wanted_reference == HeightReference::Gnss
     }
 
-    /// Selects the configured reference while it works, otherwise GNSS.
+    /// Selects the configured reference while it works, and GNSS otherwise.
     pub(super) fn choose_reference(&mut self, now: SimTime) {
         let fresh = |at: Option<SimTime>| at.is_some_and(|at| (now - at).s() < SILENT_S);
         let works = match self.wanted_reference {
@@ -52,7 +53,7 @@ impl Estimator {
         self.covariance.reset(P + 2, 1, usual * usual);
     }
 
-    /// Sets the height error model of each sensor for a reference. Does not change the height.
+    /// Sets the height error model of each sensor for the given reference. Does not change the height.
     fn set_height_weights(&mut self, reference: HeightReference) {
         let loose = NON_REFERENCE_SIGMA_M * NON_REFERENCE_SIGMA_M;
         let usual = self.noise.gnss_drift_m[1] * self.noise.gnss_drift_m[1];
@@ -68,8 +69,8 @@ impl Estimator {
         self.covariance.reset(BARO, 1, offset);
     }
 
-    /// Corrects the height with the range finder at `below_m` above ground. After a step in the ground (an edge, a truck) it
-    /// keeps the height and uses the new ground level.
+    /// Corrects the height with the measured distance `below_m` to the ground. After a step in the ground (an edge, a
+    /// truck), it keeps the height and adopts the new ground level.
     pub(super) fn follow_range(&mut self, below_m: f64, now: SimTime) {
         if self.wanted_reference != HeightReference::RangeFinder || !below_m.is_finite() {
             self.height_reference.ground_down_m = None;

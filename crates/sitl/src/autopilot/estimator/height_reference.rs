@@ -3,7 +3,7 @@
 use super::checks::{InnovationCheck, RejectionMonitor};
 use spandrel_model::time::SimTime;
 
-/// Height reference, numbered as `EKF2_HGT_REF` (ArduPilot: `EK3_SRC1_POSZ`).
+/// Height reference, numbered as in `EKF2_HGT_REF` (ArduPilot: `EK3_SRC1_POSZ`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HeightReference {
     /// Barometer. The GNSS height is treated as slowly drifting.
@@ -16,7 +16,7 @@ pub enum HeightReference {
 }
 
 impl HeightReference {
-    /// Returns the reference for a parameter value. Vision is not available; GNSS is used instead.
+    /// Returns the reference for a parameter value. Vision is not supported; GNSS is used instead.
     #[must_use]
     pub fn from_number(number: i32) -> Self {
         match number {

@@ -2,8 +2,8 @@
 //! velocity, attitude, inertial sensor biases, GNSS drift, barometer offset, optical-flow scale and magnetometer bias. It fuses
 //! GNSS, barometer, magnetometer and optical flow.
 //!
-//! The range finder is not fused by default, because the surface below may be a deck, a truck or water. It decides when GNSS and
-//! barometer contradict each other.
+//! The range finder is not fused by default, because the surface below may be a deck, a truck or water. It decides
+//! which height to use when GNSS and barometer contradict each other.
 
 pub mod align;
 mod checks;
@@ -28,18 +28,18 @@ use spandrel_model::math;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle;
 
-/// Accumulated time after which the covariance is propagated, s.
+/// Propagation interval of the covariance, s.
 const COVARIANCE_PERIOD_S: f64 = 0.0099;
-/// Maximum standard deviations of horizontal velocity and position usable for control, m/s and m.
+/// Maximum standard deviations at which horizontal velocity and position are usable for control, m/s and m.
 const USABLE_VELOCITY_M_S: f64 = 0.7;
 const USABLE_POSITION_M: f64 = 12.0;
-/// Fraction of these limits that must be reached to regain validity.
+/// Fraction of these limits below which an estimate becomes valid again.
 const REGAIN_FRACTION: f64 = 0.5;
 /// Specific force above which the sampling blurs the direction of a shock, m/s², and the fraction of it treated as uncertain.
 const SHOCK_M_S2: f64 = 40.0;
 const SHOCK_UNCERTAIN_FRACTION: f64 = 0.1;
-/// Averaging time of fixes before the origin of the local frame is set, s (estimate; PX4 requires 10 s of good fixes,
-/// EKF2_REQ_GPS_H).
+/// Time over which fixes are averaged before the origin of the local frame is set, s (estimate; PX4 requires 10 s of
+/// good fixes, EKF2_REQ_GPS_H).
 const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
 
 /// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water an aircraft often has neither GNSS nor optical
@@ -73,7 +73,7 @@ struct LastFused {
 }
 
 impl LastFused {
-    /// Sets all sources to one time.
+    /// Sets the same time for all sources.
     fn new(now: SimTime) -> Self {
         Self { velocity: now, flow: now, height: now, heading: now }
     }
@@ -133,7 +133,7 @@ pub struct Estimator {
     height_reference: HeightReferenceState,
     /// Accumulated position resets since the last query, m.
     place_step_m: Option<Vec3<Ned>>,
-    /// Number of queried position resets.
+    /// Number of position resets returned by queries so far.
     position_resets: u32,
     usable: bool,
 }
@@ -315,7 +315,7 @@ impl Estimator {
         self.aligned = true;
         self.local_origin_m = self.position_m;
         self.last_fused = LastFused::new(now);
-        // The heading came from this measurement: fusing it with zero innovation gives the matching covariance.
+        // The heading came from this measurement, so fusing it with zero innovation yields the matching covariance.
         let level = aligned.attitude.inverse() * self.field_gauss;
         self.fuse_mag(level, 1.0 / aligned.mag_samples, now);
     }
@@ -324,7 +324,7 @@ impl Estimator {
         let rates = reading.rates_rad_s - self.gyro_bias;
         let force = reading.specific_force_m_s2 - self.accel_bias;
         let turn = rates * dt_s;
-        // Half the rotation refers the force to the middle of the interval.
+        // Applying half of the rotation evaluates the force at the middle of the interval.
         let gained = self.attitude * ((force + turn.cross(force) * 0.5) * dt_s);
         let dv = gained + Vec3::new(0.0, 0.0, math::GRAVITY_M_S2 * dt_s);
         self.position_m += (self.velocity_m_s + dv * 0.5) * dt_s;
@@ -375,8 +375,8 @@ impl Estimator {
         self.covariance.variance(P).max(self.covariance.variance(P + 1)).sqrt()
     }
 
-    /// Sets the time without a fused velocity after which the position becomes invalid, s, the height reference, and whether the
-    /// motors are off. The heading may be reset to the magnetometer alone only then.
+    /// Sets the time without a fused velocity after which the position becomes invalid, s, the height reference, and
+    /// whether the motors are off. The heading can be reset to the magnetometer alone only with the motors off.
     pub fn configure(&mut self, no_aid_s: f64, reference: HeightReference, parked: bool) {
         (self.no_aid_s, self.wanted_reference, self.parked) = (no_aid_s, reference, parked);
     }
@@ -461,7 +461,7 @@ impl Estimator {
         }
     }
 
-    /// Acceleration over ground in the last inertial interval, m/s².
+    /// Acceleration relative to the ground in the last inertial sampling interval, m/s².
     #[must_use]
     pub fn acceleration_m_s2(&self) -> Vec3<Ned> {
         self.acceleration_m_s2
@@ -490,7 +490,8 @@ impl Estimator {
     #[must_use]
     pub fn error(&self, truth: &SimulatedTruth) -> [f64; 15] {
         let turn = self.attitude.inverse().then(truth.attitude).raw();
-        // FRAME: inverse estimate then truth is the small rotation in NED that turns the estimated attitude into the true one.
+        // FRAME: the inverse estimate followed by the truth is the small rotation in NED from the estimated to the true
+        // attitude.
         let theta: Vector3<f64> = turn.scaled_axis();
         let parts = [
             (truth.position_m - self.position_m).array(),
@@ -503,7 +504,7 @@ impl Estimator {
     }
 }
 
-/// A known true state for comparison in tests.
+/// The known true state, for comparison in tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulatedTruth {
     /// Position, m.

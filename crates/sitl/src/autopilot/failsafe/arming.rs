@@ -11,7 +11,7 @@ use spandrel_model::frames::{Frd, Vec3};
 const CENTERED: f64 = 0.2;
 /// Minimum cosine of the tilt for arming (20 degrees).
 const LEVEL: f64 = 0.94;
-/// Minimum clearance above for arming, m.
+/// Minimum clearance above the vehicle for arming, m.
 const MIN_OVERHEAD_CLEARANCE_M: f64 = 1.0;
 /// Maximum horizontal position error for arming, m (1 sigma).
 const ARMING_ACCURACY_M: f64 = 5.0;
@@ -19,20 +19,20 @@ const ARMING_ACCURACY_M: f64 = 5.0;
 /// The arming checks.
 #[derive(Debug, Clone, Copy)]
 pub struct ArmingCheck<'a> {
-    /// Inputs of the check.
+    /// Inputs to the checks.
     pub input: &'a FailsafeInput<'a>,
-    /// Links.
+    /// Link status.
     pub links: &'a LinkStatus,
     /// Sensor health.
     pub sensors: &'a SensorHealth,
     /// Geofence.
     pub fence: &'a Fence,
-    /// Whether any limit of the geofence is active.
+    /// Whether any geofence limit is active.
     pub fence_set: bool,
 }
 
 impl ArmingCheck<'_> {
-    /// Returns the reasons that prevent arming now.
+    /// Returns the conditions that currently prevent arming.
     #[must_use]
     pub fn reasons(&self) -> Vec<String> {
         let mut out = self.ground_reasons();
@@ -40,7 +40,7 @@ impl ArmingCheck<'_> {
         out
     }
 
-    /// Returns the reasons for failed pre-arm checks.
+    /// Returns the reasons why pre-arm checks failed.
     #[must_use]
     pub fn prearm_reasons(&self) -> Vec<String> {
         if self.input.tuning.arms_by_mode { self.ground_reasons() } else { self.reasons() }
@@ -65,7 +65,7 @@ impl ArmingCheck<'_> {
         }
     }
 
-    /// Returns true if arming needs a position: for the mode, for hold without a pilot, or for the geofence.
+    /// Returns true if arming requires a position: for the mode, for hold without a pilot, or for the geofence.
     fn needs_position(&self) -> bool {
         let intended = self.input.flight.intended;
         !self.input.tuning.arms_by_mode || !self.sticks_fresh() || intended.needs_position() || self.fence_set
@@ -81,7 +81,7 @@ impl ArmingCheck<'_> {
             return out;
         }
         if !self.needs_position() {
-            // The mode does not need an estimate of position.
+            // No position estimate is required.
         } else if !flight.located {
             out.push("No GNSS fix".into());
         } else if !estimate.position_valid || estimate.horizontal_m > ARMING_ACCURACY_M {

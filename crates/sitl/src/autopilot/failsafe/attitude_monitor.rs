@@ -1,4 +1,4 @@
-//! Loss of attitude control and crash detection.
+//! Detects loss of attitude control and crashes.
 
 use super::input::FailsafeInput;
 use super::response::{FailsafeRequest, respond};
@@ -11,10 +11,10 @@ const UPSET_COSINE: f64 = 0.766;
 const UPSET_S: f64 = 2.5;
 /// Speed above which crash detection waits for a possible recovery, m/s.
 const UPSET_SPEED_M_S: f64 = 1.5;
-/// Duration of the same attitude error that counts as loss of control, s (PX4: FD_FAIL_R_TTRI).
+/// Duration of the same attitude error after which control counts as lost, s (PX4: FD_FAIL_R_TTRI).
 const CONTROL_LOST_S: f64 = 0.3;
 
-/// State of attitude supervision.
+/// State of the attitude monitor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AttitudeMonitor {
     /// Whether the vehicle tracks its attitude setpoint.
@@ -32,12 +32,12 @@ impl Default for AttitudeMonitor {
 }
 
 impl AttitudeMonitor {
-    /// Starts a flight.
+    /// Resets the monitor at the start of a flight.
     pub fn begin_flight(&mut self) {
         (self.tracks_attitude, self.upset_since) = (true, None);
     }
 
-    /// Ends a flight.
+    /// Resets the monitor at the end of a flight.
     pub fn end_flight(&mut self) {
         self.upset_since = None;
     }

@@ -7,20 +7,20 @@ use crate::autopilot::events::{EventQueue, Severity};
 use crate::sensors::BatteryReading;
 use spandrel_model::time::SimTime;
 
-/// State of battery supervision.
+/// State of the battery failsafe.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BatteryMonitor {
     low_warned: bool,
     critical_warned: bool,
-    /// Highest battery level (1 low, 2 critical, 3 emergency) whose failsafe has acted in this flight. Each level acts once, so
-    /// the pilot can override it.
+    /// Most severe battery level (1 low, 2 critical, 3 emergency) whose failsafe has triggered in this flight. Each
+    /// level triggers once, so the pilot can override it.
     level_handled: usize,
     /// Start of the time below the low and critical voltages.
     low_voltage_since: [Option<SimTime>; 2],
 }
 
 impl BatteryMonitor {
-    /// Warns of a low battery. Returns the request of the failsafe in flight.
+    /// Warns of a low battery. In flight, returns the failsafe request.
     pub fn check(&mut self, input: &FailsafeInput, events: &mut EventQueue) -> Option<FailsafeRequest> {
         let battery = input.flight.battery?;
         let left_pct = battery.remaining_pct;
@@ -33,7 +33,7 @@ impl BatteryMonitor {
             self.critical_warned = true;
             events.push(Severity::Critical, format!("Critical battery: {left_pct:.0} %"));
         }
-        // A battery change on the ground re-enables the warnings.
+        // Changing the battery on the ground re-enables the warnings.
         if left_pct > low + 5.0 {
             (self.low_warned, self.critical_warned) = (false, false);
         }
@@ -62,8 +62,8 @@ impl BatteryMonitor {
         }
     }
 
-    /// Runs the failsafe. It also acts on a flight that started with a low battery, or that had no position when the level was
-    /// reached.
+    /// Runs the failsafe. It also triggers if the flight started with a low battery, or had no position when the level
+    /// was reached.
     fn act(&mut self, battery: &BatteryReading, input: &FailsafeInput, events: &mut EventQueue) -> Option<FailsafeRequest> {
         const NAMES: [&str; 4] = ["", "low battery", "critical battery", "battery emergency"];
         let level = self.level(battery, input);

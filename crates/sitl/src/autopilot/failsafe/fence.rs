@@ -1,4 +1,4 @@
-//! Geofence: allowed areas and the state for telemetry.
+//! Geofence: zones, and the state for telemetry.
 
 use spandrel_model::time::SimTime;
 
@@ -9,7 +9,7 @@ pub enum FenceOutline {
     Polygon(Vec<(f64, f64)>),
     /// A circle.
     Circle {
-        /// Center.
+        /// Center, north and east, m.
         center_m: (f64, f64),
         /// Radius, m.
         radius_m: f64,
@@ -25,7 +25,7 @@ impl FenceOutline {
                 let (dn, de) = (n - center_m.0, e - center_m.1);
                 dn * dn + de * de <= radius_m * radius_m
             }
-            // A ray to the east crosses the outline an odd number of times from inside.
+            // From a point inside, a ray to the east crosses the outline an odd number of times.
             Self::Polygon(corners) => {
                 let last = corners.len().saturating_sub(1);
                 let sides = corners.iter().enumerate().map(|(k, to)| (corners[if k == 0 { last } else { k - 1 }], *to));
@@ -64,14 +64,14 @@ impl FenceOutline {
 /// One zone of the geofence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FenceZone {
-    /// Outline.
+    /// Outline of the zone.
     pub outline: FenceOutline,
     /// Inclusion or exclusion zone. Flight is allowed inside at least one inclusion zone, if there are any, and outside all
     /// exclusion zones.
     pub inclusion: bool,
 }
 
-/// Breached limit, numbered as MAVLink's FENCE_BREACH.
+/// Breached limit, with the values of MAVLink's FENCE_BREACH.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Breach {
     /// Minimum height above home (1).
@@ -82,7 +82,7 @@ pub enum Breach {
     Boundary,
 }
 
-/// State of the geofence for telemetry.
+/// Geofence state for telemetry.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FenceState {
     /// Whether any limit is active.
@@ -97,7 +97,7 @@ pub struct FenceState {
     pub at: SimTime,
 }
 
-/// The zones of the geofence.
+/// Geofence zones.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fence {
     zones: Vec<FenceZone>,
@@ -115,7 +115,7 @@ impl Fence {
         self.zones.is_empty()
     }
 
-    /// Returns true if a position is allowed by all zones.
+    /// Returns true if all zones allow a position.
     #[must_use]
     pub fn allows(&self, place_m: (f64, f64)) -> bool {
         let mut inclusions = self.zones.iter().filter(|zone| zone.inclusion).peekable();
@@ -123,14 +123,14 @@ impl Fence {
         within && !self.zones.iter().any(|zone| !zone.inclusion && zone.outline.holds(place_m))
     }
 
-    /// Returns true if an entire straight path is allowed by all zones.
+    /// Returns true if all zones allow an entire straight path.
     #[must_use]
     pub fn allows_path(&self, from_m: (f64, f64), to_m: (f64, f64)) -> bool {
         let mut cuts: Vec<f64> = self.zones.iter().flat_map(|zone| zone.outline.crossings(from_m, to_m)).collect();
         cuts.retain(|cut| (0.0..1.0).contains(cut));
         cuts.extend([0.0, 1.0]);
         cuts.sort_by(f64::total_cmp);
-        // Between two intersections a path is entirely inside or outside.
+        // Between two intersections, a path is entirely inside or outside.
         cuts.windows(2).filter(|pair| pair[1] - pair[0] > 1e-9).all(|pair| {
             let middle = 0.5 * (pair[0] + pair[1]);
             let at = |a: f64, b: f64| a + middle * (b - a);

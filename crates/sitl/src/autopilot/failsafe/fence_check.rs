@@ -22,7 +22,7 @@ pub struct FenceCheck<'a> {
 }
 
 impl<'a> FenceCheck<'a> {
-    /// Creates a check. Without home, the origin counts as home.
+    /// Creates a check. If there is no home, the origin is used as home.
     #[must_use]
     pub fn new(fence: &'a Fence, tuning: &'a Tuning, home_m: Option<Vec3<Ned>>) -> Self {
         Self { fence, tuning, home_m: home_m.unwrap_or_default() }
@@ -86,13 +86,13 @@ impl<'a> FenceCheck<'a> {
         if self.breach_at(target_m).is_some() || self.below_floor(target_m) {
             return Some("Target outside geofence");
         }
-        // A vehicle outside the fence may fly back in.
+        // A vehicle outside the fence is allowed to fly back in.
         let leaves = from_m.is_some_and(|from| self.breach_at(from).is_none() && self.path_leaves_fence(from, target_m));
         leaves.then_some("Path to target leaves geofence")
     }
 }
 
-/// State of fence supervision.
+/// State of the geofence failsafe.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FenceMonitor {
     /// State for telemetry.
@@ -102,17 +102,18 @@ pub struct FenceMonitor {
 }
 
 impl FenceMonitor {
-    /// Starts a flight.
+    /// Resets the monitor at the start of a flight.
     pub fn begin_flight(&mut self) {
         self.above_floor = false;
     }
 
-    /// Updates whether any limit is active.
+    /// Updates the flag that shows whether any limit is active.
     pub fn update_set(&mut self, fence: &FenceCheck) {
         self.state.set = fence.is_set();
     }
 
-    /// Returns the request of the fence action when a breach begins. It acts once per breach so that the pilot can fly back in.
+    /// Returns the fence action request when a breach begins. The action triggers once per breach so that the pilot can
+    /// fly back in.
     pub fn enforce(&mut self, fence: &FenceCheck, input: &FailsafeInput, events: &mut EventQueue) -> Option<FailsafeRequest> {
         if !input.estimate.position_valid {
             return None;

@@ -1,4 +1,4 @@
-//! Inputs of the failsafes: a read-only view of the rest of the autopilot.
+//! Inputs to the failsafes: a read-only view of the rest of the autopilot.
 
 use crate::autopilot::estimator::estimate::Estimate;
 use crate::autopilot::external_input::Sticks;
@@ -8,20 +8,20 @@ use crate::sensors::BatteryReading;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Inputs of a check.
+/// Inputs to a check.
 #[derive(Debug, Clone, Copy)]
 pub struct FailsafeInput<'a> {
-    /// Settings of the operator.
+    /// Operator settings.
     pub tuning: &'a Tuning,
     /// Estimated state.
     pub estimate: &'a Estimate,
-    /// State of the flight.
+    /// Flight state.
     pub flight: FlightSummary,
     /// Time of the check.
     pub now: SimTime,
 }
 
-/// State of the flight.
+/// Flight state.
 #[derive(Debug, Clone, Copy)]
 pub struct FlightSummary {
     /// Whether the motors are armed.
@@ -30,7 +30,7 @@ pub struct FlightSummary {
     pub landed: LandedState,
     /// The active mode.
     pub mode: FlightMode,
-    /// The requested mode. A failsafe may fly another one.
+    /// The requested mode. A failsafe can override it.
     pub intended: FlightMode,
     /// Whether a failsafe overrides the requested mode.
     pub overridden: bool,
@@ -38,7 +38,7 @@ pub struct FlightSummary {
     pub sticks_at_mode_start: Sticks,
     /// Home, m.
     pub home_m: Option<Vec3<Ned>>,
-    /// Whether there is no mission.
+    /// Whether the mission is empty.
     pub mission_is_empty: bool,
     /// Whether the estimator has ever had a global position.
     pub located: bool,
@@ -46,7 +46,7 @@ pub struct FlightSummary {
     pub attitude_error_cosine: f64,
     /// Latest battery reading.
     pub battery: Option<BatteryReading>,
-    /// Latest reading of the range finder that points up, m.
+    /// Latest upward range finder reading, m.
     pub range_up_m: Option<f64>,
 }
 

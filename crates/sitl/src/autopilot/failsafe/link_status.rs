@@ -38,8 +38,8 @@ impl LinkStatus {
         self.offboard.is_some_and(|(_, at)| (now - at).s() <= loss_s)
     }
 
-    /// Returns true if a stick is deflected by `least` and has moved by that much from an earlier input. The yaw stick is ignored
-    /// in GUIDED, where it only controls heading.
+    /// Returns true if a stick is deflected by at least `least` and has moved by at least that much from an earlier
+    /// input. The yaw stick is ignored in GUIDED, where it only controls heading.
     #[must_use]
     pub fn moved_from(&self, earlier: &Sticks, least: f64) -> bool {
         let (s, t) = (&self.sticks, earlier);

@@ -12,14 +12,14 @@ use spandrel_model::time::SimTime;
 /// Time without position after which an automatic mode is aborted, s.
 const POSITION_LOSS_TIMEOUT_S: f64 = 1.0;
 
-/// A possible loss, in the order of the checks. The first one that needs another mode ends the checks.
+/// A possible loss, in the order of the checks. The first one that requires a different mode ends the checks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Loss {
-    /// Position.
+    /// Loss of position.
     Position,
-    /// Manual control.
+    /// Loss of manual control.
     Manual,
-    /// External setpoints or ground station.
+    /// Loss of external setpoints or of the ground station.
     Link,
 }
 
@@ -28,7 +28,7 @@ impl Loss {
     pub const ALL: [Self; 3] = [Self::Position, Self::Manual, Self::Link];
 }
 
-/// Mode and reason of a failsafe that lasts as long as the loss.
+/// Mode of, and reason for, a failsafe that lasts as long as the loss.
 pub type LossMode = (FlightMode, &'static str);
 
 /// The response to a loss.
@@ -40,12 +40,12 @@ pub enum LossResponse {
     Request(FailsafeRequest),
 }
 
-/// State of loss supervision.
+/// State of the loss checks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LossMonitor {
-    /// Reason of the active failsafe.
+    /// Reason for the active failsafe.
     pub active: Option<&'static str>,
-    /// Whether sticks were received since arming. Their loss then counts in automatic modes too.
+    /// Whether stick input has been received since arming. If so, its loss counts in automatic modes too.
     pub sticks_seen: bool,
     manual_lost_since: Option<SimTime>,
     no_position_since: Option<SimTime>,
@@ -66,7 +66,7 @@ impl LossMonitor {
         }
     }
 
-    /// Handles loss of position. The pilot gets altitude mode; automatic modes descend in place.
+    /// Handles loss of position. With a pilot, the vehicle switches to altitude mode; automatic modes descend in place.
     fn check_position(&mut self, links: &LinkStatus, input: &FailsafeInput) -> Option<LossMode> {
         let intended = input.flight.intended;
         if input.estimate.position_valid || !intended.needs_position() {
@@ -127,7 +127,7 @@ fn sticks_fresh(links: &LinkStatus, input: &FailsafeInput) -> bool {
     links.sticks_fresh(input.tuning.manual_timeout_s(), input.now)
 }
 
-/// The mode that keeps the vehicle in place: hold, or landing without a position.
+/// The mode that keeps the vehicle in place: hold, or land if there is no position.
 fn hold_mode(input: &FailsafeInput) -> FlightMode {
     if input.estimate.position_valid { FlightMode::Hold } else { FlightMode::Land }
 }

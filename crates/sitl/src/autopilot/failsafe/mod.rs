@@ -1,5 +1,5 @@
 //! Failsafes: links, sensor health, geofence, battery, arming checks and stick takeover. They only return requests and
-//! report events; the autopilot carries the requests out.
+//! report events; the autopilot carries out the requests.
 
 mod arming;
 mod attitude_monitor;
@@ -29,7 +29,7 @@ use super::flight_state::{FlightMode, LandedState};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::SensorSpec;
 
-/// Interval of the checks.
+/// Interval between checks.
 const PERIOD: SimTime = SimTime::from_ms(50);
 
 /// State of all failsafes.
@@ -39,7 +39,7 @@ pub struct Failsafe {
     pub links: LinkStatus,
     /// Health of the monitored sensors.
     pub sensors: SensorHealth,
-    /// Zones of the geofence.
+    /// Geofence zones.
     pub fence: Fence,
     /// Events that the autopilot has not collected yet.
     pub events: EventQueue,
@@ -52,7 +52,7 @@ pub struct Failsafe {
 }
 
 impl Failsafe {
-    /// Creates the failsafes of an aircraft with these sensors.
+    /// Creates the failsafes for an aircraft with these sensors.
     #[must_use]
     pub fn new(sensors: &SensorSpec) -> Self {
         Self {
@@ -68,14 +68,14 @@ impl Failsafe {
         }
     }
 
-    /// Starts a flight, at arming.
+    /// Starts a flight when the vehicle arms.
     pub fn begin_flight(&mut self) {
         self.losses.sticks_seen = false;
         self.fence_monitor.begin_flight();
         self.attitude.begin_flight();
     }
 
-    /// Ends a flight, at disarming.
+    /// Ends a flight when the vehicle disarms.
     pub fn end_flight(&mut self) {
         self.attitude.end_flight();
     }
@@ -85,7 +85,7 @@ impl Failsafe {
         self.attitude.begin_flight();
     }
 
-    /// Handles an intentional release of the sticks. `manual` is true if the requested mode is flown by hand.
+    /// Handles an intentional release of the sticks. `manual` is true if the requested mode is a manual mode.
     pub fn release_sticks(&mut self, manual: bool) {
         self.losses.sticks_seen = false;
         if !manual {
@@ -93,7 +93,7 @@ impl Failsafe {
         }
     }
 
-    /// Returns the state of the geofence for telemetry.
+    /// Returns the geofence state for telemetry.
     #[must_use]
     pub fn fence_state(&self) -> &fence::FenceState {
         &self.fence_monitor.state
@@ -105,7 +105,7 @@ impl Failsafe {
         self.sensors.status(self.attitude.tracks_attitude)
     }
 
-    /// Returns the reason of the active failsafe.
+    /// Returns the reason for the active failsafe.
     #[must_use]
     pub fn active(&self) -> Option<&'static str> {
         self.losses.active
@@ -128,7 +128,7 @@ impl Failsafe {
         due
     }
 
-    /// Warns of a low battery. Returns the request of the battery failsafe.
+    /// Warns of a low battery. Returns the battery failsafe request.
     pub fn check_battery(&mut self, input: &FailsafeInput) -> Option<FailsafeRequest> {
         self.battery.check(input, &mut self.events)
     }
@@ -138,7 +138,7 @@ impl Failsafe {
         self.fence_monitor.update_set(&FenceCheck::new(&self.fence, input.tuning, input.flight.home_m));
     }
 
-    /// Returns the request of the geofence's action on a breach.
+    /// Returns the geofence action request on a breach.
     pub fn enforce_fence(&mut self, input: &FailsafeInput) -> Option<FailsafeRequest> {
         let fence = FenceCheck::new(&self.fence, input.tuning, input.flight.home_m);
         self.fence_monitor.enforce(&fence, input, &mut self.events)
@@ -164,13 +164,13 @@ impl Failsafe {
         self.losses.conclude(flown, input, &mut self.events)
     }
 
-    /// Ends the failsafes while disarmed. Returns the reasons for failed pre-arm checks.
+    /// Clears the failsafes while disarmed. Returns the reasons why pre-arm checks failed.
     pub fn check_on_ground(&mut self, input: &FailsafeInput) -> Vec<String> {
         self.losses.reset();
         self.arming_check(input).prearm_reasons()
     }
 
-    /// Returns the reasons that prevent arming now.
+    /// Returns the conditions that currently prevent arming.
     #[must_use]
     pub fn arming_reasons(&self, input: &FailsafeInput) -> Vec<String> {
         self.arming_check(input).reasons()
@@ -181,7 +181,7 @@ impl Failsafe {
         ArmingCheck { input, links, sensors, fence, fence_set: self.fence_monitor.state.set }
     }
 
-    /// Returns the request for manual control when the sticks move in an automatic mode.
+    /// Returns a request to switch to manual control when the sticks move in an automatic mode.
     pub fn check_stick_takeover(&mut self, input: &FailsafeInput) -> Option<FailsafeRequest> {
         let (flight, rules) = (&input.flight, &input.tuning.rules.responses);
         let offboard = flight.intended == FlightMode::Offboard;

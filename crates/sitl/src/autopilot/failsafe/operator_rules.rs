@@ -1,5 +1,5 @@
-//! Operator settings beyond speeds and thresholds: failsafe actions, return, and limits for manual and automatic flight. The
-//! endpoint maps parameters to these fields; each comment names them (PX4; ArduPilot).
+//! Operator settings other than speeds and thresholds: failsafe actions, returns, and limits for manual and automatic
+//! flight. The endpoint maps parameters to these fields; each comment names the parameters (PX4; ArduPilot).
 
 use crate::autopilot::estimator::DEAD_RECKONING_LIMIT_S;
 pub use crate::autopilot::estimator::height_reference::HeightReference;
@@ -25,7 +25,7 @@ pub enum FailsafeResponse {
 pub struct LinkLossExceptions {
     /// Missions.
     pub mission: bool,
-    /// Hold, take-off and go-to.
+    /// Hold, takeoff and go-to.
     pub hold: bool,
     /// External setpoints.
     pub offboard: bool,
@@ -81,7 +81,7 @@ impl OffboardLoss {
 
 /// Failsafe actions for low, critical and emergency battery levels.
 pub type BatteryResponses = [Option<FailsafeResponse>; 3];
-/// Rule of the scenario: return at low level, land at critical level.
+/// The scenario's rule: return at the low level, land at the critical level.
 pub const SCENARIO_BATTERY_ACTIONS: BatteryResponses = [Some(FailsafeResponse::Return), Some(FailsafeResponse::Land), None];
 
 /// Failsafe actions.
@@ -101,9 +101,9 @@ pub struct FailsafeResponses {
     pub battery_emergency_pct: f64,
     /// `BATT_LOW_VOLT`, `BATT_CRT_VOLT`: low and critical voltage, V; 0 disables the check.
     pub battery_low_v: [f64; 2],
-    /// `BATT_LOW_TIMER`: time below a voltage threshold before it counts, s.
+    /// `BATT_LOW_TIMER`: time below a voltage threshold before it takes effect, s.
     pub battery_low_s: f64,
-    /// `COM_POSCTL_NAVL`; `FS_EKF_ACTION`: land in manual position mode too when the position is lost.
+    /// `COM_POSCTL_NAVL`; `FS_EKF_ACTION`: on loss of position, land in manual position mode too.
     pub blind_lands: bool,
     /// `FS_CRASH_CHECK`: stop the motors after a crash.
     pub crash_check: bool,
@@ -119,7 +119,7 @@ pub struct FailsafeResponses {
     pub arm_needs_mission: bool,
 }
 
-/// Action on a breach, numbered as PX4's `GF_ACTION`.
+/// Action on a geofence breach, with the values of PX4's `GF_ACTION`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FenceAction {
     /// None (0).
@@ -145,7 +145,7 @@ impl FenceAction {
     }
 }
 
-/// Automatic switching of the geofence, numbered as `FENCE_AUTOENABLE`.
+/// Automatic enabling of the geofence, with the values of `FENCE_AUTOENABLE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FenceSwitching {
     /// Never.
@@ -169,7 +169,7 @@ impl FenceSwitching {
     }
 }
 
-/// Destinations of a return, numbered as `RTL_TYPE`.
+/// Candidate destinations for a return, with the values of `RTL_TYPE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ReturnTargets {
     /// Whether home is a candidate. It is always the last resort.
@@ -196,7 +196,7 @@ impl ReturnTargets {
     }
 }
 
-/// Settings of a return.
+/// Return settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReturnRules {
     /// `RTL_TYPE`; `RALLY_INCL_HOME`: destinations.
@@ -205,8 +205,8 @@ pub struct ReturnRules {
     pub speed_m_s: Option<f64>,
     /// `RTL_CLIMB_MIN`: minimum climb, m.
     pub climb_min_m: f64,
-    /// `RTL_CONE_ANG`; `RTL_CONE_SLOPE`: slope of the cone, height over distance, in which the return height is lower; 0: no
-    /// cone.
+    /// `RTL_CONE_ANG`; `RTL_CONE_SLOPE`: slope (height over distance) of the cone around the destination within which
+    /// the return height is lower; 0: no cone.
     pub cone_slope: f64,
     /// `RTL_MIN_DIST`: distance below which the vehicle does not climb, m.
     pub near_m: f64,
@@ -216,7 +216,7 @@ pub struct ReturnRules {
     pub wait_s: f64,
     /// A rally point's height is the return height (ArduPilot).
     pub rally_height: bool,
-    /// `WP_YAW_BEHAVIOR` 1, 3: turn to the take-off heading at the destination.
+    /// `WP_YAW_BEHAVIOR` 1, 3: turn to the takeoff heading at the destination.
     pub turns_back: bool,
     /// `RTL_ALT_FINAL`: hold at this height instead of landing, m; 0: land.
     pub final_height_m: f64,
@@ -248,7 +248,7 @@ impl HeadingRule {
     }
 }
 
-/// Limits in addition to those of the airframe; infinite for none.
+/// Limits in addition to the airframe's; infinite for no limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightEnvelope {
     /// `MPC_VEL_MANUAL`; `LOIT_SPEED`: horizontal speed in manual flight, m/s.
@@ -265,12 +265,12 @@ pub struct FlightEnvelope {
     pub acceleration_m_s2: f64,
     /// `MPC_ACC_UP_MAX`, `MPC_ACC_DOWN_MAX`; `WPNAV_ACCEL_Z`: vertical acceleration in automatic modes, m/s².
     pub climb_acceleration_m_s2: f64,
-    /// `LAND_SPEED_HIGH`: descent rate of a landing before its last meters, m/s.
+    /// `LAND_SPEED_HIGH`: descent rate during a landing, except for the last few meters, m/s.
     pub landing_m_s: f64,
 }
 
 impl FlightEnvelope {
-    /// No limits beyond those of the airframe.
+    /// No limits beyond the airframe's.
     pub const OPEN: Self = Self {
         manual_m_s: f64::INFINITY,
         manual_up_m_s: f64::INFINITY,
@@ -283,13 +283,13 @@ impl FlightEnvelope {
     };
 }
 
-/// Required mission items, numbered as `MIS_TKO_LAND_REQ`.
+/// Required mission items, with the values of `MIS_TKO_LAND_REQ`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MissionNeeds {
     /// None (0).
     #[default]
     Nothing,
-    /// Take-off (1).
+    /// Takeoff (1).
     Takeoff,
     /// Landing (2).
     Landing,
@@ -319,18 +319,18 @@ pub struct FenceParts {
     pub areas: bool,
     /// Bit 3, `FENCE_ALT_MIN`: minimum height above home, m. Active once the vehicle has been above it.
     pub floor_m: Option<f64>,
-    /// `FENCE_AUTOENABLE`: automatic switching.
+    /// `FENCE_AUTOENABLE`: automatic enabling.
     pub auto: FenceSwitching,
 }
 
 /// Supported bits of `GUID_OPTIONS` (ArduCopter).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct GuidedOptions {
-    /// Bit 0: the transmitter may arm in GUIDED.
+    /// Bit 0: the transmitter can arm in GUIDED.
     pub transmitter_arms: bool,
     /// The yaw stick controls the heading in GUIDED. Bit 2 disables this.
     pub pilot_yaw: bool,
-    /// The thrust of an attitude setpoint is a climb rate. With bit 3 it is thrust.
+    /// The thrust field of an attitude setpoint is a climb rate; with bit 3, it is the thrust.
     pub thrust_climbs: bool,
 }
 
@@ -348,7 +348,7 @@ impl GuidedOptions {
 pub struct OperatorRules {
     /// Failsafe actions.
     pub responses: FailsafeResponses,
-    /// Settings of a return.
+    /// Return settings.
     pub homeward: ReturnRules,
     /// `MPC_YAW_MODE`; `WP_YAW_BEHAVIOR`: heading in automatic modes.
     pub heading: HeadingRule,
@@ -365,7 +365,7 @@ pub struct OperatorRules {
     pub mission_starts_armed: bool,
     /// `FENCE_TYPE`, `FENCE_ALT_MIN`: parts of the geofence.
     pub fence: FenceParts,
-    /// `CIRCLE_RADIUS`: default radius of an orbit or of a circle entered by mode change, m.
+    /// `CIRCLE_RADIUS`: default radius for an orbit, or for a circle entered by a mode change, m.
     pub orbit_radius_m: f64,
     /// `GUID_OPTIONS`: options for guided flight and external setpoints.
     pub guided: GuidedOptions,

@@ -1,4 +1,4 @@
-//! Requests of the failsafes to the autopilot.
+//! Requests from the failsafes to the autopilot.
 
 use super::input::FailsafeInput;
 use super::operator_rules::FailsafeResponse;
@@ -8,18 +8,18 @@ use crate::autopilot::flight_state::FlightMode;
 /// A request to the autopilot.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FailsafeRequest {
-    /// Fly another mode than the requested one until the failure ends.
+    /// Fly a mode other than the requested one until the failure ends.
     Override(FlightMode),
     /// Fly the requested mode again.
     EndOverride,
     /// Change the requested mode. The pilot can change it again.
     SetMode {
-        /// The mode.
+        /// The mode to switch to.
         mode: FlightMode,
         /// Whether this ends an override.
         ends_override: bool,
     },
-    /// Continue to the last external setpoint and hold there.
+    /// Continue to the last external setpoint, and hold there.
     EndOffboard,
     /// Stop the motors, with the reason.
     Disarm(String),

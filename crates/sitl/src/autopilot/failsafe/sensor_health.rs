@@ -1,14 +1,15 @@
-//! Sensor health: sensors that are silent, stuck or inconsistent are reported, not used, and prevent arming.
+//! Sensor health. A sensor that stops responding, repeats one reading or contradicts other sensors is reported, is not
+//! used, and prevents arming.
 
 use crate::autopilot::estimator::RejectedSources;
 use crate::sensors::Readings;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle;
 
-/// Timeout of sensor readings, s (estimate: 25 readings of compass and barometer).
+/// Timeout for sensor readings, s (estimate: 25 compass or barometer readings).
 const SILENT_S: f64 = 0.5;
-/// Time of identical readings after which a sensor counts as stuck, s (ArduPilot's barometer: 2 s; PX4: 100 equal values, 2 s at
-/// 50 Hz).
+/// Duration of identical readings after which a sensor counts as stuck, s (ArduPilot's barometer: 2 s; PX4: 100 equal
+/// values, 2 s at 50 Hz).
 const STUCK_TIMEOUT_S: f64 = 2.0;
 
 /// Sensor and control health for telemetry.
@@ -18,14 +19,14 @@ pub struct SensorStatus {
     pub compass: bool,
     /// Whether the barometer is used.
     pub barometer: bool,
-    /// Whether GNSS is used when it has a fix.
+    /// Whether GNSS is used if it has a fix.
     pub gnss: bool,
     /// Whether the vehicle tracks its attitude setpoint.
     pub tracks_attitude: bool,
 }
 
 impl SensorStatus {
-    /// Everything works.
+    /// All sensors and controls work.
     pub const GOOD: Self = Self { compass: true, barometer: true, gnss: true, tracks_attitude: true };
 }
 
@@ -50,7 +51,7 @@ impl MonitoredSensor {
     }
 }
 
-/// Reason a sensor is not used.
+/// Reason why a sensor is not used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorFault {
     /// No readings.
@@ -61,10 +62,10 @@ pub enum SensorFault {
     Inconsistent,
 }
 
-/// A change of a sensor's health.
+/// A change in a sensor's health.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SensorChange {
-    /// The sensor.
+    /// The sensor whose health changed.
     pub sensor: MonitoredSensor,
     /// Its current fault; `None` if it works again.
     pub fault: Option<SensorFault>,
@@ -190,7 +191,7 @@ impl SensorHealth {
         }
     }
 
-    /// Returns the arming refusals for sensors with faults.
+    /// Returns the reasons to deny arming because of sensor faults.
     #[must_use]
     pub fn arming_refusals(&self) -> Vec<String> {
         let all = [

@@ -1,4 +1,4 @@
-//! Flight to a target, take-off and landing.
+//! Flight to a target, takeoff and landing.
 
 use super::Navigator;
 use super::input::NavigatorInput;
@@ -13,9 +13,9 @@ use spandrel_model::frames::{Ned, Vec3};
 
 /// Tolerance for reaching a height, m.
 pub(super) const HEIGHT_REACHED_M: f64 = 0.4;
-/// Height above ground up to which a take-off uses its own climb rate, m (PX4: MPC_LAND_ALT1).
+/// Height above ground below which a takeoff uses the takeoff climb rate, m (PX4: MPC_LAND_ALT1).
 const TAKEOFF_SLOW_BELOW_M: f64 = 10.0;
-/// Minimum climb of a take-off from the ground, m (ArduCopter's AUTO).
+/// Minimum climb for a takeoff from the ground, m (ArduCopter's AUTO).
 const TAKEOFF_MIN_M: f64 = 1.0;
 /// Distance to the target above which the nose turns toward it, m.
 pub(super) const TURN_MIN_DISTANCE_M: f64 = 2.0;
@@ -23,7 +23,7 @@ pub(super) const TURN_MIN_DISTANCE_M: f64 = 2.0;
 const TURN_MIN_SPEED_M_S: f64 = 1.0;
 /// Distance below which the heading to a region of interest is not updated, m.
 const TOO_NEAR_M: f64 = 0.5;
-/// Maximum speed of a correction toward the landing position, m/s.
+/// Maximum correction speed toward the landing position, m/s.
 const CORRECTION_M_S: f64 = 2.0;
 
 impl Navigator {
@@ -37,8 +37,8 @@ impl Navigator {
         }
     }
 
-    /// Motion limits on the way to a target. Missions and returns build up acceleration gently. A pause brakes as
-    /// `stopping_point` assumes.
+    /// Motion limits en route to a target. Missions and returns build up acceleration gently. A pause brakes at the
+    /// rate that `stopping_point` assumes.
     fn travel_limits(&self, input: &NavigatorInput) -> MotionLimits {
         let calm = matches!(self.modes.active, FlightMode::Mission | FlightMode::Return) && self.paused.is_none();
         MotionLimits { build_up_s: if calm { AUTO_JERK_S } else { JERK_S }, ..self.auto_limits(input) }
@@ -68,7 +68,7 @@ impl Navigator {
         Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
 
-    /// Heading from the configured heading rule, rad, if the rule gives one.
+    /// Heading from the configured heading rule, rad, if the rule specifies one.
     pub(super) fn heading_by_rule(&self, target_m: Vec3<Ned>, input: &NavigatorInput) -> Option<f64> {
         let here = input.here();
         let home = self.home.place_m.unwrap_or(here);
@@ -84,7 +84,7 @@ impl Navigator {
         }
     }
 
-    /// Climbs to the take-off height, then holds.
+    /// Climbs to the takeoff height, then holds.
     pub(super) fn take_off(&mut self, input: &NavigatorInput) -> Setpoint {
         let left = input.here().down() - self.target_m.down();
         if left < HEIGHT_REACHED_M && self.landed(input) == LandedState::InAir {
@@ -99,7 +99,7 @@ impl Navigator {
         setpoint
     }
 
-    /// Climbs to the take-off height at the take-off rate.
+    /// Climbs to the takeoff height at the takeoff rate.
     pub(super) fn climb_away(&mut self, speed: Option<f64>, input: &NavigatorInput) -> Setpoint {
         self.report.climbing_out = true;
         let up = input.ground_down_m - input.here().down();
@@ -108,18 +108,18 @@ impl Navigator {
         self.fly_within_limits(speed, rate, input.tuning.descend_m_s, input)
     }
 
-    /// Returns the take-off height, m above the origin. From the ground it is at least high enough to lift off.
+    /// Returns the takeoff height, m above the origin. From the ground, it is at least high enough for a liftoff.
     pub(super) fn above_ground(&self, up_m: f64, input: &NavigatorInput) -> f64 {
         let standing = input.phase != FlightPhase::InAir;
         if standing { up_m.max(TAKEOFF_MIN_M - input.here().down()) } else { up_m }
     }
 
-    /// Default take-off height, m above the origin.
+    /// Default takeoff height, m above the origin.
     pub(super) fn default_takeoff_up_m(&self, input: &NavigatorInput) -> f64 {
         self.home.up_m() + input.tuning.takeoff_height_m
     }
 
-    /// Starts to descend for a landing.
+    /// Starts the descent for a landing.
     fn begin_descent(&mut self, input: &NavigatorInput) {
         self.descends_to_land |= input.phase == FlightPhase::InAir;
     }
@@ -141,7 +141,7 @@ impl Navigator {
         Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
 
-    /// Descent rate of a landing, m/s: slow near the ground.
+    /// Descent rate during a landing, m/s; lower near the ground.
     fn landing_speed(&self, input: &NavigatorInput) -> f64 {
         let home = self.home.place_m.map_or(0.0, |h| h.down());
         let over_home = home - input.here().down();
@@ -155,7 +155,7 @@ impl Navigator {
         wanted.min(input.airframe.limits.descend_m_s)
     }
 
-    /// Descends level without horizontal position control, for flight without a position estimate.
+    /// Descends without tilt and without horizontal position control, for flight without a position estimate.
     pub(super) fn descend_without_position(&mut self, input: &NavigatorInput) -> Setpoint {
         self.begin_descent(input);
         self.heading.turn_to(None, self.modes.active, input);
@@ -170,12 +170,12 @@ impl Navigator {
         VelocitySetpoint { velocity_m_s, acceleration_m_s2: self.shaper.acceleration_m_s2, yaw_rad: self.heading.yaw_rad }
     }
 
-    /// Cruise speed of missions, returns and go-to, m/s: the commanded speed or else the parameter.
+    /// Cruise speed of missions, returns and go-to, m/s: the commanded speed, or the parameter if there is none.
     pub(super) fn cruise_m_s(&self, input: &NavigatorInput) -> f64 {
         self.commanded.speed_m_s.unwrap_or(input.tuning.cruise_m_s).min(input.tuning.horizontal_speed_max_m_s)
     }
 
-    /// Heading toward the region of interest, rad. `None` without one or directly above it.
+    /// Heading toward the region of interest, rad. `None` if there is none or the vehicle is directly above it.
     pub(super) fn region_of_interest_heading_rad(&self, input: &NavigatorInput) -> Option<f64> {
         let to = self.commanded.look_at_m? - input.here();
         heading_of(to, TOO_NEAR_M)

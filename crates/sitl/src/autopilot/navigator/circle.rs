@@ -1,4 +1,4 @@
-//! Flight on a circle around a point.
+//! Flying a circle around a point.
 
 use super::Navigator;
 use super::input::NavigatorInput;
@@ -16,7 +16,7 @@ const CLOSE_IN_PER_S: f64 = 0.6;
 /// Integral gain on the remaining distance error, 1/s² (estimate: damping ratio 0.8 with the rate above), and its limit, m/s.
 const TRIM_PER_S2: f64 = 0.14;
 const TRIM_MAX_M_S: f64 = 2.0;
-/// Fraction of the available acceleration that circling may use.
+/// Fraction of the available acceleration that a circle may use.
 const CIRCLE_ACCELERATION_FRACTION: f64 = 0.5;
 /// Allowed radii, m.
 const RADII_M: std::ops::RangeInclusive<f64> = 1.0..=1_000.0;
@@ -113,7 +113,7 @@ impl Navigator {
         self.target_m = center_m;
     }
 
-    /// Flies the active circle. Returns `None` without one.
+    /// Flies the active circle. Returns `None` if there is none.
     pub(super) fn circle(&mut self, input: &NavigatorInput) -> Option<Setpoint> {
         let mut orbit = self.orbit?;
         let here = input.here();
@@ -123,7 +123,7 @@ impl Navigator {
         let along = Vec3::<Ned>::new(-away.east(), away.north(), 0.0);
         let error = distance - orbit.radius_m;
         let cruise = self.cruise_m_s(input).min(input.airframe.limits.forward_m_s);
-        // Far from the circle, the heading of travel is toward it; on the circle, along it.
+        // Far from the circle, the vehicle flies toward it; on the circle, along it.
         let on_it = (1.0 - error.abs() / orbit.radius_m.max(2.0)).clamp(0.0, 1.0);
         let flat = along * (orbit.speed_m_s * on_it) - away * (CLOSE_IN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);
         let climb = CLOSE_IN_PER_S * (orbit.center_m.down() - here.down());

@@ -1,17 +1,18 @@
-//! The path recorded since take-off, for a smart return.
+//! The path recorded since takeoff, for Smart RTL.
 
 use spandrel_model::frames::{Ned, Vec3};
 
-/// Distance between recorded points. Path sections closer than this form a loop, m (ArduCopter: SRTL_ACCURACY).
+/// Distance between recorded points, m. Path sections closer together than this form a loop (ArduCopter:
+/// SRTL_ACCURACY).
 const ACCURACY_M: f64 = 2.0;
 /// Maximum number of points (ArduCopter: SRTL_POINTS).
 const MAX_POINTS: usize = 300;
 /// Maximum deviation of the simplified path from the recorded one, m (ArduCopter: half the accuracy).
 const SIMPLIFY_TOLERANCE_M: f64 = 0.5 * ACCURACY_M;
-/// Acceptance radius of points, m.
+/// Acceptance radius of recorded points, m.
 const REACHED_M: f64 = 1.0;
 
-/// The path recorded since take-off.
+/// The path recorded since takeoff.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FlownPath {
     points: Vec<Vec3<Ned>>,
@@ -29,7 +30,7 @@ impl FlownPath {
         self.points.is_empty()
     }
 
-    /// Records a position. If the path comes near itself, the loop is removed.
+    /// Records a position. If the path comes close to an earlier section, the loop is removed.
     pub fn record(&mut self, place_m: Vec3<Ned>) {
         let Some(last) = self.points.last() else { return };
         if (place_m - *last).norm() < ACCURACY_M {
@@ -62,7 +63,8 @@ impl FlownPath {
         self.simplify(SIMPLIFY_TOLERANCE_M);
     }
 
-    /// Returns the next point on the way back, and whether it is the take-off point. Removes a point that is reached.
+    /// Returns the next point on the way back, and whether it is the takeoff point. Removes the point once it is
+    /// reached.
     pub fn next_back(&mut self, here_m: Vec3<Ned>) -> Option<(Vec3<Ned>, bool)> {
         if self.points.len() > 1 && self.points.last().is_some_and(|next| (*next - here_m).norm() < REACHED_M) {
             self.points.pop();
@@ -122,7 +124,7 @@ mod tests {
     fn exact_long_path_respects_point_limit() {
         let mut trail = FlownPath::default();
         trail.begin(at(0.0, 0.0, 0.0));
-        // A rising spiral has no straight legs and never meets itself.
+        // A rising spiral has no straight legs and never crosses itself.
         for k in 1..20_000 {
             let angle = 0.05 * f64::from(k);
             let (s, c) = spandrel_model::math::sin_cos(angle);

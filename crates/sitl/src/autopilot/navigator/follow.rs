@@ -5,19 +5,19 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
-/// Timeout of target reports, s (PX4 and ArduCopter: 3 s).
+/// Timeout for target reports, s (PX4 and ArduCopter: 3 s).
 const LOST_S: f64 = 3.0;
 /// Minimum target speed for a valid course, m/s (PX4: 1 m/s).
 const MIN_COURSE_SPEED_M_S: f64 = 1.0;
-/// Minimum time between positions for a velocity estimate, s; noise would dominate shorter intervals (estimate).
+/// Minimum time between positions for a velocity estimate, s; over shorter intervals, noise would dominate (estimate).
 const MIN_REPORT_INTERVAL_S: f64 = 0.2;
-/// Distance below which the heading does not track the target, m.
+/// Distance below which the heading no longer tracks the target, m.
 const TOO_NEAR_M: f64 = 0.5;
 
 /// Vehicle position relative to the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FollowPosition {
-    /// At a distance and an angle from the target's course (PX4).
+    /// At a distance from the target and an angle from its course (PX4).
     Around {
         /// Horizontal distance, m.
         distance_m: f64,
@@ -28,7 +28,7 @@ pub enum FollowPosition {
         /// Whether the height is relative to the target rather than home.
         over_target: bool,
     },
-    /// At an offset: north, east, down, or forward, right, down of the target's course (ArduCopter).
+    /// At an offset: north, east and down, or forward, right and down relative to the target's course (ArduCopter).
     Offset {
         /// Offset, m. `None` uses the offset at the first report.
         offset_m: Option<[f64; 3]>,
@@ -37,7 +37,7 @@ pub enum FollowPosition {
     },
 }
 
-/// Settings of follow mode.
+/// Follow mode settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FollowRule {
     /// Whether the mode is enabled (`FOLL_ENABLE`).
@@ -79,12 +79,12 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// Starts to follow: takes course and offset from the next reports.
+    /// Starts following: takes the course and the offset from the next reports.
     pub fn begin(&mut self) {
         (self.course_rad, self.offset_m) = (None, None);
     }
 
-    /// Returns the velocity of a target that reports positions only, from its last two positions, m/s.
+    /// Returns the velocity of a target that reports only positions, computed from its last two positions, m/s.
     #[must_use]
     pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
         let recent = self.latest.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= LOST_S);
@@ -133,7 +133,7 @@ impl Follower {
         };
         match rule.place {
             FollowPosition::Around { distance_m, angle_rad, height_m, over_target } => {
-                // Before the target moves, the vehicle is already at its angle.
+                // Until the target moves, assume a course for which the vehicle is already at the configured angle.
                 let bearing = heading_of(here_m - there, TOO_NEAR_M).unwrap_or(0.0);
                 let course = *self.course_rad.get_or_insert(math::wrap_pi(bearing - angle_rad));
                 let flat = turned(course + angle_rad, [distance_m, 0.0, 0.0]);

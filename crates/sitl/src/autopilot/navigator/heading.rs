@@ -1,4 +1,4 @@
-//! The heading setpoint: turns by stick, by rate and to a heading.
+//! The heading setpoint, and turns by stick, by rate or to a heading.
 
 use super::input::NavigatorInput;
 use crate::autopilot::flight_state::FlightMode;
@@ -12,13 +12,14 @@ const YAW_LEAD_RAD: f64 = 0.6;
 /// Yaw rate above which the rate is controlled instead of the heading, rad/s, and the maximum lead in that case, rad.
 const TURNING_RAD_S: f64 = 0.1;
 const TURNING_LEAD_RAD: f64 = 0.08;
-/// Yaw rate below which the heading is captured, rad/s. With the yaw loop's lag of a few tenths of a second, it then moves by
-/// less than half a degree.
+/// Yaw rate below which the heading is captured, rad/s. With the yaw loop's lag of a few tenths of a second, the
+/// heading then moves by less than half a degree.
 const CAPTURE_RATE_RAD_S: f64 = 0.02;
 /// Fraction of the full yaw rate used in automatic modes, and the gain on heading errors, 1/s.
 const AUTO_YAW_RATE_FRACTION: f64 = 0.7;
 const AUTO_YAW_GAIN: f64 = 1.5;
-/// Remaining turn that always takes the shorter direction, rad (5 degrees, estimate: more than the heading overshoots).
+/// Remaining turn below which the shorter direction is always used, rad (5 degrees; estimate: more than the heading
+/// overshoots).
 const SHORTEST_TURN_RAD: f64 = 0.087;
 
 /// Heading setpoint and commanded turns.
@@ -26,28 +27,28 @@ const SHORTEST_TURN_RAD: f64 = 0.087;
 pub struct Heading {
     /// Heading setpoint, rad.
     pub yaw_rad: f64,
-    /// Heading on arrival, rad.
+    /// Heading to turn to, rad.
     pub target_rad: Option<f64>,
     /// Heading rate setpoint, rad/s.
     rate_rad_s: f64,
-    /// Added to the heading rate setpoint while a turn is braked, rad/s.
+    /// Addition to the heading rate setpoint while a turn slows down, rad/s.
     brake_rad_s: f64,
     /// Whether heading hold is off: a rate is commanded, or the rotation has not stopped since.
     free: bool,
     /// A commanded turn.
     turn: Option<TurnCommand>,
-    /// Whether the pilot has turned the nose in GUIDED. The heading then stays until the next request.
+    /// Whether the pilot has turned the nose in GUIDED. If so, the heading stays unchanged until the next request.
     turned_by_pilot: bool,
 }
 
 impl Heading {
-    /// Starts a mode at a heading, rad, without a target.
+    /// Starts a mode at the given heading, rad, without a target heading.
     pub fn begin_mode(&mut self, yaw_rad: f64) {
         (self.target_rad, self.turn, self.turned_by_pilot) = (None, None, false);
         (self.yaw_rad, self.free) = (yaw_rad, true);
     }
 
-    /// Feedforward of the heading rate, rad/s.
+    /// Heading rate feedforward, rad/s.
     #[must_use]
     pub fn feedforward_rad_s(&self) -> f64 {
         self.rate_rad_s + self.brake_rad_s
@@ -74,7 +75,7 @@ impl Heading {
         self.turn_at(input.links.sticks.yaw * max_rad_s, input);
     }
 
-    /// Turns at a rate, rad/s. At zero rate, the heading is captured where the nose comes to rest; capturing it earlier would
+    /// Turns at a rate, rad/s. At zero rate, the heading is captured where the nose stops; capturing it earlier would
     /// make the nose swing back.
     pub fn turn_at(&mut self, rate_rad_s: f64, input: &NavigatorInput) {
         let turning = (input.estimate.attitude * input.estimate.rates_rad_s).down();
@@ -87,7 +88,7 @@ impl Heading {
         self.advance(rate_rad_s, input);
         if rate_rad_s == 0.0 && self.free {
             self.yaw_rad = input.estimate.attitude.yaw_rad();
-            // The rate loop lags by the inverse of its gain. With this lead the nose brakes as planned.
+            // The rate loop lags by the inverse of its gain. With this lead, the rotation slows down as planned.
             let braking = if input.dt_s > 0.0 { (self.rate_rad_s - before) / input.dt_s } else { 0.0 };
             self.brake_rad_s = braking / input.gains.yaw_rate;
         }

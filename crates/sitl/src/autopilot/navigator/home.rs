@@ -7,7 +7,7 @@ use spandrel_model::frames::{Ned, Vec3};
 pub struct RallyPoint {
     /// Position relative to the origin, m.
     pub place_m: Vec3<Ned>,
-    /// Whether its height is relative to home and moves with it.
+    /// Whether its height is relative to home and changes with it.
     pub over_home: bool,
 }
 
@@ -16,7 +16,7 @@ pub struct RallyPoint {
 pub struct Home {
     /// Home relative to the origin, m.
     pub place_m: Option<Vec3<Ned>>,
-    /// Whether a command set home. Arming then keeps it.
+    /// Whether a command set home. If so, arming does not change it.
     pub set_by_command: bool,
     /// Rally points to return to in addition to home.
     pub rally_points: Vec<RallyPoint>,
@@ -25,7 +25,7 @@ pub struct Home {
 }
 
 impl Home {
-    /// Moves home, and rally points whose heights are relative to it. Returns the rise of home, m.
+    /// Moves home and the rally points whose heights are relative to it. Returns the increase in home height, m.
     pub fn move_to(&mut self, home_m: Vec3<Ned>) -> f64 {
         let rise_m = self.place_m.map_or(0.0, |h| h.down()) - home_m.down();
         for rally_point in self.rally_points.iter_mut().filter(|rally_point| rally_point.over_home) {

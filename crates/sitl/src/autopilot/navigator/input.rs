@@ -1,4 +1,4 @@
-//! Inputs of the navigator: a read-only view of the rest of the autopilot.
+//! Inputs to the navigator: a read-only view of the rest of the autopilot.
 
 use crate::autopilot::control::airframe::Airframe;
 use crate::autopilot::control::gains::Gains;
@@ -10,28 +10,28 @@ use crate::autopilot::tuning::Tuning;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Inputs of a tick or request.
+/// Inputs for a tick or request.
 #[derive(Debug, Clone, Copy)]
 pub struct NavigatorInput<'a> {
-    /// Settings of the operator.
+    /// Operator settings.
     pub tuning: &'a Tuning,
-    /// Properties of the aircraft.
+    /// Aircraft properties.
     pub airframe: &'a Airframe,
-    /// Gains of the control loops.
+    /// Control loop gains.
     pub gains: &'a Gains,
     /// Estimated state.
     pub estimate: &'a Estimate,
     /// Sticks and external setpoints.
     pub links: &'a LinkStatus,
-    /// Zones of the geofence.
+    /// Geofence zones.
     pub fence: &'a Fence,
     /// Whether the motors are armed.
     pub armed: bool,
-    /// Phase of the flight.
+    /// Flight phase.
     pub phase: FlightPhase,
-    /// Ground level at the last position on the ground, m down.
+    /// Ground level where the vehicle last stood on the ground, m down.
     pub ground_down_m: f64,
-    /// Latest reading of the range finder that points down, m.
+    /// Latest downward range finder reading, m.
     pub range_down_m: Option<f64>,
     /// Time of the tick or request.
     pub now: SimTime,

@@ -13,13 +13,14 @@ use spandrel_model::math;
 
 /// Speed below which the position is locked with the sticks centered, m/s.
 const LOCK_MAX_SPEED_M_S: f64 = 0.15;
-/// Tilt in manual flight without position, as a fraction of the maximum.
+/// Tilt limit in manual flight without a position estimate, as a fraction of the maximum tilt.
 const NO_POSITION_TILT_FRACTION: f64 = 0.6;
-/// Fraction of the slow-down time in which the plan stops. The loop lag takes the rest.
+/// Fraction of the slowdown time after which the plan has stopped. The rest is for the loop lag.
 const SLOW_DOWN_FRACTION: f64 = 0.55;
-/// Maximum correction speed toward a lock, m/s.
+/// Maximum correction speed toward a locked position, m/s.
 const LOCK_SPEED_M_S: f64 = 2.0;
-/// Leveling gain, 1/s, and the maximum lean angle it counts, rad (ArduCopter: ACRO_BAL_ROLL 1, ACRO_LEVEL_MAX_ANGLE 30 degrees).
+/// Leveling gain, 1/s, and the maximum lean angle it acts on, rad (ArduCopter: ACRO_BAL_ROLL 1, ACRO_LEVEL_MAX_ANGLE 30
+/// degrees).
 const LEVEL_PER_S: f64 = 1.0;
 const LEVEL_MAX_RAD: f64 = 0.524;
 /// Gain of the rate limit near the maximum lean angle, 1/s (estimate: slower than the attitude loop to prevent overshoot).
@@ -32,7 +33,7 @@ impl Navigator {
         if up > 0.0 { -up * l.climb_m_s.min(set.manual_up_m_s) } else { -up * l.descend_m_s.min(set.manual_down_m_s) }
     }
 
-    /// Roll and pitch from the sticks, rad. Combined tilt does not exceed the limit of one axis.
+    /// Roll and pitch from the sticks, rad. The combined tilt does not exceed the limit for a single axis.
     fn stick_tilt(&self, share: f64, input: &NavigatorInput) -> (f64, f64) {
         let Sticks { forward, right, .. } = input.links.sticks;
         let max_rad =
@@ -69,7 +70,7 @@ impl Navigator {
         let low = math::lerp(input.gains.hover_n, input.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
         let thrust_n = if s.up > 0.0 { math::lerp(input.gains.hover_n, input.gains.thrust_max_n, s.up) } else { low };
         let descent_m_s = if s.up < -0.5 { l.descend_m_s } else { 0.0 };
-        // If the next mode holds the heading, it starts from the current one.
+        // If the next mode holds the heading, it starts with the current heading.
         self.heading.yaw_rad = yaw;
         self.heading.stop();
         Setpoint::Rates { rates_rad_s, thrust_n, descent_m_s }

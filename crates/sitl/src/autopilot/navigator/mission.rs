@@ -6,13 +6,13 @@ use super::trajectory::Waypoint;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Maximum consecutive items without flight processed per tick. Others follow in the next tick.
+/// Maximum number of consecutive non-flight items processed per tick. The rest follow in the next tick.
 const STEPS_PER_TICK_MAX: usize = 64;
 /// Planning horizon of a trajectory, m, and its maximum number of waypoints; longer than any stopping distance.
 const PLANNING_HORIZON_M: f64 = 80.0;
 const PLANNING_MAX_WAYPOINTS: usize = 24;
 
-/// Saved state of an interrupted item. Take-off, landing and return continue from it.
+/// Saved state of an interrupted item. Takeoff, landing and return items continue from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SuspendedStep {
     /// Target, m.
@@ -33,7 +33,7 @@ pub struct DeferredFields {
 }
 
 impl DeferredFields {
-    /// Replaces the deferred parts of a position with those of `from_m`, m.
+    /// Replaces the deferred components of a position with those of `from_m`, m.
     #[must_use]
     pub fn resolve_deferred(self, place_m: Vec3<Ned>, from_m: Vec3<Ned>) -> Vec3<Ned> {
         let over = if self.place { from_m } else { place_m };
@@ -51,7 +51,7 @@ pub struct Mission {
     deferred: Vec<DeferredFields>,
     /// Vehicle position at the start of the current item with deferred fields, m.
     began_m: Option<Vec3<Ned>>,
-    /// Rise of home since the mission was set, m.
+    /// Increase in home height since the mission was set, m.
     home_rise_m: f64,
     jumps_done: Vec<u32>,
     /// Current item, zero-based.
@@ -60,13 +60,13 @@ pub struct Mission {
     pub wait_until: Option<SimTime>,
     /// Cruise speed set by the mission, m/s.
     pub speed_m_s: Option<f64>,
-    /// Items reached and not yet reported.
+    /// Items that were reached but not yet reported.
     pub reached: Vec<usize>,
     /// Whether the current item has started.
     pub begun: bool,
     /// Commands of passed items that have not been carried out yet.
     pub pending_commands: Vec<MissionStep>,
-    /// Target of the initial climb of a mission without a take-off item, m.
+    /// Target of the initial climb of a mission without a takeoff item, m.
     pub initial_climb_m: Option<Vec3<Ned>>,
     /// Interruption point, m. The mission continues from there.
     pub suspended_at_m: Option<Vec3<Ned>>,
@@ -100,7 +100,7 @@ impl Mission {
         self.began_m.get_or_insert(here_m);
     }
 
-    /// Raises home by this height, m.
+    /// Accounts for an increase in home height, m.
     pub fn raise_home(&mut self, up_m: f64) {
         self.home_rise_m += up_m;
     }
@@ -169,7 +169,7 @@ impl Mission {
     #[must_use]
     pub fn ahead(&self, accept_m: f64) -> Vec<Waypoint> {
         let (mut at, mut jumps, mut speed) = (self.current, self.jumps_done.clone(), self.speed_m_s);
-        // Items after a distance condition run on the way: the leg starts with the earlier speed.
+        // Items after a distance condition run en route, so the leg starts at the previous speed.
         let mut leg_speed: Option<Option<f64>> = None;
         let (mut ahead, mut length_m): (Vec<Waypoint>, f64) = (Vec::new(), 0.0);
         for _ in 0..STEPS_PER_TICK_MAX {
@@ -280,13 +280,14 @@ impl Mission {
         known
     }
 
-    /// Completes the current item, reports it and advances to the next that flies or waits. Returns false at the end.
+    /// Completes the current item, reports it and advances to the next item that involves flight or a wait. Returns
+    /// false at the end.
     pub fn advance(&mut self, now: SimTime) -> bool {
         self.next();
         self.skip(now)
     }
 
-    /// Skips items that neither fly nor wait. Returns false at the end.
+    /// Processes and skips items that involve neither flight nor a wait. Returns false at the end.
     pub fn skip(&mut self, now: SimTime) -> bool {
         for _ in 0..STEPS_PER_TICK_MAX {
             match self.step() {
@@ -353,7 +354,7 @@ mod tests {
     #[test]
     fn exact_jump_loops_do_not_block_a_tick() {
         let mut mission = Mission::new(vec![MissionStep::Jump { to: 0, times: u32::MAX }]);
-        // Limited per tick; the endpoint rejects such a list.
+        // The number of items per tick is limited; the endpoint rejects such a mission.
         assert!(mission.skip(SimTime::ZERO));
         assert_eq!(mission.reached.len(), STEPS_PER_TICK_MAX);
     }

@@ -23,7 +23,8 @@ const ROUTE_REJOIN_DISTANCE_M: f64 = 0.8;
 const HEADING_TOLERANCE_RAD: f64 = 0.052;
 /// Distance to the landing position at which the descent begins, m.
 const LANDING_POSITION_TOLERANCE_M: f64 = 0.7;
-/// Maximum speed of corrections toward the planned position, horizontal and vertical, m/s (estimate: wind and a late start).
+/// Maximum correction speed toward the planned position, horizontal and vertical, m/s (estimate: wind and a late
+/// start).
 const MAX_CORRECTION_SPEED_M_S: (f64, f64) = (1.5, 1.0);
 /// Maximum tracking error for a passed waypoint to count as reached, m (estimate: the effect of a gust).
 const MAX_TRACKING_ERROR_M: f64 = 1.0;
@@ -65,7 +66,8 @@ impl Navigator {
         circle.unwrap_or_else(|| self.fly_step(&step, input))
     }
 
-    /// Flies the current item: take-off at its own rate, waypoints along the trajectory, everything else straight to its target.
+    /// Flies the current item: takeoff at its own rate, waypoints along the trajectory, everything else straight to its
+    /// target.
     fn fly_step(&mut self, step: &MissionStep, input: &NavigatorInput) -> Setpoint {
         let speed = self.mission.speed_m_s.or(Some(self.cruise_m_s(input)));
         match step {
@@ -98,7 +100,7 @@ impl Navigator {
         self.trajectory = Trajectory::join(from, &ahead, bounds);
     }
 
-    /// Replans from the current motion. After a pause the earlier trajectory no longer applies.
+    /// Replans from the current motion. After a pause, the earlier trajectory no longer applies.
     pub(super) fn replan_trajectory(&mut self, input: &NavigatorInput) {
         self.trajectory = None;
         if self.mission.begun && matches!(self.mission.step(), Some(MissionStep::Waypoint { .. } | MissionStep::Near(_))) {
@@ -106,7 +108,7 @@ impl Navigator {
         }
     }
 
-    /// Returns a trajectory point that matches the current motion. The plan is ahead by the attitude lag.
+    /// Returns the trajectory point that matches the current motion. The plan leads the vehicle by the attitude lag.
     fn current_motion(&self, input: &NavigatorInput) -> TrajectoryPoint {
         let (e, lag_s) = (input.estimate, input.gains.attitude_lag_s);
         let flat = Vec3::new(e.velocity_m_s.north(), e.velocity_m_s.east(), 0.0);
@@ -120,7 +122,7 @@ impl Navigator {
         planned.position_m - Vec3::new(late.north(), late.east(), 0.0) - input.here()
     }
 
-    /// Follows the trajectory. Returns `None` without one.
+    /// Follows the trajectory. Returns `None` if there is none.
     fn follow_trajectory(&mut self, input: &NavigatorInput) -> Option<Setpoint> {
         let behind = self.tracking_error(&self.trajectory.as_ref()?.planned(), input);
         let l = &input.airframe.limits;
@@ -156,8 +158,8 @@ impl Navigator {
         self.trajectory.as_ref().is_some_and(passed)
     }
 
-    /// Climb target for an item that moves away while the vehicle is still on the ground: straight up to the default take-off
-    /// height.
+    /// Climb target for an item that moves away while the vehicle is still on the ground: straight up to the default
+    /// takeoff height.
     fn needs_takeoff_first(&self, step: &MissionStep, input: &NavigatorInput) -> Option<Vec3<Ned>> {
         let away = matches!(step, MissionStep::Waypoint { .. } | MissionStep::Near(_) | MissionStep::Circle { .. });
         let here = input.here();
@@ -203,8 +205,8 @@ impl Navigator {
         }
     }
 
-    /// Processes items that need no flight, on the ground. Returns true during a wait, which does not count toward the pre-flight
-    /// disarm timeout.
+    /// On the ground, processes items that require no flight. Returns true during a wait, which does not count toward
+    /// the pre-flight disarm timeout.
     pub fn wait_on_ground(&mut self, input: &NavigatorInput) -> bool {
         let has_next = self.mission.skip(input.now);
         self.run_passed_commands(input);
@@ -300,7 +302,7 @@ impl Navigator {
         }
     }
 
-    /// Resumes a suspended item: a take-off above the same position, a landing in progress, a return in its phase.
+    /// Resumes a suspended item: a takeoff above the same position, a landing in progress, a return in its saved phase.
     fn resume_step(&mut self, step: &MissionStep, left: SuspendedStep) {
         let before = left.target_m;
         match *step {
@@ -377,7 +379,7 @@ impl Navigator {
         }
     }
 
-    /// Ends the mission: holds position, or stays in the mode (ArduPilot).
+    /// Ends the mission: holds position, or stays in mission mode (ArduPilot).
     pub(super) fn end_mission(&mut self, input: &NavigatorInput) {
         if !self.mission_status.finished {
             self.mission_status.finished = true;
@@ -395,7 +397,7 @@ impl Navigator {
         self.enter(FlightMode::Hold, input);
     }
 
-    /// Completes a landing of a mission or return.
+    /// Completes the landing of a mission or return.
     pub(super) fn finish_landing(&mut self, input: &NavigatorInput) {
         let landing = matches!(self.mission.step(), Some(MissionStep::Land { .. } | MissionStep::Return));
         if self.modes.active == FlightMode::Mission && landing {

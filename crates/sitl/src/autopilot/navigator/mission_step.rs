@@ -13,12 +13,12 @@ pub enum MissionStep {
         accept_m: f64,
         /// Hold time, s.
         hold_s: f64,
-        /// Heading at the waypoint, rad; `None` for toward the target.
+        /// Heading at the waypoint, rad; `None`: toward the target.
         yaw_rad: Option<f64>,
     },
     /// Take off.
     Takeoff {
-        /// Height above the origin, m. `None` uses the parameter, above home.
+        /// Height above the origin, m. `None` uses the parameter, which is relative to home.
         up_m: Option<f64>,
     },
     /// Land.
@@ -34,20 +34,20 @@ pub enum MissionStep {
     Delay(f64),
     /// Wait until a time of day in UTC.
     DelayUntil(TimeOfDay),
-    /// Jump to another item, a limited number of times.
+    /// Jump to another item a limited number of times.
     Jump {
         /// Item index.
         to: usize,
-        /// Repetitions.
+        /// Number of repetitions.
         times: u32,
     },
-    /// Point the nose at a position from now on, m. `None` ends this.
+    /// From now on, point the nose at a position, m. `None` stops this.
     LookAt(Option<Vec3<Ned>>),
     /// Circle a point with the nose toward it.
     Circle {
         /// Center relative to the origin, m.
         center_m: Vec3<Ned>,
-        /// Radius, m; negative for counterclockwise from above.
+        /// Radius, m; negative for counterclockwise as seen from above.
         radius_m: f64,
         /// Number of turns.
         turns: f64,
@@ -61,11 +61,11 @@ pub enum MissionStep {
         /// Turn rate, rad/s; `None` for the default.
         rate_rad_s: Option<f64>,
     },
-    /// Fly toward the next position until this close to it, m. The following items run on the way.
+    /// Fly toward the next position until within this distance of it, m. The following items run en route.
     Near(f64),
-    /// Set home to a position from now on, m. `None` uses the vehicle position at that time.
+    /// Set home to a position, m. `None` uses the vehicle position at that time.
     Home(Option<Vec3<Ned>>),
-    /// Enable or disable the geofence from now on.
+    /// Enable or disable the geofence.
     Fence(bool),
     /// Start of the landing sequence.
     LandingSequence,
@@ -130,7 +130,7 @@ impl MissionStep {
         matches!(self, Self::Waypoint { .. } | Self::Near(_) | Self::Delay(_) | Self::Turn { .. })
     }
 
-    /// Returns true if the item takes time and can be continued after an interruption.
+    /// Returns true if the item takes time and can resume after an interruption.
     pub fn continues(&self) -> bool {
         use MissionStep as S;
         match self {

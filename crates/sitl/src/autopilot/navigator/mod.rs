@@ -44,7 +44,7 @@ use spandrel_model::time::SimTime;
 pub struct ModeState {
     /// The active mode.
     pub active: FlightMode,
-    /// The requested mode. A failsafe may fly another one.
+    /// The requested mode. A failsafe can override it.
     pub intended: FlightMode,
     /// Whether a failsafe overrides the requested mode.
     pub overridden: bool,
@@ -52,7 +52,7 @@ pub struct ModeState {
     pub sticks_at_start: Sticks,
 }
 
-/// Progress of the mission for telemetry and mode changes.
+/// Mission progress for telemetry and mode changes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MissionStatus {
     /// Current item, zero-based.
@@ -67,12 +67,12 @@ pub struct MissionStatus {
     pub started: bool,
 }
 
-/// Requests that end with the flight.
+/// Requested values that expire at the end of the flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Commanded {
     /// Cruise speed, m/s.
     pub speed_m_s: Option<f64>,
-    /// Take-off height, m above the origin.
+    /// Takeoff height, m above the origin.
     pub takeoff_up_m: Option<f64>,
     /// Position at which automatic modes point the nose, m.
     pub look_at_m: Option<Vec3<Ned>>,
@@ -103,22 +103,22 @@ pub struct NavigatorReport {
     pub target_m: Option<Vec3<Ned>>,
     /// The active external setpoint.
     pub setpoint: Option<OffboardSetpoint>,
-    /// Whether a take-off climb is in progress, as a mode or a mission item.
+    /// Whether a takeoff climb is in progress, as a mode or a mission item.
     pub climbing_out: bool,
     /// The active circle.
     pub orbit: Option<Orbit>,
 }
 
-/// State of the navigator.
+/// Navigator state.
 #[derive(Debug, Clone)]
 pub struct Navigator {
-    /// Modes.
+    /// Active and requested mode.
     pub modes: ModeState,
     /// Home and rally points.
     pub home: Home,
     /// Mission items and progress.
     pub mission: Mission,
-    /// Progress of the mission for telemetry.
+    /// Mission progress for telemetry.
     pub mission_status: MissionStatus,
     /// Follow mode target and state.
     pub follower: Follower,
@@ -126,25 +126,25 @@ pub struct Navigator {
     pub report: NavigatorReport,
     /// Events that the autopilot has not collected yet.
     pub events: EventQueue,
-    /// A requested switch of the geofence that the autopilot has not carried out yet.
+    /// A pending request to enable or disable the geofence.
     pub fence_switch: Option<bool>,
     heading: Heading,
     commanded: Commanded,
     /// Trajectory through the mission's waypoints, while one is active.
     trajectory: Option<Trajectory>,
     orbit: Option<Orbit>,
-    /// The path recorded since take-off.
+    /// The path recorded since takeoff.
     flown_path: FlownPath,
     returning: ReturnState,
     shaper: MotionShaper,
     locks: StickLocks,
-    /// Target of hold, go-to, take-off, landing and return, m.
+    /// Target of hold, go-to, takeoff, landing and return, m.
     target_m: Vec3<Ned>,
     /// Speed of a go-to, m/s.
     speed_m_s: Option<f64>,
     /// The pause, if the active mode is paused.
     paused: Option<PausedAt>,
-    /// Whether the vehicle in the air descends to land.
+    /// Whether the airborne vehicle is descending to land.
     descends_to_land: bool,
 }
 
@@ -181,7 +181,7 @@ impl Default for Navigator {
 }
 
 impl Navigator {
-    /// Returns the landed state in a phase of the flight.
+    /// Returns the landed state for a flight phase.
     #[must_use]
     pub fn landed_state(&self, phase: FlightPhase) -> LandedState {
         match phase {
@@ -196,19 +196,19 @@ impl Navigator {
         self.landed_state(input.phase)
     }
 
-    /// Feedforward of the heading rate for the setpoint, rad/s.
+    /// Heading rate feedforward for the setpoint, rad/s.
     #[must_use]
     pub fn yaw_rate_rad_s(&self) -> f64 {
         self.heading.feedforward_rad_s()
     }
 
-    /// Records an external setpoint. It takes the heading back from the pilot.
+    /// Records an external setpoint, which takes control of the heading back from the pilot.
     pub fn note_external_setpoint(&mut self) {
         self.heading.end_pilot_turn();
     }
 
-    /// Moves the position lock with a position reset to GNSS so that the vehicle stays in place. Map targets do not move (as
-    /// position hold and waypoints in PX4 and ArduCopter).
+    /// Moves the position lock with a position reset to GNSS so that the vehicle stays in place. Targets on the map do
+    /// not move. PX4 and ArduCopter treat position hold and waypoints the same way.
     pub fn move_position_lock(&mut self, step_m: Vec3<Ned>) {
         if let Some((north, east)) = &mut self.locks.horizontal {
             *north += step_m.north();
@@ -216,7 +216,7 @@ impl Navigator {
         }
     }
 
-    /// Sets home to the first valid position.
+    /// Sets home to the first valid position estimate.
     pub fn set_first_home(&mut self, input: &NavigatorInput) {
         if self.home.place_m.is_none() && input.estimate.position_valid {
             self.move_home(input.here());
@@ -248,7 +248,7 @@ impl Navigator {
         known
     }
 
-    /// Starts a flight, at arming.
+    /// Starts a flight when the vehicle arms.
     pub fn begin_flight(&mut self, input: &NavigatorInput) {
         self.mission.reset();
         if self.modes.intended == FlightMode::Mission {
@@ -266,7 +266,7 @@ impl Navigator {
         self.enter(self.modes.intended, input);
     }
 
-    /// Ends a flight, at disarming. Requests made during the flight end with it.
+    /// Ends the flight when the vehicle disarms. Requests made during the flight expire.
     pub fn end_flight(&mut self, input: &NavigatorInput) {
         self.descends_to_land = false;
         self.commanded = Commanded::default();
@@ -276,13 +276,13 @@ impl Navigator {
         }
     }
 
-    /// Starts the active mode and the recorded path, at lift-off.
+    /// Starts the active mode and the path recording at liftoff.
     pub fn lift_off(&mut self, input: &NavigatorInput) {
         self.flown_path.begin(input.here());
         self.begin_mode(input);
     }
 
-    /// Ends a landing or an abandoned take-off.
+    /// Ends a landing or an abandoned takeoff.
     pub fn touch_down(&mut self, input: &NavigatorInput) {
         self.descends_to_land = false;
         self.shaper.start(input.estimate.velocity_m_s);
@@ -306,14 +306,14 @@ impl Navigator {
         self.modes.active = self.modes.intended;
     }
 
-    /// Changes the requested mode for a failsafe or a pilot who takes over.
+    /// Changes the requested mode, for a failsafe or a pilot taking over.
     pub fn change_mode(&mut self, mode: FlightMode, ends_override: bool, input: &NavigatorInput) {
         self.modes.intended = mode;
         self.modes.overridden &= !ends_override;
         self.enter(mode, input);
     }
 
-    /// Flies another mode than the requested one.
+    /// Flies a mode other than the requested one.
     pub fn override_mode(&mut self, mode: FlightMode, input: &NavigatorInput) {
         self.modes.overridden = true;
         if self.modes.active != mode {

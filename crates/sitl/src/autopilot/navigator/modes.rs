@@ -19,7 +19,7 @@ impl Navigator {
     /// Starts or restarts a mode. Suspends an interrupted mission.
     pub(super) fn enter(&mut self, mode: FlightMode, input: &NavigatorInput) {
         self.suspend_mission(mode, input);
-        // A failsafe that interrupts a take-off resumes it later.
+        // If a failsafe interrupts a takeoff, the takeoff resumes later.
         if self.modes.intended != FlightMode::Takeoff {
             self.commanded.takeoff_up_m = None;
         }
@@ -33,7 +33,7 @@ impl Navigator {
     fn suspend_mission(&mut self, next: FlightMode, input: &NavigatorInput) {
         let in_air = input.phase == FlightPhase::InAir;
         let flying = input.armed && in_air && input.estimate.position_valid;
-        // While it returns to the route, the mission has not restarted the item.
+        // While the vehicle is returning to the route, the mission has not restarted the item.
         let begun = self.mission.begun || self.mission.suspended_at_m.is_some();
         let under_way = self.modes.active == FlightMode::Mission && begun && self.mission.step().is_some();
         let left = flying && under_way && next != FlightMode::Mission;
@@ -88,7 +88,7 @@ impl Navigator {
         self.target_m = Vec3::new(here.north(), here.east(), (-up).min(here.down()));
     }
 
-    /// Returns true if the mode commands a take-off from the ground.
+    /// Returns true if the mode commands a takeoff from the ground.
     pub fn wants_to_fly(&self, input: &NavigatorInput) -> bool {
         match self.modes.active {
             FlightMode::Stabilized | FlightMode::Altitude | FlightMode::Position | FlightMode::Acro => {
@@ -143,7 +143,7 @@ impl Navigator {
     }
 }
 
-/// Returns true if an external setpoint leads up from the ground.
+/// Returns true if an external setpoint commands a climb from the ground.
 fn is_upward(s: &OffboardSetpoint, down_m: f64) -> bool {
     s.position_m[2].is_some_and(|d| d < down_m - 0.3)
         || s.velocity_m_s[2].is_some_and(|v| v < -0.1)

@@ -9,13 +9,13 @@ use crate::autopilot::external_input::OffboardSetpoint;
 use crate::autopilot::flight_state::FlightMode;
 use spandrel_model::frames::{Frd, Ned, Vec3};
 
-/// Distance below which the heading does not track the target, m.
+/// Distance below which the heading no longer tracks the target, m.
 const TOO_NEAR_M: f64 = 0.5;
-/// Thrust of a setpoint, 0 to 1, below which it counts as an intended descent.
+/// Thrust, 0 to 1, below which a setpoint counts as an intended descent.
 const DESCENT_THRUST: f64 = 0.1;
 
 impl Navigator {
-    /// The external setpoint, if the mode uses it and it has not timed out.
+    /// The external setpoint if the mode uses it and it has not timed out.
     pub(super) fn active_setpoint(&self, input: &NavigatorInput) -> Option<OffboardSetpoint> {
         let fresh = self.modes.active == FlightMode::Offboard && input.offboard_fresh();
         input.links.offboard.filter(|_| fresh).map(|(setpoint, _)| setpoint)
@@ -72,7 +72,7 @@ impl Navigator {
         Setpoint::Velocity(motion)
     }
 
-    /// Heading on the way to a position target without a heading, rad.
+    /// Heading while approaching a position target that has no heading, rad.
     fn heading_towards(&self, setpoint: &OffboardSetpoint, input: &NavigatorInput) -> Option<f64> {
         let [Some(n), Some(e), Some(d)] = setpoint.position_m else { return None };
         let travels = input.tuning.setpoints_end && setpoint.velocity_m_s == [None; 3];
@@ -103,7 +103,8 @@ impl Navigator {
         Setpoint::Rates { rates_rad_s, thrust_n, descent_m_s }
     }
 
-    /// Applies acceleration setpoints: flown directly on axes without position or velocity, otherwise fed forward.
+    /// Applies acceleration setpoints: directly on axes without a position or velocity, and as feedforward on the
+    /// others.
     fn accelerate(&mut self, s: &OffboardSetpoint, motion: &mut VelocitySetpoint, input: &NavigatorInput) {
         let free = |i: usize| s.position_m[i].is_none() && s.velocity_m_s[i].is_none();
         let flat = |i: usize| s.acceleration_m_s2[i].unwrap_or(0.0);
@@ -116,7 +117,8 @@ impl Navigator {
         for i in (0..3).filter(|i| s.acceleration_m_s2[*i].is_some()) {
             acceleration[i] = wanted[i] + if free(i) { 0.0 } else { acceleration[i] };
             if free(i) {
-                // Leaves no velocity error: the velocity loop compares with the plan one lag earlier.
+                // This leaves no velocity error, because the velocity loop compares with the plan as it was one lag
+                // earlier.
                 velocity[i] = current[i] + if i < 2 { wanted[i] * input.gains.attitude_lag_s } else { 0.0 };
                 planned[i] = current[i];
             }
@@ -126,8 +128,8 @@ impl Navigator {
         self.shaper.velocity_m_s = vector(planned);
     }
 
-    /// Velocity for an external setpoint. Axes with a position approach it, axes with only a velocity use it directly, and axes
-    /// with both use the velocity as the approach speed.
+    /// Velocity for an external setpoint. An axis with a position approaches it, an axis with only a velocity uses it
+    /// directly, and an axis with both uses the velocity as the approach speed.
     fn offboard_velocity(&mut self, s: &OffboardSetpoint, input: &NavigatorInput) -> Vec3<Ned> {
         let here = input.here().array();
         let target: [f64; 3] = std::array::from_fn(|i| s.position_m[i].unwrap_or(here[i]));
@@ -141,7 +143,8 @@ impl Navigator {
         Vec3::new(flat.north(), flat.east(), mix[2].clamp(-up, down))
     }
 
-    /// Maintains the configured position relative to the target and points the nose at it. Holds position without a target.
+    /// Maintains the configured position relative to the target and points the nose at it. Holds position if there is
+    /// no target.
     pub(super) fn follow_target(&mut self, input: &NavigatorInput) -> Setpoint {
         let Some(target) = self.follower.target(&input.tuning.follow, input.here(), input.tuning.client_pace, input.now) else {
             return self.go(None, input);
@@ -164,7 +167,7 @@ impl Navigator {
     }
 }
 
-/// Thrust of a setpoint given as a fraction of the maximum, N, and the intended descent rate, m/s.
+/// Thrust, N, of a setpoint specified as a fraction of the maximum thrust, and the intended descent rate, m/s.
 fn direct_thrust(share: f64, input: &NavigatorInput) -> (f64, f64) {
     let descent_m_s = if share < DESCENT_THRUST { input.airframe.limits.descend_m_s } else { 0.0 };
     ((share.clamp(0.0, 1.0) * input.gains.thrust_max_n).max(input.gains.thrust_min_n), descent_m_s)

@@ -1,8 +1,8 @@
-//! Circles around a point, and their requests.
+//! Circles around a point, and requests for them.
 
 use spandrel_model::frames::{Ned, Vec3};
 
-/// Heading on a circle, numbered as MAVLink's ORBIT_YAW_BEHAVIOUR.
+/// Heading on a circle, with the values of MAVLink's ORBIT_YAW_BEHAVIOUR.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum OrbitYaw {
     /// Toward the center (0).
@@ -10,7 +10,7 @@ pub enum OrbitYaw {
     Centre,
     /// Heading at the start (1), or uncontrolled (2).
     Keep,
-    /// Tangential to the circle (3).
+    /// Tangent to the circle (3).
     Tangent,
     /// Controlled by the yaw stick (4).
     Stick,
@@ -31,7 +31,7 @@ pub struct Orbit {
     pub center_m: Vec3<Ned>,
     /// Radius, m.
     pub radius_m: f64,
-    /// Tangential speed, m/s; clockwise from above is positive.
+    /// Tangential speed, m/s; positive is clockwise as seen from above.
     pub speed_m_s: f64,
     /// Heading behavior.
     pub yaw: OrbitYaw,
@@ -52,7 +52,7 @@ pub struct OrbitRequest {
     pub radius_m: Option<f64>,
     /// Speed, m/s.
     pub speed_m_s: Option<f64>,
-    /// Heading behavior. `None` keeps that of the active circle, or points toward the center.
+    /// Heading behavior. `None` keeps the behavior of the active circle or, without one, points toward the center.
     pub yaw: Option<OrbitYaw>,
     /// Arc to fly, rad; 0 for an endless circle.
     pub arc_rad: f64,

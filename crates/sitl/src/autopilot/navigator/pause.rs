@@ -26,7 +26,7 @@ impl Navigator {
         RequestOutcome::Accepted
     }
 
-    /// Continues after a pause. Keeps the remaining wait of a mission item.
+    /// Continues after a pause. Preserves the remaining wait of a mission item.
     pub(super) fn resume(&mut self, input: &NavigatorInput) -> RequestOutcome {
         let Some(pause) = self.paused.take() else { return RequestOutcome::Accepted };
         if self.modes.active == FlightMode::Mission {
@@ -38,7 +38,7 @@ impl Navigator {
         RequestOutcome::Accepted
     }
 
-    /// Holds the position of the pause. Keeps the navigator's target.
+    /// Holds the pause position. Does not change the navigator's target.
     pub(super) fn hold_paused(&mut self, pause: PausedAt, input: &NavigatorInput) -> Setpoint {
         let target_m = std::mem::replace(&mut self.target_m, pause.place_m);
         let yaw_rad = self.heading.target_rad.take();

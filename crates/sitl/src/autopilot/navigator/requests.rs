@@ -33,7 +33,7 @@ impl Navigator {
                 self.switch_fence(enabled);
                 RequestOutcome::Accepted
             }
-            // Arming and disarming are handled by the autopilot object.
+            // The autopilot object handles arming and disarming.
             AutopilotRequest::Arm { .. } | AutopilotRequest::Disarm { .. } => RequestOutcome::Unsupported,
             AutopilotRequest::Orbit(request) => self.request_orbit(request, input),
             AutopilotRequest::CircleAhead => self.request_circle_ahead(input),
@@ -110,7 +110,7 @@ impl Navigator {
         input.tuning.arms_by_mode && standing && high && direct(mode) && !direct(self.modes.intended)
     }
 
-    /// Returns the reason the mission does not meet the operator's requirements, or `None`.
+    /// Returns the reason why the mission does not meet the operator's requirements, or `None`.
     fn missing_mission_parts(&self, input: &NavigatorInput) -> Option<String> {
         let rules = &input.tuning.rules;
         let takeoff = self.mission.all().any(|(_, step)| matches!(step, MissionStep::Takeoff { .. }));
@@ -261,38 +261,38 @@ impl Navigator {
 
     fn set_home(&mut self, home_m: Vec3<Ned>) -> RequestOutcome {
         if !home_m.is_finite() || home_m.norm() > MAX_DISTANCE_M {
-            return RequestOutcome::Denied("Home out of range".into());
+            return RequestOutcome::Denied("Home position out of range".into());
         }
         self.move_home(home_m);
         self.home.set_by_command = true;
         RequestOutcome::Accepted
     }
 
-    /// Moves home, with the heights that are relative to it.
+    /// Moves home, along with the heights that are relative to it.
     pub(super) fn move_home(&mut self, home_m: Vec3<Ned>) {
         let rise_m = self.home.move_to(home_m);
         self.mission.raise_home(rise_m);
     }
 
-    /// Requests to switch the geofence, and reports it.
+    /// Requests that the geofence be enabled or disabled, and reports the change.
     pub(super) fn switch_fence(&mut self, enabled: bool) {
         self.fence_switch = Some(enabled);
         self.events.push(Severity::Info, if enabled { "Geofence enabled" } else { "Geofence disabled" });
     }
 
-    /// Returns the geofence with its settings.
+    /// Returns the geofence check with the current settings.
     pub(super) fn fence_check<'a>(&self, input: &NavigatorInput<'a>) -> FenceCheck<'a> {
         FenceCheck::new(input.fence, input.tuning, self.home.place_m)
     }
 
-    /// Returns the rejection of a target outside the fence, or `None` if it is allowed.
+    /// Returns the rejection if a target is outside the fence, or `None` if the target is allowed.
     fn target_refusal(&self, target_m: Vec3<Ned>, input: &NavigatorInput) -> Option<RequestOutcome> {
         let from = input.estimate.position_valid.then_some(input.here());
         self.fence_check(input).target_refusal(from, target_m).map(|why| RequestOutcome::Denied(why.into()))
     }
 
-    /// Returns the reason to reject the mission: the first item outside the fence, or with a straight path to it that leaves the
-    /// fence.
+    /// Returns the reason to reject the mission: the first item that is outside the fence or whose straight approach
+    /// leaves the fence.
     fn mission_leaves_fence(&self, input: &NavigatorInput) -> Option<String> {
         let (fence, flying, here) = (self.fence_check(input), input.is_flying(), input.here());
         let home = self.home.place_m.unwrap_or_default();

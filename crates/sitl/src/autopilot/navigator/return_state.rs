@@ -11,9 +11,9 @@ pub enum ReturnPhase {
     Climb,
     /// Flying to the destination.
     Cruise,
-    /// Waiting over the destination.
+    /// Waiting above the destination.
     Wait,
-    /// Holding over the destination instead of landing.
+    /// Holding above the destination instead of landing.
     Stay,
     /// Landing.
     Land,
@@ -22,10 +22,10 @@ pub enum ReturnPhase {
 /// Phase, destination and wait of a return.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ReturnState {
-    /// Phase.
+    /// Phase of the return.
     pub phase: ReturnPhase,
     /// Destination, m.
     pub target_m: Option<Vec3<Ned>>,
-    /// End of the wait over the destination.
+    /// End of the wait above the destination.
     pub wait_until: Option<SimTime>,
 }

@@ -11,10 +11,10 @@ use crate::autopilot::flight_state::{FlightMode, LandedState};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Distance and speed at which the vehicle counts as over the destination, m and m/s.
+/// Distance and speed below which the vehicle counts as above the destination, m and m/s.
 const ARRIVED_M: f64 = 0.5;
 const ARRIVED_M_S: f64 = 0.5;
-/// Height above the take-off point at which the landing of a smart return begins, m (ArduCopter: pre-land position).
+/// Height above the takeoff point at which a Smart RTL begins its landing, m (ArduCopter: pre-land position).
 const SMART_RETURN_LANDING_HEIGHT_M: f64 = 2.0;
 
 impl Navigator {
@@ -34,7 +34,7 @@ impl Navigator {
         self.target_m = Vec3::new(here.north(), here.east(), down);
     }
 
-    /// The nearest allowed destination of a return; home if there is none.
+    /// The nearest allowed return destination, or home if there is none.
     fn nearest_rally_point(&self, input: &NavigatorInput) -> Vec3<Ned> {
         let here = input.here();
         let home = self.home.place_m.unwrap_or(here);
@@ -43,7 +43,7 @@ impl Navigator {
         let landing = self.mission.landing().filter(|_| allowed.mission_landing);
         let places = allowed.home.then_some(home).into_iter().chain(rally).chain(landing);
         let away = |place: &Vec3<Ned>| (*place - here).horizontal_norm();
-        // Of two equally near destinations the first one, home, is used.
+        // If two destinations are equally near, the first one, home, is used.
         places.reduce(|best, place| if away(&place) < away(&best) { place } else { best }).unwrap_or(home)
     }
 
@@ -84,7 +84,7 @@ impl Navigator {
         self.go(input.tuning.rules.homeward.speed_m_s.or(Some(self.cruise_m_s(input))), input)
     }
 
-    /// Handles arrival over the return target: waits there or lands.
+    /// Handles arrival above the return target: waits there or lands.
     fn arrive_home(&mut self, home: Vec3<Ned>, input: &NavigatorInput) {
         let rules = input.tuning.rules.homeward;
         let waits = rules.wait_s != 0.0 || rules.final_height_m > 0.0;
@@ -98,7 +98,7 @@ impl Navigator {
         }
     }
 
-    /// Waits over the destination for the set time.
+    /// Waits above the destination for the configured time.
     fn wait_over_home(&mut self, home: Vec3<Ned>, input: &NavigatorInput) {
         let rules = input.tuning.rules.homeward;
         if rules.turns_back {
@@ -136,7 +136,7 @@ impl Navigator {
         }
     }
 
-    /// Flies back point by point and lands at the take-off point.
+    /// Flies back point by point and lands at the takeoff point.
     pub(super) fn retrace_path(&mut self, input: &NavigatorInput) -> Setpoint {
         if self.returning.phase == ReturnPhase::Land {
             return self.land(input);

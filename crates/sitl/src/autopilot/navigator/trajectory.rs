@@ -1,8 +1,8 @@
 //! Time-parameterized trajectory through mission waypoints: straight legs, rounded corners, limited acceleration and jerk.
 //!
-//! Arc length `s` runs along the polyline of the waypoints. Within `reach` of a corner the direction turns smoothly from one leg
-//! to the next, so position, velocity and acceleration are continuous. The speed along `s` is limited by the corners and the end
-//! ahead.
+//! Arc length `s` runs along the polyline of the waypoints. Within `reach` of a corner the direction turns smoothly
+//! from one leg to the next, so position, velocity and acceleration are continuous. The corners and the end of the path
+//! limit the speed along `s`.
 
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
@@ -15,7 +15,7 @@ const JERK_M_S3: f64 = 4.0;
 const CORNER_JERK_M_S3: f64 = 2.5;
 /// Time constant of the speed relative to its limit, s.
 const APPROACH_S: f64 = 0.25;
-/// Maximum corner cut, as a fraction of the acceptance radius, and absolute, m.
+/// Maximum corner cut, as a fraction of the acceptance radius and as a distance, m.
 const CORNER_CUT_FRACTION: f64 = 0.5;
 const MAX_CORNER_CUT_M: f64 = 2.0;
 /// Corner cut per meter of reach and unit of direction change: 3/16 for the cubic blend below.
@@ -24,7 +24,7 @@ const CUT_PER_REACH: f64 = 0.1875;
 const STEEP_SLOPE_SINE: f64 = 0.866;
 /// Distance below which waypoints count as identical, m.
 const COINCIDENT_DISTANCE_M: f64 = 0.01;
-/// Decay rate of the initial cross-track velocity, 1/s (estimate: its jerk at 1 m/s is below 7 m/s³).
+/// Decay rate of the initial cross-track velocity, 1/s (estimate: for 1 m/s, the jerk is below 7 m/s³).
 const JOIN_DECAY_PER_S: f64 = 1.5;
 /// Tracking errors at which the plan starts to slow down and at which it stops, m (estimate).
 const SLOWDOWN_ERROR_M: f64 = 1.0;
@@ -35,7 +35,7 @@ const STOP_ERROR_M: f64 = 3.0;
 pub struct Waypoint {
     /// Position, m.
     pub position_m: Vec3<Ned>,
-    /// Speed on the way to it, m/s; `None` for the default.
+    /// Speed toward it, m/s; `None` for the default.
     pub speed_m_s: Option<f64>,
     /// Acceptance radius, m.
     pub accept_m: f64,
@@ -63,7 +63,7 @@ pub struct AccelerationLimits {
 
 impl AccelerationLimits {
     /// Creates limits for an aircraft with this acceleration. Reserves 50 % of the horizontal and 30 % of the vertical
-    /// acceleration for wind and errors.
+    /// acceleration for wind and control errors.
     #[must_use]
     pub fn within(horizontal_m_s2: f64, vertical_m_s2: f64) -> Self {
         Self {
@@ -119,8 +119,8 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Creates a trajectory from a motion state through waypoints. It ends at rest at the last one. Returns `None` without
-    /// waypoints.
+    /// Creates a trajectory from a motion state through waypoints. It ends at rest at the last waypoint. Returns `None`
+    /// if there are no waypoints.
     #[must_use]
     pub fn join(from: TrajectoryPoint, waypoints: &[Waypoint], bounds: AccelerationLimits) -> Option<Self> {
         let legs = legs(from.position_m, waypoints, &bounds);
@@ -134,7 +134,8 @@ impl Trajectory {
         Some(Self { bounds, legs, along_m: 0.0, speed_m_s, acceleration_m_s2: 0.0, joining })
     }
 
-    /// Replaces the waypoints from the first of `waypoints` onward. Returns false if that one is not on this trajectory.
+    /// Replaces the waypoints from the first of `waypoints` onward. Returns false if that waypoint is not on this
+    /// trajectory.
     pub fn extend(&mut self, waypoints: &[Waypoint]) -> bool {
         let Some(first) = waypoints.first() else { return false };
         let now = self.leg_at(self.along_m);
@@ -216,7 +217,7 @@ impl Trajectory {
         (leg.from_m + leg.unit * (along_m - leg.start_m), leg.unit, Vec3::zero())
     }
 
-    /// Speed limit here from the leg and the corners ahead, m/s.
+    /// Speed limit at this point from the leg and the corners ahead, m/s.
     fn allowed_m_s(&self, speeds: &SpeedLimits) -> f64 {
         let now = self.leg_at(self.along_m);
         let mut allowed = self.legs[now].speed_m_s(speeds);

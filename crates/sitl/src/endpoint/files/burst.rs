@@ -5,7 +5,8 @@ use crate::endpoint::link::LinkId;
 use spandrel_mavlink::ftp::FtpPacket;
 use std::collections::VecDeque;
 
-/// Burst packets per tick, for all clients together: about 240 kB/s at 1000 ticks/s, below the capacity of a local link.
+/// Burst packets per tick, for all clients together: about 240 kB/s at 1000 ticks/s, below the capacity of a local
+/// link.
 const PACKETS_A_TICK: usize = 1;
 
 #[derive(Debug, Clone)]
@@ -26,7 +27,7 @@ impl BurstReads {
         self.0.push_back(BurstRead { client, request: request.clone(), packets });
     }
 
-    /// Checks whether this exact request is still being answered, that is, the network duplicated it.
+    /// Checks whether this exact request is still being answered, which means that the network duplicated it.
     pub fn is_under_way(&self, client: FileClient, request: &FtpPacket) -> bool {
         self.0.iter().any(|burst| burst.client == client && burst.request == *request)
     }

@@ -3,12 +3,12 @@
 use super::path::FilePath;
 use spandrel_mavlink::ftp::FtpError;
 
-/// Bytes of a file that one checksum job covers: less than a tenth of a millisecond of CPU time (estimate, `crc32fast`), so that
-/// a long file delays no tick.
+/// Bytes of a file that one checksum job covers. A job takes less than a tenth of a millisecond of CPU time (estimate,
+/// `crc32fast`), so a long file does not delay a tick.
 pub const CHECKSUM_SLICE: u32 = 131_072;
 /// Maximum size of a file to checksum, bytes: 8,192 slices, about 8 s of simulation time.
 pub const CHECKSUM_MAX: u32 = 8_192 * CHECKSUM_SLICE;
-/// Cost of a listing in jobs, because it reads every name in a directory.
+/// Cost of a directory listing, in jobs; a listing reads every name in the directory.
 const LISTING_COST: u32 = 8;
 
 /// A file operation for the host to execute.

@@ -22,7 +22,8 @@ use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-/// Maximum number of pending jobs, in total and per client. Further requests are dropped, as in ArduPilot; the client retries.
+/// Maximum number of pending jobs, in total and per client. Further requests are dropped, as in ArduPilot; the client
+/// retries.
 const JOBS_MAX: usize = 64;
 const JOBS_EACH: usize = 32;
 /// Maximum number of packets per burst; the client then requests the next one.
@@ -67,7 +68,7 @@ impl FileServer {
         }
     }
 
-    /// Releases everything that belongs to a closed link.
+    /// Releases all state of a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.sessions.close_matching(|client| client.0 == link);
         self.answered.forget(link);
@@ -87,7 +88,8 @@ impl FileServer {
         self.jobs.pop_front()
     }
 
-    /// Returns the replies to send in this tick: all ordinary replies, and a few burst packets on links that are ready for them.
+    /// Returns the replies to send in this tick: all ordinary replies, and a few burst packets on links that are ready
+    /// for them.
     pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(FileClient, FtpPacket)> {
         let mut out: Vec<_> = self.answers.drain(..).collect();
         out.extend(self.bursts.poll(ready));
@@ -155,7 +157,7 @@ impl FileServer {
             }
             Ok(FileJobResult::Bytes(bytes)) if bytes.is_empty() => request.error_reply(FtpError::EndOfFile),
             Ok(FileJobResult::Bytes(bytes)) => request.acknowledge(&bytes),
-            // The rest of a longer file was skipped: a checksum of part of the file would be wrong.
+            // The file is longer than the limit, and the checksum of only its first part would be wrong.
             Ok(FileJobResult::Checksum { bytes, .. }) if bytes >= CHECKSUM_SLICE => request.error_reply(FtpError::Fail),
             Ok(FileJobResult::Checksum { sum, .. }) => request.acknowledge(&sum.to_le_bytes()),
             Ok(FileJobResult::Size(_) | FileJobResult::Nothing) if opens.is_some() => {
@@ -268,8 +270,9 @@ impl FileServer {
         })
     }
 
-    /// Queues one burst. The last packet completes it, even at the end of the file: after an additional NAK, a client that lost
-    /// the last packet would give up (MAVSDK 4). Only a request that starts at the end of the file is rejected.
+    /// Queues one burst. The last packet completes it, even at the end of the file: after an additional NAK, a client
+    /// that lost the last packet would give up (MAVSDK 4). Only a request that starts at the end of the file is
+    /// rejected.
     fn burst(&mut self, client: FileClient, request: &FtpPacket, bytes: &[u8]) {
         if bytes.is_empty() {
             return self.queue_reply(client, request, request.error_reply(FtpError::EndOfFile));
@@ -378,7 +381,7 @@ enum RequestStep {
     Answer(Vec<u8>),
     /// Return the data read.
     Bytes(Vec<u8>),
-    /// Run a job; with the file that it opens and whether it is writable.
+    /// Run a job. Includes the file that it opens, and whether the file is writable.
     Job(FileAction, Option<(FilePath, bool)>),
 }
 

@@ -1,12 +1,13 @@
-//! Sanitized paths of client requests; none can leave the root directory.
+//! Sanitized paths from client requests; none can escape the root directory.
 
-/// A path below the root: components joined by '/', without a leading '/', empty components, `.` or `..`; empty for the root.
+/// A path below the root: components joined by '/', without a leading '/', empty components, `.` or `..`; empty for the
+/// root.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FilePath(String);
 
 impl FilePath {
-    /// Sanitizes a path from a client. Returns `None` if it contains `..`, is not UTF-8, or contains a character that some system
-    /// treats as a separator or a drive.
+    /// Sanitizes a path from a client. Returns `None` if it contains `..`, is not UTF-8, or contains a character that
+    /// some operating systems treat as a separator or drive letter.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Option<Self> {
         let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());

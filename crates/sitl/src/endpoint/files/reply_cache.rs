@@ -22,8 +22,8 @@ impl ReplyCache {
         (asked == request).then_some(answer)
     }
 
-    /// Stores a reply and evicts the oldest if the cache is full. A late request to a closed session does not replace the reply
-    /// to its close request, because that reply may have been lost.
+    /// Stores a reply and evicts the oldest if the cache is full. A late request to a closed session does not replace
+    /// the reply to its close request, because that reply may have been lost.
     pub fn keep(&mut self, client: FileClient, request: &FtpPacket, answer: &FtpPacket) {
         let ended = answer.sized() == Some(&[FtpError::InvalidSession as u8]) && answer.opcode == NAK;
         if ended && self.last.contains_key(&(client, request.session)) {

@@ -11,10 +11,11 @@ use std::sync::Arc;
 const SESSIONS_MAX: usize = 32;
 /// Maximum number of open files per client; MAVProxy transfers up to five in parallel.
 const EACH_MAX: usize = 8;
-/// Timeout after which an idle session is closed, so that a vanished client does not hold resources.
+/// Timeout after which an idle session is closed, so that a client that disappeared does not tie up resources.
 const IDLE: SimTime = SimTime::from_ms(60_000);
-/// Time within which an identical open request counts as a repeat, whatever arrived in between: networks duplicate and reorder
-/// datagrams. Later it comes from a client that restarted its sequence numbers (estimate: longer than networks delay datagrams).
+/// Time within which an identical open request counts as a repeat, regardless of what arrived in between: networks
+/// duplicate and reorder datagrams. After that, it comes from a client that restarted its sequence numbers (estimate:
+/// longer than network delays).
 const REPETITION: SimTime = SimTime::from_ms(2_000);
 
 #[derive(Debug, Clone)]
@@ -34,7 +35,8 @@ struct FileSession {
 pub(super) struct FileSessions(BTreeMap<(FileClient, u8), FileSession>);
 
 impl FileSessions {
-    /// Checks whether this client may open a file under this session number. An open session with the same number is replaced.
+    /// Checks whether this client may open a file under this session number. An open session with the same number is
+    /// replaced.
     pub fn room(&self, client: FileClient, number: u8) -> Result<(), FtpError> {
         let own = self.0.keys().filter(|(owner, _)| *owner == client).count();
         let full = self.0.len() >= SESSIONS_MAX || own >= EACH_MAX;
@@ -74,8 +76,8 @@ impl FileSessions {
         self.0.get(&(client, number))?.content.clone()
     }
 
-    /// Returns the path of a session of this client; the session must be open for writing if `writes` is set, for reading
-    /// otherwise.
+    /// Returns the path of a session of this client; the session must be open for writing if `writes` is set, for
+    /// reading otherwise.
     pub fn path(&self, client: FileClient, number: u8, writes: bool) -> Result<FilePath, FtpError> {
         match self.0.get(&(client, number)) {
             Some(session) if session.writes == writes => Ok(session.path.clone()),

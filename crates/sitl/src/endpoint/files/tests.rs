@@ -1,4 +1,5 @@
-//! Tests the server with a retrying client over a link that loses, duplicates and reorders packets, with files in memory.
+//! Tests the server with a retrying client over a link that loses, duplicates and reorders packets, with in-memory
+//! files.
 
 use super::*;
 use spandrel_mavlink::ftp::{NAK, PAYLOAD};
@@ -7,7 +8,7 @@ use spandrel_model::random::RandomStream;
 const CLIENT: FileClient = (LinkId(1), (255, 190));
 const OTHER: FileClient = (LinkId(2), (254, 190));
 
-/// Files in memory, in one directory tree by path.
+/// In-memory files by path.
 #[derive(Default)]
 struct MemoryFiles(BTreeMap<String, Vec<u8>>);
 
@@ -93,7 +94,7 @@ impl FtpHarness {
     fn ask(&mut self, opcode: Opcode, session: u8, offset: u32, data: &[u8]) -> FtpPacket {
         let packet = self.packet(opcode, session, offset, data);
         let answers = self.put(CLIENT, &packet);
-        assert_eq!(answers.len(), 1, "{opcode:?} is answered once and at once");
+        assert_eq!(answers.len(), 1, "{opcode:?} must be answered once, immediately");
         assert_eq!((answers[0].sequence, answers[0].request), (packet.sequence.wrapping_add(1), opcode as u8));
         answers.into_iter().next().unwrap()
     }
@@ -131,7 +132,11 @@ fn exact_a_file_is_made_written_read_renamed_and_removed() {
     let session = bench.ask(Opcode::CreateFile, 0, 0, b"/notes.txt").session;
     assert_eq!(said(&bench.ask(Opcode::WriteFile, session, 0, b"hello")), Ok(Vec::new()));
     assert_eq!(said(&bench.ask(Opcode::WriteFile, session, 5, b" there")), Ok(Vec::new()));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, session, 0, b"")), Err(FtpError::InvalidSession as u8), "opened to be written");
+    assert_eq!(
+        said(&bench.ask(Opcode::ReadFile, session, 0, b"")),
+        Err(FtpError::InvalidSession as u8),
+        "the session is open for writing"
+    );
     assert_eq!(said(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Ok(Vec::new()));
     assert_eq!(said(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Err(FtpError::InvalidSession as u8));
     assert_eq!(said(&bench.ask(Opcode::Rename, 0, 0, b"notes.txt\0words.txt")), Ok(Vec::new()));
@@ -155,7 +160,7 @@ fn exact_a_repeated_request_is_answered_again_and_done_once() {
     let packet = bench.packet(Opcode::RemoveFile, 0, 0, b"a");
     let first = bench.put(CLIENT, &packet);
     assert_eq!(said(&first[0]), Ok(Vec::new()));
-    assert_eq!(bench.put(CLIENT, &packet), first, "not a refusal for a file that is gone by now");
+    assert_eq!(bench.put(CLIENT, &packet), first, "a duplicate must repeat the first answer, although the file is gone");
 }
 
 #[test]
@@ -170,9 +175,9 @@ fn exact_nobody_uses_another_clients_session_or_more_than_its_share() {
         assert!(said(&bench.ask(Opcode::OpenFileRo, number, 0, b"a")).is_ok());
     }
     assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 8, 0, b"a")), Err(FtpError::NoSessionsAvailable as u8));
-    assert!(said(&bench.ask(Opcode::OpenFileRo, 7, 0, b"a")).is_ok(), "one that it has under this number gives way");
+    assert!(said(&bench.ask(Opcode::OpenFileRo, 7, 0, b"a")).is_ok(), "a new session must replace the one with the same number");
     bench.now += SimTime::from_ms(60_001);
-    assert!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")).is_ok(), "idle sessions end");
+    assert!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")).is_ok(), "idle sessions must expire");
     assert!(said(&bench.ask(Opcode::ResetSessions, 0, 0, b"")).is_ok());
 }
 
@@ -194,10 +199,15 @@ fn regress_answers_name_the_session_that_was_requested() {
     assert_eq!(said(&bench.put(OTHER, &read)[0]), Ok(vec![2; 3]));
     assert_eq!(said(&bench.ask(Opcode::ReadFile, 7, 0, &[0; 3])), Ok(vec![1; 3]));
     let left_open = bench.ask(Opcode::OpenFileRo, 7, 0, b"b");
-    assert_eq!((left_open.session, said(&bench.ask(Opcode::ReadFile, 7, 0, &[0; 3]))), (7, Ok(vec![2; 3])), "the newest counts");
+    assert_eq!(
+        (left_open.session, said(&bench.ask(Opcode::ReadFile, 7, 0, &[0; 3]))),
+        (7, Ok(vec![2; 3])),
+        "the newest session must be used"
+    );
 }
 
-/// The last packet of a burst completes it: if it is lost, MAVSDK 4 would treat an additional NAK as its last failed attempt.
+/// The last packet of a burst completes it: if it is lost, MAVSDK 4 would treat an additional NAK as its last failed
+/// attempt.
 #[test]
 fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
     let mut bench = FtpHarness::new();
@@ -215,7 +225,7 @@ fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
     assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 0, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
 }
 
-/// A duplicated or delayed request restarts no burst and truncates no file being written.
+/// A duplicated or delayed request must not restart a burst or truncate a file being written.
 #[test]
 fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
     let mut bench = FtpHarness::new();
@@ -233,14 +243,14 @@ fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
     let create = bench.packet(Opcode::CreateFile, 4, 0, b"new");
     bench.put(CLIENT, &create);
     bench.ask(Opcode::WriteFile, 4, 0, b"hello");
-    assert!(bench.put(CLIENT, &create).is_empty(), "late duplicate of an answered request");
+    assert!(bench.put(CLIENT, &create).is_empty(), "a late duplicate must not be answered");
     assert_eq!(bench.files.0["new"], b"hello");
     bench.now += SimTime::from_ms(2_001);
     assert_eq!(bench.put(CLIENT, &create).len(), 1);
-    assert!(bench.files.0["new"].is_empty(), "a client that begins anew with the same number");
+    assert!(bench.files.0["new"].is_empty(), "a restarted client may reuse a sequence number");
 }
 
-/// A long file is checksummed slice by slice, with other clients' jobs in between.
+/// A long file must be checksummed slice by slice, with other clients' jobs in between.
 #[test]
 fn regress_a_checksum_is_made_in_slices() {
     let mut bench = FtpHarness::new();
@@ -284,7 +294,7 @@ fn exact_what_is_made_for_a_session_stays_as_it_was_when_it_was_opened() {
     let mut open = |number: u8, content: &[u8]| {
         let request = bench.packet(Opcode::OpenFileRo, number, 0, b"@PARAM/param.pck");
         bench.server.open_generated(CLIENT, &request, content.to_vec(), bench.now);
-        bench.server.open_generated(CLIENT, &request, b"a repetition makes nothing anew".to_vec(), bench.now);
+        bench.server.open_generated(CLIENT, &request, b"a duplicate must not generate new content".to_vec(), bench.now);
         let answers: Vec<FtpPacket> = bench.server.poll(|_| true).into_iter().map(|(_, packet)| packet).collect();
         assert_eq!(answers[0], answers[1]);
         answers[0].clone()
@@ -297,7 +307,7 @@ fn exact_what_is_made_for_a_session_stays_as_it_was_when_it_was_opened() {
     assert_eq!(
         said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"@PARAM/param.pck")),
         Err(FtpError::FileNotFound as u8),
-        "it is not kept"
+        "generated content must not be stored"
     );
 }
 
@@ -345,7 +355,7 @@ fn prop_a_burst_download_is_whole_over_a_link_that_loses_repeats_and_reorders() 
         let mut rounds = 0;
         loop {
             rounds += 1;
-            assert!(rounds < 2_000, "seed {seed}: never whole");
+            assert!(rounds < 2_000, "seed {seed}: the transfer never completed");
             let held = got.iter().fold(0, |end, (from, bytes)| if *from == end { from + bytes.len() as u32 } else { end });
             if held as usize == file.len() {
                 break;

@@ -8,7 +8,7 @@ const STREAMS_SHARE: f64 = 0.75;
 const FRAME_BYTES: f64 = 50.0;
 /// Maximum factor by which stream intervals are stretched.
 const SLOWEST: f64 = 200.0;
-/// Maximum burst after an idle period, s of link capacity, and its minimum of one datagram, bytes.
+/// Maximum burst after an idle period, s of link capacity, and its minimum (one datagram), bytes.
 const BURST_S: f64 = 0.05;
 const BURST_BYTES: f64 = 300.0;
 /// Backlog above which lists and files wait and streams and forwarded frames are skipped, s of link capacity.
@@ -30,7 +30,8 @@ pub struct LinkBudget {
 }
 
 impl LinkBudget {
-    /// Creates the budget of a link with a capacity of `bytes_s`, bytes/s, and streams that request `frames_s`, frames/s.
+    /// Creates the budget of a link with a capacity of `bytes_s`, bytes/s, and streams that request `frames_s`,
+    /// frames/s.
     #[must_use]
     pub fn new(bytes_s: f64, frames_s: f64, now: SimTime) -> Self {
         let stretch = (frames_s * FRAME_BYTES / (bytes_s * STREAMS_SHARE)).clamp(1.0, SLOWEST);
@@ -88,9 +89,9 @@ impl LinkBudget {
 mod tests {
     use super::*;
 
-    /// A telemetry radio at 57,600 baud, 8N1, bytes a second.
+    /// Capacity of a telemetry radio at 57,600 baud, 8N1, bytes/s.
     const RADIO: f64 = 5_760.0;
-    /// Relative to the mean over ten seconds; datagrams are indivisible.
+    /// Relative tolerance of the mean over ten seconds; datagrams are indivisible.
     const TOLERANCE: f64 = 0.02;
 
     #[test]

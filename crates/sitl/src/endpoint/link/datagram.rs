@@ -10,7 +10,7 @@ pub struct ReceivedDatagram {
 }
 
 impl ReceivedDatagram {
-    /// Creates a datagram that is not decoded yet.
+    /// Creates a datagram that has not been decoded yet.
     #[must_use]
     pub fn new(bytes: &[u8]) -> Self {
         Self { bytes: bytes.to_vec(), decoded: None }
@@ -22,7 +22,7 @@ impl ReceivedDatagram {
         self.bytes.len()
     }
 
-    /// Checks whether there are no bytes.
+    /// Checks whether the datagram is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.bytes.is_empty()

@@ -1,4 +1,4 @@
-//! Identity and kind of a link, and the datagrams that it carries.
+//! Link identity, link kind, and outgoing datagrams.
 
 /// Identifies a link; assigned by the host.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

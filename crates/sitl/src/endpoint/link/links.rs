@@ -18,12 +18,12 @@ pub struct Links {
     router: Router<LinkId>,
     pub(super) signing: Option<SigningPolicy>,
     bad_bytes: u64,
-    /// Frames dropped by links that are closed now.
+    /// Number of frames dropped by links that have since closed.
     dropped_by_closed: u64,
 }
 
 impl Links {
-    /// Creates a vehicle's end without links.
+    /// Creates the link table of a vehicle, without links.
     #[must_use]
     pub fn new(system_id: u8) -> Self {
         Self { system_id, peers: BTreeMap::new(), router: Router::new(), signing: None, bad_bytes: 0, dropped_by_closed: 0 }
@@ -47,8 +47,8 @@ impl Links {
         self.router.forget_link(id);
     }
 
-    /// Sends only responses on a link until a heartbeat is received: the sender's address may be forged, and streams would
-    /// amplify every datagram.
+    /// Sends only responses on a link until a heartbeat is received: the sender's address may be forged, and streams
+    /// would amplify every datagram.
     pub fn await_heartbeat(&mut self, id: LinkId) {
         if let Some(link) = self.peers.get_mut(&id) {
             link.answers_only = true;
@@ -68,7 +68,7 @@ impl Links {
         self.peers.get(&id)
     }
 
-    /// Returns a link for changes.
+    /// Returns a mutable reference to a link.
     pub fn get_mut(&mut self, id: LinkId) -> Option<&mut PeerLink> {
         self.peers.get_mut(&id)
     }
@@ -114,7 +114,7 @@ impl Links {
         }
     }
 
-    /// Sends a message from a component on the links on which a peer, given by system and component ID, was seen.
+    /// Sends a message from a component on every link where the peer (system and component ID) has been seen.
     pub fn send_to(&mut self, component: u8, peer: (u8, u8), message: &impl Encodable) {
         for (id, link) in &mut self.peers {
             if self.router.has_seen(peer, *id) {
@@ -147,7 +147,7 @@ impl Links {
         frames
     }
 
-    /// Decides on a frame received on a link.
+    /// Returns the permitted handling of a frame received on a link.
     pub fn admit(&mut self, id: LinkId, frame: &ReceivedFrame) -> FrameAdmission {
         let Some(link) = self.peers.get(&id) else { return FrameAdmission::Reject };
         self.signing.as_mut().map_or(FrameAdmission::Execute, |policy| policy.admit(frame, link.kind))
@@ -160,7 +160,7 @@ impl Links {
         }
     }
 
-    /// Forwards a frame to the other links that it is addressed to.
+    /// Forwards a frame to its target links.
     pub fn route(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
         // Reject frames that impersonate the vehicle's own components.
         if frame.system_id == self.system_id && matches!(frame.component_id, AUTOPILOT | CAMERA) {

@@ -1,4 +1,4 @@
-//! Lockstep: simulation time waits for the responses of the peers that run in it.
+//! Lockstep: simulation time waits for responses from the peers in lockstep.
 
 use super::datagram::ReceivedDatagram;
 use super::link_id::LinkId;
@@ -52,12 +52,13 @@ impl Links {
         }
     }
 
-    /// Checks whether a datagram that was not processed yet answers the lockstep request with this token, from an admitted
-    /// sender.
+    /// Checks whether a datagram that has not been processed yet contains an admitted response to the lockstep request
+    /// with this token.
     #[must_use]
     pub fn answers_lockstep(&self, id: LinkId, datagram: &mut ReceivedDatagram, token: i64) -> bool {
         let Some(link) = self.peers.get(&id) else { return false };
-        // Check with a copy: recording the frame would make it a replay when it is processed.
+        // Use a copy of the signing state: recording the frame here would make it count as a replay when it is
+        // processed.
         let mut policy = self.signing.clone();
         let mut is_admitted =
             |frame| policy.as_mut().is_none_or(|policy| policy.admit(frame, link.kind) == FrameAdmission::Execute);

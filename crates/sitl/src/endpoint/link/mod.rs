@@ -1,5 +1,5 @@
-//! Transport: links to peers, with their stream schedules, capacity limits, signing and outgoing queues. It does not know the
-//! vehicle.
+//! Transport: links to peers, with their stream schedules, capacity limits, signing and outgoing queues. This module
+//! does not depend on the vehicle.
 
 mod budget;
 mod datagram;

@@ -9,13 +9,13 @@ use spandrel_mavlink::signing::Signing;
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 
-/// Maximum size of a datagram into which frames are packed, bytes (below the usual path MTU).
+/// Maximum size of a datagram that packs several frames, bytes (below the usual path MTU).
 const DATAGRAM: usize = 1_200;
 /// Datagram size on a rate-limited link, bytes: small, to keep the latency low.
 const SMALL_DATAGRAM: usize = 280;
 /// Maximum backlog of an unlimited link, bytes; the host empties it in every iteration.
 const BACKLOG_MAX: usize = 4_194_304;
-/// Maximum number of frames of one link forwarded to others per tick.
+/// Maximum number of frames per tick that are forwarded from one link to other links.
 const FORWARDED_PER_TICK: usize = 16;
 /// Interval between heartbeats of a component (MAVLink: 1 Hz).
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
@@ -69,7 +69,8 @@ pub struct PeerLink {
 }
 
 impl PeerLink {
-    /// Creates a link with its streams. With `must_ask`, the peer receives the scoring data only if it requests the ground truth.
+    /// Creates a link with its streams. With `must_ask`, the peer receives the scoring data only if it requests the
+    /// ground truth.
     #[must_use]
     pub fn new(kind: LinkKind, lockstep: bool, system_id: u8, must_ask: bool, streams: StreamSchedule, now: SimTime) -> Self {
         Self {
@@ -121,7 +122,8 @@ impl PeerLink {
         self.budget.is_some()
     }
 
-    /// Checks whether the backlog is saturated: lists and files then wait, and streams and forwarded frames are skipped.
+    /// Checks whether the backlog is saturated: lists and files then wait, and streams and forwarded frames are
+    /// skipped.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.budget.as_ref().is_some_and(|budget| budget.is_saturated(self.waiting))
@@ -133,8 +135,8 @@ impl PeerLink {
         self.dropped
     }
 
-    /// Returns the due rows of the stream table, each once, and schedules them again, with longer intervals if they exceed the
-    /// link's capacity.
+    /// Returns the due rows of the stream table, each once, and schedules them again, with longer intervals if they
+    /// exceed the link's capacity.
     pub fn due(&mut self, now: SimTime, out: &mut Vec<usize>) {
         out.clear();
         if let Some(budget) = &mut self.budget {
@@ -162,8 +164,8 @@ impl PeerLink {
         }
     }
 
-    /// Records that the peer addresses the camera: it then receives the camera's heartbeats at MAVLink's rate for components,
-    /// aligned with the autopilot's.
+    /// Records that the peer addresses the camera: it then receives the camera's heartbeats at MAVLink's rate for
+    /// components, aligned with the autopilot's heartbeats.
     pub fn use_camera(&mut self) {
         if !std::mem::replace(&mut self.uses_camera, true) {
             self.streams.align_heartbeat(CAMERA, AUTOPILOT, HEARTBEAT_INTERVAL);
@@ -259,7 +261,7 @@ impl PeerLink {
         }
     }
 
-    /// Returns the next datagram that the link can carry now.
+    /// Returns the next datagram that the link has capacity for.
     pub fn poll(&mut self) -> Option<Vec<u8>> {
         let len = self.out.front()?.len();
         if self.budget.as_mut().is_some_and(|budget| !budget.take(len)) {

@@ -6,8 +6,8 @@ use super::signing_policy::SigningPolicy;
 use spandrel_mavlink::signing::SigningKey;
 
 impl Links {
-    /// Signs all outgoing frames and requires signatures with this key, except for unsigned frames on trusted kinds of links.
-    /// `stamp` is the current signing timestamp.
+    /// Signs all outgoing frames and requires signatures with this key, except for unsigned frames on trusted kinds of
+    /// links. `stamp` is the current signing timestamp.
     pub fn demand_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
         self.signing = Some(SigningPolicy::new(key, stamp, trusted));
         self.sign_links();

@@ -27,8 +27,8 @@ pub enum FrameAdmission {
 }
 
 impl SigningPolicy {
-    /// Requires signatures with this key, starting at `stamp` (signing timestamp), except for unsigned frames on trusted kinds of
-    /// links. Signed frames must be valid there, too.
+    /// Requires signatures with this key, starting at `stamp` (signing timestamp), except for unsigned frames on
+    /// trusted kinds of links. Signed frames must be valid there, too.
     #[must_use]
     pub fn new(key: SigningKey, stamp: u64, trusted: &[LinkKind]) -> Self {
         Self { signing: Signing::new(key.clone(), 0, stamp), key, stamp, refused: 0, trusted: trusted.to_vec() }
@@ -65,7 +65,7 @@ impl SigningPolicy {
         self.refused
     }
 
-    /// Decides on a frame. A payload process without a key may broadcast but not send commands.
+    /// Returns the permitted handling of a frame. A payload process without a key may broadcast but not send commands.
     pub fn admit(&mut self, frame: &ReceivedFrame, kind: LinkKind) -> FrameAdmission {
         let verdict = self.signing.verify(frame, self.stamp);
         if is_accepted(frame, verdict) || (verdict == SignatureVerdict::Unsigned && self.trusted.contains(&kind)) {

@@ -43,7 +43,7 @@ pub struct StreamSchedule {
 }
 
 impl StreamSchedule {
-    /// Creates a schedule in which everything is due immediately.
+    /// Creates a schedule with every stream due immediately.
     #[must_use]
     pub fn new(streams: Vec<ScheduledStream>, now: SimTime) -> Self {
         Self { streams, next_due: now }
@@ -61,8 +61,8 @@ impl StreamSchedule {
         now >= self.next_due
     }
 
-    /// Adds the due rows to `out`, each once, and schedules them again. `stretch` lengthens the intervals; on a saturated link,
-    /// only heartbeats are returned.
+    /// Adds the due rows to `out`, each once, and schedules them again. `stretch` lengthens the intervals; on a
+    /// saturated link, only heartbeats are returned.
     pub fn take_due(&mut self, now: SimTime, stretch: f64, is_saturated: bool, out: &mut Vec<usize>) {
         let mut soonest = SimTime::NEVER;
         for (row, stream) in self.streams.iter_mut().enumerate() {
@@ -90,8 +90,8 @@ impl StreamSchedule {
         interval.map_or(-1, |interval| i32::try_from(interval.us()).unwrap_or(i32::MAX))
     }
 
-    /// Sets the interval of a row, microseconds: 0 restores the default, negative values turn it off. Returns false if the value
-    /// is invalid.
+    /// Sets the interval of a row, microseconds: 0 restores the default, negative values turn it off. Returns false if
+    /// the value is invalid.
     pub fn set_interval(&mut self, row: usize, us: f64, now: SimTime) -> bool {
         let Some(stream) = self.streams.get_mut(row).filter(|_| us.is_finite()) else { return false };
         stream.interval = match us {
@@ -131,7 +131,8 @@ impl StreamSchedule {
         self.next_due = now;
     }
 
-    /// Sends the heartbeats of a component at `interval` if they are slower, aligned with those of another component.
+    /// Shortens the heartbeat interval of a component to `interval` if it is longer, aligned with the heartbeats of
+    /// another component.
     pub fn align_heartbeat(&mut self, component: u8, with: u8, interval: SimTime) {
         let row_of =
             |component| self.streams.iter().position(|stream| stream.message == HEARTBEAT && stream.component == component);

@@ -15,7 +15,7 @@ fn is_for_camera(component: u8) -> bool {
     matches!(component, 0 | CAMERA)
 }
 
-/// Encodes a value for the wire: its bytes first, little-endian.
+/// Encodes a value for the wire: little-endian, in the first bytes of the field.
 fn bytes(value: u32) -> CharArray<128> {
     let mut data = [0; 128];
     data[..4].copy_from_slice(&value.to_le_bytes());

@@ -1,4 +1,4 @@
-//! Changes of the equipment to report once.
+//! Equipment changes to report once.
 
 use std::collections::BTreeSet;
 

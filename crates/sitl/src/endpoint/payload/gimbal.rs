@@ -1,5 +1,5 @@
-//! The pitch gimbal, controlled through the gimbal manager of the autopilot component. It stabilizes roll and pitch and follows
-//! the heading; it has no roll or yaw axis and cannot retract.
+//! The pitch gimbal, controlled through the gimbal manager of the autopilot component. It stabilizes roll and pitch and
+//! follows the heading; it has no roll or yaw axis and cannot retract.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -7,7 +7,8 @@ use spandrel_model::vehicle::Camera;
 
 /// ID of the non-MAVLink gimbal device (docs/src/reference/wire.md, "Camera, gimbal and lamp").
 pub const DEVICE: u8 = 1;
-/// Tolerance within which an angle tolerance_rad the limit is accepted and clamped, rad (about one degree, because clients round).
+/// Tolerance within which an angle beyond the limit is accepted and clamped, rad (about one degree, because clients
+/// round).
 const SLACK_RAD: f64 = 0.02;
 
 /// Target of the gimbal.
@@ -26,8 +27,7 @@ pub enum GimbalTarget {
 }
 
 impl GimbalTarget {
-    /// Returns the target of a message with these fields, where NaN and zero rates are omitted: an angle, an angle with a rate,
-    /// or a rate alone.
+    /// Returns the target of a message with these fields: an angle, an angle with a rate, or a rate alone.
     #[must_use]
     pub fn of(angle_rad: Option<f64>, rate_rad_s: Option<f64>) -> Option<Self> {
         match (angle_rad, rate_rad_s) {
@@ -52,7 +52,7 @@ pub struct GimbalState {
     pub secondary: (u8, u8),
     /// Whether DO_MOUNT_CONTROL values are rates, as selected by DO_MOUNT_CONFIGURE.
     pub mount_rates: bool,
-    /// Whether the target is tolerance_rad the limit.
+    /// Whether the gimbal is at its limit and the target is beyond it.
     pub at_stop: bool,
     aim: GimbalTarget,
 }
@@ -84,7 +84,8 @@ impl GimbalState {
         self.aim == GimbalTarget::Neutral
     }
 
-    /// Converts a stick deflection in [-1, 1], up positive, to an angle; full deflection corresponds to the limit on that side.
+    /// Converts a stick deflection in [-1, 1], up positive, to an angle; full deflection corresponds to the limit on
+    /// that side.
     #[must_use]
     pub fn deflected(camera: &Camera, deflection: f64) -> GimbalTarget {
         let stop = if deflection < 0.0 { -camera.gimbal_pitch_min_rad } else { camera.gimbal_pitch_max_rad };

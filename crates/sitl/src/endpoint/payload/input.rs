@@ -1,5 +1,5 @@
-//! Aircraft state used by the equipment and the scoring feed. It comes from sensors, physics and the state that any autopilot
-//! reports, so that this half also works behind another autopilot.
+//! Aircraft state used by the equipment and the scoring feed. It comes from sensors, physics and the state that any
+//! autopilot reports, so the payload interface also works with another autopilot.
 
 use super::scoring_truth::ScoringTruth;
 use crate::endpoint::clock::VehicleClock;

@@ -34,7 +34,8 @@ impl LampState {
         *self = Self { on, blinking: None };
     }
 
-    /// Toggles the lamp and back `cycles` times, `cycle_s` each, starting now. Returns false if a value is out of range.
+    /// Toggles the lamp and restores it `cycles` times, each cycle `cycle_s` long, starting now. Returns false if a
+    /// value is out of range.
     pub fn repeat(&mut self, cycles: f64, cycle_s: f64, now: SimTime) -> bool {
         let is_valid = CYCLES.contains(&cycles) && CYCLE_S.contains(&cycle_s);
         if is_valid {

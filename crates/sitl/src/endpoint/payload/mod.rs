@@ -1,5 +1,5 @@
-//! The aircraft's equipment and the scoring feed: camera (component 100), gimbal, lamp, ground truth. This half does not know the
-//! autopilot; it also works beside another one.
+//! The aircraft's equipment and the scoring feed: camera (component 100), gimbal, lamp, ground truth. This module does
+//! not depend on the autopilot, so it also works with another one.
 
 pub mod camera;
 mod camera_params;
@@ -37,7 +37,7 @@ use std::ops::Range;
 pub struct PayloadLink {
     /// Camera, gimbal, lamp.
     pub equipment: Payload,
-    /// Seconds of simulation time per second of the clients' time.
+    /// Seconds of simulation time per second of client time.
     pub speed_factor: f64,
     files: FileServer,
     scoring: ScoringFeed,
@@ -54,7 +54,7 @@ impl PayloadLink {
         Self { equipment: Payload::new(), speed_factor: 1.0, files, scoring: ScoringFeed::new(), image_requests: BTreeMap::new() }
     }
 
-    /// Releases everything that belongs to a closed link.
+    /// Releases all state of a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.files.forget(link);
         self.image_requests.remove(&link);

@@ -17,7 +17,7 @@ impl PayloadLink {
             return;
         }
         let view = PayloadSnapshot::new(input, &self.equipment);
-        // The scoring evaluates the image content: send the field of view first.
+        // Scoring evaluates the image content, so the field of view must be sent first.
         if input.vehicle.camera.zoom_max > 1.0 {
             links.broadcast(CAMERA, &field_of_view(&view));
         }
@@ -43,8 +43,8 @@ impl PayloadLink {
         files::send_replies(&mut self.files, CAMERA, links);
     }
 
-    /// Resends image records `first` (-1: all) to `last` (0: only `first`, -1: to the newest). The first is sent immediately, the
-    /// others as link capacity permits.
+    /// Resends image records `first` (-1: all) to `last` (0: only `first`, -1: to the newest). The first is sent
+    /// immediately, the rest as link capacity permits.
     pub(crate) fn resend_images(&mut self, (first, last): (f64, f64), link: LinkId, links: &mut Links) -> MavResult {
         let count = self.equipment.camera.image_count();
         let (first, last) = match (first, last) {

@@ -1,4 +1,4 @@
-//! Messages to the equipment, by a message table.
+//! Table of the messages that the equipment handles.
 
 use super::inbound::PayloadMessage;
 use super::{PayloadLink, camera_params, gimbal_messages, video_reports};
@@ -34,7 +34,8 @@ handlers! {
 }
 
 impl PayloadLink {
-    /// Handles a message addressed to the camera, to the component that gimbal and lamp belong to, or to all components.
+    /// Handles a message addressed to the camera, to the component that owns the gimbal and the lamp, or to all
+    /// components.
     pub(crate) fn receive(&mut self, component: u8, frame: &ReceivedFrame, a: &mut PayloadMessage) {
         match (component, &frame.message) {
             (0 | AUTOPILOT, Some(message)) => dispatch(self, message, a),

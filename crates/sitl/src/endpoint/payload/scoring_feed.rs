@@ -1,5 +1,5 @@
-//! Additional scoring data besides the true motion (docs/src/reference/wire.md, "Scoring data"): named values, sent on change and
-//! at rates of their own.
+//! Scoring data other than the true motion (docs/src/reference/wire.md, "Scoring data"): named values, each sent on
+//! change and at its own rate.
 
 use super::scoring_truth::ScoringTruth;
 use spandrel_mavlink::contract::named_values::Named;
@@ -23,8 +23,8 @@ impl ScoringFeed {
         Self { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2), last: ScoringTruth::default() }
     }
 
-    /// Returns the values that are due: contact on change and at 10 Hz; hits, respawns and traffic on change and with the slow
-    /// values.
+    /// Returns the values that are due: contact on change and at 10 Hz; hits, respawns and traffic on change and with
+    /// the slow values.
     pub fn take_due(&mut self, truth: &ScoringTruth, speed_factor: f64, now: SimTime) -> Vec<Named> {
         let mut out = Vec::new();
         if self.contact.fire(now) | (truth.contact != self.last.contact) {
@@ -37,7 +37,7 @@ impl ScoringFeed {
         if slow || truth.respawns != self.last.respawns {
             out.push(Named::Respawns(truth.respawns));
         }
-        // Traffic that was never stopped is omitted.
+        // Traffic that has never been stopped is omitted.
         if slow || truth.traffic != self.last.traffic {
             out.extend(truth.traffic.into_iter().filter(|code| *code != 0).map(Named::Traffic));
         }

@@ -2,7 +2,7 @@
 
 use spandrel_mavlink::contract::contact::ContactKind;
 
-/// Scoring data besides the motion (docs/src/reference/wire.md, "Scoring data").
+/// Scoring data other than the motion (docs/src/reference/wire.md, "Scoring data").
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ScoringTruth {
     /// Kind of contact.
@@ -17,7 +17,7 @@ pub struct ScoringTruth {
     pub seed: i32,
     /// CRC of the scenario.
     pub scenario_crc: u32,
-    /// Distance to the nearest surface from the drone's center, m.
+    /// Distance from the drone's center to the nearest surface, m.
     pub clearance_m: f64,
     /// Ambient light at the drone, lux.
     pub lux: f64,

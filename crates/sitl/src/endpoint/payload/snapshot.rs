@@ -1,4 +1,4 @@
-//! The equipment and its aircraft at one instant, from which messages are built.
+//! Snapshot of the equipment and its aircraft at one instant, used to build messages.
 
 use super::camera::CameraSummary;
 use super::equipment::Payload;
@@ -13,7 +13,7 @@ use spandrel_model::vehicle::Camera;
 /// State of the equipment and its aircraft.
 #[derive(Debug, Clone, Copy)]
 pub struct PayloadSnapshot<'a> {
-    /// The time on the clocks of the link that messages are built for.
+    /// Time on the clocks of the link that receives the messages.
     pub clock: VehicleClock,
     /// The aircraft.
     pub input: &'a PayloadInput<'a>,
@@ -45,8 +45,8 @@ impl<'a> PayloadSnapshot<'a> {
         self.camera.lens(&self.input.vehicle.camera)
     }
 
-    /// Returns the camera's attitude as a quaternion from body to north-east-down, w first. The gimbal keeps roll level and
-    /// follows the heading.
+    /// Returns the camera's attitude as a quaternion from body to north-east-down, w first. The gimbal stabilizes roll
+    /// and follows the heading.
     #[must_use]
     pub fn camera_attitude(&self) -> [f64; 4] {
         let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, self.gimbal.pitch_rad, self.input.heading_rad);

@@ -1,4 +1,4 @@
-//! Reports of the process that renders and sends the video.
+//! Reports from the process that renders and sends the video.
 
 use super::PayloadLink;
 use super::camera::stream::{StreamReport, VideoStream};
@@ -25,7 +25,7 @@ pub(super) fn status(p: &mut PayloadLink, m: &VIDEO_STREAM_STATUS_DATA, a: &mut 
     let before = camera.stream.running(now);
     let runs = m.flags.contains(VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING);
     let stream = VideoStream { width_px: m.resolution_h, height_px: m.resolution_v, rate_hz: m.framerate, bits_s: m.bitrate };
-    // The sender runs in wall time, as clients do.
+    // The sender uses wall time, like other clients.
     let until = now + SimTime::from_s(REPORT_TIMEOUT_S * p.speed_factor);
     camera.stream = StreamReport::new(runs.then_some(stream), until);
     // Ground stations open the video when the stream is announced, and use the announced size.

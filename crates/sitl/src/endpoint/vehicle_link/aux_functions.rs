@@ -55,8 +55,8 @@ pub(super) fn read_switches(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, 
     }
 }
 
-/// Handles DO_AUX_FUNCTION: parameter 1 is the function, 2 the switch level. Returns `None` for other commands and for flavours
-/// without switches.
+/// Handles DO_AUX_FUNCTION: parameter 1 is the function, 2 the switch level. Returns `None` for other commands and for
+/// flavors without switches.
 pub(crate) fn command(v: &mut VehicleLink, c: &VehicleCommand, a: &mut InboundMessage) -> Option<MavResult> {
     if c.number != DO_AUX_FUNCTION || v.params.switch_function(FIRST_CHANNEL).is_none() {
         return None;
@@ -128,8 +128,8 @@ fn restart_mission(v: &mut VehicleLink, a: &mut InboundMessage) {
     v.announce(MISSION_CURRENT_DATA::ID);
 }
 
-/// Appends the vehicle's position to the mission: a landing if the throttle is down, a waypoint otherwise. A takeoff item is
-/// added before the first one. Does nothing in AUTO or while disarmed.
+/// Appends the vehicle's position to the mission: a landing if the throttle is down, a waypoint otherwise. A takeoff
+/// item is added before the first one. Does nothing in AUTO or while disarmed.
 fn save_waypoint(v: &mut VehicleLink, a: &mut InboundMessage) {
     let status = a.autopilot.status();
     let Some(home) =

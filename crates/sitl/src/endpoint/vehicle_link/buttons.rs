@@ -33,8 +33,8 @@ pub struct ButtonState {
 }
 
 impl ButtonState {
-    /// Returns the buttons pressed since the last message. Buttons already down when a client takes control don't count as
-    /// pressed.
+    /// Returns the buttons pressed since the last message. Buttons already down when a client takes control don't count
+    /// as pressed.
     pub fn of(&mut self, m: &MANUAL_CONTROL_DATA) -> impl Iterator<Item = usize> + use<> {
         let before = self.down.replace(m.buttons).unwrap_or(m.buttons);
         let fresh = m.buttons & !before;
@@ -60,7 +60,8 @@ const STEP_DEG: f64 = 10.0;
 /// MAV_FRAME_GLOBAL_RELATIVE_ALT: altitude relative to home.
 const OVER_HOME: u8 = 3;
 
-/// Returns the command assigned to a button, executed and rejected like a received command. `None` if no action is assigned.
+/// Returns the command assigned to a button, executed and rejected like a received command. `None` if no action is
+/// assigned.
 pub(super) fn command(button: usize, params: &Params, context: &ButtonContext, from: (u8, u8)) -> Option<VehicleCommand> {
     use MavCmd as M;
     let standard = |mode: MavStandardMode| (M::MAV_CMD_DO_SET_STANDARD_MODE, [f64::from(mode as u32), 0.0, 0.0]);

@@ -9,8 +9,8 @@ use spandrel_model::frames::{Ned, Vec3};
 
 /// Handles the position of a follow-me target (PX4, ArduPilot).
 pub(super) fn follow_target(_: &mut VehicleLink, t: &FOLLOW_TARGET_DATA, a: &mut InboundMessage) {
-    // Like PX4, accepts a velocity regardless of the capability bits (MAVSDK sets only the position bit), but ignores a zero
-    // velocity without its bit.
+    // Like PX4, accepts a velocity regardless of the capability bits (MAVSDK sets only the position bit), but ignores a
+    // zero velocity without its bit.
     let given = t.est_capabilities & FOLLOW_VELOCITY != 0 || t.vel != [0.0; 3];
     let velocity = Some(t.vel.map(f64::from)).filter(|v| given && v.iter().all(|c| c.is_finite()));
     if t.est_capabilities & FOLLOW_POSITION != 0 {
@@ -22,7 +22,7 @@ pub(super) fn follow_target(_: &mut VehicleLink, t: &FOLLOW_TARGET_DATA, a: &mut
 const FOLLOW_POSITION: u8 = 1;
 const FOLLOW_VELOCITY: u8 = 2;
 
-/// Handles another vehicle's position for flavours that follow it (ArduPilot: FOLL_SYSID, 0 for any vehicle).
+/// Handles another vehicle's position for flavors that follow it (ArduPilot: FOLL_SYSID, 0 for any vehicle).
 pub(super) fn other_position(v: &mut VehicleLink, p: &GLOBAL_POSITION_INT_DATA, a: &mut InboundMessage) {
     let Some(followed) = v.params.whole("FOLL_SYSID") else { return };
     if a.from.0 == v.system_id || (followed != 0 && i32::from(a.from.0) != followed) {
@@ -47,6 +47,6 @@ fn report_target(
     }
 }
 
-/// Maximum distance of a target from the origin, m, and maximum speed, m/s; others are ignored.
+/// Maximum distance of a target from the origin, m, and maximum speed, m/s; targets beyond either limit are ignored.
 const FAR_M: f64 = 20_000.0;
 const FAST_M_S: f64 = 1_000.0;

@@ -10,7 +10,7 @@ pub(super) fn heartbeat(v: &mut VehicleLink, beat: &HEARTBEAT_DATA, a: &mut Inbo
     }
 }
 
-/// Checks whether the sender is the configured ground station, if a parameter names one.
+/// Checks whether the sender is the configured ground station, if a parameter specifies one.
 pub(super) fn is_accepted_station(v: &VehicleLink, a: &InboundMessage) -> bool {
     v.params.ground_station().is_none_or(|system| system == a.from.0)
 }

@@ -1,8 +1,8 @@
-//! Requests of clients that the simulation or the host executes.
+//! Client requests that the simulation or the host executes.
 
 use crate::faults::{FailureType, FailureUnit};
 
-/// A failure to inject, or to clear if there is no kind. Instances count from 1; 0 means all.
+/// A failure to inject, or to clear if `kind` is `None`. Instances count from 1; 0 means all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FailureInjection {
     /// Affected unit.

@@ -44,7 +44,7 @@ impl InboundMessage<'_, '_> {
         self.links.answer(AUTOPILOT, self.link, message);
     }
 
-    /// Sends a message of the autopilot to all links that receive unsolicited messages.
+    /// Sends a message from the autopilot to all links that receive unsolicited messages.
     pub fn broadcast(&mut self, message: &impl Encodable) {
         self.links.broadcast(AUTOPILOT, message);
     }

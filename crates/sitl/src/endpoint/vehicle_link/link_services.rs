@@ -1,18 +1,18 @@
 //! Time synchronization, pings and stream groups.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::VehicleLink;
 use super::inbound::InboundMessage;
 use spandrel_mavlink::dialect::{MavMessage, PING_DATA, REQUEST_DATA_STREAM_DATA, TIMESYNC_DATA};
 
 pub(super) fn timesync(_: &mut VehicleLink, sync: &TIMESYNC_DATA, a: &mut InboundMessage) {
-    // A response to somebody else's request.
+    // A response to another system's request.
     if sync.tc1 != 0 {
         return;
     }
     let (target_system, target_component) = a.from;
     let Some(link) = a.links.get(a.link) else { return };
-    // Uses the same clock as the timestamps of our messages, so that clients can convert them.
+    // Uses the same clock as the message timestamps, so that clients can convert them.
     let tc1 = a.aircraft.clock.for_link(link.kind).since_boot(a.now()).ns().max(1);
     a.answer(&MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));
 }

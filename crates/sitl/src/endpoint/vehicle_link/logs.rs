@@ -1,5 +1,5 @@
-//! Flight logs over MAVLink's log protocol: list, download and erase. Like the file server, it performs no file access; the same
-//! host executes its jobs.
+//! Flight logs over MAVLink's log protocol: list, download and erase. Like the file server, it performs no file access;
+//! the same host executes its jobs.
 
 use crate::endpoint::files::job::{DirectoryEntry, FileAction, FileError, FileJob, FileJobResult};
 use crate::endpoint::files::path::FilePath;
@@ -116,7 +116,7 @@ impl LogTransfers {
         self.downloads.remove(&link);
     }
 
-    /// Releases everything that belongs to a closed link.
+    /// Releases all state of a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.stop(link);
         self.entries.remove(&link);

@@ -1,5 +1,5 @@
-//! Manual control: converts MANUAL_CONTROL and RC_CHANNELS_OVERRIDE to stick input and arbitrates between senders. Reports every
-//! change of control.
+//! Manual control: converts MANUAL_CONTROL and RC_CHANNELS_OVERRIDE to stick input and arbitrates between senders.
+//! Reports every change of control.
 
 use super::buttons::ButtonState;
 use super::params::StickPolicy;
@@ -18,7 +18,7 @@ pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
 const MIDDLE_US: u16 = 1500;
 /// Number of channels other than the sticks.
 pub const AUX: usize = 12;
-/// Number of those that a value of 0 releases: channels 5 to 8.
+/// Number of these channels that a value of 0 releases: channels 5 to 8.
 const LOW_AUX: usize = 4;
 /// Default values of channels 5 to 16, microseconds (ArduPilot's SITL: SIM RC defaults).
 const AUX_US: [u16; AUX] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
@@ -108,7 +108,7 @@ impl ManualControl {
         }
     }
 
-    /// Releases what belongs to a closed link; its number may be reused.
+    /// Releases the state of a closed link, because the link ID may be reused.
     pub fn forget(&mut self, link: LinkId) {
         self.full_range.retain(|(known, _)| *known != link);
     }
@@ -149,8 +149,9 @@ impl ManualControl {
         }
     }
 
-    /// Applies MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its center,
-    /// or in -1000..1000 for a sender that has ever sent a negative value. Values out of range or not used count as centered.
+    /// Applies MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its
+    /// center, or in -1000..1000 for a sender that has ever sent a negative value. Out-of-range and unused values count
+    /// as centered.
     pub fn manual_control(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
         let zero = |value: Option<f64>| value.unwrap_or(0.0);
         let up = match axis(m.z) {
@@ -167,14 +168,14 @@ impl ManualControl {
         let known = self.full_range.contains(&from);
         if !known && z < 0.0 && self.full_range.len() < FULL_RANGE_MAX {
             self.full_range.push(from);
-            self.texts.push_back(format!("{}: throttle is -1000 to 1000", sender_name(from)));
+            self.texts.push_back(format!("{}: throttle range -1000 to 1000", sender_name(from)));
             return true;
         }
         known
     }
 
-    /// Returns the gimbal axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the sender in control moves it. Extension
-    /// `t` (roll in MAVLink, yaw in QGroundControl) is ignored: the gimbal has neither axis.
+    /// Returns the gimbal axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the sender in control moves it.
+    /// Extension `t` (roll in MAVLink, yaw in QGroundControl) is ignored: the gimbal has neither axis.
     pub fn gimbal(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
         let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
         let before = self.gimbal.replace(pitch);
@@ -188,9 +189,9 @@ impl ManualControl {
         self.holder == Some(from)
     }
 
-    /// Applies RC_CHANNELS_OVERRIDE: channels 1 to 4 are roll, pitch, throttle and yaw, microseconds. 65535 and values outside
-    /// the valid range leave a channel unchanged, 0 centers it; all four at 0 release control. Pitch is reversed as on a
-    /// transmitter: stick forward is below center.
+    /// Applies RC_CHANNELS_OVERRIDE: channels 1 to 4 are roll, pitch, throttle and yaw, microseconds. 65535 and values
+    /// outside the valid range leave a channel unchanged, 0 centers it; all four at 0 release control. Pitch is
+    /// reversed as on a transmitter: stick forward is below center.
     pub fn channels(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
         let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
         if all.iter().all(|us| *us == 0) {

@@ -9,7 +9,7 @@ use crate::endpoint::payload::commands as payload;
 use crate::endpoint::payload::gimbal::GimbalState;
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavResult, MavSeverity, RC_CHANNELS_OVERRIDE_DATA};
 
-/// Applies stick input. In the mode that accepts go-to commands, the yaw stick does not take over.
+/// Applies stick input. In the mode that accepts go-to commands, the yaw stick does not trigger a takeover.
 fn fly_by_sticks(v: &VehicleLink, sticks: Sticks, a: &mut InboundMessage) {
     let is_guided = v.is_guided(a.autopilot);
     a.autopilot.set_sticks_in_guided(is_guided);
@@ -37,7 +37,7 @@ pub(super) fn manual_control(v: &mut VehicleLink, m: &MANUAL_CONTROL_DATA, a: &m
 }
 
 pub(super) fn channels(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
-    // A receiver signals a lost transmitter by an unusually short throttle pulse; its channels are then ignored.
+    // A receiver signals a lost transmitter with an unusually short throttle pulse; its channels are then ignored.
     let lost = v.params.throttle_loss_us().is_some_and(|least| c.chan3_raw > 0 && c.chan3_raw < least);
     if !v.accepts_sticks || !is_accepted_station(v, a) || lost {
         return;

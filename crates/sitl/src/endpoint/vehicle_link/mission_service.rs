@@ -1,5 +1,5 @@
-//! Requests for plans.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+//! Requests of the mission protocol.
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::VehicleLink;
 use super::inbound::InboundMessage;
@@ -22,7 +22,8 @@ pub(super) fn item_int(v: &mut VehicleLink, r: &MISSION_REQUEST_INT_DATA, a: &mu
     a.answer(&message);
 }
 
-/// Answers the superseded request in the current form, as MAVLink requires, or in the older one, as ArduPilot's clients expect.
+/// Answers the superseded request in the current form, as MAVLink requires, or in the older one, as ArduPilot's clients
+/// expect.
 pub(super) fn item(v: &mut VehicleLink, r: &MISSION_REQUEST_DATA, a: &mut InboundMessage) {
     let message = match plan_item(v, r.mission_type, r.seq, a) {
         MavMessage::MISSION_ITEM_INT(item) if v.flavour.float_items => {
@@ -58,7 +59,7 @@ fn receive_item(v: &mut VehicleLink, item: &MISSION_ITEM_INT_DATA, a: &mut Inbou
     apply_plan_reply(v, reply, a);
 }
 
-/// Handles an item with floating-point degrees, from clients without MISSION_ITEM_INT.
+/// Handles an item with floating-point degrees, from clients that do not support MISSION_ITEM_INT.
 pub(super) fn receive(v: &mut VehicleLink, item: &MISSION_ITEM_DATA, a: &mut InboundMessage) {
     let scaled = |degrees: f32| if degrees.is_finite() { (f64::from(degrees) * 1e7).round() as i32 } else { i32::MAX };
     let whole = MISSION_ITEM_INT_DATA {
@@ -87,8 +88,8 @@ pub(super) fn clear(v: &mut VehicleLink, c: &MISSION_CLEAR_ALL_DATA, a: &mut Inb
     apply_plan_reply(v, reply, a);
 }
 
-/// Handles MISSION_ACK. An uploader that does not support the requested encoding rejects it, and the request is repeated in the
-/// other one (as in PX4).
+/// Handles MISSION_ACK. An uploader that does not support the requested encoding rejects it, and the request is
+/// repeated in the other one (as in PX4).
 pub(super) fn acknowledgement(v: &mut VehicleLink, m: &MISSION_ACK_DATA, a: &mut InboundMessage) {
     if m.mavtype != MavMissionResult::MAV_MISSION_UNSUPPORTED {
         v.plans.acknowledged(a.from);
@@ -120,7 +121,7 @@ pub(super) fn write_partial(v: &mut VehicleLink, w: &MISSION_WRITE_PARTIAL_LIST_
     apply_plan_reply(v, reply, a);
 }
 
-/// Rejects an upload with an item of a command, frame or plan type that MAVLink does not define.
+/// Rejects an upload that contains an item with a command, frame or plan type that MAVLink does not define.
 pub(super) fn unknown_item(v: &mut VehicleLink, mission_type: u8, a: &mut InboundMessage) {
     match v.plans.receive_unknown(a.from) {
         PlanReply::Nothing => unknown_plan(mission_type, a),

@@ -1,5 +1,5 @@
-//! The autopilot's interface (component 1): heartbeat, parameters, missions, modes, arming, files, logs, manual control, setpoints,
-//! calibration, events and shell.
+//! The autopilot's interface (component 1): heartbeat, parameters, missions, modes, arming, files, logs, manual
+//! control, setpoints, calibration, events and shell.
 
 pub(super) mod aux_functions;
 mod available_modes;
@@ -70,7 +70,7 @@ use text_queue::TextQueue;
 pub struct VehicleLink {
     system_id: u8,
     flavour: &'static Flavour,
-    /// The flavour's number of the last requested mode; several may map to the same internal mode.
+    /// The flavor's number of the last requested mode; several may map to the same internal mode.
     requested_mode: u32,
     /// The file server.
     pub files: FileServer,
@@ -79,8 +79,8 @@ pub struct VehicleLink {
     params: Params,
     storage: ParamStorage,
     param_lists: BTreeMap<LinkId, VecDeque<usize>>,
-    /// Parameter revision, plan item counts and fence switch already shown by the parameters, cached because looking parameters
-    /// up by name is too slow for every tick.
+    /// Parameter revision, plan item counts and fence switch already shown by the parameters, cached because looking
+    /// parameters up by name is too slow for every tick.
     shown_by_params: Option<(u64, [u16; 3], bool)>,
     restart_requested: bool,
     injections: VecDeque<FailureInjection>,
@@ -114,7 +114,7 @@ pub struct VehicleLink {
 const STREAM_WARNING_INTERVAL: SimTime = SimTime::from_ms(1_000);
 
 impl VehicleLink {
-    /// Creates the interface of an autopilot with the flavour's default parameters.
+    /// Creates the interface of an autopilot with the flavor's default parameters.
     #[must_use]
     pub fn new(system_id: u8, aircraft: AircraftValues, flavour: &'static Flavour) -> Self {
         let params = Params::new(system_id, aircraft, flavour.params);
@@ -152,7 +152,7 @@ impl VehicleLink {
         }
     }
 
-    /// Returns the autopilot flavour.
+    /// Returns the autopilot flavor.
     #[must_use]
     pub fn flavour(&self) -> &'static Flavour {
         self.flavour
@@ -227,8 +227,8 @@ impl VehicleLink {
         std::mem::take(&mut self.announcements)
     }
 
-    /// Scales the timeouts of clients that are not in lockstep by the simulation speed, in seconds of simulation time per second
-    /// of client time. A text announces the change.
+    /// Scales the timeouts of clients that are not in lockstep by the simulation speed, in seconds of simulation time
+    /// per second of client time. A text announces the change.
     pub fn set_speed_factor(&mut self, factor: f64, autopilot: &mut Autopilot) {
         self.speed_factor = factor;
         self.plans.set_speed_factor(factor);
@@ -236,7 +236,7 @@ impl VehicleLink {
         self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
     }
 
-    /// Releases everything that belongs to a closed link.
+    /// Releases all state of a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.param_lists.remove(&link);
         self.files.forget(link);
@@ -278,7 +278,7 @@ impl VehicleLink {
         self.flavour.banner.iter().for_each(|line| self.texts.push(MavSeverity::MAV_SEVERITY_INFO, line));
     }
 
-    /// Checks whether the mode that accepts go-to commands (GUIDED) is active, for flavours that have one.
+    /// Checks whether the mode that accepts go-to commands (GUIDED) is active, for flavors that have one.
     fn is_guided(&self, autopilot: &Autopilot) -> bool {
         let row = self.flavour.row_of(autopilot.status().mode, self.requested_mode);
         self.flavour.errands == Some(row.number)

@@ -1,5 +1,5 @@
-//! Mode changes by messages and by the mode switch of a transmitter.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+//! Mode changes requested by messages and by a transmitter's mode switch.
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::VehicleLink;
 use super::inbound::InboundMessage;

@@ -1,6 +1,6 @@
-//! Offboard setpoints: converts each message to north, east, down, according to its frame and type mask. The rules are PX4's
-//! (MAVLink common, POSITION_TARGET_TYPEMASK and ATTITUDE_TARGET_TYPEMASK).
-#![allow(deprecated, reason = "clients still name frames that MAVLink has superseded")]
+//! Offboard setpoints: converts each message to north, east, down, according to its frame and type mask. The rules are
+//! PX4's (MAVLink common, POSITION_TARGET_TYPEMASK and ATTITUDE_TARGET_TYPEMASK).
+#![allow(deprecated, reason = "clients still use superseded coordinate frames")]
 
 use super::snapshot::VehicleSnapshot;
 use crate::autopilot::{OffboardSetpoint, Tuning};
@@ -33,7 +33,7 @@ struct TypeMask {
 }
 
 impl TypeMask {
-    /// Reads the ignored fields.
+    /// Reads the type mask: the fields to ignore.
     fn of(m: PositionTargetTypemask) -> Result<Self, &'static str> {
         use PositionTargetTypemask as P;
         let has = |flags: [P; 3]| flags.map(|f| m.contains(f));
@@ -63,7 +63,7 @@ impl TypeMask {
     }
 }
 
-/// Returns the three axes without the ignored ones. As in PX4, NaN counts as ignored.
+/// Returns the three axes; `None` for ignored ones. As in PX4, NaN counts as ignored.
 fn axes(values: [f32; 3], ignored: [bool; 3]) -> Result<AxisSetpoints, &'static str> {
     let mut out = [None; 3];
     for k in 0..3 {
@@ -92,8 +92,8 @@ fn checked(s: OffboardSetpoint) -> SetpointResult {
     if is_set { Ok(s) } else { Err("Setpoint has no position, velocity or acceleration") }
 }
 
-/// Converts SET_POSITION_TARGET_LOCAL_NED. In body frames, velocity and acceleration rotate with the heading. A position in a
-/// body frame is ignored (PX4) or relative to the vehicle (ArduPilot).
+/// Converts SET_POSITION_TARGET_LOCAL_NED. In body frames, velocity and acceleration rotate with the heading. A
+/// position in a body frame is ignored (PX4) or relative to the vehicle (ArduPilot).
 pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &VehicleSnapshot) -> SetpointResult {
     use MavFrame as F;
     let mask = TypeMask::of(t.type_mask)?;
@@ -144,12 +144,12 @@ fn turned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static st
     match (frd[0], frd[1]) {
         (Some(f), Some(r)) => Ok([Some(c * f - s * r), Some(s * f + c * r), frd[2]]),
         (None, None) => Ok(frd),
-        _ => Err("Setpoint rejected: only one of forward and right"),
+        _ => Err("Setpoint rejected: forward or right is missing"),
     }
 }
 
-/// Converts SET_POSITION_TARGET_GLOBAL_INT. Terrain altitudes are treated as relative to home: the vehicle has no terrain
-/// database.
+/// Converts SET_POSITION_TARGET_GLOBAL_INT. Terrain altitudes are treated as relative to home: the vehicle has no
+/// terrain database.
 pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -> SetpointResult {
     use MavFrame as F;
     let mask = TypeMask::of(t.type_mask)?;
@@ -188,8 +188,9 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -
     })
 }
 
-/// Converts SET_ATTITUDE_TARGET: an attitude with a yaw rate, or body rates if the attitude is ignored; thrust 0 to 1. If thrust
-/// is interpreted as climb rate (`GUID_OPTIONS`), 0.5 holds altitude, and 0 and 1 are the vertical speeds of automatic modes.
+/// Converts SET_ATTITUDE_TARGET: an attitude with a yaw rate, or body rates if the attitude is ignored; thrust 0 to 1.
+/// If thrust is interpreted as climb rate (`GUID_OPTIONS`), 0.5 holds altitude, and 0 and 1 are the vertical speeds of
+/// automatic modes.
 pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult {
     use AttitudeTargetTypemask as A;
     let has = |flag: A| t.type_mask.contains(flag);

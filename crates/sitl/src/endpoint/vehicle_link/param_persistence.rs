@@ -10,7 +10,7 @@ use crate::endpoint::component_ids::AUTOPILOT;
 use crate::endpoint::link::Links;
 use crate::endpoint::payload::Payload;
 
-/// Number of parameters of a list sent to each link per tick.
+/// Number of parameters sent per tick on each link that receives the list.
 const PARAMS_A_TICK: usize = 2;
 
 impl VehicleLink {
@@ -75,7 +75,7 @@ impl VehicleLink {
         payload.camera.announced.parameter = self.params.camera_announced();
     }
 
-    /// Applies the parameters after many may have changed, and sends every link the whole list.
+    /// Applies the parameters after a change that may affect many of them, and sends the whole list on every link.
     pub(super) fn parameters_changed(&mut self, autopilot: &mut Autopilot, payload: &mut Payload, links: &Links) {
         self.apply_parameters(autopilot, payload);
         for id in links.ids() {

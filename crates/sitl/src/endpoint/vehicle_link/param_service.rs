@@ -8,8 +8,8 @@ use spandrel_mavlink::dialect::{
     MavMessage, MavParamError, PARAM_ERROR_DATA, PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA,
 };
 
-/// Queues the whole list, sent in parts over several ticks. The checksum is sent first, so that a station that knows all values
-/// can stop the list; flavours with a banner send it, too.
+/// Queues the whole list, sent in parts over several ticks. The checksum is sent first, so a station with up-to-date
+/// values can stop the list; flavors with a banner also send it.
 pub(super) fn list(v: &mut VehicleLink, _: &PARAM_REQUEST_LIST_DATA, a: &mut InboundMessage) {
     if v.flavour.params.hash {
         let hash = param_hash(v);
@@ -34,8 +34,8 @@ fn is_param_hash(v: &VehicleLink, name: &str) -> bool {
     v.flavour.params.hash && name == HASH
 }
 
-/// Changes a parameter. A change is broadcast to every link; a rejection is reported, followed by the old value as older clients
-/// expect.
+/// Changes a parameter. A change is broadcast to every link; a rejection is reported, followed by the old value as
+/// older clients expect.
 pub(super) fn set(v: &mut VehicleLink, set: &PARAM_SET_DATA, a: &mut InboundMessage) {
     let name = set.param_id.to_str().unwrap_or_default();
     if is_param_hash(v, name) {

@@ -14,7 +14,7 @@ use spandrel_mavlink::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavMissio
 use spandrel_model::geodesy::LocalPlane;
 
 impl VehicleLink {
-    /// Updates the shown mode, the flight's times and the parameters that show the state, from the autopilot's state.
+    /// Updates the displayed mode, the flight times and the state-dependent parameters from the autopilot's state.
     pub(crate) fn observe(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         self.requested_mode = self.reported_mode(view);
         self.flight.update(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.clock.now);
@@ -26,8 +26,8 @@ impl VehicleLink {
         }
     }
 
-    /// Returns the flavour's number of the active mode. If the fence or a failsafe changed the mode, returns its default number:
-    /// the mode for go-to commands must be selected again.
+    /// Returns the flavor's number of the active mode. If the fence or a failsafe changed the mode, returns its default
+    /// number: the mode for go-to commands must be selected again.
     fn reported_mode(&mut self, view: &VehicleSnapshot) -> u32 {
         let actions = view.status.fence.taken;
         let changed = std::mem::replace(&mut self.fence_actions, actions) != actions;
@@ -52,7 +52,7 @@ impl VehicleLink {
         }
     }
 
-    /// Reports a reached mission item, and executes it if it is for the equipment.
+    /// Reports a reached mission item, and executes it if it is an equipment command.
     pub(crate) fn report_reached_item(&mut self, seq: usize, input: &PayloadInput, payload: &mut Payload, links: &mut Links) {
         let lead = self.plans.summary().lead;
         self.execute_equipment_item(seq, lead, input, payload);
@@ -71,7 +71,8 @@ impl VehicleLink {
         }
     }
 
-    /// Sends calibration progress, events and texts, and then parts of lists, shell output and files on links with capacity.
+    /// Sends calibration progress, events and texts, and then parts of lists, shell output and files on links with
+    /// capacity.
     pub(crate) fn send_messages(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         self.step_calibration(view);
         self.report_events(view, links);
@@ -95,7 +96,7 @@ impl VehicleLink {
         }
     }
 
-    /// Applies parameters and plans to an autopilot that restarted.
+    /// Applies parameters and plans to a restarted autopilot.
     pub(crate) fn boot(&mut self, plane: &LocalPlane, autopilot: &mut Autopilot, payload: &mut Payload) {
         (self.mode_switch, self.switches) = (None, [None; super::manual::AUX]);
         if self.params.drops_mission_at_boot() {
@@ -105,7 +106,7 @@ impl VehicleLink {
         self.update_autopilot_plan(MavMissionType::MAV_MISSION_TYPE_ALL, plane, autopilot);
     }
 
-    /// Applies the flavour's parameter defaults to a new autopilot.
+    /// Applies the flavor's parameter defaults to a new autopilot.
     pub(crate) fn prepare(&mut self, autopilot: &mut Autopilot, payload: &mut Payload) {
         if !self.flavour.params.defaults.is_empty() {
             self.apply_parameters(autopilot, payload);

@@ -1,5 +1,5 @@
-//! Messages to the autopilot, by a message table.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+//! Table of the messages that the autopilot handles.
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::inbound::InboundMessage;
 use super::{

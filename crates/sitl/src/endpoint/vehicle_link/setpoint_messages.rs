@@ -8,7 +8,7 @@ use spandrel_mavlink::dialect::{
     SET_ATTITUDE_TARGET_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
 
-/// Applies a setpoint. Reports and ignores one that cannot be flown.
+/// Applies a setpoint, or reports and ignores it if it is invalid.
 fn apply_setpoint(v: &mut VehicleLink, reading: SetpointResult, a: &mut InboundMessage) {
     match reading {
         Ok(setpoint) => {
@@ -19,7 +19,7 @@ fn apply_setpoint(v: &mut VehicleLink, reading: SetpointResult, a: &mut InboundM
     }
 }
 
-/// Enters the setpoint mode if the current mode accepts setpoints directly. A takeoff that has left the ground ends.
+/// Enters the setpoint mode if the current mode accepts setpoints directly. Ends a takeoff that has left the ground.
 fn enter_setpoint_mode(v: &VehicleLink, a: &mut InboundMessage) {
     let status = a.autopilot.status();
     let is_guided = v.is_guided(a.autopilot);

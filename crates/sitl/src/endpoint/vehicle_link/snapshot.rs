@@ -1,4 +1,4 @@
-//! A read-only snapshot of the vehicle at one instant, from which messages are built.
+//! A read-only snapshot of the vehicle at one instant, used to build messages.
 
 use super::flavour::{Flavour, ModeRow};
 use super::flight_times::FlightTimes;
@@ -20,7 +20,7 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 /// Ground truth, estimate, setpoints and counters at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct VehicleSnapshot<'a> {
-    /// The time on the clocks of the link that messages are built for.
+    /// Time on the clocks of the link that receives the messages.
     pub clock: VehicleClock,
     /// The aircraft.
     pub vehicle: &'a Vehicle,
@@ -58,9 +58,9 @@ pub struct VehicleSnapshot<'a> {
     pub camera: CameraSummary,
     /// Plan summary.
     pub plans: PlanSummary,
-    /// Autopilot flavour.
+    /// Autopilot flavor.
     pub flavour: &'static Flavour,
-    /// The flavour's number of the last requested mode.
+    /// The flavor's number of the last requested mode.
     pub requested_mode: u32,
     /// Whether the geofence is enabled.
     pub fence_enabled: bool,
@@ -89,7 +89,8 @@ impl VehicleSnapshot<'_> {
         self.plane.geo_from_enu(self.truth.position_m.enu())
     }
 
-    /// Converts a position from the site frame to MAVLink's local frame, which originates where the estimator was initialized.
+    /// Converts a position from the site frame to MAVLink's local frame, whose origin is where the estimator was
+    /// initialized.
     #[must_use]
     pub fn local_from_site(&self, site_m: Vec3<Ned>) -> Vec3<LocalNed> {
         // FRAME: both frames have the same axes; only the origins differ.

@@ -8,8 +8,8 @@ use crate::endpoint::link::{LinkKind, Links};
 use spandrel_mavlink::dialect::{MavMessage, STATUSTEXT_DATA};
 
 impl VehicleLink {
-    /// Broadcasts the queued texts. Texts above 50 bytes are split into chunks, which clients join by their ID. Like PX4, appends
-    /// a tab for ground stations if an event conveys the whole text.
+    /// Broadcasts the queued texts. Texts above 50 bytes are split into chunks, which clients reassemble by ID. Like
+    /// PX4, appends a tab for ground stations if an event conveys the whole text.
     pub(crate) fn send_texts(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         for (severity, text) in self.texts.take() {
             self.send_notice(&text, view.clock.boot_ms(), links);
@@ -30,7 +30,7 @@ impl VehicleLink {
     }
 }
 
-/// Splits a text into chunks of at most 50 bytes, between characters.
+/// Splits a text into chunks of at most 50 bytes, at character boundaries.
 fn pieces(text: &str) -> Vec<String> {
     const LONGEST: usize = 50;
     let mut out = vec![String::new()];

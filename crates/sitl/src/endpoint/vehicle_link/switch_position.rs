@@ -1,6 +1,7 @@
 //! Position of a switch on a transmitter.
 
-/// Pulse thresholds of the low and high switch positions, microseconds (ArduPilot: AUX_SWITCH_PWM_TRIGGER_LOW and _HIGH).
+/// Pulse thresholds of the low and high switch positions, microseconds (ArduPilot: AUX_SWITCH_PWM_TRIGGER_LOW and
+/// _HIGH).
 const LOW_BELOW_US: u16 = 1_200;
 const HIGH_ABOVE_US: u16 = 1_800;
 
@@ -16,7 +17,7 @@ pub enum SwitchPosition {
 }
 
 impl SwitchPosition {
-    /// Returns the position of a pulse, microseconds.
+    /// Returns the position for a pulse width, microseconds.
     pub(super) fn from_pulse(us: u16) -> Self {
         match us {
             us if us < LOW_BELOW_US => Self::Low,
@@ -25,7 +26,7 @@ impl SwitchPosition {
         }
     }
 
-    /// Returns the position of a number from 0 to 2.
+    /// Returns the position for a number from 0 to 2.
     pub(super) fn from_number(number: f64) -> Option<Self> {
         [Self::Low, Self::Middle, Self::High].into_iter().find(|position| (number - f64::from(*position as u8)).abs() < 0.5)
     }

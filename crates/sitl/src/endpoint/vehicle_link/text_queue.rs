@@ -20,7 +20,7 @@ impl TextQueue {
         }
     }
 
-    /// Adds a text of the autopilot, even if the queue is full.
+    /// Adds a text from the autopilot, even if the queue is full.
     pub fn push_always(&mut self, severity: MavSeverity, text: String) {
         self.texts.push((severity, text));
     }
@@ -30,7 +30,7 @@ impl TextQueue {
         std::mem::take(&mut self.texts)
     }
 
-    /// Returns an ID by which clients join the messages of one text; never 0.
+    /// Returns an ID that clients use to reassemble a text from several messages; never 0.
     pub fn next_id(&mut self) -> u16 {
         self.last_id = self.last_id.wrapping_add(1).max(1);
         self.last_id

@@ -92,7 +92,7 @@ struct VideoRecording {
     status: Option<(SimTime, SimTime)>,
 }
 
-/// A command for a single image: sender, sequence number, time.
+/// A single-image command: sender, sequence number, time.
 type CaptureCommand = ((u8, u8), u32, SimTime);
 
 /// Whether the camera component sends heartbeats; simple clients mistake them for the vehicle's.
@@ -153,13 +153,13 @@ impl CameraState {
         self.card.images().len()
     }
 
-    /// Returns the used storage, MiB, including a running recording.
+    /// Returns the used storage, MiB, including the current recording.
     fn used_mib(&self, now: SimTime) -> f64 {
         let running = self.recording.map_or(0.0, |recording| (now - recording.since).s() * self.settings.video_mib_s());
         (self.card.used_mib() + running).min(CARD_MIB)
     }
 
-    /// Checks whether there is no room for another image.
+    /// Checks whether the card has no space for another image.
     #[must_use]
     pub fn is_full(&self, now: SimTime) -> bool {
         self.used_mib(now) + self.settings.picture_mib() > CARD_MIB
@@ -176,8 +176,8 @@ impl CameraState {
         if self.series.start(interval_s, count, now) { Ok(()) } else { Err(CameraError::Invalid) }
     }
 
-    /// Takes an image every `distance_m` meters, starting at `here`, and one immediately if `first` is set. A distance of 0 stops the
-    /// series.
+    /// Takes an image every `distance_m` meters, starting at `here`, and one immediately if `first` is set. A distance
+    /// of 0 stops the series.
     ///
     /// # Errors
     /// Returns an error if the card is full or a value is invalid.
@@ -188,7 +188,8 @@ impl CameraState {
         if self.series.start_by_distance(distance_m, first, here, now) { Ok(()) } else { Err(CameraError::Invalid) }
     }
 
-    /// Checks whether a numbered single-image command repeats the last one, as clients do after a lost acknowledgment.
+    /// Checks whether a numbered single-image command repeats the last one. Clients send repeats after a lost
+    /// acknowledgment.
     #[must_use]
     pub fn is_repeated(&self, from: (u8, u8), number: u32, now: SimTime) -> bool {
         self.last.is_some_and(|(who, last, at)| who == from && last == number && now - at <= REPEATED_WITHIN)
@@ -216,7 +217,8 @@ impl CameraState {
         Ok(())
     }
 
-    /// Starts recording and sends the status `status_hz` times a second (0: only on request). A running recording continues.
+    /// Starts recording and sends the status `status_hz` times a second (0: only on request). A running recording
+    /// continues.
     ///
     /// # Errors
     /// Returns an error in photo mode, if the card is full, or if the rate is invalid.
@@ -286,7 +288,8 @@ impl CameraState {
         Ok(())
     }
 
-    /// Advances the simulation: moves the lens, sends the recording status, and stops the recording when the card is full.
+    /// Advances the simulation: moves the lens, sends the recording status, and stops the recording when the card is
+    /// full.
     pub fn step(&mut self, now: SimTime, dt_s: f64, changes: &mut PayloadChange) {
         if self.zoom.step(dt_s) {
             changes.add_message(CAMERA_SETTINGS_DATA::ID);
@@ -417,7 +420,7 @@ mod tests {
             changes.take().0.contains(&CAMERA_CAPTURE_STATUS_DATA::ID)
         });
         assert_eq!(told.count(), 8, "twice a second for four seconds");
-        // Starting again, as after a lost acknowledgment, continues the recording.
+        // A repeated start command, such as after a lost acknowledgment, must continue the recording.
         assert_eq!(camera.start_recording(0.0, SimTime::from_ms(4_000)), Ok(()));
         assert_eq!(camera.summary(SimTime::from_ms(5_000)).recording, Some(SimTime::from_ms(5_000)));
         camera.stop_recording(SimTime::from_ms(5_000));

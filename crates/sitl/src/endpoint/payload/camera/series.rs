@@ -8,7 +8,7 @@ const LEAST_DISTANCE_M: f64 = 0.1;
 /// Minimum and maximum interval between images of a series, s.
 const LEAST_INTERVAL_S: f64 = 0.2;
 const LONGEST_INTERVAL_S: f64 = 86_400.0;
-/// Limits above which counts and distances are rejected.
+/// Maximum accepted count and distance.
 const MOST_PICTURES: f64 = 1e6;
 const LONGEST_DISTANCE_M: f64 = 1e5;
 
@@ -52,8 +52,8 @@ impl CaptureSeries {
         true
     }
 
-    /// Takes an image every `distance_m` meters, starting at `here`, and one immediately if `first` is set. A distance of 0 stops the
-    /// series. Returns false if the value is invalid.
+    /// Takes an image every `distance_m` meters, starting at `here`, and one immediately if `first` is set. A distance
+    /// of 0 stops the series. Returns false if the value is invalid.
     pub fn start_by_distance(&mut self, distance_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> bool {
         if !(0.0..=LONGEST_DISTANCE_M).contains(&distance_m) {
             return false;
@@ -82,7 +82,7 @@ impl CaptureSeries {
         self.singles > 0 || far || self.next.is_some_and(|next| next <= now)
     }
 
-    /// Records that the image that was due has been taken.
+    /// Records that the due image has been taken.
     pub fn taken(&mut self, now: SimTime, here: Vec3<Enu>) {
         if self.singles > 0 {
             self.singles -= 1;

@@ -8,7 +8,8 @@ use std::fmt::Write;
 pub const FILE: &str = "camera.xml";
 /// URI of the definition file, sent to ground stations.
 pub const URI: &str = "mftp://camera.xml";
-/// Version of the definition, by which ground stations cache it. Increase it with every change of the table below.
+/// Version of the definition, which ground stations use as a cache key. Increment it with every change to the table
+/// below.
 pub const VERSION: u16 = 1;
 
 /// Values that a setting accepts.
@@ -31,8 +32,8 @@ pub struct CameraSetting {
     set: fn(&mut CameraState, u32) -> Result<(), CameraError>,
 }
 
-/// All settings, in index order. The mode is not one of them: MAV_CMD_SET_CAMERA_MODE sets it, and MAVSDK misreads the values of
-/// a setting named CAM_MODE (it counts them from 1).
+/// All settings, in index order. The mode is not one of them: MAV_CMD_SET_CAMERA_MODE sets it, and MAVSDK misreads the
+/// values of a setting named CAM_MODE (it counts them from 1).
 pub const ALL: &[CameraSetting] = &[
     CameraSetting {
         name: "CAM_PHOTOQUAL",

@@ -99,7 +99,7 @@ impl ZoomLens {
         };
         let before = self.level;
         self.level = match self.drive {
-            // Reach the ends exactly, so that the wide end is bit-identical.
+            // Reach the end stops exactly, so that results at the wide end are bit-identical.
             ZoomDrive::To(target) if (target - before).abs() <= most => target,
             ZoomDrive::Rest | ZoomDrive::To(_) | ZoomDrive::Rate(_) => (before + moved).clamp(0.0, 1.0),
         };
@@ -146,7 +146,8 @@ mod tests {
 
     #[test]
     fn exact_every_way_of_asking_comes_to_the_focal_length_that_is_requested() {
-        // tan 45 deg is 1: the focal length is half the sensor's width, and twice that gives a field of view of 2 atan(1/2).
+        // tan 45 deg is 1: the focal length is half the sensor's width, and doubling it results in a field of view of 2
+        // atan(1/2).
         let field = 2.0 * math::atan2(1.0, 2.0);
         for request in [ZoomCommand::Level(0.5), ZoomCommand::FocalMm(SENSOR_WIDTH_MM), ZoomCommand::FieldOfView(field)] {
             let zoom = at_rest(request);

@@ -99,7 +99,8 @@ fn outcome(done: Result<(), CameraError>, messages: &[u32], payload: &mut Payloa
     }
 }
 
-/// Checks whether a camera ID parameter means this camera: 0 (all), the component ID, or 1 when addressed to this component.
+/// Checks whether a camera ID parameter means this camera: 0 (all), the component ID, or 1 when addressed to this
+/// component.
 fn targets_this_camera(c: &VehicleCommand, k: usize) -> bool {
     let first = c.component == CAMERA;
     c.finite_param(k).is_none_or(|id| id == 0.0 || id == f64::from(CAMERA) || (first && id == 1.0))

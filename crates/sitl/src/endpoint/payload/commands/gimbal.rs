@@ -1,5 +1,5 @@
 //! Gimbal commands: gimbal manager, regions of interest, and the older mount commands.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::super::equipment::Payload;
 use super::super::gimbal::{DEVICE, GimbalState, GimbalTarget};
@@ -39,8 +39,8 @@ fn targets_this_gimbal(c: &VehicleCommand) -> bool {
     c.finite_param(6).is_none_or(|device| device == 0.0 || device == f64::from(DEVICE))
 }
 
-/// Sets a pitch angle with an optional rate, or a pitch rate alone, relative to the horizon, degrees. Yaw always follows the
-/// vehicle; a command for yaw alone is denied.
+/// Sets a pitch angle with an optional rate, or a pitch rate alone, relative to the horizon, degrees. Yaw always
+/// follows the vehicle; a command for yaw alone is denied.
 fn pitch_yaw(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     let flags = c.small_integer(4).map_or(0, |flags| flags as u32);
     if !targets_this_gimbal(c) || flags & RETRACT != 0 {
@@ -56,8 +56,8 @@ fn pitch_yaw(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) ->
     }
 }
 
-/// Sets who is in control: system and component of primary control in parameters 1 and 2, of secondary control in 3 and 4. 0
-/// means nobody, -1 no change, -2 the sender, -3 nobody if the sender is in control (MAVLink common).
+/// Sets who is in control: system and component of primary control in parameters 1 and 2, of secondary control in 3 and
+/// 4. 0 means no one, -1 no change, -2 the sender, -3 no one if the sender is in control (MAVLink common).
 fn configure(c: &VehicleCommand, payload: &mut Payload) -> MavResult {
     let gimbal = &mut payload.gimbal;
     let id_of = |id: f64, now: u8, own: u8, is_own: bool| match id {
@@ -117,8 +117,8 @@ fn point_at_home(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload
     input.home_m.map_or(DENIED, |home| aim(GimbalTarget::Place(home.enu()), c, input, payload))
 }
 
-/// Parameter 7 is the mode. Parameter 1 is the pitch angle, or a rate if DO_MOUNT_CONFIGURE selected rates; 5, 6 and 4 are the
-/// target position.
+/// Parameter 7 is the mode. Parameter 1 is the pitch angle, or a rate if DO_MOUNT_CONFIGURE selected rates; 5, 6 and 4
+/// are the target position.
 fn mount_control(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     match MountMode::of(c.finite_param(6).unwrap_or(2.0)) {
         Some(MountMode::Neutral) => aim(GimbalTarget::Neutral, c, input, payload),
@@ -136,8 +136,8 @@ fn mount_control(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload
     }
 }
 
-/// Parameter 1 is the mode; 6 selects whether pitch is an angle (0, 2) or a rate (1). Roll and pitch are always stabilized,
-/// regardless of 2 to 4.
+/// Parameter 1 is the mode; 6 selects whether pitch is an angle (0, 2) or a rate (1). Roll and pitch are always
+/// stabilized, regardless of 2 to 4.
 fn mount_configure(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     let rates = match c.small_integer(5) {
         None | Some(0.0 | 2.0) => false,

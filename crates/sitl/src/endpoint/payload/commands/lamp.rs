@@ -34,7 +34,8 @@ fn switch(value: f64, input: &PayloadInput, payload: &mut Payload) -> MavResult 
     ACCEPTED
 }
 
-/// Parameters 1 to 6 are actuator values, 7 is the set. Actuator 1 of set 0 is the lamp, on above 0; there are no others.
+/// Parameters 1 to 6 are actuator values, 7 is the set. Actuator 1 of set 0 is the lamp, on above 0; no other actuators
+/// exist.
 fn actuator(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     let others = (1..6).any(|k| c.finite_param(k).is_some_and(|value| value != 0.0));
     match (c.finite_param(6).unwrap_or(0.0), c.finite_param(0)) {
@@ -44,8 +45,8 @@ fn actuator(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> 
     }
 }
 
-/// Parameters: 1 mode (0 and 1 change nothing), 2 brightness in percent, 3 strobe period, 4 duty cycle. The lamp is either on or
-/// off: dimming and strobing are denied, because the exposure of images assumes full brightness.
+/// Parameters: 1 mode (0 and 1 change nothing), 2 brightness in percent, 3 strobe period, 4 duty cycle. The lamp is
+/// either on or off: dimming and strobing are denied, because the exposure of images assumes full brightness.
 fn configure(c: &VehicleCommand) -> MavResult {
     let mode = matches!(c.finite_param(0), None | Some(0.0 | 1.0));
     let strobes = c.finite_param(2).is_some_and(|period| period != 0.0) || !matches!(c.finite_param(3), None | Some(0.0 | 100.0));

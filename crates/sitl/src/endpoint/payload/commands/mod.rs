@@ -12,7 +12,7 @@ use crate::endpoint::vehicle_command::VehicleCommand;
 use handler::{PayloadCommand, PayloadHandler};
 use spandrel_mavlink::dialect::{MavCmd, MavResult};
 
-/// Commands accepted only by the autopilot component, which the gimbal and the lamp belong to.
+/// Commands accepted only by the autopilot component, which owns the gimbal and the lamp.
 const MOUNTED: [&[PayloadCommand]; 2] = [gimbal::ROWS, lamp::ROWS];
 
 /// Checks whether the payload supports this command.
@@ -40,7 +40,7 @@ pub(crate) fn handles(c: &VehicleCommand) -> bool {
     camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known as u16 == c.number)
 }
 
-/// Returns the reason why a command was rejected, as text.
+/// Returns the rejection reason of a command, as text.
 pub(crate) fn refusal_text(c: &VehicleCommand, input: &PayloadInput, payload: &Payload) -> String {
     if row(c.number, gimbal::ROWS).is_some() {
         let (gimbal, camera) = (&payload.gimbal, &input.vehicle.camera);
@@ -54,5 +54,5 @@ pub(crate) fn refusal_text(c: &VehicleCommand, input: &PayloadInput, payload: &P
         let has_lamp = input.vehicle.lamp.flux_lm > 0.0;
         return if has_lamp { "lamp is relay 0 or servo 9, on or off only" } else { "this aircraft has no lamp" }.into();
     }
-    "camera rejects these values or this mode".into()
+    "camera does not support these values or this mode".into()
 }

@@ -1,5 +1,5 @@
-//! Positions in region of interest commands.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+//! Positions in region-of-interest commands.
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::super::input::PayloadInput;
 use crate::endpoint::vehicle_command::VehicleCommand;
@@ -7,8 +7,8 @@ use spandrel_mavlink::dialect::MavCmd;
 use spandrel_model::frames::{Enu, Ned, Vec3};
 use spandrel_model::geodesy::Geo;
 
-/// Returns the position that a command makes the vehicle face. `None` for other commands or an unusable position, `Some(None)` if
-/// it clears the target.
+/// Returns the position that a command makes the vehicle face. `None` for other commands or an unusable position,
+/// `Some(None)` if it clears the target.
 pub(crate) fn target(c: &VehicleCommand, input: &PayloadInput) -> Option<Option<Vec3<Ned>>> {
     match c.number {
         n if n == MavCmd::MAV_CMD_DO_SET_ROI_NONE as u16 => Some(None),
@@ -19,8 +19,8 @@ pub(crate) fn target(c: &VehicleCommand, input: &PayloadInput) -> Option<Option<
     }
 }
 
-/// Returns the position in parameters 5 and 6. The altitude is in the command's frame, or above mean sea level for flavours that
-/// ignore the frame.
+/// Returns the position in parameters 5 and 6. The altitude is in the command's frame, or above mean sea level for
+/// flavors that ignore the frame.
 pub(super) fn position(c: &VehicleCommand, input: &PayloadInput, altitude_m: f64) -> Option<Vec3<Enu>> {
     let (latitude_deg, longitude_deg) = (c.finite_param(4)?, c.finite_param(5)?);
     if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 || altitude_m.abs() > 1e5 {

@@ -71,8 +71,8 @@ pub(crate) fn settings_status(v: &PayloadSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Builds the camera's field of view, which the scoring uses to evaluate images. The camera does not know the position of the
-/// image center.
+/// Builds the camera's field of view, which scoring uses to evaluate images. The position of the image center is not
+/// reported.
 pub(crate) fn field_of_view(v: &PayloadSnapshot) -> MavMessage {
     let camera = v.camera_now();
     let geo = v.input.geo();

@@ -66,8 +66,8 @@ pub(crate) fn manager_status(v: &PayloadSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// The camera is stabilized to the horizon and follows the heading. Its attitude is relative to the vehicle's heading, which is
-/// sent with it.
+/// The camera is stabilized to the horizon and follows the heading. Its attitude is relative to the vehicle's heading,
+/// which is sent with it.
 pub(crate) fn attitude(v: &PayloadSnapshot) -> Option<MavMessage> {
     use GimbalDeviceFlags as F;
     let (s, c) = math::sin_cos(0.5 * v.gimbal.pitch_rad);

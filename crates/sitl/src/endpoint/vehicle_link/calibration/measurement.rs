@@ -8,7 +8,8 @@ use spandrel_model::time::SimTime;
 
 /// Averaging time, s (PX4's gyro calibration takes about as long).
 pub(super) const MEASURE_S: f64 = 4.0;
-/// Maximum rate difference between the two halves of the measurement at rest, rad/s (PX4: gyro calibration, 0.01 rad/s).
+/// Maximum rate difference between the two halves of the measurement at rest, rad/s (PX4: gyro calibration, 0.01
+/// rad/s).
 const STILL_RAD_S: f64 = 0.01;
 /// Maximum specific force difference between the halves, m/s² (estimate: ten times the noise of the mean).
 const STILL_M_S2: f64 = 0.05;

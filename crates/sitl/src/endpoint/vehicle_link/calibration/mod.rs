@@ -1,5 +1,5 @@
-//! MAV_CMD_PREFLIGHT_CALIBRATION: calibrates the sensors that need no rotation, and reports progress in the texts that ground
-//! stations parse.
+//! MAV_CMD_PREFLIGHT_CALIBRATION: calibrates the sensors that need no rotation, and reports progress in the texts that
+//! ground stations parse.
 
 mod measurement;
 mod texts;
@@ -18,8 +18,8 @@ pub use texts::CalibrationTexts;
 /// Number of progress reports.
 const STEPS: u32 = 5;
 
-/// Handles the command: parameters 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, 7 ESC. All zero cancels
-/// the calibration.
+/// Handles the command: parameters 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, 7 ESC. All
+/// zero cancels the calibration.
 pub(super) fn command(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> MavResult {
     use MavResult as R;
     let texts = v.flavour.calibration;

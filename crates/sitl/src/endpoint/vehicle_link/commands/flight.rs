@@ -97,7 +97,7 @@ fn places(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Op
         },
         n if n == M::MAV_CMD_DO_SET_HOME as u16 => match home(c, v, a) {
             Some(request) => Request(request),
-            None => Answer(v.deny("Home: latitude, longitude, altitude within 20 km")),
+            None => Answer(v.deny("Home: invalid position or beyond 20 km")),
         },
         _ => return None,
     })
@@ -125,7 +125,7 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         n if n == M::MAV_CMD_MISSION_START as u16 => {
             // ArduPilot always starts a mission from its first item.
             if v.flavour.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
-                return Some(Answer(v.deny("Mission start: first and last item are not supported")));
+                return Some(Answer(v.deny("Mission start: an item range is not supported")));
             }
             Request(AutopilotRequest::StartMission { first: c.finite_param(0).filter(|f| *f > 0.0).map(|f| index(f, v)) })
         }
@@ -140,21 +140,21 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
 fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
-        // Climb and descent speeds have parameters of their own.
+        // Climb and descent speeds have their own parameters.
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
-            Answer(v.deny("Speed: types 0, 1; set climb rates by parameters"))
+            Answer(v.deny("Speed: type must be 0 or 1; climb has parameters"))
         }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
             // -1 means no change, -2 restores the parameter's value (MAVLink common).
             Some(-1.0) => Answer(MavResult::MAV_RESULT_ACCEPTED),
             Some(-2.0) => Request(AutopilotRequest::SetSpeed(None)),
             Some(speed) if speed > 0.0 => Request(AutopilotRequest::SetSpeed(Some(speed))),
-            _ => Answer(v.deny("Speed: above 0 m/s, -1 no change, -2 default")),
+            _ => Answer(v.deny("Speed: must be above 0, -1 (keep) or -2 (default)")),
         },
         n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
             0.0 => Request(AutopilotRequest::EnableFence(false)),
             1.0 => Request(AutopilotRequest::EnableFence(true)),
-            _ => Answer(v.deny("Fence: 0 disables, 1 enables")),
+            _ => Answer(v.deny("Fence: must be 0 (disable) or 1 (enable)")),
         },
         _ => return None,
     })
@@ -221,8 +221,8 @@ fn arm(c: &VehicleCommand, v: &VehicleLink) -> Option<AutopilotRequest> {
     }
 }
 
-/// Arms the motors. If the flavour reports them, each failed check is sent as a separate text. In the mode that accepts go-to
-/// commands (GUIDED), arming by a transmitter switch must be allowed (`GUID_OPTIONS`).
+/// Arms the motors. If the flavor reports them, each failed check is sent as a separate text. In the mode that accepts
+/// go-to commands (GUIDED), arming by a transmitter switch must be allowed (`GUID_OPTIONS`).
 fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let (flavour, now) = (v.flavour, a.now());
     if let Some(words) = flavour.arm_words
@@ -288,7 +288,7 @@ fn set_current(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) 
     set
 }
 
-/// DO_REPOSITION. If the flavour has a go-to mode (GUIDED), it must be active, or parameter 2 must request the change
+/// DO_REPOSITION. If the flavor has a go-to mode (GUIDED), it must be active, or parameter 2 must request the change
 /// (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).
 fn go(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let changes = c.finite_param(1).is_some_and(|flags| (flags as i64) & 1 == 1);
@@ -327,7 +327,7 @@ fn reposition(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest
     Some(AutopilotRequest::GoTo { north_east_m, up_m, yaw_rad: c.finite_param(3), speed_m_s })
 }
 
-/// Pauses or resumes. Flavours with this command can pause only missions and go-to commands.
+/// Pauses or resumes. Flavors with this command can pause only missions and go-to commands.
 fn pause(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let pausable = v.is_guided(a.autopilot) || a.autopilot.status().mode == FlightMode::Mission;
     let pause = match c.p[0] {

@@ -11,7 +11,8 @@ use crate::endpoint::payload::commands as payload;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::dialect::MavResult;
 
-/// Executes a command, received or the vehicle's own, and returns its result. Equipment commands are included.
+/// Executes a command, either received or issued by the vehicle itself, and returns its result. This includes equipment
+/// commands.
 pub(crate) fn execute(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let before = v.params.changes();
     let result = flight::handle(c, v, a)
@@ -33,7 +34,7 @@ fn point_at(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         a.autopilot.request(AutopilotRequest::LookAt(target), a.now());
     }
     if !is_accepted && target.is_none() {
-        v.warn("ROI cleared; gimbal stays with its controller");
+        v.warn("ROI cleared; gimbal control is unchanged");
         return Some(MavResult::MAV_RESULT_ACCEPTED);
     }
     result

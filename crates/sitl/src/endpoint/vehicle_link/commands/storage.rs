@@ -5,7 +5,8 @@ use super::super::host_requests::StorageRequest;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::dialect::MavResult;
 
-/// Handles PREFLIGHT_STORAGE: parameter 1 is 0 to load the file, 1 to save it, 2 to restore the defaults (MAVLink common).
+/// Handles PREFLIGHT_STORAGE: parameter 1 is 0 to load the file, 1 to save it, 2 to restore the defaults (MAVLink
+/// common).
 pub(super) fn preflight(c: &VehicleCommand, v: &mut VehicleLink) -> MavResult {
     let request = match c.p[0] {
         0.0 => StorageRequest::Load,

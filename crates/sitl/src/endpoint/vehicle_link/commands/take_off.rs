@@ -1,4 +1,4 @@
-//! NAV_TAKEOFF by the rule of the flavour.
+//! NAV_TAKEOFF, interpreted by the flavor's rule.
 
 use super::super::VehicleLink;
 use super::super::flavour::TakeOffRule;
@@ -12,7 +12,8 @@ const HIGHEST_M: f64 = 500.0;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 
-/// Returns the height above home at which the takeoff ends, m (`None`: the parameter's value), or the result of a rejection.
+/// Returns the height above home at which the takeoff ends, m (`None`: the parameter's value), or the result that
+/// rejects the command.
 pub(super) fn height_m(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> Result<Option<f64>, MavResult> {
     match v.flavour.take_off {
         TakeOffRule::AboveSeaLevel => above_sea_level(c, v, a),

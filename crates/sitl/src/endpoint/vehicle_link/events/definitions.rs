@@ -60,7 +60,7 @@ pub(super) fn sub_id(name: &str) -> u32 {
     hash & 0x00ff_ffff
 }
 
-/// Returns the definition of an arming check by its text.
+/// Returns the definition of the arming check with this text.
 pub(super) fn check(reason: &str) -> &'static (&'static str, &'static str, u8) {
     CHECKS.iter().find(|(words, ..)| *words == reason).unwrap_or(&CHECKS[CHECKS.len() - 1])
 }

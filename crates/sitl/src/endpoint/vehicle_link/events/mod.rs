@@ -60,7 +60,8 @@ impl VehicleLink {
         }
     }
 
-    /// Adds the check summary, one event for each failed check, and the health summary, in the order that clients expect.
+    /// Adds the check summary, one event for each failed check, and the health summary, in the order that clients
+    /// expect.
     fn add_report(&mut self, reasons: &[String], [errors, can_arm, can_run, present, failing]: [u32; 5], view: &VehicleSnapshot) {
         let now_ms = view.clock.boot_ms();
         let summary = |words: &[u32]| [&[0][..], &words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>()].concat();
@@ -85,12 +86,13 @@ impl VehicleLink {
     }
 }
 
-/// Returns the links that receive events: payload processes read telemetry.
+/// Returns the links that receive events. Payload processes use telemetry instead.
 fn event_links(links: &mut Links) -> impl Iterator<Item = &mut PeerLink> {
     links.iter_mut().map(|(_, link)| link).filter(|link| link.kind != LinkKind::Payload)
 }
 
-/// Resends events. If the first one is no longer kept, reports the oldest available, and the client requests again from there.
+/// Resends events. If the first one is no longer kept, reports the oldest available, and the client requests again from
+/// there.
 pub(super) fn request(v: &mut VehicleLink, r: &REQUEST_EVENT_DATA, a: &mut InboundMessage) {
     if !v.flavour.events {
         return;

@@ -1,4 +1,5 @@
-//! Texts that are also sent as events, as PX4 does: a client with the event definitions can show them in its own language.
+//! Texts that are also sent as events, as PX4 does: a client with the event definitions can show them in its own
+//! language.
 
 use serde_json::{Value as Json, json};
 
@@ -60,14 +61,14 @@ pub const NOTICES: [Notice; 34] = [
     notice("Mission finished", "mission_finished", INFO),
 ];
 
-/// Returns the event of a text.
+/// Returns the event that corresponds to a text.
 #[must_use]
 pub fn of(text: &str) -> Option<&'static Notice> {
     NOTICES.iter().find(|notice| text.starts_with(notice.words))
 }
 
-/// Checks whether the event conveys the whole text, so that a ground station that shows events need not show the text. PX4 marks
-/// such texts with a trailing tab, and QGroundControl hides them.
+/// Checks whether the event conveys the whole text, so a ground station that shows events does not have to show the
+/// text. PX4 marks such texts with a trailing tab, and QGroundControl hides them.
 #[must_use]
 pub fn says_all(text: &str) -> bool {
     of(text).is_some_and(|notice| notice.words == text)

@@ -1,4 +1,4 @@
-//! The events sent, kept for retransmission.
+//! Sent events, kept for retransmission.
 
 use super::super::snapshot::VehicleSnapshot;
 use super::definitions::{GROUPS, MISSION_GROUP, check, sub_id};
@@ -43,7 +43,8 @@ impl EventReports {
     }
 }
 
-/// Returns the bit masks: failed checks, modes that allow arming, modes that can run, components present, components failing.
+/// Returns the bit masks: failed checks, modes that allow arming, modes that can run, components present, components
+/// failing.
 pub(super) fn masks(view: &VehicleSnapshot) -> [u32; 5] {
     let s = view.status;
     let errors = s.arming_reasons.iter().fold(0, |mask, reason| mask | 1 << check(reason).2);

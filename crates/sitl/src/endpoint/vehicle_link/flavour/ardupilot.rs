@@ -1,6 +1,6 @@
-//! ArduPilot's interface, as implemented by ArduCopter (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real
-//! ArduCopter 4.7-dev, parameter names as in 4.6).
-#![allow(deprecated, reason = "ArduPilot names its encoding by the older capability")]
+//! ArduPilot's interface, as implemented by ArduCopter (docs/src/reference/wire.md, "Autopilot interfaces"; recorded
+//! from a real ArduCopter 4.7-dev, parameter names as in 4.6).
+#![allow(deprecated, reason = "ArduPilot reports its encoding with the older capability flag")]
 
 use super::definition::{COMMON, Flavour, ModeRow, RefusalResults, TakeOffRule};
 use super::px4::FORCE;
@@ -12,8 +12,8 @@ use spandrel_mavlink::dialect::{
     MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
 };
 
-/// Copter's mode numbers: the mode for go-to commands, the mode for NAV_LOITER_UNLIM, and the mode that flies the mission's
-/// landing sequence.
+/// Copter's mode numbers: the mode for go-to commands, the mode for NAV_LOITER_UNLIM, and the mode that flies the
+/// mission's landing sequence.
 const GUIDED: u32 = 4;
 const LOITER: u32 = 5;
 const AUTO_RTL: u32 = 27;
@@ -49,7 +49,7 @@ impl ModeRow {
         self
     }
 
-    /// Holds position under its own mode number while armed without stick input.
+    /// Makes the vehicle hold position while armed without stick input, still reporting this mode number.
     const fn holds_unattended(mut self) -> Self {
         self.unattended = Some(FlightMode::Hold);
         self.covering(&[FlightMode::Hold])
@@ -61,8 +61,9 @@ impl ModeRow {
     }
 }
 
-/// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h), without the
-/// modes not supported here. ArduCopter reports no standard modes and no properties. LOITER and POSHOLD behave the same.
+/// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h),
+/// without the modes not supported here. ArduCopter reports no standard modes and no properties. LOITER and POSHOLD
+/// behave the same.
 const MODES: &[ModeRow] = &[
     row(AUTO_RTL, FlightMode::Mission, "AUTO RTL", PLACED)
         .entered_by(AutopilotRequest::LandingSequence)
@@ -78,7 +79,8 @@ const MODES: &[ModeRow] = &[
     row(9, FlightMode::Land, "LAND", PLACED).without_arming(),
     row(6, FlightMode::Return, "RTL", PLACED).without_arming(),
     row(16, FlightMode::Position, "POSHOLD", PLACED).holds_unattended(),
-    // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and a landing ends in it.
+    // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and it is the
+    // final mode after a landing.
     row(17, FlightMode::Hold, "BRAKE", PLACED),
     row(21, FlightMode::SmartReturn, "SMARTRTL", PLACED).without_arming(),
     row(23, FlightMode::Follow, "FOLLOW", PLACED).without_arming(),
@@ -97,7 +99,7 @@ pub static FLAVOUR: Flavour = Flavour {
     state,
     errands: Some(GUIDED),
     take_off: TakeOffRule::AboveHomeInGuided,
-    // The second value is ArduPilot's own for arming.
+    // The second value is ArduPilot's magic number for arming.
     force: &[FORCE, 2989.0],
     looks_over_sea: false,
     refusals: RefusalResults {
@@ -163,8 +165,8 @@ fn state(estimate: &Estimate, status: &AutopilotStatus) -> MavState {
     }
 }
 
-/// Returns ArduCopter's text: it reports a GNSS receiver that contradicts the estimator as a glitch, and barometer and compass by
-/// instance, as in its checks.
+/// Returns ArduCopter's text: it reports a GNSS receiver that contradicts the estimator as a glitch, and barometer and
+/// compass by instance, as in its checks.
 fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
     let text = match (change.sensor, change.fault) {
         (_, Some(SensorFault::Silent)) => return None,

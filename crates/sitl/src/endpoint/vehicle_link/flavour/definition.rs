@@ -10,7 +10,7 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// A flight mode as presented to clients of a flavour.
+/// A flight mode as presented to clients of a flavor.
 #[derive(Debug, Clone, Copy)]
 pub struct ModeRow {
     /// HEARTBEAT.custom_mode.
@@ -21,7 +21,7 @@ pub struct ModeRow {
     pub request: AutopilotRequest,
     /// Mode used instead while the vehicle is armed without stick input.
     pub unattended: Option<FlightMode>,
-    /// Whether the mode is shown only after it was requested by its number.
+    /// Whether the mode is shown only after it has been requested by its number.
     pub only_if_requested: bool,
     /// Other internal modes shown under the same number.
     pub covers: &'static [FlightMode],
@@ -69,7 +69,8 @@ pub struct RefusalResults {
 /// How NAV_TAKEOFF is interpreted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TakeOffRule {
-    /// In any mode; parameter 7 is the altitude above mean sea level, and in COMMAND_INT it is in the given frame (PX4).
+    /// In any mode; parameter 7 is the altitude above mean sea level, and in COMMAND_INT it is in the given frame
+    /// (PX4).
     AboveSeaLevel,
     /// Only from the ground, while armed, in the mode that accepts go-to commands; parameter 7 is the height above home
     /// (ArduPilot).
@@ -87,28 +88,28 @@ pub struct Flavour {
     pub software_version: u32,
     /// AUTOPILOT_VERSION.capabilities.
     pub capabilities: MavProtocolCapability,
-    /// All modes, in the order of AVAILABLE_MODES. If several rows show the same internal mode, the first that enters it is its
-    /// default.
+    /// All modes, in the order of AVAILABLE_MODES. If several rows show the same internal mode, the first that enters
+    /// it is its default.
     pub modes: &'static [ModeRow],
     /// Bits of the custom mode that identify the mode.
     pub mode_bits: u32,
     /// Converts parameters 2 and 3 of DO_SET_MODE to a custom mode.
     pub custom_mode: fn(f64, f64) -> u32,
-    /// Whether SET_MODE requires the custom mode flag; without it, the message has another meaning (ArduPilot: the safety
-    /// switch).
+    /// Whether SET_MODE requires the custom mode flag; without it, the message has another meaning (ArduPilot: the
+    /// safety switch).
     pub custom_flag: bool,
     /// HEARTBEAT.system_status.
     pub state: fn(&Estimate, &AutopilotStatus) -> MavState,
-    /// Number of the mode that accepts go-to commands and offboard setpoints directly (GUIDED). `None`: offboard setpoints have a
-    /// mode of their own, and go-to commands are accepted in any mode.
+    /// Number of the mode that accepts go-to commands and offboard setpoints directly (GUIDED). `None`: offboard
+    /// setpoints have their own mode, and go-to commands are accepted in any mode.
     pub errands: Option<u32>,
-    /// Interprets NAV_TAKEOFF.
+    /// Interpretation of NAV_TAKEOFF.
     pub take_off: TakeOffRule,
     /// Values in COMPONENT_ARM_DISARM that force arming or disarming.
     pub force: &'static [f64],
     /// Whether the altitude of a region of interest command is above mean sea level, regardless of its frame.
     pub looks_over_sea: bool,
-    /// Results of rejections.
+    /// Results for rejected requests.
     pub refusals: RefusalResults,
     /// Prefix of the text sent for each failed arming check; `None`: a single text from the autopilot.
     pub arm_words: Option<&'static str>,
@@ -144,8 +145,8 @@ pub struct Flavour {
     pub vtol_state: MavVtolState,
     /// Whether missions may contain NAV_SPLINE_WAYPOINT, which is flown as a waypoint.
     pub splines: bool,
-    /// Whether coordinates of 0, 0 in a mission item or in DO_SET_HOME mean the vehicle's position at that time, and an item
-    /// altitude of 0 its altitude.
+    /// Whether coordinates of 0, 0 in a mission item or in DO_SET_HOME mean the vehicle's position at that time, and an
+    /// item altitude of 0 its altitude.
     pub zero_is_here: bool,
     /// Whether mission item 0 is home.
     pub home_item: bool,
@@ -153,7 +154,7 @@ pub struct Flavour {
     pub float_items: bool,
     /// The parameters presented to clients.
     pub params: &'static ParamView,
-    /// Adjusts the autopilot to this flavour's behavior.
+    /// Adjusts the autopilot to this flavor's behavior.
     pub tune: fn(&mut Tuning),
 }
 
@@ -185,7 +186,8 @@ impl Flavour {
         self.modes.iter().find(|row| number != 0 && row.standard as u32 == number)
     }
 
-    /// Enters a mode. Stores the requested number in `requested`, because several numbers may map to the same internal mode.
+    /// Enters a mode. Stores the requested number in `requested`, because several numbers may map to the same internal
+    /// mode.
     pub fn enter(&self, row: &ModeRow, requested: &mut u32, autopilot: &mut Autopilot, now: SimTime) -> RequestOutcome {
         let before = autopilot.status().mode;
         let from = self.row_of(before, *requested).number;
@@ -202,8 +204,8 @@ impl Flavour {
         }
         *requested = row.number;
         if before == FlightMode::Hold && autopilot.status().mode == FlightMode::Hold && from != row.number {
-            // The internal mode is unchanged, so the autopilot would continue to the previous mode's target. Rejected on the
-            // ground, where it has no effect.
+            // The internal mode is unchanged, so the autopilot would continue to the previous mode's target. Rejected
+            // on the ground, where it has no effect.
             autopilot.request(AutopilotRequest::GoTo { north_east_m: None, up_m: None, yaw_rad: None, speed_m_s: None }, now);
         }
         outcome
@@ -216,7 +218,7 @@ impl Flavour {
     }
 }
 
-/// Capabilities common to all flavours.
+/// Capabilities common to all flavors.
 pub(super) const COMMON: MavProtocolCapability = {
     use MavProtocolCapability as C;
     C::MAV_PROTOCOL_CAPABILITY_MISSION_FLOAT

@@ -1,5 +1,5 @@
-//! A generic MAVLink interface without an autopilot's dialect. It offers MAVLink's standard modes where they exist. The standard
-//! does not define custom mode numbers; PX4's are used because many SDKs and recorders assume them.
+//! A generic MAVLink interface without an autopilot's dialect. It offers MAVLink's standard modes where they exist. The
+//! standard does not define custom mode numbers; PX4's are used because many SDKs and recorders assume them.
 
 use super::definition::{COMMON, Flavour, ModeRow, TakeOffRule, named_mode};
 use super::px4::{self, row};
@@ -75,8 +75,8 @@ const fn digits(text: &str) -> u32 {
     value
 }
 
-/// Returns the custom mode. By the standard, parameter 2 is the whole custom mode; SDKs that assume PX4 send main and sub mode
-/// instead.
+/// Returns the custom mode. According to the standard, parameter 2 is the complete custom mode; SDKs that assume PX4
+/// send main and sub mode instead.
 fn custom_mode(main: f64, sub: f64) -> u32 {
     if (256.0..4_294_967_296.0).contains(&main) { main as u32 } else { px4::main_and_sub(main, sub) }
 }

@@ -1,5 +1,5 @@
-//! Autopilot flavours: one table for each autopilot interface, with everything that differs on the wire. All other behavior is
-//! shared.
+//! Autopilot flavors: one table for each autopilot interface, with everything that differs on the wire. All other
+//! behavior is shared.
 
 pub mod ardupilot;
 mod definition;
@@ -8,7 +8,7 @@ pub mod px4;
 
 pub use definition::{Flavour, ModeRow, RefusalResults, TakeOffRule};
 
-/// Returns the flavour with this name.
+/// Returns the flavor with this name.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static Flavour> {
     [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR].into_iter().find(|flavour| flavour.name == name)

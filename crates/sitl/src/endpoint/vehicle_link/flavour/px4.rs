@@ -1,4 +1,4 @@
-//! PX4's interface: custom_mode holds the main mode in bits 16 to 23 and the sub mode in bits 24 to 31
+//! PX4's interface: custom_mode contains the main mode in bits 16 to 23 and the sub mode in bits 24 to 31
 //! (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real PX4).
 
 use super::definition::{COMMON, Flavour, ModeRow, RefusalResults, TakeOffRule, named_mode};
@@ -57,8 +57,8 @@ const MODES: &[ModeRow] = &[
 /// Bits of the main and sub mode.
 pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
 
-/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"). Reports a development version, so that no ground station
-/// offers an update.
+/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"). Reports a development version, so that no
+/// ground station offers an update.
 pub static FLAVOUR: Flavour = Flavour {
     name: "px4",
     autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
@@ -72,8 +72,8 @@ pub static FLAVOUR: Flavour = Flavour {
     errands: None,
     take_off: TakeOffRule::AboveSeaLevel,
     force: &[FORCE],
-    // PX4's navigator uses the altitude without checking the frame. MAVSDK's gimbal plugin relies on it: it sends altitudes above
-    // mean sea level in a home-relative frame.
+    // PX4's navigator uses the altitude without checking the frame. MAVSDK's gimbal plugin relies on it: it sends
+    // altitudes above mean sea level in a home-relative frame.
     looks_over_sea: true,
     refusals: REFUSALS,
     arm_words: None,
@@ -121,7 +121,7 @@ pub(super) const GROUPS: &[(u8, &[u32])] = &[
     (12, &[2, 242, 231]),
 ];
 
-/// Converts the main and sub mode of DO_SET_MODE; returns an invalid mode for other values than small integers.
+/// Converts the main and sub mode of DO_SET_MODE; returns an invalid mode for values other than small integers.
 pub(super) fn main_and_sub(main: f64, sub: f64) -> u32 {
     let byte = |value: f64| if (0.0..256.0).contains(&value) { Some(value as u32) } else { None };
     match (byte(main), byte(sub)) {
@@ -138,8 +138,8 @@ pub(super) fn state(_: &Estimate, status: &AutopilotStatus) -> MavState {
     }
 }
 
-/// Returns PX4's text for a failed sensor, with type and reason ("BARO #0 failed: STALE!"); a missing sensor gets the default
-/// text.
+/// Returns PX4's text for a failed sensor, with type and reason ("BARO #0 failed: STALE!"); a missing sensor gets the
+/// default text.
 fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
     let reason = match change.fault? {
         SensorFault::Silent => return None,

@@ -1,5 +1,5 @@
 //! ArduPilot's extra mission item rules: item 0 is home, and single items outside a plan are fly-now commands.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::positions::{flyable_position, place};
 use crate::autopilot::{AutopilotRequest, RequestOutcome};
@@ -56,7 +56,7 @@ pub(crate) fn in_degrees(item: &MISSION_ITEM_INT_DATA) -> MISSION_ITEM_DATA {
     }
 }
 
-/// Checks whether an item belongs to no plan and is to be flown immediately.
+/// Checks whether an item is outside any plan and must be flown immediately.
 pub(crate) fn is_fly_now_item(item: &MISSION_ITEM_INT_DATA) -> bool {
     let mission = item.mission_type == MavMissionType::MAV_MISSION_TYPE_MISSION;
     mission && matches!(item.current, GO_TO | CHANGE_HEIGHT) && item.command == MavCmd::MAV_CMD_NAV_WAYPOINT

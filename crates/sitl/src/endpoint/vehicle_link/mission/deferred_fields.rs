@@ -1,4 +1,5 @@
-//! Mission items without a position or altitude: ArduPilot encodes these as 0 and uses the vehicle's values when the item starts.
+//! Mission items without a position or altitude: ArduPilot encodes these as 0 and uses the vehicle's values when the
+//! item starts.
 
 use crate::autopilot::MissionStep;
 use crate::autopilot::mission::DeferredFields;

@@ -46,7 +46,8 @@ pub(super) fn is_complete(items: &[MISSION_ITEM_INT_DATA]) -> Result<(), MavMiss
     Ok(())
 }
 
-/// Checks for a fence return point. It is stored with the fence but not used: the vehicle returns to home or a rally point.
+/// Checks for a fence return point. It is stored with the fence but not used: the vehicle returns to home or a rally
+/// point.
 pub(super) fn is_return(item: &MISSION_ITEM_INT_DATA) -> bool {
     item.command == MavCmd::MAV_CMD_NAV_FENCE_RETURN_POINT
 }

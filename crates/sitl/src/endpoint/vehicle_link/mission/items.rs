@@ -1,5 +1,5 @@
 //! Mission items: validation, and conversion to the autopilot's steps.
-#![allow(deprecated, reason = "clients still send what MAVLink has superseded")]
+#![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::fence_and_rally;
 use super::positions::{HIGHEST_M, flyable_position, place, relative, without_position};
@@ -16,7 +16,7 @@ const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;
 const RADIUS_M: f64 = 5.0;
 /// Allowed speeds, m/s; -1 means no change, -2 restores the parameter's value (MAVLink common).
 const SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
-/// Number of repetitions from which a jump counts as endless.
+/// Minimum number of repetitions that counts as an endless jump.
 const ENDLESS: f32 = 64.0;
 
 type ItemResult = Result<(), MavMissionResult>;
@@ -25,8 +25,8 @@ fn span(value: f32, (low, high): (f32, f32), wrong: MavMissionResult) -> ItemRes
     if value.is_nan() || (low..=high).contains(&value) { Ok(()) } else { Err(wrong) }
 }
 
-/// Validates an item and returns an error that names the invalid parameter. `flown` is the range of sequence numbers that the
-/// plan executes.
+/// Validates an item and returns an error that names the invalid parameter. `flown` is the range of sequence numbers
+/// that the plan executes.
 pub(super) fn check_item(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u16>, plane: &LocalPlane) -> ItemResult {
     use MavMissionResult as R;
     if item.mission_type != MavMissionType::MAV_MISSION_TYPE_MISSION {
@@ -105,8 +105,8 @@ fn circle(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if known { Ok(()) } else { Err(MavMissionResult::MAV_MISSION_INVALID_PARAM3) }
 }
 
-/// Parameter 1 is the angle in degrees, 2 the rate in deg/s (0: default), 3 the direction, 4 whether relative to the current
-/// heading.
+/// Parameter 1 is the angle in degrees, 2 the rate in deg/s (0: default), 3 the direction, 4 whether relative to the
+/// current heading.
 fn turn(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     use MavMissionResult as R;
     if !(-360.0..=360.0).contains(&item.param1) {
@@ -248,7 +248,7 @@ fn waypoint(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) ->
     let stay_s = if stays && item.param1.is_finite() { f64::from(item.param1).max(0.0) } else { 0.0 };
     MissionStep::Waypoint {
         position_m,
-        // 0 selects the parameter's value at the time.
+        // 0 selects the current parameter value.
         accept_m: if passes && item.param2.is_finite() && item.param2 > 0.0 { f64::from(item.param2) } else { 0.0 },
         hold_s: if item.command == MavCmd::MAV_CMD_NAV_LOITER_UNLIM { f64::INFINITY } else { stay_s },
         yaw_rad: (passes && item.param4.is_finite()).then(|| f64::from(item.param4).to_radians()),
@@ -284,7 +284,7 @@ mod tests {
             (vec![fly(), jump(0.0, -1.0)], Ok(())),
             (vec![photo(), jump(0.0, 1e6)], refused),
             (vec![photo(), jump(0.0, 3.0)], Ok(())),
-            // A jump around the waypoint.
+            // A jump past the waypoint.
             (vec![jump(2.0, -1.0), fly(), jump(0.0, -1.0)], refused),
             (vec![jump(2.0, -1.0), fly(), photo()], Ok(())),
         ] {

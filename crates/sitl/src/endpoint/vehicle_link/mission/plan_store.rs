@@ -18,22 +18,23 @@ use spandrel_model::time::SimTime;
 
 /// Maximum number of items in a plan.
 const MOST_ITEMS: u16 = 2_000;
-/// Timeout after which a stalled upload is canceled, s (clients retry for less).
+/// Timeout after which a stalled upload is canceled, s; longer than clients keep retrying.
 const STALL_S: f64 = 10.0;
-/// Every n-th retry of a request for the first item uses the other encoding (estimate: a second at the usual timeout).
+/// Every n-th retry of the first item request uses the other encoding (estimate: one second at the usual timeout).
 const OTHER_FORM_EVERY: u8 = 4;
 /// Timeout after which a mission item request is repeated, s, as in PX4.
 const ASK_AGAIN_S: f64 = 0.25;
-/// For an uploader that usually responds faster, the request is repeated sooner: after this multiple of its usual delay, but not before this
-/// time, s. MAVSDK gives up on an item after five half-seconds without a request; at 0.25 s only one retry fits into each.
+/// For an uploader that usually responds faster, the request is repeated sooner: after this multiple of its usual
+/// delay, but not before the minimum interval, s. MAVSDK gives up on an item after five half-seconds without a request;
+/// at 0.25 s only one retry fits into each.
 const OVERDUE: f64 = 4.0;
 const ASK_AGAIN_SOONEST_S: f64 = 0.12;
-/// Number of unanswered requests after which earlier items are requested on a link that reorders datagrams, stepping further back
-/// each time: an uploader that a delayed request has set back ignores requests for later items (MAVSDK). A lower number would use
-/// up MAVSDK's five attempts where requests are merely lost.
+/// Number of unanswered requests after which earlier items are requested on a link that reorders datagrams, stepping
+/// further back each time: an uploader that a delayed request has set back ignores requests for later items (MAVSDK). A
+/// lower number would use up MAVSDK's five attempts where requests are merely lost.
 const STEP_BACK_AFTER: u8 = 4;
-/// Number of steps back, each twice as far as the previous one: up to 128 items, more than are transferred while a request is
-/// delayed.
+/// Number of steps back, each twice as far as the previous one: up to 128 items, more than are transferred while a
+/// request is delayed.
 const STEPS_BACK: u8 = 8;
 /// Weight of the latest delay in the moving average.
 const DELAY_WEIGHT: f64 = 0.25;
@@ -60,7 +61,7 @@ pub struct PlanStore {
     splines: bool,
     /// Whether zero coordinates in an item mean the vehicle's position at that time.
     zero_is_here: bool,
-    /// Encoding in which items are requested first.
+    /// Encoding that is tried first when requesting items.
     form: ItemEncoding,
 }
 
@@ -111,20 +112,21 @@ struct PlanUpload {
     count: u16,
     last_received: SimTime,
     last_request: SimTime,
-    /// Whether a request had to be repeated, that is, the link loses datagrams.
+    /// Whether a request had to be repeated, which means that the link loses datagrams.
     is_lossy: bool,
     form: ItemEncoding,
-    /// Whether the current item was requested again, so that its delay is meaningless.
+    /// Whether the current item was requested again, which makes its delay meaningless.
     is_retry: bool,
     /// Number of unanswered requests since the last item.
     unanswered: u8,
     /// Usual delay between a request and its item, s.
     delay_s: Option<f64>,
-    /// Sequence number of the last requested item: the first missing one, or an earlier one that makes an uploader catch up.
+    /// Sequence number of the last requested item: the first missing one, or an earlier one that makes an uploader
+    /// catch up.
     requested: u16,
-    /// Number after that of an item received again without a request: the uploader may continue from there.
+    /// Sequence number after an item that was received again without a request: the uploader may continue from there.
     set_back_to: Option<u16>,
-    /// Whether such an item has arrived, that is, the link reorders or duplicates datagrams.
+    /// Whether such an item has arrived, which means that the link reorders or duplicates datagrams.
     reorders: bool,
 }
 
@@ -155,9 +157,9 @@ impl PlanUpload {
         self.first + self.items.len() as u16
     }
 
-    /// Handles an item that was already received. If it was requested, requests the next one; otherwise, `poll_retries` continues
-    /// from it once the missing item is overdue. A request for every repeated item would double all subsequent traffic, and
-    /// clients that count repeats would give up.
+    /// Handles an item that was already received. If it was requested, requests the next one; otherwise, `poll_retries`
+    /// continues from it once the missing item is overdue. A request for every repeated item would double all
+    /// subsequent traffic, and clients that count repeats would give up.
     fn repeated(&mut self, seq: u16, now: SimTime) -> Option<MavMessage> {
         if seq == self.requested {
             (self.requested, self.last_request, self.is_retry, self.unanswered) = (seq + 1, now, true, 0);
@@ -197,8 +199,8 @@ impl PlanUpload {
     }
 }
 
-/// The repeated acknowledgment of an upload over a lossy link. Clients only wait for it (MAVSDK), so that losing it would make a
-/// complete upload fail.
+/// The repeated acknowledgment of an upload over a lossy link. Clients wait for it without sending anything (MAVSDK),
+/// so losing it would make a complete upload fail.
 #[derive(Debug, Clone, PartialEq)]
 struct AckRepeat {
     to: PlanPeer,
@@ -260,8 +262,8 @@ fn id_of(items: &[MISSION_ITEM_INT_DATA]) -> u32 {
 }
 
 impl PlanStore {
-    /// Creates an empty store. The first `lead` items of transferred missions (home) are not flown; stored items are numbered
-    /// without them.
+    /// Creates an empty store. The first `lead` items of transferred missions (home) are not flown; stored items are
+    /// numbered without these.
     #[must_use]
     pub fn with_lead_items(lead: u16) -> Self {
         Self { lead, ..Self::default() }
@@ -279,7 +281,7 @@ impl PlanStore {
         Self { zero_is_here, ..self }
     }
 
-    /// Sets the encoding in which items are requested first.
+    /// Sets the encoding that is tried first when requesting items.
     #[must_use]
     pub fn with_encoding(self, form: ItemEncoding) -> Self {
         Self { form, ..self }
@@ -339,7 +341,7 @@ impl PlanStore {
         self.speed_factor = pace;
     }
 
-    /// Returns the number of items of mission, fence and rally points, for the parameters.
+    /// Returns the numbers of mission items, fence items and rally points, for the parameters.
     #[must_use]
     pub fn totals(&self) -> [u16; 3] {
         [self.count(MavMissionType::MAV_MISSION_TYPE_MISSION, 0), self.plans[1].len() as u16, self.plans[2].len() as u16]
@@ -413,8 +415,8 @@ impl PlanStore {
         }
     }
 
-    /// Stops repeating the acknowledgment to a peer that sends another plan message: it has received it or no longer waits for
-    /// it.
+    /// Stops repeating the acknowledgment to a peer that sends another plan message: it has received it or no longer
+    /// waits for it.
     fn forget_acknowledged(&mut self, from: PlanPeer) {
         self.ack_repeat.take_if(|echo| echo.to == from);
     }
@@ -537,9 +539,9 @@ impl PlanStore {
         PlanReply::New(kind, done)
     }
 
-    /// Handles an item without an upload: an error, unless it repeats one of the plan that this peer has just finished. A repeat
-    /// of the last item means that the acknowledgment was lost; an earlier one was merely delayed, and an error would invalidate
-    /// the acknowledgment in transit.
+    /// Handles an item without an upload: an error, unless it repeats an item of the plan that this peer has just
+    /// finished. A repeat of the last item means that the acknowledgment was lost; a repeat of an earlier item was only
+    /// delayed, and an error would invalidate the acknowledgment in transit.
     fn reply_without_upload(&self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA) -> PlanReply {
         let last = self.done.filter(|&(peer, kind, _)| (peer, kind) == (from, item.mission_type)).map(|(_, _, last)| last);
         match last.filter(|_| self.is_kept(item)) {
@@ -597,7 +599,8 @@ impl PlanStore {
         self.upload.take_if(|u| u.from == from);
     }
 
-    /// Repeats an overdue request, cancels a stalled upload, or repeats an acknowledgment. Returns the message and its recipient.
+    /// Repeats an overdue request, cancels a stalled upload, or repeats an acknowledgment. Returns the message and its
+    /// recipient.
     pub fn poll_retries(&mut self, now: SimTime) -> Option<(PlanPeer, MavMessage)> {
         let Some(upload) = self.upload.as_mut() else { return self.acknowledge_again(now) };
         let (from, kind) = (upload.from, upload.kind);
@@ -610,8 +613,8 @@ impl PlanStore {
             (upload.is_lossy, upload.is_retry) = (true, true);
             upload.unanswered = upload.unanswered.saturating_add(1);
             upload.requested = upload.overdue();
-            // A client that has not sent any item yet may support only the other encoding. On a lossy link, most clients support
-            // the first.
+            // A client that has not sent any item yet may support only the other encoding. On a lossy link, most
+            // clients support the first.
             if upload.items.is_empty() && self.form == ItemEncoding::Int {
                 upload.form =
                     if upload.unanswered.is_multiple_of(OTHER_FORM_EVERY) { ItemEncoding::Float } else { ItemEncoding::Int };
@@ -643,7 +646,7 @@ impl PlanStore {
         steps
     }
 
-    /// Returns for each mission item whether its altitude is relative to home.
+    /// Returns whether the altitude of each mission item is relative to home.
     #[must_use]
     pub fn home_relative_steps(&self) -> Vec<bool> {
         self.plans[0].iter().map(|item| relative(item.frame) == Some(true)).collect()

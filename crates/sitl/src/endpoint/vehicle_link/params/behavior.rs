@@ -1,5 +1,6 @@
-//! PX4 parameters for behavior: failsafe actions, return, limits, missions. Unless stated otherwise, ranges and defaults are
-//! PX4's (PX4ParameterFactMetaData.xml of QGroundControl 5.0.1). `OperatorRules` of the autopilot documents the effects.
+//! PX4 parameters for behavior: failsafe actions, return, limits, missions. Unless stated otherwise, ranges and
+//! defaults are PX4's (PX4ParameterFactMetaData.xml of QGroundControl 5.0.1). `OperatorRules` of the autopilot
+//! documents the effects.
 
 use super::param_value::ParamValue::{self, Int, Real};
 use super::row::{Row, row};
@@ -9,7 +10,7 @@ const CONTROL: &str = "Multicopter Position Control";
 const MISSION: &str = "Mission";
 const RETURN: &str = "Return Mode";
 
-/// Modes of a switch position, by PX4's numbers.
+/// Modes for a switch position, with PX4's numbers.
 const FLIGHT_MODES: &[(i32, &str)] = &[
     (-1, "Unassigned"),
     (0, "Manual"),
@@ -30,7 +31,7 @@ const FLIGHT_MODES: &[(i32, &str)] = &[
 const LINK_BITS: &[(i32, &str)] = &[(0, "Mission"), (1, "Hold"), (2, "Offboard")];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 
-/// Parameters that default to the aircraft's own limits, so that no aircraft is restricted before an operator sets them.
+/// Parameters that default to the aircraft's own limits, so they restrict no aircraft until an operator sets them.
 pub(super) const FRAME: [&str; 7] = [
     "MPC_ACC_DOWN_MAX",
     "MPC_ACC_HOR",
@@ -73,7 +74,7 @@ pub(super) const ROWS: &[Row] = &[
     slot("COM_FLTMODE4", "Mode at switch position 4"),
     slot("COM_FLTMODE5", "Mode at switch position 5"),
     slot("COM_FLTMODE6", "Mode at switch position 6"),
-    // 1 is unused in PX4; here it is the rule of a job, and its default.
+    // Value 1 is unused in PX4. Here it is the default for jobs whose rules return the vehicle when the battery is low.
     row("COM_LOW_BAT_ACT", Int(0), (0.0, 3.0), "", COMMANDER, "Low battery action").values(&[
         (0, "Warning"),
         (1, "Return when low, land when critical"),
@@ -92,11 +93,11 @@ pub(super) const ROWS: &[Row] = &[
     ]),
     row("COM_POSCTL_NAVL", Int(0), (0.0, 1.0), "", COMMANDER, "Position loss action in manual flight")
         .values(&[(0, "Altitude mode"), (1, "Land mode")]),
-    // 7 by default, where PX4 has 0: trainees put the controller down during automatic flight.
+    // The default is 7 instead of PX4's 0, because trainees put the controller down during automatic flight.
     row("COM_RCL_EXCEPT", Int(7), (0.0, 31.0), "", COMMANDER, "Modes without a manual control loss failsafe").bits(LINK_BITS),
-    row("COM_RC_OVERRIDE", Int(1), (0.0, 3.0), "", COMMANDER, "Modes in which moving the sticks takes over")
+    row("COM_RC_OVERRIDE", Int(1), (0.0, 3.0), "", COMMANDER, "Modes that stick movement can interrupt")
         .bits(&[(0, "Automatic modes"), (1, "Offboard")]),
-    row("COM_RC_STICK_OV", Real(30.0), (5.0, 80.0), "%", COMMANDER, "Stick deflection that takes over"),
+    row("COM_RC_STICK_OV", Real(30.0), (5.0, 80.0), "%", COMMANDER, "Stick deflection for a pilot takeover"),
     row("FD_ACT_EN", Int(1), (0.0, 1.0), "", "Failure Detector", "Trigger COM_ACT_FAIL_ACT on motor failure").values(OFF_ON),
     row("EKF2_HGT_REF", Int(1), (0.0, 3.0), "", "Estimator", "Height reference sensor").values(&[
         (0, "Barometer"),
@@ -137,26 +138,26 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row("MPC_ACC_HOR", Real(3.0), (0.5, 15.0), "m/s^2", CONTROL, "Maximum horizontal acceleration in automatic modes"),
     row("MPC_ACC_UP_MAX", Real(4.0), (0.5, 15.0), "m/s^2", CONTROL, "Maximum vertical acceleration in automatic modes"),
-    row("MPC_LAND_ALT2", Real(5.0), (0.0, 122.0), "m", CONTROL, "Height below which landing slows down"),
+    row("MPC_LAND_ALT2", Real(5.0), (0.0, 122.0), "m", CONTROL, "Height below which the landing descent slows down"),
     row("MPC_MAN_TILT_MAX", Real(35.0), (1.0, 70.0), "deg", CONTROL, "Maximum tilt in manual modes"),
     row("MPC_MAN_Y_MAX", Real(150.0), (0.0, 400.0), "deg/s", CONTROL, "Maximum yaw rate in manual modes"),
     row("MPC_VEL_MANUAL", Real(10.0), (0.5, 30.0), "m/s", CONTROL, "Maximum horizontal speed in manual modes"),
     row("MPC_YAW_MODE", Int(0), (0.0, 5.0), "", MISSION, "Heading in automatic modes").values(&[
-        (0, "To the waypoint"),
-        (1, "To home"),
+        (0, "Toward the waypoint"),
+        (1, "Toward home"),
         (2, "Away from home"),
         (3, "Along the path"),
-        (4, "To the waypoint, turning first"),
+        (4, "Toward the waypoint, turning first"),
         (5, "Fixed"),
     ]),
     row("MPC_Z_V_AUTO_DN", Real(1.5), (0.3, 10.0), "m/s", CONTROL, "Descent speed in automatic modes"),
     row("MPC_Z_V_AUTO_UP", Real(3.0), (0.3, 15.0), "m/s", CONTROL, "Climb speed in automatic modes"),
-    // Off by default, where PX4 has 45 degrees: near a bridge, a return climbs clear of it first.
+    // Off by default (PX4: 45 degrees), because a return near a bridge must climb clear of it first.
     row("RTL_CONE_ANG", Int(0), (0.0, 90.0), "deg", RETURN, "Half-angle of the cone that limits the return climb; 0: off"),
-    row("RTL_DESCEND_ALT", Real(10.0), (0.0, 500.0), "m", RETURN, "Loiter height before the return lands"),
-    row("RTL_LAND_DELAY", Real(0.0), (-1.0, 300.0), "s", RETURN, "Delay before the return lands; negative: never lands"),
-    row("RTL_MIN_DIST", Real(5.0), (0.5, 1_000.0), "m", RETURN, "Minimum distance from home for the return climb"),
-    row("RTL_TYPE", Int(0), (0.0, 5.0), "", RETURN, "Return destination, flown in a straight line").values(&[
+    row("RTL_DESCEND_ALT", Real(10.0), (0.0, 500.0), "m", RETURN, "Loiter height before a return landing"),
+    row("RTL_LAND_DELAY", Real(0.0), (-1.0, 300.0), "s", RETURN, "Delay before a return landing; negative: no landing"),
+    row("RTL_MIN_DIST", Real(5.0), (0.5, 1_000.0), "m", RETURN, "Distance from home beyond which a return climbs first"),
+    row("RTL_TYPE", Int(0), (0.0, 5.0), "", RETURN, "Return destination, reached in a straight line").values(&[
         (0, "Home or a rally point, whichever is nearest"),
         (1, "Mission landing or rally point, else home"),
         (2, "Mission landing, else home"),

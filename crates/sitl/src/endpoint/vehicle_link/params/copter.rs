@@ -1,6 +1,6 @@
-//! Parameter names that clients expect from ArduCopter (docs/src/reference/wire.md, "Parameters"; QGroundControl's and MAVProxy's
-//! sources), with ArduPilot's units and values. Names that correspond to an internal parameter take effect; the others describe
-//! the vehicle and are read-only.
+//! Parameter names that clients expect from ArduCopter (docs/src/reference/wire.md, "Parameters"; source code of
+//! QGroundControl and MAVProxy), with ArduPilot's units and values. Parameters that correspond to an internal one take
+//! effect; the rest describe the vehicle and are read-only.
 
 use super::derived_rows::{mapped, scaled};
 use super::param_value::ParamValue::{self, Int, Real};
@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 pub const DEFAULTS: &[(&str, ParamValue)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
 
 const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
-/// ArduPilot's link loss actions and the internal ones.
+/// ArduPilot's link loss actions, and the corresponding internal ones.
 const LOSSES: &[(i32, i32)] = &[(0, 0), (1, 2), (5, 3), (7, 1)];
 const STICK_LOSS: &[(i32, &str)] = &[(1, "Return"), (3, "Land"), (7, "Brake")];
 const STICK_LOSSES: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
@@ -23,7 +23,7 @@ const FENCE_ACT: &[(i32, &str)] = &[(0, "Report only"), (1, "Return"), (2, "Land
 /// Breach actions. The internal terminate and warn actions have no equivalent here.
 const FENCE_ACTS: &[(i32, i32)] = &[(0, 1), (1, 3), (2, 5), (4, 2)];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
-const ONE: &[(i32, &str)] = &[(1, "As it is")];
+const ONE: &[(i32, &str)] = &[(1, "Fixed")];
 
 /// Returns the rows, sorted by name.
 #[must_use]
@@ -39,7 +39,7 @@ pub fn rows() -> &'static [Row] {
     &ALL
 }
 
-/// This software's own parameters, under their own names.
+/// This software's own parameters, with unchanged names.
 const OURS: [&str; 4] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
 
 /// Creates a read-only row that describes the vehicle.
@@ -63,8 +63,8 @@ fn active_rows() -> Vec<Row> {
         out
     };
     vec![
-        of_capacity("BATT_CRT_MAH", "BAT_CRIT_THR", "Critical battery level, remaining charge"),
-        of_capacity("BATT_LOW_MAH", "BAT_LOW_THR", "Low battery level, remaining charge"),
+        of_capacity("BATT_CRT_MAH", "BAT_CRIT_THR", "Critical battery level (remaining charge)"),
+        of_capacity("BATT_LOW_MAH", "BAT_LOW_THR", "Low battery level (remaining charge)"),
         scaled("DISARM_DELAY", "COM_DISARM_PRFLT", 1.0, REAL32, "s", "ARMING"),
         mapped("FENCE_ACTION", "GF_ACTION", FENCE_ACTS, FENCE_ACT, "FENCE"),
         enable("FENCE_ENABLE", "FENCE", "Enable the geofence"),
@@ -73,14 +73,14 @@ fn active_rows() -> Vec<Row> {
         mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSSES, LOSS, "FS"),
         scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
         mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSSES, STICK_LOSS, "FS"),
-        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies to targets directly and never turns
-        // into the wind.
-        row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "Options of GUIDED mode").wire(INT32).bits(&[
+        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies to targets directly and
+        // never turns into the wind.
+        row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "GUIDED mode options").wire(INT32).bits(&[
             (0, "Allow arming from the transmitter"),
             (2, "Ignore the yaw stick"),
-            (3, "Interpret attitude setpoint thrust as thrust, not as climb rate"),
+            (3, "Interpret attitude setpoint thrust as thrust, not climb rate"),
         ]),
-        row("GUID_TIMEOUT", Real(3.0), (0.1, 3_600.0), "s", "GUID", "Timeout of setpoints without a position"),
+        row("GUID_TIMEOUT", Real(3.0), (0.1, 3_600.0), "s", "GUID", "Timeout for setpoints without a position"),
         scaled("LAND_SPEED", "MPC_LAND_SPEED", 100.0, INT16, "cm/s", "LAND"),
         scaled("MAV_SYSID", "MAV_SYS_ID", 1.0, INT16, "", "MAV"),
         scaled("PILOT_TKOFF_ALT", "MIS_TAKEOFF_ALT", 100.0, REAL32, "cm", "PILOT"),
@@ -101,7 +101,7 @@ fn fixed() -> Vec<Row> {
     let offset = |name| outgoing(name, nominal, REAL32, "INS", "Accelerometer offset (nominal)").unit("m/s^2");
     let none = |name, wire, group| {
         let zero = if wire == REAL32 { Real(0.0) } else { Int(0) };
-        let row = outgoing(name, zero, wire, group, "Not present: the vehicle has only one");
+        let row = outgoing(name, zero, wire, group, "Not present: the vehicle has only one such sensor");
         if wire == REAL32 {
             row.unit("mGauss")
         } else if wire == INT8 {
@@ -149,7 +149,7 @@ fn fixed() -> Vec<Row> {
     ]
 }
 
-/// Modes of a switch position, by ArduCopter's numbers.
+/// Modes for a switch position, with ArduCopter's numbers.
 const SWITCHED: &[(i32, &str)] = &[
     (0, "Stabilize"),
     (1, "Acro"),
@@ -204,11 +204,11 @@ fn circling_and_following() -> Vec<Row> {
         row("CIRCLE_RADIUS", Real(1_000.0), (0.0, 200_000.0), "cm", "CIRCLE", "Circle radius"),
         row("CIRCLE_RATE", Real(20.0), (-90.0, 90.0), "deg/s", "CIRCLE", "Angular rate around the circle; positive: clockwise"),
         whole("FOLL_ENABLE", 0, 1.0, INT8, "Enable FOLLOW mode").values(OFF_ON),
-        whole("FOLL_SYSID", 0, 255.0, INT16, "System ID of the target; 0: the first that reports a position"),
+        whole("FOLL_SYSID", 0, 255.0, INT16, "System ID of the target; 0: the first system that reports a position"),
         row("FOLL_DIST_MAX", Real(100.0), (1.0, 1_000.0), "m", "FOLL", "Maximum distance to the target"),
         whole("FOLL_OFS_TYPE", 0, 1.0, INT8, "Offset frame")
             .values(&[(0, "North-East-Down"), (1, "Relative to lead vehicle heading")]),
-        offset("FOLL_OFS_X", "Offset north or forward; all zero: the offset when the mode starts"),
+        offset("FOLL_OFS_X", "Offset north or forward; all zero: keep the offset at mode entry"),
         offset("FOLL_OFS_Y", "Offset east or right"),
         offset("FOLL_OFS_Z", "Offset down"),
     ]
@@ -222,7 +222,7 @@ fn radio() -> Vec<Row> {
         ["RC3_MIN", "RC3_MAX", "RC3_TRIM", "RC3_REVERSED"],
         ["RC4_MIN", "RC4_MAX", "RC4_TRIM", "RC4_REVERSED"],
     ];
-    let map = |name, channel| outgoing(name, Int(channel), INT8, "RCMAP", "Channel of this axis");
+    let map = |name, channel| outgoing(name, Int(channel), INT8, "RCMAP", "RC channel for this axis");
     let mut out = vec![map("RCMAP_PITCH", 2), map("RCMAP_ROLL", 1), map("RCMAP_THROTTLE", 3), map("RCMAP_YAW", 4)];
     for [low, high, middle, reversed] in CHANNELS {
         out.push(outgoing(low, Int(1_000), INT16, "RC", "Minimum pulse width").unit("us"));

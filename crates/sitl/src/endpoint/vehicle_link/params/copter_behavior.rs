@@ -1,5 +1,5 @@
-//! Behavior parameters under ArduPilot's names without an equivalent in PX4. Unless stated otherwise, ranges and defaults are
-//! ArduCopter 4.6's.
+//! Behavior parameters with ArduPilot names that have no PX4 equivalent. Unless stated otherwise, ranges and defaults
+//! are ArduCopter 4.6's.
 
 use super::behavior;
 use super::derived_rows::{mapped, scaled};
@@ -32,9 +32,9 @@ fn failsafes() -> Vec<Row> {
         row("BATT_CRT_VOLT", Real(0.0), (0.0, 100.0), "V", "BATT", "Critical battery voltage; 0: disabled"),
         row("BATT_FS_CRT_ACT", Int(0), (0.0, 7.0), "", "BATT", "Critical battery action").wire(INT8).values(BATTERY_ACTIONS),
         row("BATT_FS_LOW_ACT", Int(0), (0.0, 7.0), "", "BATT", "Low battery action").wire(INT8).values(BATTERY_ACTIONS),
-        row("BATT_LOW_TIMER", Int(10), (0.0, 120.0), "s", "BATT", "Time below the voltage before the failsafe triggers")
+        row("BATT_LOW_TIMER", Int(10), (0.0, 120.0), "s", "BATT", "Time below the low voltage before the failsafe triggers")
             .wire(INT8),
-        // ArduPilot's 10.5 V is for three cells; this aircraft may have a different number.
+        // ArduPilot's default of 10.5 V assumes three cells; this aircraft may have a different number.
         row("BATT_LOW_VOLT", Real(0.0), (0.0, 100.0), "V", "BATT", "Low battery voltage; 0: disabled"),
         row("FENCE_ALT_MIN", Real(-10.0), (-100.0, 100.0), "m", "FENCE", "Minimum height above home, if enabled in FENCE_TYPE"),
         row("FENCE_TYPE", Int(7), (0.0, 15.0), "", "FENCE", "Enabled fence types").wire(INT8).bits(&[
@@ -44,13 +44,15 @@ fn failsafes() -> Vec<Row> {
             (3, "Minimum height"),
         ]),
         row("FS_CRASH_CHECK", Int(1), (0.0, 1.0), "", "FS", "Stop the motors after a crash").wire(INT8).values(OFF_ON),
-        // 2 by default, where ArduPilot has 1: a trainee who loses GNSS under a bridge keeps manual control.
+        // The default is 2 instead of ArduPilot's 1, so that a trainee who loses GNSS under a bridge keeps manual
+        // control.
         row("FS_EKF_ACTION", Int(2), (1.0, 3.0), "", "FS", "Position loss action in manual flight").wire(INT8).values(&[
             (1, "Land"),
             (2, "Altitude hold"),
             (3, "Land"),
         ]),
-        // 21 by default, where ArduPilot has 16: trainees put the controller down during automatic flight.
+        // The default is 21 instead of ArduPilot's 16, because trainees put the controller down during automatic
+        // flight.
         row("FS_OPTIONS", Int(21), (0.0, 63.0), "", "FS", "Failsafe exceptions").wire(INT32).bits(&[
             (0, "Continue in AUTO without manual control"),
             (1, "Continue in AUTO without ground station"),
@@ -59,24 +61,24 @@ fn failsafes() -> Vec<Row> {
             (4, "Continue in manual modes without ground station"),
             (5, "Open the gripper"),
         ]),
-        row("FS_THR_VALUE", Int(975), (910.0, 1100.0), "us", "FS", "Throttle pulse below which manual control is lost")
+        row("FS_THR_VALUE", Int(975), (910.0, 1100.0), "us", "FS", "Throttle pulse width that signals manual control loss")
             .wire(INT16),
         station,
         row("SYSID_MYGCS", Int(0), (0.0, 255.0), "", "SYSID", STATION).wire(INT16),
     ]
 }
 
-/// 0 by default, where ArduPilot has 255: the window and the instructor use other IDs.
-const STATION: &str = "System ID of the ground station, which may send stick input; 0: any";
+/// The default is 0 instead of ArduPilot's 255, because the window and the instructor use other IDs.
+const STATION: &str = "System ID of the ground station that may send stick input; 0: any";
 
 fn returning() -> Vec<Row> {
     vec![
         row("RALLY_INCL_HOME", Int(1), (0.0, 1.0), "", "RALLY", "Include home in the rally point selection")
             .wire(INT8)
             .values(OFF_ON),
-        row("RTL_ALT_FINAL", Int(0), (0.0, 1_000.0), "cm", "RTL", "Final height of a return; 0: land").wire(INT16),
-        row("RTL_CLIMB_MIN", Int(0), (0.0, 3_000.0), "cm", "RTL", "Minimum climb of a return").wire(INT16),
-        // Off by default, where ArduPilot has 3: near a bridge, a return climbs clear of it first.
+        row("RTL_ALT_FINAL", Int(0), (0.0, 1_000.0), "cm", "RTL", "Final height of the return; 0: land").wire(INT16),
+        row("RTL_CLIMB_MIN", Int(0), (0.0, 3_000.0), "cm", "RTL", "Minimum climb before a return").wire(INT16),
+        // Off by default (ArduPilot: 3), because a return near a bridge must climb clear of it first.
         row("RTL_CONE_SLOPE", Real(0.0), (0.0, 10.0), "", "RTL", "Slope of the cone that limits the return climb; 0: off"),
         row("RTL_LOIT_TIME", Int(5_000), (0.0, 60_000.0), "ms", "RTL", "Loiter time above home before descent").wire(INT32),
         row("RTL_SPEED", Int(0), (0.0, 2_000.0), "cm/s", "RTL", "Return speed; 0: WPNAV_SPEED").wire(INT16),
@@ -105,8 +107,8 @@ fn limits() -> Vec<Row> {
         scaled("WPNAV_ACCEL_Z", "MPC_ACC_UP_MAX", 100.0, REAL32, "cm/s/s", "WPNAV"),
         row("WP_YAW_BEHAVIOR", Int(2), (0.0, 3.0), "", "WP", "Heading in automatic modes").wire(INT8).values(&[
             (0, "Fixed"),
-            (1, "To the waypoint"),
-            (2, "To the waypoint, fixed during return"),
+            (1, "Toward the waypoint"),
+            (2, "Toward the waypoint, fixed during return"),
             (3, "Along the path"),
         ]),
     ]
@@ -116,7 +118,7 @@ fn missions() -> Vec<Row> {
     let count =
         |name, group, short| row(name, Int(0), (0.0, 32_766.0), "", group, short).wire(INT16).read_only().volatile().token();
     vec![
-        row("AUTO_OPTIONS", Int(0), (0.0, 255.0), "", "AUTO", "Options of AUTO mode").wire(INT32).bits(&[
+        row("AUTO_OPTIONS", Int(0), (0.0, 255.0), "", "AUTO", "AUTO mode options").wire(INT32).bits(&[
             (0, "Allow arming"),
             (1, "Take off without raising the throttle"),
             (2, "Ignore the yaw stick"),

@@ -1,4 +1,4 @@
-//! Converts the flavour's parameters to the rule for following a target.
+//! Converts the flavor's parameters to the rule for following a target.
 
 use super::Params;
 use crate::autopilot::follow::{FollowPosition, FollowRule};
@@ -9,7 +9,7 @@ const OVER_TARGET: i32 = 2;
 const ALONG_COURSE: i32 = 1;
 
 impl Params {
-    /// Returns the rule for following a target: from FOLL_* if the flavour has them, otherwise from FLW_TGT_*.
+    /// Returns the rule for following a target: from FOLL_* if the flavor has them, otherwise from FLW_TGT_*.
     pub(super) fn follow_rule(&self) -> FollowRule {
         let fastest_m_s = self.number("MPC_XY_VEL_MAX");
         let Some(enable) = self.whole("FOLL_ENABLE") else {

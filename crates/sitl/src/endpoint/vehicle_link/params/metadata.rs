@@ -1,5 +1,6 @@
 //! Metadata shown by ground stations: the files of MAVLink's component metadata service
-//! (<https://mavlink.io/en/services/component_information.html>), generated from the parameter table and served over MAVLink FTP.
+//! (<https://mavlink.io/en/services/component_information.html>), generated from the parameter table and served over
+//! MAVLink FTP.
 
 use super::ParamValue;
 use super::copter_behavior::depends_on_aircraft;
@@ -42,18 +43,18 @@ impl MetadataFile {
     }
 }
 
-/// Metadata files of a flavour.
+/// Metadata files of a flavor.
 #[derive(Debug)]
 pub struct MetadataFiles {
-    /// The general metadata file, which lists the others.
+    /// The general metadata file, which lists the other files.
     pub general: MetadataFile,
     /// The parameter metadata file.
     pub parameter: MetadataFile,
-    /// The events metadata file, if the flavour sends events.
+    /// The events metadata file, if the flavor sends events.
     pub events: Option<MetadataFile>,
 }
 
-/// Returns the metadata files of a flavour.
+/// Returns the metadata files of a flavor.
 #[must_use]
 pub fn files(face: &ParamView) -> &'static MetadataFiles {
     static COMMON: LazyLock<MetadataFiles> = LazyLock::new(|| make(&PX4));

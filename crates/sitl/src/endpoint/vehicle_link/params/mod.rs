@@ -1,5 +1,5 @@
-//! Parameters: names that ground stations expect, this software's own group, ranges, and each flavour's view. Values are stored
-//! under one set of names; the names of other flavours convert them to their own units.
+//! Parameters: names that ground stations expect, this software's own group, ranges, and each flavor's view. Values are
+//! stored under one set of names; the names of other flavors convert them to their own units.
 
 mod behavior;
 mod copter;
@@ -27,9 +27,9 @@ use spandrel_mavlink::dialect::MavParamType;
 use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
 
-/// PX4's name of the checksum of all parameters.
+/// PX4's name for the checksum of all parameters.
 pub const HASH: &str = "_HASH_CHECK";
-/// Name of the parameter that enables the geofence, for flavours that have one.
+/// Name of the parameter that enables the geofence, for flavors that have one.
 pub const FENCE_SWITCH: &str = "FENCE_ENABLE";
 /// Reason why a parameter was not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,7 +53,7 @@ pub struct BatteryThresholds {
     pub critical_pct: f64,
 }
 
-/// Properties of the aircraft that the parameters show.
+/// Properties of the aircraft that parameters report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AircraftValues {
     /// Number of cells in series.
@@ -102,11 +102,11 @@ pub struct OutgoingParam {
 /// Environment settings that an instructor can change by parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InstructorSettings {
-    /// Mean wind at 20 ft, m/s, and its direction of origin, degrees; `None`: the scenario's.
+    /// Mean wind speed at 20 ft, m/s, and the direction that the wind comes from, degrees; `None`: the scenario's wind.
     pub wind: Option<(f64, f64)>,
     /// Fraction of datagrams lost, each way.
     pub loss: f64,
-    /// Delay of the other datagrams, each way.
+    /// Delay of the remaining datagrams, each way.
     pub delay: SimTime,
     /// Whether the bridges are open to traffic.
     pub open: bool,
@@ -133,11 +133,11 @@ pub struct Params {
 }
 
 impl Params {
-    /// Creates the defaults for a vehicle and a flavour.
+    /// Creates the defaults for a vehicle and a flavor.
     #[must_use]
     pub fn new(system_id: u8, pack: AircraftValues, face: &'static ParamView) -> Self {
         let own = face.rows().iter().filter(|row| row.source == ParamSource::Own);
-        // Names shared by two flavours may differ in type and default: the flavour's own row applies.
+        // Names shared by two flavors may differ in type and default: the flavor's own row applies.
         let mut values: BTreeMap<&'static str, ParamValue> =
             table::rows().iter().chain(own).map(|row| (row.name, row.default)).collect();
         values.extend(face.defaults.iter().copied());
@@ -175,7 +175,7 @@ impl Params {
         self.changes
     }
 
-    /// Returns the flavour's view of the parameters.
+    /// Returns the flavor's view of the parameters.
     #[must_use]
     pub fn param_view(&self) -> &'static ParamView {
         self.face
@@ -193,7 +193,8 @@ impl Params {
         self.face.rows().len()
     }
 
-    /// Returns PX4's checksum: CRC-32 without pre- and post-inversion over the name and value of each parameter, sorted by name.
+    /// Returns PX4's checksum: CRC-32 without pre- and post-inversion over the name and value of each parameter, sorted
+    /// by name.
     #[must_use]
     pub fn hash(&self) -> u32 {
         // The crate inverts the register at both ends; inverting before and after yields the plain polynomial.
@@ -258,8 +259,8 @@ impl Params {
         pairs.iter().find(|(_, theirs)| Some(*theirs) == other).map_or(row.default, |(own, _)| Int(*own))
     }
 
-    /// Sets a value from the wire: bytewise, where integer parameters require an integer type, or cast, where the type is
-    /// ignored.
+    /// Sets a value from the wire: bytewise, where integer parameters require an integer type, or cast, where the type
+    /// is ignored.
     ///
     /// # Errors
     /// Returns a [`ParamRefusal`] and changes nothing.
@@ -277,7 +278,7 @@ impl Params {
         self.put(row, value)
     }
 
-    /// Sets a value by the flavour's name.
+    /// Sets a value by the flavor's name.
     ///
     /// # Errors
     /// Returns a [`ParamRefusal`] and changes nothing.
@@ -360,19 +361,19 @@ impl Params {
         self.whole(FENCE_SWITCH).map(|value| value != 0)
     }
 
-    /// Returns the system ID of the ground station, which may send stick input; `None`: any.
+    /// Returns the system ID of the ground station that may send stick input; `None`: any.
     #[must_use]
     pub fn ground_station(&self) -> Option<u8> {
         self.whole("SYSID_MYGCS").and_then(|id| u8::try_from(id).ok()).filter(|id| *id > 0)
     }
 
-    /// Returns the throttle pulse below which the transmitter has lost the vehicle, microseconds.
+    /// Returns the throttle pulse width below which the transmitter counts as lost, microseconds.
     #[must_use]
     pub fn throttle_loss_us(&self) -> Option<u16> {
         self.whole("FS_THR_VALUE").and_then(|us| u16::try_from(us).ok())
     }
 
-    /// Returns the function of the switch on a channel (`RCn_OPTION`), for flavours with switches.
+    /// Returns the function of the switch on a channel (`RCn_OPTION`), for flavors with switches.
     #[must_use]
     pub fn switch_function(&self, channel: usize) -> Option<u16> {
         self.whole(&format!("RC{channel}_OPTION")).and_then(|function| u16::try_from(function).ok())
@@ -399,7 +400,7 @@ impl Params {
         }
     }
 
-    /// Returns a value that only some flavours have.
+    /// Returns a value that only some flavors have.
     fn real(&self, name: &str) -> Option<f64> {
         self.values.get(name).map(|value| value.number())
     }

@@ -1,6 +1,6 @@
-//! ArduPilot's packed parameter file, `@PARAM/param.pck` over MAVLink FTP. The header has three 16-bit numbers: format, number of
-//! parameters in the file, total number. Each parameter follows with type and flags, lengths, the part of its name that differs
-//! from the previous one, its value and, if requested and different, its default.
+//! ArduPilot's packed parameter file, `@PARAM/param.pck` over MAVLink FTP. The header has three 16-bit numbers: format,
+//! number of parameters in the file, total number. Each parameter follows with type and flags, lengths, the part of its
+//! name that differs from the previous one, its value and, if requested and different, its default.
 
 use super::row::Row;
 use super::{ParamValue, Params};
@@ -109,7 +109,8 @@ mod tests {
         let bytes = file(path.as_bytes(), &params, &defaults).unwrap();
         let mut expected = vec![0x1b, 0x67, 2, 0];
         expected.extend((rows.len() as u16).to_le_bytes());
-        // An INT8 with thirteen new characters, value 7; an INT32 that shares four characters and has eight new ones, value 0.
+        // An INT8 with thirteen new characters, value 7; an INT32 that shares four characters and has eight new ones,
+        // value 0.
         expected.extend([1, 12 << 4]);
         expected.extend(b"AUTOTUNE_AXES\x07");
         expected.extend([3, 7 << 4 | 4]);

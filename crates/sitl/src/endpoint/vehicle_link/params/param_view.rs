@@ -1,14 +1,14 @@
-//! Each flavour's view of the parameters: their names, and the encoding of their values.
+//! Each flavor's view of the parameters: their names, and the encoding of their values.
 
 use super::copter;
 use super::param_value::ParamValue;
 use super::row::Row;
 use super::table;
 
-/// A flavour's view of the parameters.
+/// A flavor's view of the parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParamView {
-    /// Number of the flavour in SPAN_FLAVOUR.
+    /// Number of the flavor in SPAN_FLAVOUR.
     pub number: i32,
     /// Whether values are cast to float; otherwise they are encoded bytewise.
     pub cast: bool,

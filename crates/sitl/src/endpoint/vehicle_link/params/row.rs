@@ -12,7 +12,7 @@ pub enum ParamSource {
     Scaled(&'static str, f64),
     /// Another parameter's value, a fraction of the battery capacity, converted to mAh.
     Capacity(&'static str),
-    /// Another parameter's value with a different numbering: (this one's, the other's).
+    /// Another parameter's value with a different numbering: pairs of (own number, other number).
     Mapped(&'static str, &'static [(i32, i32)]),
 }
 
@@ -33,23 +33,23 @@ pub struct Row {
     pub group: &'static str,
     /// Short description.
     pub short: &'static str,
-    /// Labels of its values.
+    /// Value labels.
     pub values: &'static [(i32, &'static str)],
-    /// Labels of its bits, if it is a bit mask.
+    /// Bit labels, if it is a bit mask.
     pub bits: &'static [(i32, &'static str)],
     /// Whether it describes the vehicle and cannot be set.
     pub read_only: bool,
-    /// Whether the vehicle changes it.
+    /// Whether the vehicle itself changes it.
     pub volatile: bool,
     /// Whether it has no effect and exists only for clients that expect it.
     pub token: bool,
     /// Type on the wire.
     pub wire: MavParamType,
-    /// Source of its value.
+    /// Source of the value.
     pub source: ParamSource,
 }
 
-/// Creates a row with its own value, of the wire type that belongs to its default.
+/// Creates a row with its own value, with the wire type of its default.
 pub(super) const fn row(
     name: &'static str,
     default: ParamValue,

@@ -21,7 +21,7 @@ const SYSTEM: &str = "System";
 
 const LOSS: &[(i32, &str)] =
     &[(0, "Disabled"), (1, "Hold mode"), (2, "Return mode"), (3, "Land mode"), (5, "Terminate"), (6, "Disarm")];
-/// Channel of a stick or switch. No radio is connected: all are unassigned.
+/// Channels for a stick or switch. No radio is connected, so all sticks and switches are unassigned.
 pub(super) const CHANNELS: &[(i32, &str)] = &[
     (0, "Unassigned"),
     (1, "Channel 1"),
@@ -91,15 +91,15 @@ pub(super) fn rows() -> &'static [Row] {
     &ALL
 }
 
-/// Names from QGroundControl's and MAVSDK's sources (docs/src/reference/wire.md, "Parameters"), with PX4's defaults where they
-/// apply. Sorted by name.
+/// Names from the source code of QGroundControl and MAVSDK (docs/src/reference/wire.md, "Parameters"), with PX4's
+/// defaults where they apply. Sorted by name.
 pub const ROWS: &[Row] = &[
     row("BAT1_N_CELLS", Int(3), (1.0, 16.0), "", BATTERY, "Number of cells in series").values(CELLS),
     row("BAT1_SOURCE", Int(-1), (-1.0, 2.0), "", BATTERY, "Battery data source")
         .values(&[(-1, "Disabled"), (0, "Power Module")])
         .token(),
-    row("BAT1_V_CHARGED", Real(4.2), (3.0, 5.0), "V", BATTERY, "Voltage of a full cell").token(),
-    row("BAT1_V_EMPTY", Real(3.5), (2.5, 4.5), "V", BATTERY, "Voltage of an empty cell").token(),
+    row("BAT1_V_CHARGED", Real(4.2), (3.0, 5.0), "V", BATTERY, "Full cell voltage").token(),
+    row("BAT1_V_EMPTY", Real(3.5), (2.5, 4.5), "V", BATTERY, "Empty cell voltage").token(),
     row("BAT_CRIT_THR", Real(0.07), (0.0, 0.5), "norm", BATTERY, "Critical battery level"),
     row("BAT_LOW_THR", Real(0.15), (0.0, 0.9), "norm", BATTERY, "Low battery level"),
     button("BTN0_FUNCTION"),
@@ -140,7 +140,7 @@ pub const ROWS: &[Row] = &[
     row("FLW_TGT_FA", Real(180.0), (-180.0, 180.0), "deg", FOLLOWING, "Angle from the target's course; 180: behind"),
     row("FLW_TGT_HT", Real(8.0), (8.0, 500.0), "m", FOLLOWING, "Height while following"),
     row("FLW_TGT_MAX_VEL", Real(5.0), (0.0, 20.0), "m/s", FOLLOWING, "Maximum speed while following"),
-    row("FLW_TGT_RS", Real(0.1), (0.0, 1.0), "", FOLLOWING, "Smoothing of the target's motion; 0: off"),
+    row("FLW_TGT_RS", Real(0.1), (0.0, 1.0), "", FOLLOWING, "Smoothing of the target motion; 0: off"),
     row("GF_ACTION", Int(2), (0.0, 5.0), "", FENCE, "Geofence breach action").values(&[
         (0, "None"),
         (1, "Warning"),
@@ -151,8 +151,8 @@ pub const ROWS: &[Row] = &[
     ]),
     row("GF_MAX_HOR_DIST", Real(0.0), (0.0, 1e4), "m", FENCE, "Maximum horizontal distance from home; 0: no limit"),
     row("GF_MAX_VER_DIST", Real(0.0), (0.0, 1e4), "m", FENCE, "Maximum height above home; 0: no limit"),
-    row("LND_FLIGHT_T_HI", Int(0), (0.0, 2e9), "", SYSTEM, "Total flight time, upper half").volatile().token(),
-    row("LND_FLIGHT_T_LO", Int(0), (-2e9, 2e9), "", SYSTEM, "Total flight time, lower half").volatile().token(),
+    row("LND_FLIGHT_T_HI", Int(0), (0.0, 2e9), "", SYSTEM, "Total flight time, upper 32 bits").volatile().token(),
+    row("LND_FLIGHT_T_LO", Int(0), (-2e9, 2e9), "", SYSTEM, "Total flight time, lower 32 bits").volatile().token(),
     row("MAV_COMP_ID", Int(1), (1.0, 250.0), "", MAVLINK, "Component ID").read_only(),
     row("MAV_SYS_ID", Int(1), (1.0, 250.0), "", MAVLINK, "System ID").read_only(),
     row("MAV_TYPE", Int(2), (0.0, 50.0), "", MAVLINK, "Vehicle type").values(&[(2, "Quadrotor")]).read_only(),
@@ -193,7 +193,7 @@ pub const ROWS: &[Row] = &[
         (0.0, 360.0),
         "deg",
         SIMULATION,
-        "Wind direction of origin, clockwise from north, if SIM_WIND_SPD is set",
+        "Direction that the wind comes from, clockwise from north; used if SIM_WIND_SPD is set",
     ),
     row(
         "SIM_WIND_SPD",
@@ -201,10 +201,10 @@ pub const ROWS: &[Row] = &[
         (-1.0, 25.0),
         "m/s",
         SIMULATION,
-        "Mean wind speed 6 m above the water; negative: the scenario's",
+        "Mean wind speed 6 m above the water; negative: use the scenario's wind",
     ),
-    row("SPAN_CAMERA", Int(1), (0.0, 1.0), "", SYSTEM, "Heartbeats of the camera component (100)")
-        .values(&[(0, "Off, for clients that mistake them for the vehicle's"), (1, "On")]),
+    row("SPAN_CAMERA", Int(1), (0.0, 1.0), "", SYSTEM, "Send heartbeats from the camera component (100)")
+        .values(&[(0, "Off, for clients that mistake them for vehicle heartbeats"), (1, "On")]),
     row("SPAN_FLAVOUR", Int(0), (0.0, 2.0), "", SYSTEM, "Autopilot protocol")
         .values(&[(0, "PX4"), (1, "ArduPilot"), (2, "Generic MAVLink")])
         .read_only(),

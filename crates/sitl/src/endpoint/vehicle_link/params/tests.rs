@@ -1,4 +1,4 @@
-//! Names, types, ranges, both encodings, the checksum.
+//! Tests of names, types, ranges, both encodings, and the checksum.
 
 use super::*;
 
@@ -28,13 +28,13 @@ fn exact_copters_names_show_and_set_what_is_behind_them_in_their_units() {
     let mut params = of(&param_view::COPTER);
     assert_eq!(params.set("WPNAV_SPEED", 350.0, REAL), Ok(()));
     assert_eq!((params.cruise_m_s(), params.find("WPNAV_SPEED").map(|p| p.2)), (3.5, Some(Real(350.0))));
-    assert_eq!(params.set("FS_GCS_ENABLE", 5.0, REAL), Ok(()), "cast, whatever the type says");
+    assert_eq!(params.set("FS_GCS_ENABLE", 5.0, REAL), Ok(()), "the value must be cast regardless of the declared type");
     assert_eq!(params.whole("NAV_DLL_ACT"), Some(3));
-    assert_eq!(params.set("FS_GCS_ENABLE", 4.0, INT), Err(ParamRefusal::OutOfRange), "nothing here does that");
+    assert_eq!(params.set("FS_GCS_ENABLE", 4.0, INT), Err(ParamRefusal::OutOfRange), "the vehicle has no such action");
     assert_eq!(params.set("BATT_LOW_MAH", 1_040.0, REAL), Ok(()));
     assert_eq!(params.number("BAT_LOW_THR") as f32, 0.2);
     assert_eq!(params.set("FRAME_CLASS", 2.0, INT), Err(ParamRefusal::ReadOnly));
-    assert_eq!(params.set("MPC_XY_CRUISE", 3.0, REAL), Err(ParamRefusal::Unknown), "another flavour's name");
+    assert_eq!(params.set("MPC_XY_CRUISE", 3.0, REAL), Err(ParamRefusal::Unknown), "the name belongs to another flavor");
     assert_eq!(params.set("RC_OVERRIDE_TIME", f32::NAN, REAL), Err(ParamRefusal::OutOfRange));
     let told = params.outgoing(params.find("FS_GCS_ENABLE").unwrap().0).unwrap();
     assert_eq!((told.wire, told.kind), (5.0, MavParamType::MAV_PARAM_TYPE_INT8));
@@ -56,7 +56,7 @@ fn exact_every_bound_that_is_shown_can_be_set_and_reads_back() {
     }
 }
 
-/// A value of a different type than its row would shift everything after it in the packed file.
+/// A value whose type differs from its row's type would shift everything after it in the packed file.
 #[test]
 fn regress_every_value_has_the_type_of_its_row() {
     for face in [&param_view::PX4, &param_view::COPTER, &param_view::GENERIC] {

@@ -33,8 +33,8 @@ pub fn write(params: &Params, system_id: u8) -> String {
     out
 }
 
-/// Applies a parameter file. Names that this vehicle does not have, and read-only parameters, are skipped because the file may
-/// come from another vehicle.
+/// Applies a parameter file. Names that this vehicle does not have, and read-only parameters, are skipped because the
+/// file may come from another vehicle.
 ///
 /// # Errors
 /// Returns all invalid lines; no parameter is set in that case.
@@ -56,9 +56,9 @@ pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<ParamFileProblem>
 fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let fields: Vec<&str> = line.split('\t').map(str::trim).collect();
     let [_, _, name, value, kind] = fields[..] else {
-        return Err(format!("{} fields, tab-separated (allowed: vehicle, component, name, value, type)", fields.len()));
+        return Err(format!("{} tab-separated fields (required: vehicle, component, name, value, type)", fields.len()));
     };
-    // A parameter of another vehicle, whatever its type.
+    // A parameter of another vehicle is skipped, regardless of its type.
     if params.range(name).is_none() {
         return Ok(());
     }
@@ -67,7 +67,7 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let value_read = match kind {
         REAL32 => ParamValue::Real(value.parse().map_err(|_| no_number("a real number"))?),
         _ if kind == INT32 || narrow => ParamValue::Int(value.parse().map_err(|_| no_number("a whole number"))?),
-        _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real ones)")),
+        _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real numbers)")),
     };
     match params.set_value(name, value_read) {
         Ok(()) | Err(ParamRefusal::Unknown | ParamRefusal::ReadOnly) => Ok(()),

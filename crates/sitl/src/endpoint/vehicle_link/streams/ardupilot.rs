@@ -13,7 +13,8 @@ const VERTICAL: u16 = 4 | 32;
 const HORIZONTAL: u16 = 2 | 8 | 16 | 256 | 512;
 const CONSTANT_POSITION: u16 = 128;
 const UNINITIALIZED: u16 = 1_024;
-/// Accuracy at which a variance is 1, above which ArduPilot rejects it, m (1 sigma): the same as required for arming.
+/// Accuracy that corresponds to a reported variance of 1, m (1 sigma): the accuracy required for arming. ArduPilot
+/// rejects estimates with a higher variance.
 const REJECTED_M: f64 = 5.0;
 /// Values that ArduPilot's own SITL reports for its board: a simulated board has no memory or power supply.
 const FREE_BYTES: f64 = 524_288.0;
@@ -40,8 +41,8 @@ pub(crate) fn estimator(v: &VehicleSnapshot) -> Option<DialectMessage> {
     ]))
 }
 
-/// Sends the gyroscope drift: the correction that the estimator adds to its readings. The estimator does not track its attitude
-/// error, so those fields are 0.
+/// Sends the gyroscope drift: the correction that the estimator adds to its readings. The estimator does not track its
+/// attitude error, so those fields are 0.
 pub(crate) fn ahrs(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let drift = v.readings.imu.map_or(Vec3::zero(), |imu| v.estimate.rates_rad_s - imu.rates_rad_s);
     let [x, y, z] = drift.array();

@@ -1,4 +1,4 @@
-//! Estimated and target attitude.
+//! Messages with the estimated and target attitude.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{

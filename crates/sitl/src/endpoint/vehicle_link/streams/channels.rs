@@ -6,8 +6,8 @@ use spandrel_mavlink::dialect::{MavMessage, RC_CHANNELS_DATA};
 /// Throttle down, other sticks centered: the values of ArduPilot's SITL without a transmitter, microseconds.
 const UNTOUCHED_US: [u16; 4] = [1500, 1500, 1000, 1500];
 
-/// Builds the sender's pulses, or their equivalent on a transmitter, where forward is below center. ArduPilot sends all 16
-/// channels, with or without stick input.
+/// Builds the sender's pulses, or their equivalent on a transmitter, where forward is below center. ArduPilot sends all
+/// 16 channels, with or without stick input.
 pub(crate) fn pulses(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavour.dialect_of_ardupilot {
         return Some(all_channels(v));

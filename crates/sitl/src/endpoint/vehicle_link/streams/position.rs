@@ -1,4 +1,4 @@
-//! Messages of position: estimate, target and home.
+//! Position messages: estimate, target and home.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
@@ -51,7 +51,7 @@ pub(crate) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Type mask in which everything but the position is ignored.
+/// Type mask that ignores everything except the position.
 const PLACE_ALONE: PositionTargetTypemask = NO_VELOCITY.union(NO_ACCELERATION).union(NO_HEADING);
 const NO_PLACE: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_X_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_Y_IGNORE)
@@ -65,11 +65,11 @@ const NO_ACCELERATION: PositionTargetTypemask = PositionTargetTypemask::POSITION
 const NO_HEADING: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE);
 
-/// Bits without a meaning, which ArduCopter sets in POSITION_TARGET_GLOBAL_INT.
+/// Undefined bits that ArduCopter sets in POSITION_TARGET_GLOBAL_INT.
 const UNUSED_BITS: PositionTargetTypemask = PositionTargetTypemask::from_bits_retain(0xF000);
 
-/// POSITION_TARGET_LOCAL_NED as in PX4: the target position. ArduCopter sends it only in GUIDED, with the fields of the last
-/// setpoint.
+/// POSITION_TARGET_LOCAL_NED as in PX4: the target position. ArduCopter sends it only in GUIDED, with the fields of the
+/// last setpoint.
 pub(crate) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavour.errands.is_some() {
         return guided_target(v);
@@ -79,8 +79,8 @@ pub(crate) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(target_message(v, mask, [place, [0.0; 3], [0.0; 3]]))
 }
 
-/// Selects position, velocity and acceleration by ArduCopter's rules: position alone, all three, velocity and acceleration, or
-/// acceleration alone; `None` for attitude setpoints.
+/// Selects position, velocity and acceleration by ArduCopter's rules: position alone, all three, velocity and
+/// acceleration, or acceleration alone; `None` for attitude setpoints.
 fn guided_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavour.errands != Some(v.flavour.row_of(v.status.mode, v.requested_mode).number) {
         return None;

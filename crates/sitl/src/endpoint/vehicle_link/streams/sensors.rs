@@ -1,4 +1,4 @@
-//! Messages of sensor measurements.
+//! Messages with sensor measurements.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
@@ -64,8 +64,8 @@ pub(crate) fn highres_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Returns the specific force, milli-g; angular rates, mrad/s; magnetic field, mgauss. RAW_IMU does not define units; ArduPilot
-/// uses these.
+/// Returns the specific force, milli-g; angular rates, mrad/s; magnetic field, mgauss. RAW_IMU does not define units;
+/// ArduPilot uses these.
 fn milli(v: &VehicleSnapshot) -> Option<[[i16; 3]; 3]> {
     let imu = v.readings.imu.as_ref()?;
     let milli = |value: f64| (1000.0 * value).round() as i16;
@@ -107,7 +107,8 @@ pub(crate) fn raw_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Sector width of OBSTACLE_DISTANCE, deg: 72 sectors, because QGroundControl's overlay reads all elements of the array.
+/// Sector width of OBSTACLE_DISTANCE, deg: 72 sectors, because QGroundControl's overlay reads all elements of the
+/// array.
 const SECTOR_DEG: u8 = 5;
 
 /// Returns the index of the range finder closest to a sector, clockwise from the nose.
@@ -147,8 +148,8 @@ pub(crate) fn range_up(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(range(v, 1, v.readings.range_up_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_90))
 }
 
-/// Orientations of the horizontal range finders, clockwise from the nose. MAVLink's documentation swaps left and right; PX4,
-/// ArduPilot and QGroundControl all interpret 90 degrees as right.
+/// Orientations of the horizontal range finders, clockwise from the nose. MAVLink's documentation swaps left and right;
+/// PX4, ArduPilot and QGroundControl all interpret 90 degrees as right.
 const AROUND: [MavSensorOrientation; 8] = [
     MavSensorOrientation::MAV_SENSOR_ROTATION_NONE,
     MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_45,

@@ -1,5 +1,5 @@
-//! Messages of the overall vehicle state.
-#![allow(deprecated, reason = "clients still ask for PROTOCOL_VERSION")]
+//! Messages with the overall vehicle state.
+#![allow(deprecated, reason = "clients still request PROTOCOL_VERSION")]
 
 use super::super::params::metadata;
 use super::super::snapshot::VehicleSnapshot;
@@ -216,7 +216,7 @@ pub(crate) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
         seq: if v.plans.mission_items == 0 { 0 } else { v.plans.lead } + item,
         total: v.plans.mission_items,
         mission_state: state,
-        // 1 in mission mode, 2 not.
+        // 1: in mission mode; 2: not in mission mode.
         mission_mode: if flying { 1 } else { 2 },
         mission_id: v.plans.ids[0],
         fence_id: v.plans.ids[1],

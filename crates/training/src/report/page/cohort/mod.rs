@@ -194,7 +194,7 @@ mod tests {
             ))
         };
         let (three, four) = (flown(3), flown(4));
-        assert!(three.contains("needs 4 repetitions") && !three.contains("class=\"practice\""));
+        assert!(three.contains("requires 4 repetitions") && !three.contains("class=\"practice\""));
         assert_eq!((four.matches("class=\"practice\"").count(), four.matches("one-of-many\"").count()), (5, 10));
         assert!(three.contains("anna, 3 times") && four.contains("overall, 2 trainees"));
     }
