@@ -9,7 +9,7 @@ use best::best;
 use spandrel_mavlink::dialect::{ATTITUDE_DATA, LOCAL_POSITION_NED_DATA, MavMessage, VFR_HUD_DATA};
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::{Monitor, MonitorConfig, assess_log};
-use spandrel_testkit::job::{self, Tape, fence_of_ten, line, scenario, task, vehicle};
+use spandrel_testkit::job::{self, Tape, line, scenario, task, test_survey, vehicle};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -68,7 +68,7 @@ fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duratio
         started_unix_us: 0,
         system_id: 1,
         seed: None,
-        survey_builder: fence_of_ten,
+        survey_builder: test_survey,
     });
     let (mut slowest, mut slowest_change) = (Duration::ZERO, Duration::ZERO);
     for datagram in datagrams {
@@ -96,7 +96,7 @@ fn main() -> ExitCode {
     let scenario = scenario(tasks.collect());
     let datagrams = long_flight();
     let log = job::log_of(&datagrams, 0);
-    let grade = || assess_log(&log, &scenario, &vehicle(), fence_of_ten).map(|graded| graded.frames.len());
+    let grade = || assess_log(&log, &scenario, &vehicle(), test_survey).map(|graded| graded.frames.len());
     let frames = grade();
     let assess = best(ROUNDS, grade);
     let read = best(ROUNDS, || log.iter().fold(0u64, |sum, byte| sum.wrapping_mul(31).wrapping_add(u64::from(*byte))));

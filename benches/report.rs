@@ -15,7 +15,7 @@ const ROUNDS: usize = 3;
 #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
 fn main() -> ExitCode {
     let (scenario, vehicle) = (inspection::two_bridges(), inspection::phantom());
-    let log = inspection::flown(&scenario, FLIGHT_S, 17).log(0);
+    let log = inspection::record_inspection(&scenario, FLIGHT_S, 17).log(0);
     let mut best = (Duration::MAX, Duration::MAX, 0, 0);
     for _ in 0..ROUNDS {
         let start = std::time::Instant::now();

@@ -88,7 +88,7 @@ impl VehicleShell {
             file.saved_changes = core.parameter_changes();
         }
         if let Some(SigningConfig { key, unsigned }) = signing {
-            core.demand_signatures(key, stamp(clock::unix_us()), &unsigned);
+            core.require_signatures(key, stamp(clock::unix_us()), &unsigned);
         }
         if let Some(file) = &heard
             && let Some(memory) = file.text()?
@@ -202,7 +202,7 @@ impl VehicleShell {
     /// Saves changed parameters, and reads the file again when a client requests it.
     fn save_parameters(&mut self) {
         let Some(file) = &mut self.params else { return };
-        let wish = self.core.poll_storage();
+        let wish = self.core.take_storage_request();
         let told = match wish {
             Some(StorageRequest::Load) => file.text().and_then(|text| {
                 self.core.read_parameters(&text.unwrap_or_default()).map_err(|problems| file.parse_error(&problems))
@@ -222,7 +222,7 @@ impl VehicleShell {
     fn save_signing_state(&mut self, at_once: bool) {
         let wall = self.stopwatch.elapsed();
         if let Some(file) = self.signing_store.as_mut().filter(|file| at_once || file.is_due(wall))
-            && let Some(memory) = self.core.signing_memory()
+            && let Some(memory) = self.core.signing_state()
         {
             file.save(memory, wall);
         }
@@ -274,10 +274,10 @@ impl VehicleShell {
         self.pacer.hold(wall, self.core.now());
         match self.first_answer.next_action(heard, wall, HEARTBEAT_INTERVAL) {
             FirstAnswerAction::Wait => {}
-            FirstAnswerAction::Announce => self.core.send_first_contact(),
+            FirstAnswerAction::Announce => self.core.send_first_heartbeats(),
             FirstAnswerAction::Proceed => {
                 tracing::info!("a lockstep peer has not answered TIMESYNC yet: serving it in real time until it does");
-                self.core.skip_first_responses();
+                self.core.stop_awaiting_first_responses();
                 return;
             }
         }

@@ -62,7 +62,7 @@ fn session_record(graded: &AssessedSession, scenario: &Scenario) -> SessionRecor
         vehicle: "test",
         hashes: &SourceHashes::of(b"s", b"v", b"t", b""),
         graded,
-        placed: Fence::of(10).defects(),
+        placed: TestSurvey::of(10).defects(),
         answers: None,
     })
 }
@@ -70,7 +70,7 @@ fn session_record(graded: &AssessedSession, scenario: &Scenario) -> SessionRecor
 #[test]
 fn exact_record_contains_faults_of_flight() {
     let job = two_tasks();
-    let graded = grade(&faulty_flight(), &job);
+    let graded = score_tape(&faulty_flight(), &job);
     let record = session_record(&graded, &job);
     let task = &record.tasks[0];
     assert!((task.off_path_s - 9.0).abs() < DURATION_TOLERANCE_S, "{}", task.off_path_s);
@@ -91,7 +91,7 @@ fn exact_record_contains_faults_of_flight() {
 #[test]
 fn exact_defects_belong_to_nearest_task_with_failed_conditions() {
     let job = two_tasks();
-    let record = session_record(&grade(&faulty_flight(), &job), &job);
+    let record = session_record(&score_tape(&faulty_flight(), &job), &job);
     assert_eq!(record.defects.iter().map(|defect| defect.task.unwrap()).collect::<Vec<_>>(), [1, 1, 1, 1, 1, 1, 2, 2, 2, 2]);
     assert_eq!(record.defects.iter().filter(|defect| defect.found).map(|defect| defect.id).collect::<Vec<_>>(), [5]);
     assert!(record.defects[2].lacked.iter().any(|lacked| lacked.starts_with("too dark: lamp off")), "{:?}", record.defects[2]);
@@ -103,7 +103,7 @@ fn exact_defects_belong_to_nearest_task_with_failed_conditions() {
 #[test]
 fn exact_record_round_trips() {
     let job = two_tasks();
-    let record = session_record(&grade(&faulty_flight(), &job), &job);
+    let record = session_record(&score_tape(&faulty_flight(), &job), &job);
     assert_eq!(record.check(), Ok(()));
     let again: SessionRecord = serde_json::from_str(&serde_json::to_string(&record).unwrap()).unwrap();
     assert_eq!(again, record);
@@ -123,7 +123,7 @@ fn exact_sideways_deviation_is_not_a_height_deviation() {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.fly((60.0, 0.0, 10.0), 4.0);
     tape.land();
-    let record = session_record(&grade(&tape, &job), &job);
+    let record = session_record(&score_tape(&tape, &job), &job);
     let task = &record.tasks[0];
     assert!(task.off_height_m.unwrap() < POSITION_TOLERANCE_M && task.off_sideways_m.unwrap() > 4.0);
     // 3 to 5 m at 2 m/s, 3 s of hover, 5 to 8 m at 4 m/s, 8 to 3 m at 4 m/s.

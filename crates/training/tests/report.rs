@@ -7,7 +7,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 use spandrel_monitor::assess_log;
 use spandrel_monitor::sidecar::{COMPONENT, build_site};
-use spandrel_testkit::inspection::{flown, phantom, two_bridges};
+use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
 use spandrel_training::report::feedback::KINDS;
@@ -35,7 +35,7 @@ fn review(tape: &Tape, job: &Scenario) -> Review {
 /// Returns the review of a 240 s flight of the TASBID job, computed once for all tests.
 fn short_review() -> &'static Review {
     static SHORT: OnceLock<Review> = OnceLock::new();
-    SHORT.get_or_init(|| review(&flown(&two_bridges(), 240.0, 6), &two_bridges()))
+    SHORT.get_or_init(|| review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges()))
 }
 
 /// Inserts an instructor's note in the middle of a tape.
@@ -47,7 +47,7 @@ fn with_note(mut tape: Tape, text: &str) -> Tape {
 
 #[test]
 fn exact_instructor_note_is_in_report_but_not_among_messages() {
-    let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
+    let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
     let plain = review(&tape, &job);
     assert_eq!(plain.feedback.notes, []);
     assert!(!page::session(&plain).contains("instructor's notes"));
@@ -76,7 +76,7 @@ fn without_assets(page: &str) -> String {
 
 #[test]
 fn exact_review_contains_the_scorers_assessment() {
-    let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
+    let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
     let graded = assess_log(&tape.log(0), &job, &phantom(), build_site).unwrap();
     let review = review(&tape, &job);
     assert_eq!((&review.assessment, &review.frames, review.seed), (&graded.assessment, &graded.frames, graded.seed));
@@ -100,7 +100,7 @@ fn exact_review_contains_the_scorers_assessment() {
 #[test]
 fn exact_report_is_reproducible() {
     let job = two_bridges();
-    let again = review(&flown(&job, 240.0, 6), &job);
+    let again = review(&record_inspection(&job, 240.0, 6), &job);
     assert_eq!(page::session(short_review()), page::session(&again));
 }
 
@@ -133,7 +133,7 @@ fn exact_user_text_is_escaped_everywhere() {
     };
     let mut vehicle = phantom();
     vehicle.name = HOSTILE_TEXT.into();
-    let tape = with_note(flown(&job, 200.0, 9), HOSTILE_TEXT);
+    let tape = with_note(record_inspection(&job, 200.0, 9), HOSTILE_TEXT);
     let evil = Review::of(&tape.log(0), &job, &vehicle, about).unwrap();
     assert_eq!(evil.feedback.notes.len(), 1);
     for page in [page::session(&evil), page::comparison(&evil, short_review())] {
@@ -164,7 +164,7 @@ fn exact_every_surface_area_has_one_outcome() {
         }
     }
     let job = two_bridges();
-    let more = review(&flown(&job, 240.0, 2), &job);
+    let more = review(&record_inspection(&job, 240.0, 2), &job);
     assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times as many pictures show more");
 }
 
@@ -172,7 +172,7 @@ fn exact_every_surface_area_has_one_outcome() {
 fn exact_night_changes_only_light_outcomes() {
     let mut job = two_bridges();
     job.light.start_unix_s += 10 * 3600;
-    let (day, night) = (short_review().coverage.total(), review(&flown(&job, 240.0, 6), &job).coverage.total());
+    let (day, night) = (short_review().coverage.total(), review(&record_inspection(&job, 240.0, 6), &job).coverage.total());
     for fate in [SurfaceOutcome::TooOblique, SurfaceOutcome::TooFar, SurfaceOutcome::NotPhotographed, SurfaceOutcome::NeverInView]
     {
         assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
@@ -212,7 +212,7 @@ fn exact_empty_job_has_a_report() {
     let job = scenario(Vec::new());
     let mut tape = Tape::of(&job);
     tape.fly((0.0, 0.0, 5.0), 2.0);
-    tape.silence(2500);
+    tape.hold_unrecorded(2500);
     tape.hold(1.0);
     tape.land();
     let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
@@ -232,7 +232,7 @@ fn exact_empty_job_has_a_report() {
 #[test]
 fn exact_longest_flight_report_is_below_ten_megabytes() {
     let job = two_bridges();
-    let review = review(&flown(&job, MAX_FLIGHT_S - 20.0, 17), &job);
+    let review = review(&record_inspection(&job, MAX_FLIGHT_S - 20.0, 17), &job);
     assert!(review.pictures.len() >= 100, "{}", review.pictures.len());
     let size = page::session(&review).len();
     assert!(size < MAX_PAGE_BYTES, "{size}");

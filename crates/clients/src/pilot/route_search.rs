@@ -93,7 +93,7 @@ impl SearchSpace<'_> {
         };
         let reach_m = keep.required_clearance_m.max(PREFERRED_CLEARANCE_M);
         let still = self.site.nearest(p, reach_m, self.at).map_or(reach_m, |near| near.distance_m);
-        self.site.traffic().min_distance_ever_m(p, still).unwrap_or(still)
+        self.site.traffic().min_distance_over_time_m(p, still).unwrap_or(still)
     }
 
     /// Returns the required clearance at a point, m.

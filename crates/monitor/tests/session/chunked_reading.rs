@@ -28,14 +28,14 @@ fn damaged_log() -> Vec<u8> {
 #[test]
 fn exact_chunked_reading_matches_whole_log() {
     let log = damaged_log();
-    let whole: Vec<(u64, Vec<u8>)> = TlogReader::new(&log).map(|r| (r.stamp_us, r.frame.to_vec())).collect();
+    let whole: Vec<(u64, Vec<u8>)> = TlogReader::new(&log).map(|r| (r.timestamp_us, r.frame.to_vec())).collect();
     assert!((20..40).contains(&whole.len()), "{} records are readable", whole.len());
     let mut reader = TlogReader::new(&log);
     while reader.next().is_some() {}
     for size in [1, 2, 7, 29, 300, 10_000] {
         let (mut splitter, mut found) = (RecordSplitter::default(), Vec::new());
         let mut take = |r: TlogRecord<'_>| {
-            found.push((r.stamp_us, r.frame.to_vec()));
+            found.push((r.timestamp_us, r.frame.to_vec()));
             ControlFlow::Continue(())
         };
         for piece in log.chunks(size) {

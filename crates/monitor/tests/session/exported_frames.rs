@@ -53,7 +53,7 @@ fn flight() -> Tape {
     }
     tape.clearance(2.5);
     tape.fly((30.0, 5.0, 10.0), 4.0);
-    tape.silence(3_000);
+    tape.hold_unrecorded(3_000);
     tape.land();
     tape
 }

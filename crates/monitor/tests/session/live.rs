@@ -23,7 +23,7 @@ fn config(scenario: Scenario) -> MonitorConfig {
         started_unix_us: START_US,
         system_id: 1,
         seed: None,
-        survey_builder: fence_of_ten,
+        survey_builder: test_survey,
     }
 }
 
@@ -58,7 +58,7 @@ fn exact_live_session_and_replay_are_identical() {
     }
     let live = monitor.finished().expect("landed").clone().expect("scored");
     let (log, events) = written(&mut monitor);
-    let replayed = assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap();
+    let replayed = assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap();
     assert_eq!(export::json_text(&live.assessment), export::json_text(&replayed.assessment));
     assert!(live.frames == replayed.frames, "the frames differ");
     let kinds: Vec<String> = events
@@ -77,7 +77,7 @@ fn exact_timestamps_are_session_start_plus_simulation_time() {
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (log, _) = written(&mut monitor);
-    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.stamp_us).collect();
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.timestamp_us).collect();
     assert_eq!(stamps.first(), Some(&START_US));
     assert_eq!(stamps.last(), Some(&(START_US + 2_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
@@ -94,7 +94,7 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     tape.datagrams[late..].iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (mut log, _) = written(&mut monitor);
     let stamps = |log: &[u8]| -> Vec<u64> {
-        spandrel_mavlink::telemetry::tlog::TlogReader::new(log).map(|record| record.stamp_us).collect()
+        spandrel_mavlink::telemetry::tlog::TlogReader::new(log).map(|record| record.timestamp_us).collect()
     };
     let (first, last) = (stamps(&log)[0], *stamps(&log).last().unwrap());
     assert_eq!(first, START_US);
@@ -148,7 +148,7 @@ fn exact_timestamps_increase_after_simulator_restart() {
         tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     }
     let (log, _) = written(&mut monitor);
-    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.stamp_us).collect();
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.timestamp_us).collect();
     assert_eq!(stamps.last(), Some(&(START_US + 22_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
 }
@@ -169,7 +169,7 @@ fn exact_killed_monitor_resumes_at_end_of_log() {
     let (rest, events) = written(&mut second);
     assert!(events[0].contains("monitor_restarted"));
     log.extend(rest);
-    let replayed = assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap();
+    let replayed = assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap();
     assert!(outcome == replayed, "the outcomes differ");
     assert_eq!(outcome.assessment.scores.conformity.unwrap().pct, 100.0);
 }
@@ -267,5 +267,5 @@ fn exact_closing_in_flight_is_scored_as_abort() {
     assert_eq!(graded.assessment.end.reason, spandrel_monitor::session::EndReason::Abort);
     assert!(!graded.assessment.certification.passed);
     let (log, _) = written(&mut monitor);
-    assert!(assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap() == graded, "the replay differs");
+    assert!(assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap() == graded, "the replay differs");
 }

@@ -229,14 +229,14 @@ impl LiveFlight {
                 }
                 self.handle_truth(truth, wall);
             }
-            SampleContent::Value(value) => self.handle_value(value, sample.own_time),
+            SampleContent::Value(value) => self.handle_value(value, sample.message_time),
         }
     }
 
-    fn handle_value(&mut self, value: SampleValue, own_time: Option<SimTime>) {
+    fn handle_value(&mut self, value: SampleValue, message_time: Option<SimTime>) {
         let now = self.state.trace.newest().unwrap_or_default();
         let state = &mut self.state;
-        let time = own_time.filter(|own| *own <= now + RESTART_THRESHOLD).unwrap_or(now);
+        let time = message_time.filter(|own| *own <= now + RESTART_THRESHOLD).unwrap_or(now);
         match value {
             SampleValue::GimbalPitch(pitch_rad) => state.trace.push_gimbal(time, pitch_rad),
             SampleValue::Light(on) => state.lamp = on,
@@ -244,8 +244,8 @@ impl LiveFlight {
             SampleValue::FieldOfView(rad) => state.trace.push_lens(time, rad),
             SampleValue::Heartbeat { armed, .. } => state.armed = armed,
             SampleValue::Snapshot(number) => {
-                if state.pictures.insert((number, own_time)) {
-                    state.last_picture = Some(own_time.unwrap_or(now));
+                if state.pictures.insert((number, message_time)) {
+                    state.last_picture = Some(message_time.unwrap_or(now));
                 }
             }
             SampleValue::Traffic(code) => state.closures.apply_code(code),
