@@ -36,10 +36,10 @@ pub struct ScoringJob<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum AssessError {
     /// The drone never rose above the lift-off height.
-    #[error("the drone never lifted off (rose more than 0.3 m above the pad), so there is no session to score")]
+    #[error("no lift-off: the drone never rose more than 0.3 m above the pad, so there is no session to score")]
     NeverFlown,
     /// The telemetry contains no ground-truth message.
-    #[error("no HIL_STATE_QUATERNION in the telemetry; it provides the time and the true state that scoring requires")]
+    #[error("the telemetry contains no HIL_STATE_QUATERNION messages; scoring requires their time and true state")]
     NoTruth,
     /// The telemetry is from a different scenario.
     #[error("the simulator runs a different scenario: it reports scn_crc {heard:#010x}, but `{name}` has {ours:#010x}")]
@@ -65,7 +65,7 @@ pub enum AssessError {
     )]
     NoSeed,
     /// The telemetry log could not be read.
-    #[error("the telemetry cannot be read: {0}")]
+    #[error("cannot read the telemetry: {0}")]
     Unreadable(String),
 }
 

@@ -11,7 +11,7 @@ const MAX_SPEED_M_S: f64 = 13.4112;
 const TOLERANCE: f64 = 1e-12;
 
 fn assert_close(got: f64, wanted: f64) {
-    assert!((got - wanted).abs() < TOLERANCE, "got {got}, wanted {wanted}");
+    assert!((got - wanted).abs() < TOLERANCE, "got {got}, expected {wanted}");
 }
 
 fn conformity_pct(tasks: &[(f64, f64)]) -> f64 {

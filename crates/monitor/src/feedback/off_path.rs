@@ -75,7 +75,7 @@ impl OffPathCue {
             if self.shown_since.is_none() {
                 self.shown_since = Some(now);
             }
-            let words = || format!("Off path of task {id}: {distance_m:.1} m away");
+            let words = || format!("Task {id}: {distance_m:.1} m off path");
             text = self.cool_down.limited_text(now, limits.text_interval, cue::OFF_PATH, words);
         }
         let held = self.shown_since.is_some_and(|shown| now - shown < limits.off_path_hold);

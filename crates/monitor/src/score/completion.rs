@@ -32,8 +32,8 @@ impl TaskState {
     #[must_use]
     pub fn words(self, covered: f64, done_share: f64) -> String {
         match self {
-            Self::Done => format!("done, {} % of its path", percent(covered, done_share)),
-            Self::Part => format!("partly flown, {} % of its path", percent(covered, done_share)),
+            Self::Done => format!("done ({} % of path)", percent(covered, done_share)),
+            Self::Part => format!("partly flown ({} % of path)", percent(covered, done_share)),
             Self::NotAttempted => "not attempted".to_owned(),
         }
     }

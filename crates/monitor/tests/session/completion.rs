@@ -47,7 +47,7 @@ fn regress_task_is_done_at_80_percent_coverage() {
     }
     let mut easier = scenario_with_long_task();
     easier.scoring.task_completion_fraction = 0.5;
-    assert!(grade(&flown(60.0, true), &easier).assessment.completion.complete, "the required share is set in the scenario");
+    assert!(grade(&flown(60.0, true), &easier).assessment.completion.complete, "the scenario sets the required coverage");
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn exact_velocity_attitude_and_gimbal_match_telemetry() {
         "{roll} {pitch} {yaw}"
     );
     assert!((cruise.gimbal_pitch_rad.unwrap() + 0.25).abs() < ANGLE_TOLERANCE_RAD);
-    assert_eq!(rows[0].gimbal_pitch_rad, None, "no report was received yet");
+    assert_eq!(rows[0].gimbal_pitch_rad, None, "no wind report was received yet");
     let csv = frames_csv(&rows);
     assert_eq!(cells(&csv, "gimbal_pitch_deg")[0], "");
     let k = cruise.frame.index as usize - 1;
@@ -106,8 +106,8 @@ fn exact_wind_persists_and_estimate_is_interpolated() {
     let rows = rows(&flight());
     let reported = rows.iter().position(|row| row.wind_m_s.is_some()).unwrap();
     let windy: Vec<&FrameRow> = rows.iter().filter(|row| row.wind_m_s.is_some()).collect();
-    assert!(windy.iter().all(|row| row.wind_m_s.unwrap().array() == [2.0, 1.0, 0.5]), "the order is east, north, up");
-    assert!((rows[reported].frame.position_m.east() - 14.0).abs() < 0.2, "the report arrives one frame earlier, at 4 m/s");
+    assert!(windy.iter().all(|row| row.wind_m_s.unwrap().array() == [2.0, 1.0, 0.5]), "wrong axis order; expected east, north, up");
+    assert!((rows[reported].frame.position_m.east() - 14.0).abs() < 0.2, "the wind report arrives one frame earlier, at 4 m/s");
     let lasting = 2.5 * one_task().scoring.frame_rate_hz;
     assert!((windy.len() as f64 - lasting).abs() <= 1.0, "{} frames", windy.len());
     let between =
@@ -170,7 +170,7 @@ fn exact_column_names_are_unique_and_end_with_unit() {
             "deg" => "_deg",
             "m" => "_m",
             "s" => "_s",
-            other => panic!("{}: no ending for {other}", column.name),
+            other => panic!("{}: no name suffix for unit {other}", column.name),
         };
         assert!(column.name.ends_with(ending), "{}", column.name);
     }

@@ -56,7 +56,7 @@ fn exact_off_path_cue_has_delay_and_hold_time() {
     let cues = watch.run();
     let on = cues.iter().find(|(_, cues)| cues & cue::OFF_PATH != 0).unwrap().0;
     // The drone passed a distance of 3 m about 0.2 s before it reached 5 m. Messages are 20 ms apart.
-    assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left {left}, on {on}");
+    assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left path at {left}, cue on at {on}");
     // The drone is back on the path within half a second, but the cue stays on for two seconds.
     let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
@@ -151,7 +151,7 @@ fn regress_task_clearance_limit_applies_near_its_path() {
     assert!(!watch.has(cue::TOO_CLOSE));
     watch.tape.fly((30.0, 12.0, 10.0), 4.0);
     watch.run();
-    assert!(watch.has(cue::TOO_CLOSE), "away from the task, the scenario's distance applies");
+    assert!(watch.has(cue::TOO_CLOSE), "away from the task, the scenario's limit applies");
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn exact_crash_is_reported_immediately_and_first() {
     watch.tape.hold(0.02);
     watch.tape.contact(1);
     let cues = watch.run();
-    assert!(cues.last().unwrap().1 & cue::CRASH != 0, "the cue is on after the datagram with the contact");
+    assert!(cues.last().unwrap().1 & cue::CRASH != 0, "the cue is not on after the datagram with the contact");
     assert_eq!(watch.texts, ["Too close: 2.0 m", "Crash: fence"]);
     watch.tape.contact(0);
     watch.tape.hold(1.9);

@@ -60,7 +60,7 @@ fn exact_live_session_and_replay_are_identical() {
     let (log, events) = written(&mut monitor);
     let replayed = assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap();
     assert_eq!(export::json_text(&live.assessment), export::json_text(&replayed.assessment));
-    assert!(live.frames == replayed.frames, "the frames differ");
+    assert!(live.frames == replayed.frames, "live and offline frames differ");
     let kinds: Vec<String> = events
         .iter()
         .map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap()["event"].as_str().unwrap().to_owned())
@@ -170,7 +170,7 @@ fn exact_killed_monitor_resumes_at_end_of_log() {
     assert!(events[0].contains("monitor_restarted"));
     log.extend(rest);
     let replayed = assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap();
-    assert!(outcome == replayed, "the outcomes differ");
+    assert!(outcome == replayed, "live and resumed results differ");
     assert_eq!(outcome.assessment.scores.conformity.unwrap().pct, 100.0);
 }
 
@@ -187,8 +187,8 @@ fn exact_timesync_reply_is_last_and_addressed_to_sender() {
     tape.send(&MavMessage::TIMESYNC(sync));
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let messages = sent(&mut monitor);
-    assert!(messages.len() > 1, "a heartbeat and cues are sent, too");
-    let Some(MavMessage::TIMESYNC(answer)) = messages.last() else { panic!("last is {:?}", messages.last()) };
+    assert!(messages.len() > 1, "heartbeat and cues are missing");
+    let Some(MavMessage::TIMESYNC(answer)) = messages.last() else { panic!("last message is {:?}", messages.last()) };
     assert_eq!((answer.ts1, answer.target_system, answer.target_component), (4242, 1, 1));
     assert_eq!(answer.tc1, 2_100_000_000);
 }
@@ -267,5 +267,5 @@ fn exact_closing_in_flight_is_scored_as_abort() {
     assert_eq!(graded.assessment.end.reason, spandrel_monitor::session::EndReason::Abort);
     assert!(!graded.assessment.certification.passed);
     let (log, _) = written(&mut monitor);
-    assert!(assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap() == graded, "the replay differs");
+    assert!(assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap() == graded, "the replay gave different results");
 }

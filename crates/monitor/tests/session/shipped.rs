@@ -50,7 +50,7 @@ fn flight_pictures_of_shipped_defects_are_hits() {
     let defects = site.defects().to_vec();
     assert_eq!(defects.len(), scenario.defects.count);
     let stands: Vec<_> = defects.iter().filter_map(|defect| viewpoint(defect, &scenario, &vehicle, site.as_ref())).collect();
-    assert!(stands.len() >= 8, "positions were found for only {} of {} defects", stands.len(), defects.len());
+    assert!(stands.len() >= 8, "found viewpoints for only {} of {} defects", stands.len(), defects.len());
     let mut tape = Tape::of(&scenario);
     let pad = tape.at_m;
     tape.fly((pad.east(), pad.north(), pad.up() + 5.0), 2.0);

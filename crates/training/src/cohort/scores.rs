@@ -268,7 +268,7 @@ pub fn homogeneity_of(
             Ok(test) => {
                 tests.push(GroupHomogeneityTest { score: score.to_owned(), cuts: [low, middle], group: own, others, test })
             }
-            Err(error) => warnings.push(format!("{score}: the group cannot be compared with the others: {error}")),
+            Err(error) => warnings.push(format!("{score}: cannot compare the group with the other trainees: {error}")),
         }
     }
     tests

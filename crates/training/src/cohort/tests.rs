@@ -66,7 +66,7 @@ fn exact_repetitions_are_chronological_and_paired_by_trainee() {
     let mut records = pilot_study_records();
     let expected = analyzed(&records);
     records.reverse();
-    assert_eq!(analyzed(&records), expected, "the order of the records does not matter");
+    assert_eq!(analyzed(&records), expected, "results depend on the order of the records");
     let test = expected.tests.iter().find(|test| test.score == "conformity" && (test.earlier, test.later) == (1, 3)).unwrap();
     assert_eq!(test.test.n, 8);
     let of = |k: usize| {
@@ -108,7 +108,7 @@ fn exact_contradictions_are_found() {
     let found = analyzed(&records).self_rating.contradictions;
     let of = |who: &str| found.iter().filter(|one| one.trainee == who).map(|one| one.words.as_str()).collect::<Vec<_>>();
     assert!(of("p0").iter().any(|words| words.starts_with("felt time pressure")));
-    assert!(of("p7").iter().any(|words| words.contains("in the lowest quarter")));
+    assert!(of("p7").iter().any(|words| words.contains("in the bottom quarter")));
     assert!(of("p7").iter().any(|words| words.contains("in the slowest quarter")));
     assert!(of("p3").is_empty() && of("p4").is_empty());
 }

@@ -320,10 +320,10 @@ fn reason(rule: &PlanRule, finding: &Finding<'_>) -> PlanReason {
 /// Describes the direction in which the drone was off the task's path.
 fn axis(task: &TaskRecord) -> &'static str {
     match (task.off_sideways_m, task.off_height_m) {
-        (Some(sideways), Some(height)) if sideways > DOMINANCE_RATIO * height => "mainly to the side",
-        (Some(sideways), Some(height)) if height > DOMINANCE_RATIO * sideways => "mainly in height",
-        (Some(_), Some(_)) => "to the side and in height",
-        (Some(_) | None, None) | (None, Some(_)) => "and far away from it",
+        (Some(sideways), Some(height)) if sideways > DOMINANCE_RATIO * height => "mainly sideways",
+        (Some(sideways), Some(height)) if height > DOMINANCE_RATIO * sideways => "mainly vertically",
+        (Some(_), Some(_)) => "both sideways and vertically",
+        (Some(_) | None, None) | (None, Some(_)) => "and far from it",
     }
 }
 
