@@ -89,8 +89,8 @@ pub const COLUMNS: &[Column] = &[
         "contact",
         "",
         "",
-        "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Landing and \
-         takeoff at home count as none.",
+        "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Landings \
+         and takeoffs at home are reported as none.",
         Read::Text(|r| r.frame.contact.label()),
     ),
     column(

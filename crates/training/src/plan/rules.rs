@@ -186,7 +186,7 @@ mod tests {
             RULES.replacen("measure = \"off_path\"", "measure = \"elegance\"", 1).replacen("limit = 0.1\n", "limit = -1\n", 1);
         let told = read_rules("rules.toml", &wrong).unwrap_err().to_string();
         assert!(told.contains("measure = \"elegance\"") && told.contains("limit = -1"), "{told}");
-        let twice = RULES.replace("name = \"into the water\"", "name = \"hit a person\"");
+        let twice = RULES.replace("name = \"crashes into water\"", "name = \"hit a person\"");
         assert!(read_rules("rules.toml", &twice).unwrap_err().to_string().contains("duplicate rule name"));
     }
 }

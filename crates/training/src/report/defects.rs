@@ -56,7 +56,7 @@ impl DefectOutcome {
             ),
             Some((t_s, view)) => format!("best seen at {}, but {}", formatting::clock(*t_s), view.reasons().join("; ")),
             None => format!(
-                "the camera never pointed at it; the drone came within {} m at {}",
+                "never in the camera's view; the drone came within {} m at {}",
                 formatting::number(nearest_m, 1),
                 formatting::clock(nearest_s)
             ),

@@ -72,7 +72,7 @@ fn bar(visitor: &Visitor, at: &str) -> Markup {
                     button type="submit" { "Log out" }
                 }
             } @else if visitor.open {
-                p.who { "local access, no login" }
+                p.who { "Local access, no login" }
             }
         }
     }
@@ -136,7 +136,7 @@ pub fn refusal(visitor: &Visitor, title: &str, words: &str) -> Markup {
         visitor,
         "",
         title,
-        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to home" } } } },
+        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to the home page" } } } },
     )
 }
 

@@ -42,7 +42,7 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
             (token(visitor))
             label { "Current password" input type="password" name="present" required maxlength=(PASSWORD_LENGTHS.end()) autocomplete="current-password"; }
             label { "New password, at least " (PASSWORD_LENGTHS.start()) " characters" input type="password" name="new" required minlength=(PASSWORD_LENGTHS.start()) maxlength=(PASSWORD_LENGTHS.end()) autocomplete="new-password"; }
-            button type="submit" { "Change" }
+            button type="submit" { "Change password" }
         }
     };
     page(

@@ -33,7 +33,7 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str
     };
     let body = html! {
         @if let Some((kind, words)) = told { (message_lines(kind, words)) }
-        section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("From", false)], &rows)) }
+        section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("Source", false)], &rows)) }
         @if visitor.satisfies(AccessLevel::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
     };
     page(visitor, "/scenarios", "Scenarios", &body)
@@ -81,7 +81,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         @if !scenario.tasks.is_empty() {
             (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance, m", true)], &rows)))
         }
-        (section("site", "From above", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
+        (section("site", "Site plan", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
         @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "File", &html! {
             details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="File contents" { pre { code { (text) } } } }
             @if named.uploaded {

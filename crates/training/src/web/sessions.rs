@@ -110,7 +110,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageDa
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
             @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
-            (formatting::duration(record.seconds)) " of flight, end: " (record.end_reason.replace('_', " "))
+            (formatting::duration(record.seconds)) " of flight, ended: " (record.end_reason.replace('_', " "))
         }
         (actions(record, beside))
         (section("scores", "Scores", &scores(record)))
@@ -138,7 +138,7 @@ fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
                 li { a href={ "/sessions/" (record.id) "/telemetry.tlog" } { "Telemetry (tlog)" } }
             }
         } @else {
-            p.note { "The session's folder is not on this machine. Report, questionnaire and downloads are not available." }
+            p.note { "The session folder is not on this machine, so the report, questionnaire and downloads are unavailable." }
         }
     }
 }
@@ -183,7 +183,7 @@ fn tasks(record: &SessionRecord) -> Markup {
     let rows: Vec<ShareRow> = record.tasks.iter().map(row).collect();
     html! {
         div.split {
-            figure { figcaption { "On-path share of each task" } (shares(&rows, "On-path share by task")) }
+            figure { figcaption { "On-path share by task" } (shares(&rows, "On-path share by task")) }
             (table(
                 "Task results",
                 &[("Task", false), ("Path flown", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
@@ -237,7 +237,7 @@ fn defects(record: &SessionRecord) -> Markup {
 fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
     html! {
         @if others.is_empty() {
-            p.calm { "No other sessions of this trainee yet." }
+            p.calm { "This trainee has no other sessions yet." }
         } @else {
             form.inline method="get" action="/compare" {
                 input type="hidden" name="first" value=(record.id);

@@ -38,13 +38,13 @@ impl SurfaceOutcome {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Shown => "shown well",
+            Self::Shown => "captured well",
             Self::Blurred => "blurred",
             Self::DarkLampOn => "too dark, lamp on",
             Self::DarkLampOff => "too dark, lamp off",
             Self::TooOblique => "too oblique",
             Self::TooFar => "too far",
-            Self::NotPhotographed => "in view, no picture",
+            Self::NotPhotographed => "in view, not photographed",
             Self::NeverInView => "never in view",
         }
     }

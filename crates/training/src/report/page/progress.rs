@@ -57,7 +57,7 @@ pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
         div.three {
             (figure("The four scores by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
             @if !tasks.is_empty() {
-                (figure("On-path share of each task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
+                (figure("On-path share by task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
             }
             (figure("Crashes by object", &html! {
                 @if seen.is_empty() { p.calm { "None." } } @else { (legend(&seen)) (counts(&rows, "Crashes by kind and repetition")) }
@@ -105,7 +105,7 @@ fn learning(progress: &TraineeProgress) -> Markup {
                 (figure(&curve.score, &practice(&drawn, &format!("Learning curve of {}", curve.score))))
             }
         }
-        p.note { "Power laws of practice, fitted to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
+        p.note { "The curves are power laws of practice fitted to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
         (curve_numbers(&progress.curves).folded())
     }
 }
@@ -145,7 +145,7 @@ fn numbers(scenario: &str, progress: &TraineeProgress) -> Table {
     let crashes = ["bridge crashes", "ground crashes", "water crashes", "other crashes", "person or vehicle crashes"];
     Table {
         name: "progress",
-        caption: "each repetition: scores, time, crashes",
+        caption: "scores, time and crashes by repetition",
         columns: columns.into_iter().chain(crashes).collect(),
         rows: progress.repetitions.iter().map(row).collect(),
     }

@@ -16,7 +16,7 @@ pub fn header(review: &Review) -> Markup {
     let end = &review.assessment.end;
     let certification = &review.assessment.certification;
     html! {
-        a.skip href="#scores" { "Skip to the scores" }
+        a.skip href="#scores" { "Skip to scores" }
         header {
             div {
                 p.kicker { "Session report" }
@@ -105,8 +105,8 @@ fn score_explanation(review: &Review, name: &str) -> String {
             let crashes = &assessment.crashes;
             match (crashes.person + crashes.vehicle, crashes.other) {
                 (0, 0) => "no contacts".into(),
-                (0, 1) => "1 contact, 3 points".into(),
-                (0, other) => format!("{other} contacts, 3 points each"),
+                (0, 1) => "1 contact, 3 points lost".into(),
+                (0, other) => format!("{other} contacts, 3 points lost each"),
                 _ => "a person or vehicle was hit: 0 points".into(),
             }
         }
@@ -126,14 +126,14 @@ fn conformity(review: &Review) -> String {
     let Some(worst) = tasks.iter().min_by(|a, b| a.on_path.total_cmp(&b.on_path)) else { return "no tasks in this job".into() };
     let skipped = tasks.iter().filter(|task| !task.attempted).count();
     if skipped == tasks.len() {
-        return "no task attempted (the TASBID formula then gives 50)".into();
+        return "no tasks attempted (the TASBID formula gives 50 points)".into();
     }
     if skipped > 0 {
         return format!("{skipped} of {} tasks not attempted", tasks.len());
     }
     let speeding: f64 = review.tasks.iter().map(|task| task.speeding_s).sum();
     let lowest = formatting::number(100.0 * worst.on_path, 0);
-    format!("lowest on-path share: {lowest} % (task {}); too fast for {} s", worst.id, formatting::number(speeding, 0))
+    format!("lowest on-path share: {lowest} % (task {}); speeding for {} s", worst.id, formatting::number(speeding, 0))
 }
 
 fn table(review: &Review) -> Table {

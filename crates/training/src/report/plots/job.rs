@@ -21,7 +21,7 @@ pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
     sheet(
         map.size,
-        "The job from above, north up",
+        "Job site from above, north up",
         "map",
         &html! {
             (lake(scenario, site, &map))
@@ -52,7 +52,7 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
         points.push(Vec3::new(end.east(), end.north(), top_m + TOP_MARGIN_M));
     }
     let map = PlotMap::around(view, &points);
-    let title = format!("The bridge '{}' from the side", bridge.name);
+    let title = format!("Side view of bridge '{}'", bridge.name);
     sheet(
         map.size,
         &title,
@@ -76,7 +76,7 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     points.push(Vec3::new(pad_m.east() + END_MARGIN_M, pad_m.north(), pad_m.up() + TOP_MARGIN_M));
     let map = PlotMap::around(ParallelView::from_south(), &points);
     let body = html! { (structure(site, &map, None)) (references(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
-    sheet(map.size, "The job from the south", "map", &body)
+    sheet(map.size, "Job site viewed from the south", "map", &body)
 }
 
 /// Draws the drone and its trail, which a script moves. They are hidden until the script runs; in a bridge's side view, they are

@@ -57,7 +57,7 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
     let near = is_beside(bridge);
     let map = side_view_map(&review.scenario, &review.site, bridge, review.frames.iter().filter(|frame| near(frame)));
     let prefix = format!("{}/", bridge.name);
-    let title = format!("Flight at the bridge '{}' from the side", bridge.name);
+    let title = format!("Side view of the flight at bridge '{}'", bridge.name);
     sheet(
         map.size,
         &title,
@@ -116,7 +116,7 @@ pub fn south_elevation(review: &Review) -> Markup {
     let all = |_: &Frame| true;
     sheet(
         map.size,
-        "Flight from the south",
+        "Flight viewed from the south",
         "map",
         &html! { (structure(&review.site, &map, None)) (job(review, &map, None, &all)) },
     )

@@ -38,7 +38,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
     let map = side_view_map(&first.scenario, &first.site, bridge, flown);
     sheet(
         map.size,
-        &format!("Both flights at the bridge '{}' from the side", bridge.name),
+        &format!("Side view of both flights at bridge '{}'", bridge.name),
         "map",
         &html! {
             (ground(&first.scenario, &first.site, &map, bridge))
@@ -53,7 +53,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
 pub fn from_south(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::from_south(), &both.map(bounding_points).concat());
     let body = html! { (structure(&both[0].site, &map, None)) (flights(both, &map, None, &|_| true)) };
-    sheet(map.size, "Both flights from the south", "map", &body)
+    sheet(map.size, "Both flights viewed from the south", "map", &body)
 }
 
 fn flights(both: [&Review; 2], map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {

@@ -31,9 +31,9 @@ pub fn answers(cohort: &Cohort) -> Markup {
     let first = of(None);
     html! {
         (legend(&key))
-        (figure(&format!("All first sessions, up to {} answers", cohort.trainees), &chart(&first, "Answers of all first sessions")))
+        (figure(&format!("All first sessions, up to {} answers", cohort.trainees), &chart(&first, "Answers from all first sessions")))
         @for (k, questions) in &later {
-            details.numbers { summary { "Trainees with repeated sessions, repetition " (k) } (chart(questions, &format!("Answers in repetition {k}"))) }
+            details.numbers { summary { "Trainees with repeat sessions: repetition " (k) } (chart(questions, &format!("Answers for repetition {k}"))) }
         }
     }
 }
@@ -63,7 +63,7 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
     let rating = &cohort.self_rating;
     html! {
         @if let Some(overall) = &rating.overall {
-            p { "Spearman's correlation of self-rating and overall score: " (formatting::number(overall.r, 2)) ", " (overall.n) " trainees." }
+            p { "Spearman correlation between self-rating and overall score: " (formatting::number(overall.r, 2)) ", " (overall.n) " trainees." }
         }
         @if lists_individuals(cohort) {
             @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }
@@ -79,7 +79,7 @@ fn self_rating_table(cohort: &Cohort) -> Table {
     });
     Table {
         name: "self_rating",
-        caption: "self-rating and measured score",
+        caption: "self-rating vs. measured score",
         columns: vec!["trainee", "self-rating, 1 to 5", "measured, %"],
         rows: rows.collect(),
     }

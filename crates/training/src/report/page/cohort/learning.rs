@@ -17,12 +17,12 @@ const MAX_INDIVIDUAL_TRAINEES: usize = 24;
 pub fn curves(cohort: &Cohort) -> Markup {
     let key = [
         ("dot-1", "mean".to_owned()),
-        ("fitted-key", "curve through the means".into()),
+        ("fitted-key", "curve fitted to the means".into()),
         ("one-of-many-key", "one trainee".into()),
     ];
     html! {
         @if cohort.learning.is_empty() {
-            p.calm { (too_few()) " No trainee has flown that often yet." }
+            p.calm { (too_few()) " No trainee has flown that many yet." }
         } @else {
             (legend(&key))
             div.trio {
@@ -32,7 +32,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
                     (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
                 }
             }
-            p.note { "The curves are power laws of practice. The ring marks the prediction for the next repetition. The curve through the means is flatter than the curves of individual trainees." }
+            p.note { "The curves are power laws of practice. The ring marks the prediction for the next repetition. The group curve is flatter than the curves of individual trainees." }
             (numbers(&cohort.learning).shown())
         }
     }
@@ -69,7 +69,7 @@ fn numbers(curves: &[GroupCurve]) -> Table {
     };
     Table {
         name: "learning_of_the_group",
-        caption: "learning curves through the means",
+        caption: "group learning curves, fitted to the means",
         columns: vec!["score", "trainees", "repetitions", "first mean", "last mean", "exponent", "R²", "next"],
         rows: curves.iter().map(row).collect(),
     }

@@ -51,7 +51,7 @@ pub fn cohort(cohort: &Cohort) -> String {
 pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
         p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
-            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " trainees flew " (cohort.repetitions) " times or more." }
+            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " trainees flew " (cohort.repetitions) " or more times." }
             @if let Some(words) = omitted_summary(cohort.left_out) { " " (words) "." } }
     }
 }
@@ -64,7 +64,7 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
         sections.push(("mind", "Limitations", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
     }
     sections.push(("distributions", "Scores of the first sessions", first_sessions::distributions(cohort)));
-    sections.push(("people", "Trainees and tasks", first_sessions::people(cohort)));
+    sections.push(("people", "Scores by trainee and task", first_sessions::people(cohort)));
     sections.push(("crashes", "Crashes", first_sessions::crashes(cohort)));
     if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
         sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
@@ -77,12 +77,12 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
         sections.push(("answers", "Answers", answers::answers(cohort)));
     }
     if !cohort.self_rating.people.is_empty() {
-        sections.push(("self-rating", "Self-rating and measured score", answers::self_rating(cohort)));
+        sections.push(("self-rating", "Self-rating vs. measured score", answers::self_rating(cohort)));
     }
     if !cohort.likert.is_empty() {
         sections.push(("causal", "Demand, strain, performance", causal::causal(cohort)));
     }
-    sections.push(("files", "All tables as files", files(cohort, files_at)));
+    sections.push(("files", "Table downloads", files(cohort, files_at)));
     sections
 }
 

@@ -12,7 +12,7 @@ use maud::{Markup, html};
 const MAX_BINS: usize = 20;
 
 fn too_many_note(cohort: &Cohort, file: &str) -> Markup {
-    html! { p.note { (cohort.trainees) " trainees are not listed individually. The figures show distributions; individual data is in " (file) "." } }
+    html! { p.note { (cohort.trainees) " trainees are too many to list. The figures show distributions; for individual data, see " (file) "." } }
 }
 
 /// A box plot with its label.
@@ -43,8 +43,8 @@ pub fn tasks(cohort: &Cohort) -> Markup {
     html! {
         (too_many_note(cohort, "individuals.csv"))
         @if !all.is_empty() {
-            (figure("On-path share of each task, %", &draw_boxes(&all, 100.0, "On-path share by task")))
-            (table("on_path_by_task", "on-path share by task, %, for trainees who attempted it", "task", &all).shown())
+            (figure("On-path share by task, %", &draw_boxes(&all, 100.0, "On-path share by task")))
+            (table("on_path_by_task", "on-path share by task, %, only for trainees who attempted the task", "task", &all).shown())
         }
     }
 }
@@ -63,7 +63,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
         rows: bins.iter().map(row).collect(),
     };
     html! {
-        (figure("Trainees by number of crashes; the line is the mean", &histogram(&bins, mean, "Histogram of crashes per trainee")))
+        (figure("Trainees by number of crashes; the line marks the mean", &histogram(&bins, mean, "Histogram of crashes per trainee")))
         (table.folded())
     }
 }
@@ -90,7 +90,7 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
     html! {
         (too_many_note(cohort, "self_rating.csv"))
         @if !all.is_empty() {
-            (figure("Overall score, % of the maximum, by self-rating (5 is best)", &draw_boxes(&all, 100.0, "Measured score by self-rating")))
+            (figure("Overall score (% of maximum) by self-rating (5 is best)", &draw_boxes(&all, 100.0, "Measured score by self-rating")))
             (table("measured_by_self_rating", "measured score by self-rating, %", "self-rating", &all).shown())
         }
         p { (cohort.self_rating.contradictions.len()) " contradictions are listed in contradictions.csv." }
