@@ -4,34 +4,34 @@ use super::FrameRow;
 use spandrel_model::frames::{Enu, Vec3};
 use std::fmt::Write;
 
-/// Data type of a column, and the function that reads its value from a row. The function returns `None` if the telemetry does not
-/// contain the value.
+/// Data type of a column and the function that reads its value from a row. The function returns `None` if the telemetry
+/// has no such value.
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
-    /// Column of integers.
+    /// Integer column.
     Integer(fn(&FrameRow) -> Option<i64>),
-    /// Column of floating-point numbers.
+    /// Floating-point column.
     Float(fn(&FrameRow) -> Option<f64>),
-    /// Column of Booleans; 1 or 0 in CSV.
+    /// Boolean column; 1 or 0 in CSV.
     Boolean(fn(&FrameRow) -> bool),
-    /// Column of strings from a fixed set of values.
+    /// String column with a fixed set of values.
     Text(fn(&FrameRow) -> &'static str),
 }
 
 /// A column of the frames export.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Column name. If the value has a unit, the name ends with it.
+    /// Column name, ending in the unit if there is one.
     pub name: &'static str,
     /// Unit symbol; empty for counts, fractions, flags and strings.
     pub unit: &'static str,
     /// Coordinate frame or positive direction; empty if none applies.
     pub frame: &'static str,
-    /// Definition of the value, in one sentence.
+    /// One-sentence definition of the value.
     pub description: &'static str,
     /// Whether values may be missing. A missing value is empty in CSV and null in Parquet.
     pub optional: bool,
-    /// Data type of the column, and the function that reads its value.
+    /// Data type and the function that reads the value.
     pub read: Read,
 }
 
@@ -162,10 +162,10 @@ pub const COLUMNS: &[Column] = &[
     ),
 ];
 
-/// Typical length of a CSV line, bytes. Determines the initial size of the output buffer.
+/// Typical CSV line length, bytes, used to size the output buffer.
 const LINE_BYTES: usize = 360;
 
-/// Returns frames as CSV: a header line, then one line per frame.
+/// Returns the frames as CSV: a header line followed by one line per frame.
 #[must_use]
 pub fn frames_csv(rows: &[FrameRow]) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
@@ -184,7 +184,7 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
     csv
 }
 
-/// Appends one cell to the CSV text. Ignores the result of the write, because writing to a string cannot fail.
+/// Appends one cell to the CSV text. The write result is ignored because writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
     let _ = match read {
         Read::Integer(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),

@@ -3,11 +3,11 @@
 /// A field of `assessment.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JsonField {
-    /// Path to the field. `[]` stands for the elements of a list, `*` for the keys of a map.
+    /// Path to the field. `[]` denotes list elements, `*` denotes map keys.
     pub path: &'static str,
     /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
-    /// Definition of the value, in one sentence.
+    /// One-sentence definition of the value.
     pub description: &'static str,
 }
 

@@ -14,7 +14,7 @@ const MIN_GOOD_SELF_RATING: f64 = 4.0;
 /// Distribution of the answers to one question.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Likert {
-    /// Key of the question.
+    /// Question key.
     pub question: String,
     /// Repetition of the group, from 1; `None` for all first sessions.
     pub repetition: Option<usize>,
@@ -42,7 +42,7 @@ pub struct SelfRating {
 /// Self-rating and measured score of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfRatingPair {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Mean over the phases, 1 to 5; higher is better.
     pub self_rating: f64,
@@ -53,7 +53,7 @@ pub struct SelfRatingPair {
 /// A contradiction between a trainee's self-rating and the measurement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contradiction {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Description for the report.
     pub words: String,

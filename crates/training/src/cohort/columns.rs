@@ -6,7 +6,7 @@
 pub struct ColumnDefinition {
     /// Unit; empty for counts, strings and dimensionless numbers.
     pub unit: &'static str,
-    /// Definition of the value, in one sentence.
+    /// One-sentence definition of the value.
     pub description: &'static str,
 }
 

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// Learning curve of a group for one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupCurve {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
     /// Number of trainees included in the mean.
     pub people: usize,

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Sessions and learning curves of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TraineeProgress {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Sessions on the job, in chronological order.
     pub repetitions: Vec<Repetition>,
@@ -20,9 +20,9 @@ pub struct TraineeProgress {
 /// One session of a trainee on a job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Repetition {
-    /// Number of the repetition, from 1.
+    /// Repetition number, from 1.
     pub number: usize,
-    /// Id of the session (name of its folder).
+    /// Session ID (its folder name).
     pub session: String,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
@@ -34,20 +34,20 @@ pub struct Repetition {
     pub safety: f64,
     /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
-    /// Sum of the scores that apply.
+    /// Sum of all applicable scores.
     pub overall: f64,
-    /// Duration of the flight, s.
+    /// Flight duration, s.
     pub seconds: f64,
     /// On-path share by task number; `None` if the task was not attempted.
     pub on_path: Vec<(u32, Option<f64>)>,
-    /// Crash counts, by kind of object hit.
+    /// Crash counts by kind of object hit.
     pub crashes: Crashes,
 }
 
 /// Learning curve of one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScoreCurve {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
     /// Power law fitted to the scores.
     #[serde(flatten)]
@@ -57,13 +57,13 @@ pub struct ScoreCurve {
 /// Progress of one trainee on one job. Jobs are separate, because practice on one says little about another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobProgress {
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
     /// Numbers and names of the job's tasks, as of the latest session.
     pub tasks: Vec<(u32, String)>,
     /// Sessions that the policy allows; may be empty.
     pub progress: TraineeProgress,
-    /// Number of incomplete sessions excluded.
+    /// Number of excluded incomplete sessions.
     pub left_out: usize,
 }
 

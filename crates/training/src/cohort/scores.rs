@@ -14,7 +14,7 @@ const HISTOGRAM_BINS: usize = 20;
 /// Distribution of one score over the first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Distribution {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
     /// Summary statistics of the scores.
     pub summary: SampleSummary,
@@ -25,11 +25,11 @@ pub struct Distribution {
 /// First session of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Individual {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Id of the session (name of its folder).
+    /// Session ID (its folder name).
     pub session: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
     /// Conformity, 0 to 100; `None` if it does not apply.
@@ -40,9 +40,9 @@ pub struct Individual {
     pub safety: f64,
     /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
-    /// Sum of the scores that apply.
+    /// Sum of all applicable scores.
     pub overall: f64,
-    /// Duration of the flight, s.
+    /// Flight duration, s.
     pub seconds: f64,
     /// On-path share and speeding by task.
     pub tasks: Vec<TaskShare>,
@@ -51,9 +51,9 @@ pub struct Individual {
 /// One task's contribution to conformity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskShare {
-    /// Number of the task in the scenario.
+    /// Task number in the scenario.
     pub id: u32,
-    /// Name of the task in the scenario.
+    /// Task name in the scenario.
     pub name: String,
     /// Whether the task's path was entered.
     pub attempted: bool,
@@ -81,7 +81,7 @@ pub struct CrashTable {
 /// Crashes of one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashRow {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Count for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
@@ -92,22 +92,22 @@ pub struct CrashRow {
 /// Box plot of one score in one repetition of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RepetitionBox {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
-    /// Number of the repetition, from 1.
+    /// Repetition number, from 1.
     pub repetition: usize,
-    /// Values that the box plot shows.
+    /// Box plot data.
     pub plot: BoxPlot,
 }
 
 /// Paired comparison of one score in two repetitions of the group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
-    /// Number of the earlier repetition.
+    /// Earlier repetition number.
     pub earlier: usize,
-    /// Number of the later repetition.
+    /// Later repetition number.
     pub later: usize,
     /// Paired test of later minus earlier.
     #[serde(flatten)]
@@ -120,7 +120,7 @@ pub struct Comparison {
 /// Tests whether the group's first sessions are distributed over low, middle and high scores like those of the other trainees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupHomogeneityTest {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
     /// Upper limits of low and middle scores: the terciles of all first sessions.
     pub cuts: [f64; 2],

@@ -28,7 +28,7 @@ const DOMINANCE_RATIO: f64 = 2.0;
 /// Scenarios recommended to one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrainingPlan {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Id of the latest session, on which the plan is based.
     pub session: String,
@@ -49,7 +49,7 @@ pub struct TrainingPlan {
 /// One scenario to fly.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanStep {
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
     /// Sum of weight × value / limit over all rules that recommend this scenario.
     pub urgency: f64,

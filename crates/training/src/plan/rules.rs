@@ -5,7 +5,7 @@ use spandrel_model::toml::{Problems, Reader, Section};
 /// Default rules of the training plan, in TOML.
 pub const RULES: &str = include_str!("rules.toml");
 
-/// Format version of the file.
+/// File format version.
 const FORMAT: i64 = 1;
 
 /// Measure that a rule evaluates.
@@ -122,7 +122,7 @@ pub struct PlanRules {
 /// Reads the rules from TOML.
 ///
 /// # Errors
-/// All errors in the file.
+/// Returns all errors in the file.
 pub fn read_rules(file: &str, text: &str) -> Result<PlanRules, Problems> {
     let mut reader = Reader::new(file, text);
     let rules = reader.parse().map(|document| {

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// File name in the session folder.
 pub const ANSWERS: &str = "answers.json";
 
-/// Format version of the file.
+/// File format version.
 const FORMAT: u64 = 1;
 /// Maximum file size, bytes; 24 answers need far less.
 const MAX_FILE_BYTES: usize = 64 * 1024;
@@ -89,7 +89,7 @@ impl<'de> Deserialize<'de> for Answers {
 /// Reads `answers.json` for a job with these tasks. Answers may be missing, but those present must be valid.
 ///
 /// # Errors
-/// All errors in the file, with file, line, key, value and allowed values.
+/// Returns all errors in the file, each with file, line, key, value and allowed values.
 pub fn read_answers(file: &str, text: &str, tasks: &[u32]) -> Result<Answers, Problems> {
     let mut reading = AnswerReader { file, text, problems: Vec::new() };
     if text.len() > MAX_FILE_BYTES {

@@ -6,7 +6,7 @@ use super::{
 };
 use spandrel_model::toml::{Problems, Reader, Section};
 
-/// Format version of the file.
+/// File format version.
 const FORMAT: i64 = 1;
 /// Placeholder for a task's number and, below, for its name.
 const NUMBER_PLACEHOLDER: &str = "{number}";
@@ -72,7 +72,7 @@ pub struct FormWording {
 /// Reads a wording from a TOML file.
 ///
 /// # Errors
-/// All errors in the file.
+/// Returns all errors in the file.
 pub fn read_wording(file: &str, text: &str) -> Result<Wording, Problems> {
     let mut reader = Reader::new(file, text);
     let wording = reader.parse().map(|document| {

@@ -24,18 +24,18 @@ pub struct SessionRecord {
     pub id: String,
     /// Hash over all inputs of the record.
     pub fingerprint: String,
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Version of Spandrel that recorded the session.
+    /// Spandrel version that recorded the session.
     pub spandrel_version: String,
-    /// Version of the scorer that computed the scores.
+    /// Scorer version that computed the scores.
     pub scorer_version: u32,
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
     /// SHA-256 of `scenario.toml` as flown, hexadecimal.
     pub scenario_sha256: String,
@@ -49,7 +49,7 @@ pub struct SessionRecord {
     pub seed: u64,
     /// Scores as defined in the TASBID paper.
     pub scores: Scores,
-    /// Completion of the job; absent in records of format 1.
+    /// Job completion; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub completion: Option<Completion>,
     /// Tasks in scenario order.
@@ -64,13 +64,13 @@ pub struct SessionRecord {
     pub hits: usize,
     /// Reason why the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or `restart`.
     pub end_reason: String,
-    /// Duration of the flight, s.
+    /// Flight duration, s.
     pub seconds: f64,
     /// Whether the battery was empty or the time limit was exceeded.
     pub battery_failed: bool,
-    /// Battery at the last frame, %.
+    /// Battery charge in the last frame, %.
     pub battery_at_end_pct: f64,
-    /// Fraction of the frames for which telemetry was received, 0 to 1.
+    /// Fraction of frames with received telemetry, 0 to 1.
     pub covered: f64,
     /// Whether the session meets all certification requirements.
     pub certified: bool,
@@ -92,32 +92,32 @@ pub struct Scores {
     pub safety: f64,
     /// Accuracy; absent for a job without defects.
     pub accuracy: Option<f64>,
-    /// Sum of the scores that apply.
+    /// Sum of all applicable scores.
     pub overall: f64,
-    /// Maximum of `overall`: 100 for each score that applies.
+    /// Maximum possible `overall`: 100 per applicable score.
     pub overall_max: f64,
 }
 
 /// An entry in a list of sessions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionListEntry {
-    /// Id of the session (name of its folder).
+    /// Session ID (its folder name).
     pub id: String,
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<String>,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
     /// Sum of the scores.
     pub overall: f64,
-    /// Maximum of `overall`.
+    /// Maximum possible `overall`.
     pub overall_max: f64,
-    /// Reason why the flight ended.
+    /// Reason that the flight ended.
     pub end_reason: String,
-    /// Completion of the job; absent in records of format 1.
+    /// Job completion; absent in format 1 records.
     pub completion: Option<Completion>,
     /// Whether the session meets all certification requirements.
     pub certified: bool,
@@ -125,7 +125,7 @@ pub struct SessionListEntry {
     pub unmet: Vec<String>,
 }
 
-/// Whether incomplete sessions count.
+/// Whether to count incomplete sessions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum IncompletePolicy {
     /// Excludes incomplete sessions.

@@ -4,7 +4,7 @@ use spandrel_monitor::score::completion::{self, Completion};
 
 /// A session whose completion and certification are known.
 pub trait SessionOutcome {
-    /// Returns the completion of the job; `None` in records of format 1.
+    /// Returns the completion of the job; `None` in format 1 records.
     fn completion(&self) -> Option<&Completion>;
 
     /// Returns whether the certification profile was passed, and the unmet requirements.

@@ -12,17 +12,17 @@ pub const FORMAT: u32 = 2;
 /// Inputs from which a record is created.
 #[derive(Debug, Clone, Copy)]
 pub struct RecordSource<'a> {
-    /// Name of the session folder.
+    /// Session folder name.
     pub id: &'a str,
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: &'a str,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<&'a str>,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Version of Spandrel that recorded the session.
+    /// Spandrel version that recorded the session.
     pub spandrel_version: &'a str,
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: &'a Scenario,
     /// Vehicle id, such as `phantom2`.
     pub vehicle: &'a str,

@@ -9,18 +9,18 @@ use spandrel_monitor::score::completion::TaskState;
 /// Results of one task and the causes of its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TaskRecord {
-    /// Number of the task in the scenario.
+    /// Task number in the scenario.
     pub id: u32,
-    /// Name of the task in the scenario.
+    /// Task name in the scenario.
     pub name: String,
     /// Kind of task: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle` or `free`.
     pub kind: String,
     /// Whether the drone entered the task's path.
     pub attempted: bool,
-    /// Whether the task is done, partly flown or not attempted; absent in records of format 1.
+    /// Whether the task is done, partly flown or not attempted; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<TaskState>,
-    /// Fraction of the task's path that was flown, 0 to 1; absent in records of format 1.
+    /// Fraction of the task's path that was flown, 0 to 1; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered: Option<f64>,
     /// Time from the first to the last on-path frame, s.
@@ -47,7 +47,7 @@ pub struct TaskRecord {
     pub defects_found: usize,
 }
 
-/// Crash counts, by kind of object hit.
+/// Crash counts by kind of object hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Crashes {
     /// Crashes into bridges.
@@ -114,7 +114,7 @@ impl Crashes {
 /// One defect of a session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DefectRecord {
-    /// Number of the defect, from 1.
+    /// Defect number, from 1.
     pub id: u32,
     /// Defect code (AASHTO MBEI).
     pub kind: u32,

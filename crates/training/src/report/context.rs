@@ -11,13 +11,13 @@ use spandrel_model::vehicle::Vehicle;
 pub struct ReviewContext<'a> {
     /// Telemetry of the flight.
     pub flight: &'a Flight,
-    /// Frames of the session.
+    /// The session's frames.
     pub frames: &'a [Frame],
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: &'a Scenario,
-    /// Vehicle flown in the session.
+    /// Aircraft flown in the session.
     pub vehicle: &'a Vehicle,
-    /// Site of the session.
+    /// The session's site.
     pub site: &'a Site,
 }
 

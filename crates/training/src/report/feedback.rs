@@ -111,7 +111,7 @@ pub type TimedEvent = (f64, serde_json::Value);
 /// Replays a log through the monitor and returns its events.
 ///
 /// # Errors
-/// If the log cannot be read.
+/// Fails if the log cannot be read.
 pub fn events(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> std::io::Result<Vec<TimedEvent>> {
     let mut monitor = Monitor::new(MonitorConfig {
         scenario: scenario.clone(),

@@ -39,15 +39,15 @@ use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 /// Metadata of a session, from its folder.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SessionMetadata {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<String>,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Start time in UTC, as text.
     pub started_utc: String,
-    /// Name of the session folder.
+    /// Session folder name.
     pub folder: String,
     /// SHA-256 of the scenario file, hexadecimal.
     pub scenario_sha256: String,
@@ -55,7 +55,7 @@ pub struct SessionMetadata {
     pub vehicle_sha256: String,
     /// SHA-256 of the telemetry, hexadecimal.
     pub telemetry_sha256: String,
-    /// Pictures by sequence number, reduced in size for embedding.
+    /// Pictures by sequence number, downsized for embedding.
     pub pictures: Vec<(u32, Jpeg)>,
 }
 
@@ -71,17 +71,17 @@ pub struct Jpeg {
 pub struct Review {
     /// Metadata from the session folder.
     pub about: SessionMetadata,
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: Scenario,
-    /// Vehicle flown in the session.
+    /// Aircraft flown in the session.
     pub vehicle: Vehicle,
     /// Site built from the session's seed.
     pub site: Site,
-    /// Seed of the session.
+    /// The session's seed.
     pub seed: u64,
-    /// Assessment of the session.
+    /// The session's assessment.
     pub assessment: Assessment,
-    /// Frames of the session; frame 1 has index 0.
+    /// Session frames; frame 1 has index 0.
     pub frames: Vec<Frame>,
     /// Position relative to the tasks in each frame.
     pub track: Vec<task_proximity::TaskProximityStep>,
@@ -109,7 +109,7 @@ impl Review {
     /// Reads a session's telemetry and computes the review.
     ///
     /// # Errors
-    /// If the log cannot be read, belongs to a different scenario or seed, or contains no session.
+    /// Fails if the log cannot be read, belongs to a different scenario or seed, or contains no session.
     pub fn of(
         log: &(impl TelemetryLog + ?Sized),
         scenario: &Scenario,

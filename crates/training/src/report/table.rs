@@ -10,7 +10,7 @@ pub enum TableCell {
     Text(String),
     /// A number and the number of decimal places to display.
     Number(f64, usize),
-    /// Duration of the flight, s.
+    /// Flight duration, s.
     Clock(f64),
     /// No value.
     Empty,

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// A correlation coefficient and its two-tailed p value (t distribution with n - 2 degrees of freedom).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Correlation {
-    /// Number of value pairs.
+    /// Number of pairs.
     pub n: usize,
     /// Correlation coefficient, -1 to 1.
     pub r: f64,

@@ -10,7 +10,7 @@ pub(super) const UPPER_PROBABILITY_95: f64 = 0.975;
 /// Result of a paired t test of later minus earlier values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairedTest {
-    /// Number of value pairs.
+    /// Number of pairs.
     pub n: usize,
     /// Mean of later minus earlier.
     pub mean_difference: f64,

@@ -16,9 +16,9 @@ pub struct CohortPageSelection<'a> {
     pub scenarios: &'a [String],
     /// Number of repetitions compared.
     pub repetitions: usize,
-    /// Whether incomplete sessions count.
+    /// Whether to count incomplete sessions.
     pub incomplete: IncompletePolicy,
-    /// Number of incomplete sessions excluded.
+    /// Number of excluded incomplete sessions.
     pub left_out: usize,
 }
 

@@ -23,7 +23,7 @@ pub const INJECTABLE_FAILURES: [(&str, &str, f32); 4] = [
 pub struct JobDrawings {
     /// Key that identifies the job and its seed.
     pub key: String,
-    /// Title of the job.
+    /// Job title.
     pub title: String,
     /// Caption and SVG of each drawing, created by `crate::report::plots::job`.
     pub drawings: Vec<(String, String)>,
@@ -34,7 +34,7 @@ pub struct JobDrawings {
 pub struct VehicleSelection {
     /// `HOST:PORT` of each vehicle.
     pub vehicles: Vec<String>,
-    /// Number of the selected vehicle, from 1.
+    /// Selected vehicle, numbered from 1.
     pub number: usize,
 }
 

@@ -25,7 +25,7 @@ const MAX_MESSAGES: usize = 40;
 pub struct JobIdentity {
     /// CRC of the scenario.
     pub crc: u32,
-    /// Seed of the session.
+    /// The session's seed.
     pub seed: u64,
 }
 
@@ -55,7 +55,7 @@ pub struct LiveFlightState {
     cues: i32,
     messages: VecDeque<(u64, f64, &'static str, String)>,
     message_count: u64,
-    /// System id of the vehicle, once received.
+    /// The vehicle's system ID, once received.
     pub system: Option<u8>,
     /// Autopilot type, once received.
     pub autopilot: Option<MavAutopilot>,

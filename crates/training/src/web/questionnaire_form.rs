@@ -16,7 +16,7 @@ const TLX_FIELD_PREFIX: &str = "tlx.";
 /// Content of the form.
 #[derive(Debug, Clone, Copy)]
 pub struct FormContext<'a> {
-    /// Id of the session (name of its folder).
+    /// Session ID (its folder name).
     pub id: &'a str,
     /// Numbers and names of the session's tasks.
     pub tasks: &'a [(u32, String)],

@@ -11,9 +11,9 @@ use spandrel_model::site::Site;
 /// An entry of the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioEntry {
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub name: String,
-    /// Title of the scenario.
+    /// Scenario title.
     pub title: String,
     /// Whether it was uploaded and can be removed.
     pub uploaded: bool,
@@ -99,7 +99,7 @@ pub enum UploadMessage<'a> {
     Invalid(&'a str),
     /// The session already exists.
     AlreadyImported {
-        /// Id of the session (name of its folder).
+        /// Session ID (its folder name).
         id: &'a str,
         /// Trainee of that session.
         trainee: &'a str,

@@ -44,7 +44,7 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
 pub struct TraineeProfile<'a> {
     /// Trainee whose page is shown.
     pub person: &'a Trainee,
-    /// Sessions in chronological order.
+    /// Sessions, in chronological order.
     pub records: &'a [SessionRecord],
     /// The same sessions as list entries, newest first.
     pub listed: &'a [SessionListEntry],

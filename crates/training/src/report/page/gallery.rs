@@ -110,7 +110,7 @@ fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mar
 
 /// A defect to mark in a drawing.
 pub struct DefectMark {
-    /// Number of the defect, from 1.
+    /// Defect number, from 1.
     pub id: u32,
     /// Position in the site frame (ENU), m.
     pub at_m: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>,

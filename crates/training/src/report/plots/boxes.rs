@@ -16,7 +16,7 @@ const HALF_BOX_WIDTH: f64 = 15.0;
 pub struct NamedBox<'a> {
     /// Label below the box.
     pub name: String,
-    /// Values that the box plot shows.
+    /// Box plot data.
     pub plot: &'a BoxPlot,
 }
 
