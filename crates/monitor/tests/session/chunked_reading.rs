@@ -1,4 +1,4 @@
-//! Checks that reading a telemetry log in chunks gives the same records as reading it in one piece.
+//! Checks that reading a telemetry log in chunks yields the same records as reading it whole.
 
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavMessage};

@@ -1,4 +1,4 @@
-//! Tests of the live monitor: its replies, its output files, and a replay that must give the same results.
+//! Tests of the live monitor: replies, output files, and a replay with identical results.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
@@ -84,7 +84,7 @@ fn exact_timestamps_are_session_start_plus_simulation_time() {
     assert_eq!(spandrel_mavlink::telemetry::tlog::session_start_us(&log), Some(START_US));
 }
 
-/// A monitor that starts an hour after the vehicle must still use the current simulation time in its messages.
+/// A monitor that starts an hour after the vehicle must still send the current simulation time.
 #[test]
 fn regress_timestamps_of_late_monitor_start_at_session_start() {
     let mut tape = Tape::new();
@@ -102,7 +102,7 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     let zero = spandrel_mavlink::telemetry::tlog::simulation_zero_us(&log).unwrap();
     assert!((59_900_000..=60_100_000).contains(&(START_US - zero)), "{} us", START_US - zero);
     assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, START_US);
-    // A monitor that was killed and resumed continues with the same clock.
+    // A killed and resumed monitor continues with the same clock.
     let mut second = Monitor::resume(config(one_task()), &log).unwrap();
     let mut more = Tape::new();
     more.hold(65.0);
@@ -113,7 +113,8 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     assert!((START_US + 4_900_000..=START_US + 5_100_000).contains(&last), "{} us", last - START_US);
 }
 
-/// The monitor accepts only datagrams from an autopilot. Once a scored flight exists, it accepts only that vehicle's datagrams.
+/// The monitor accepts only datagrams from an autopilot. Once there is a scored flight, it accepts only that vehicle's
+/// datagrams.
 #[test]
 fn regress_monitor_accepts_only_its_vehicle() {
     let beat = |system: u8, component: u8, autopilot| {
@@ -130,7 +131,8 @@ fn regress_monitor_accepts_only_its_vehicle() {
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     assert!(monitor.is_from_vehicle(&beat(1, 1, px4)) && !monitor.is_from_vehicle(&beat(9, 1, px4)));
-    // A forwarded heartbeat of another vehicle does not change the monitor's system id; `sent` checks the ids of its messages.
+    // A forwarded heartbeat from another vehicle doesn't change the monitor's system ID; `sent` checks the IDs in its
+    // messages.
     sent(&mut monitor);
     monitor.handle_datagram(&beat(9, 1, px4));
     tape.datagrams.clear();

@@ -1,5 +1,4 @@
-//! Definitions of the columns in the cohort tables, used for the data dictionary. A test checks that every column has a
-//! definition.
+//! Column definitions for the cohort tables, used in the data dictionary. A test checks that every column is defined.
 
 /// Unit and definition of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,7 +110,7 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "warning", "", "Limitation to consider when interpreting the cohort results."),
 ];
 
-/// Returns the definition of a column of a table; `None` if there is none.
+/// Returns the definition of a table's column; `None` if there is none.
 #[must_use]
 pub fn definition(table: &str, column: &str) -> Option<ColumnDefinition> {
     let fits = |name: &str| name.strip_suffix('*').map_or(name == column, |start| column.starts_with(start));

@@ -1,4 +1,4 @@
-//! Progress of one trainee by repetition, as in the TASBID paper's figure of participant 18.
+//! One trainee's progress by repetition, as in the TASBID paper's figure for participant 18.
 
 use super::samples::{SCORES, ScorePicker};
 use crate::record::{Crashes, IncompletePolicy, SessionRecord};
@@ -6,18 +6,18 @@ use crate::statistics::{LearningCurve, learning_curve};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Sessions and learning curves of one trainee.
+/// One trainee's sessions and learning curves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TraineeProgress {
     /// Trainee's pseudonym.
     pub trainee: String,
     /// Sessions on the job, in chronological order.
     pub repetitions: Vec<Repetition>,
-    /// Learning curve of each score, if there are at least four repetitions.
+    /// Learning curve for each score, if there are at least four repetitions.
     pub curves: Vec<ScoreCurve>,
 }
 
-/// One session of a trainee on a job.
+/// One of a trainee's sessions on a job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Repetition {
     /// Repetition number, from 1.
@@ -44,7 +44,7 @@ pub struct Repetition {
     pub crashes: Crashes,
 }
 
-/// Learning curve of one score.
+/// Learning curve for one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScoreCurve {
     /// Score name, such as `conformity`.
@@ -54,12 +54,12 @@ pub struct ScoreCurve {
     pub curve: LearningCurve,
 }
 
-/// Progress of one trainee on one job. Jobs are separate, because practice on one says little about another.
+/// One trainee's progress on one job. Jobs are kept separate because practice on one says little about another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobProgress {
     /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
-    /// Numbers and names of the job's tasks, as of the latest session.
+    /// Task numbers and names, as of the latest session.
     pub tasks: Vec<(u32, String)>,
     /// Sessions that the policy allows; may be empty.
     pub progress: TraineeProgress,
@@ -82,7 +82,7 @@ impl Repetition {
     }
 }
 
-/// Groups one trainee's sessions by scenario, ordered by descending number of tasks, then by name.
+/// Groups one trainee's sessions by scenario, sorted by descending number of tasks, then by name.
 #[must_use]
 pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<JobProgress> {
     let mut jobs: BTreeMap<&str, Vec<&SessionRecord>> = BTreeMap::new();
@@ -104,7 +104,7 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<Jo
     found
 }
 
-/// Computes the progress of one trainee from sessions in chronological order.
+/// Computes one trainee's progress from sessions in chronological order.
 pub fn progress(trainee: &str, sessions: &[&SessionRecord]) -> TraineeProgress {
     let curve = |(score, pick): (&str, ScorePicker)| {
         let values: Option<Vec<f64>> = sessions.iter().map(|record| pick(record)).collect();

@@ -1,4 +1,4 @@
-//! Score statistics of a cohort: distributions, first sessions, crashes, repetitions and tests.
+//! Cohort score statistics: distributions, first sessions, crashes, repetitions and tests.
 
 use super::samples::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
 use crate::record::{Crashes, SessionRecord};
@@ -11,18 +11,18 @@ use serde::Serialize;
 /// Number of bins in a score histogram.
 const HISTOGRAM_BINS: usize = 20;
 
-/// Distribution of one score over the first sessions.
+/// Distribution of one score across first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Distribution {
     /// Score name, such as `conformity`.
     pub score: String,
     /// Summary statistics of the scores.
     pub summary: SampleSummary,
-    /// Bins over the score's full range.
+    /// Bins covering the score's full range.
     pub histogram: Vec<HistogramBin>,
 }
 
-/// First session of one trainee.
+/// One trainee's first session.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Individual {
     /// Trainee's pseudonym.
@@ -70,15 +70,15 @@ pub struct CrashTable {
     pub total: usize,
     /// Crashes by kind.
     pub by_kind: Crashes,
-    /// Task numbers. Each row has one count per task and a last one for crashes outside the tasks.
+    /// Task numbers. Each row has one count per task plus a final one for crashes outside the tasks.
     pub tasks: Vec<u32>,
-    /// Sum over all trainees for each task; the last element counts crashes outside the tasks.
+    /// Total across all trainees for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
-    /// Crash counts of each trainee.
+    /// Crash counts by trainee.
     pub rows: Vec<CrashRow>,
 }
 
-/// Crashes of one trainee.
+/// One trainee's crashes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashRow {
     /// Trainee's pseudonym.
@@ -89,7 +89,7 @@ pub struct CrashRow {
     pub total: usize,
 }
 
-/// Box plot of one score in one repetition of the group.
+/// Box plot of one score for one of the group's repetitions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RepetitionBox {
     /// Score name, such as `conformity`.
@@ -100,7 +100,7 @@ pub struct RepetitionBox {
     pub plot: BoxPlot,
 }
 
-/// Paired comparison of one score in two repetitions of the group.
+/// Paired comparison of one score between two of the group's repetitions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
     /// Score name, such as `conformity`.
@@ -112,19 +112,20 @@ pub struct Comparison {
     /// Paired test of later minus earlier.
     #[serde(flatten)]
     pub test: PairedTest,
-    /// Holm-corrected p values, separately for each tail. The comparisons of the four scores form one family, those of the
-    /// overall score another one.
+    /// Holm-corrected p values, separately for each tail. Comparisons of the four scores form one family, comparisons
+    /// of the overall score another.
     pub p_holm: Option<TailProbabilities>,
 }
 
-/// Tests whether the group's first sessions are distributed over low, middle and high scores like those of the other trainees.
+/// Test of whether the group's first sessions are distributed across low, middle and high scores like those of the
+/// other trainees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupHomogeneityTest {
     /// Score name, such as `conformity`.
     pub score: String,
     /// Upper limits of low and middle scores: the terciles of all first sessions.
     pub cuts: [f64; 2],
-    /// Number of trainees of the group with low, middle and high scores.
+    /// Number of group members with low, middle and high scores.
     pub group: Vec<usize>,
     /// Number of other trainees with low, middle and high scores.
     pub others: Vec<usize>,
@@ -229,7 +230,7 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
     tests
 }
 
-/// Applies Holm's correction to one family of comparisons, separately for each tail.
+/// Applies the Holm correction to one family of comparisons, separately for each tail.
 fn apply_holm_correction(mut family: Vec<&mut Comparison>) {
     family.retain(|test| test.test.p.is_some());
     let tail = |pick: fn(&TailProbabilities) -> f64| {

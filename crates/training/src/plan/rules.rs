@@ -23,17 +23,17 @@ pub enum RuleMeasure {
     CrashesOutside,
     /// Total number of crashes.
     CrashesAll,
-    /// 1 for a task that was not attempted.
+    /// 1 if the task was not attempted.
     NotAttempted,
-    /// Fraction of defects shown in no picture.
+    /// Fraction of defects not shown in any picture.
     Missed,
     /// Number of missed defects in condition state 3 (poor) or worse.
     MissedSevere,
-    /// Longest time for which a missed defect was clearly visible, s; available only if the session's report exists.
+    /// Longest time that a missed defect was clearly visible, s; available only if the session has a report.
     MissedInView,
-    /// Fraction of pictures without a new defect.
+    /// Fraction of pictures that show no new defect.
     FalseSnapshots,
-    /// Flight time beyond the time for full efficiency, minutes.
+    /// Flight time past the time for full efficiency, min.
     Overtime,
     /// 1 if the flight did not end on the pad.
     NotLanded,
@@ -86,9 +86,9 @@ pub struct PlanRule {
     pub task: Option<&'static str>,
     /// Kind of object hit; `None` for any.
     pub with: Option<&'static str>,
-    /// Reason why a missed defect's best picture did not count; empty for any.
+    /// Reason that a missed defect's best picture did not count; empty for any.
     pub lacked: String,
-    /// Value above which the rule applies.
+    /// Value above which the rule fires.
     pub limit: f64,
     /// Weight relative to other rules.
     pub weight: f64,
@@ -101,15 +101,15 @@ pub struct PlanRule {
 /// Rules and parameters of the training plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRules {
-    /// Maximum pause between sessions, days.
+    /// Maximum break between sessions, days.
     pub retention_days: f64,
-    /// Scenario to fly after a longer pause.
+    /// Scenario to fly after a longer break.
     pub retention_scenario: String,
     /// Reason for the retention scenario.
     pub retention_reason: String,
-    /// Minimum pause between sessions, days.
+    /// Minimum break between sessions, days.
     pub rest_days: f64,
-    /// Scenario to fly if no rule applies.
+    /// Scenario to fly if no rule fires.
     pub job: String,
     /// Reason for flying the job.
     pub job_reason: String,
