@@ -1,5 +1,5 @@
-//! Session records: all data needed for progress, cohorts and plans. A record is computed only from the session folder, so it can
-//! be recreated at any time.
+//! Session records: all data needed for progress, cohorts and plans. A record is computed solely from the session
+//! folder, so it can be recreated at any time.
 
 mod causes;
 mod outcome;
@@ -15,14 +15,14 @@ use serde::{Deserialize, Serialize};
 use spandrel_monitor::score::completion::Completion;
 use spandrel_monitor::score::{SCORER_VERSION, Score};
 
-/// Record of one session.
+/// Session record.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SessionRecord {
     /// Format version of this record.
     pub format: u32,
     /// Name of the session folder: time, pseudonym, scenario and a short unique id.
     pub id: String,
-    /// Hash over all inputs of the record.
+    /// Hash of all inputs to the record.
     pub fingerprint: String,
     /// Trainee's pseudonym.
     pub trainee: String,
@@ -37,7 +37,7 @@ pub struct SessionRecord {
     pub scorer_version: u32,
     /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
-    /// SHA-256 of `scenario.toml` as flown, hexadecimal.
+    /// SHA-256 of the flown `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
     /// Vehicle id, such as `phantom2`.
     pub vehicle: String,
@@ -45,7 +45,7 @@ pub struct SessionRecord {
     pub vehicle_sha256: String,
     /// SHA-256 of `telemetry.tlog`, hexadecimal.
     pub telemetry_sha256: String,
-    /// Seed from which defects and traffic are placed.
+    /// Seed for placing defects and traffic.
     pub seed: u64,
     /// Scores as defined in the TASBID paper.
     pub scores: Scores,
@@ -60,13 +60,14 @@ pub struct SessionRecord {
     pub defects: Vec<DefectRecord>,
     /// Number of snapshots taken.
     pub snapshots: usize,
-    /// Number of snapshots that show a defect not shown in any earlier snapshot.
+    /// Number of snapshots that show a new defect.
     pub hits: usize,
-    /// Reason why the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or `restart`.
+    /// Reason that the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or
+    /// `restart`.
     pub end_reason: String,
     /// Flight duration, s.
     pub seconds: f64,
-    /// Whether the battery was empty or the time limit was exceeded.
+    /// Whether the battery ran out or the time limit was exceeded.
     pub battery_failed: bool,
     /// Battery charge in the last frame, %.
     pub battery_at_end_pct: f64,
@@ -81,14 +82,14 @@ pub struct SessionRecord {
     pub answers: Option<Answers>,
 }
 
-/// The four scores from 0 to 100 each, and their sum.
+/// The four scores, each from 0 to 100, and their sum.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
     /// Conformity; absent for a job without tasks.
     pub conformity: Option<f64>,
-    /// Efficiency, from flight time and return.
+    /// Efficiency, based on flight time and return.
     pub efficiency: f64,
-    /// Safety, from crashes.
+    /// Safety, based on crashes.
     pub safety: f64,
     /// Accuracy; absent for a job without defects.
     pub accuracy: Option<f64>,
@@ -149,7 +150,7 @@ impl IncompletePolicy {
     }
 }
 
-/// Returns a note on the number of excluded sessions; `None` if it is 0.
+/// Returns a note with the number of excluded sessions; `None` if it is 0.
 #[must_use]
 pub fn omitted_summary(count: usize) -> Option<String> {
     match count {
@@ -168,7 +169,7 @@ impl SessionOutcome for SessionListEntry {
     }
 }
 
-/// Creates the record of a session.
+/// Creates a session record.
 #[must_use]
 pub fn record(source: &RecordSource<'_>) -> SessionRecord {
     let assessment = &source.graded.assessment;
@@ -230,19 +231,19 @@ impl SessionRecord {
         self.tasks.iter().map(|task| task.id).collect()
     }
 
-    /// Returns the crashes of the whole session.
+    /// Returns the crash counts for the whole session.
     #[must_use]
     pub fn crashes(&self) -> Crashes {
         self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::with_added)
     }
 
-    /// Returns the scale scores of the questionnaire; `None` if it was not started.
+    /// Returns the questionnaire's scale scores; `None` if it was not started.
     #[must_use]
     pub fn scales(&self) -> Option<ScaleScores> {
         self.answers.as_ref().map(|answers| scales(answers, &self.task_ids()))
     }
 
-    /// Validates the numbers in a record that was read from storage.
+    /// Validates the numbers in a record read from storage.
     ///
     /// # Errors
     /// Returns the invalid key, its value and the allowed range.
@@ -267,7 +268,7 @@ impl SessionRecord {
                 return Err(format!("{key} = {value} (allowed: 0 to {most})"));
             }
         }
-        // Data that an older format lacks is unknown. Such a session counts as incomplete.
+        // Data missing from older formats is unknown; such a session counts as incomplete.
         if !(1..=FORMAT).contains(&self.format) {
             return Err(format!("format = {} (allowed: 1 to {FORMAT})", self.format));
         }

@@ -1,8 +1,8 @@
-//! The report of a finished session: a single page that works offline. [`Review::of`] reads the telemetry with the scorer's code
-//! and computes the contents; [`page::session`] renders the page. Neither performs I/O.
+//! The report on a finished session: a single page that works offline. [`Review::of`] reads the telemetry with the
+//! scorer's code and computes the contents; [`page::session`] renders the page. Neither performs I/O.
 //!
-//! User-provided text (names, titles) reaches the page only through maud's escaping, the tables of [`table`] or the data block of
-//! [`page::series`], which all escape it.
+//! User-provided text (names, titles) reaches the page only through maud, the tables in [`table`] or the data block in
+//! [`page::series`], all of which escape it.
 
 pub mod assets;
 mod context;
@@ -36,7 +36,7 @@ use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 
-/// Metadata of a session, from its folder.
+/// Session metadata, from the session folder.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SessionMetadata {
     /// Trainee's pseudonym.
@@ -59,7 +59,7 @@ pub struct SessionMetadata {
     pub pictures: Vec<(u32, Jpeg)>,
 }
 
-/// A picture in JPEG format.
+/// A JPEG picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Jpeg {
     /// Contents of the JPEG file.
@@ -83,13 +83,13 @@ pub struct Review {
     pub assessment: Assessment,
     /// Session frames; frame 1 has index 0.
     pub frames: Vec<Frame>,
-    /// Position relative to the tasks in each frame.
+    /// The drone's position relative to the tasks in each frame.
     pub track: Vec<task_proximity::TaskProximityStep>,
     /// Task windows and on-path frames.
     pub on_path: OnPath,
-    /// All contacts, in order of their start.
+    /// All contacts, in order of onset.
     pub crashes: Vec<Crash>,
-    /// Measures of each task's window.
+    /// Measures for each task's window.
     pub tasks: Vec<task_proximity::TaskTotals>,
     /// Feedback and the trainee's reactions.
     pub feedback: feedback::SessionFeedback,
@@ -116,7 +116,7 @@ impl Review {
         vehicle: &Vehicle,
         about: SessionMetadata,
     ) -> Result<Self, AssessError> {
-        // The replay comes first, because the monitor holds its own copy of the flight until it is dropped.
+        // The replay runs first, because the monitor keeps its own copy of the flight until it is dropped.
         let events = feedback::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log)?;
@@ -166,8 +166,8 @@ impl Review {
     }
 }
 
-/// Returns the recommended scenarios from the default rules and this session only; empty if the rules are invalid, which a test
-/// excludes.
+/// Returns the scenarios recommended by the default rules for this session alone; empty if the rules are invalid, which
+/// a test excludes.
 fn next(
     about: &SessionMetadata,
     scenario: &Scenario,

@@ -1,4 +1,4 @@
-//! Correlation between two measures of the same trainees.
+//! Correlation between two measures for the same trainees.
 
 use super::distribution::t_tail_probabilities;
 use super::{StatisticsError, mean};
@@ -36,7 +36,7 @@ pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
     Ok(Correlation { n, r, p })
 }
 
-/// Computes Spearman's rank correlation coefficient. Tied values share their mean rank.
+/// Computes Spearman's rank correlation coefficient. Tied values get their mean rank.
 ///
 /// # Errors
 /// See [`pearson`].

@@ -7,7 +7,7 @@ use crate::record::{IncompletePolicy, omitted_summary};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
 use maud::{Markup, html};
 
-/// Selection shown in the form.
+/// The form's selection.
 #[derive(Debug, Clone, Copy)]
 pub struct CohortPageSelection<'a> {
     /// All scenarios that were flown.

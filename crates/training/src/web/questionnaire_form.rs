@@ -24,26 +24,26 @@ pub struct FormContext<'a> {
     pub wording: &'a Wording,
     /// All available languages.
     pub languages: &'a [Wording],
-    /// Answers given so far.
+    /// Answers so far.
     pub answers: &'a Answers,
     /// Whether answers were just saved.
     pub saved: bool,
 }
 
-/// Error for an invalid form value: field, value and allowed values.
+/// Invalid form value, with the field and the allowed values.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{field} = {value}: invalid answer (allowed: {allowed})")]
 pub struct InvalidAnswer {
     /// Name of the form field.
     pub field: String,
-    /// Value that was submitted.
+    /// Submitted value.
     pub value: String,
     /// Range of allowed values, as text.
     pub allowed: String,
 }
 
-/// Merges the answers in a form into existing ones and returns their number. Ignores fields that are not questions, such as the
-/// token.
+/// Merges a form's answers into the existing ones and returns their number. Ignores fields that are not questions, such
+/// as the token.
 ///
 /// # Errors
 /// Fails on the first invalid answer; the caller should then save nothing.

@@ -8,18 +8,18 @@ use maud::{Markup, html};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// An entry of the scenario list.
+/// An entry in the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioEntry {
     /// Machine-readable scenario name, such as `two-bridges`.
     pub name: String,
     /// Scenario title.
     pub title: String,
-    /// Whether it was uploaded and can be removed.
+    /// Whether the scenario was uploaded and can be removed.
     pub uploaded: bool,
 }
 
-/// Renders the scenario list and the result of an upload, if any.
+/// Renders the scenario list with the result of an upload, if any.
 #[must_use]
 pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str)>) -> Markup {
     let rows = html! {
@@ -55,7 +55,8 @@ fn upload(visitor: &Visitor) -> Markup {
     }
 }
 
-/// Renders one scenario. Only instructors can download the file, because the file and its seed reveal the defects.
+/// Renders one scenario's page. Only instructors see the file, because it contains the seed and thus reveals the
+/// defects.
 #[must_use]
 pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenario, site: &Site, text: &str) -> Markup {
     let s = &scenario.scoring;
@@ -92,7 +93,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
 }
 
-/// Reason why a recording was not imported.
+/// Reason that a recording was not imported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UploadMessage<'a> {
     /// The recording is invalid.
@@ -106,7 +107,7 @@ pub enum UploadMessage<'a> {
     },
 }
 
-/// Renders the import form for recorded flights, with the error of the previous import, if any.
+/// Renders the import form for recorded flights, with the error from the previous import, if any.
 #[must_use]
 pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[String], told: Option<UploadMessage<'_>>) -> Markup {
     let body = html! {

@@ -1,4 +1,4 @@
-//! Session lists and the page of a session.
+//! Session lists and session pages.
 
 use super::access::{AccessLevel, Visitor};
 use super::layout::{page, pages, section, table};
@@ -15,7 +15,7 @@ use spandrel_model::calendar::minute;
 pub struct SessionList<'a> {
     /// Sessions on this page of the list.
     pub lines: &'a [SessionListEntry],
-    /// Trainee that the list is filtered by, if any.
+    /// Trainee to filter the list by, if any.
     pub trainee: Option<&'a str>,
     /// Page number, from 1.
     pub page: u32,
@@ -61,7 +61,7 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
 #[must_use]
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Markup {
     let all = visitor.satisfies(AccessLevel::Instructor);
-    // Columns that fit on a phone without scrolling come first: date, trainee, score.
+    // The columns that fit on a phone without scrolling come first: date, trainee, score.
     let mut heads = vec![
         ("Started", false),
         ("Trainee", false),
@@ -97,13 +97,13 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
 /// Data for a session's page that is not part of its record.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionPageData<'a> {
-    /// Whether the session folder exists. The report, the questionnaire and downloads require it.
+    /// Whether the session folder exists. The report, questionnaire and downloads require it.
     pub folder: bool,
-    /// Other sessions of the same trainee.
+    /// The same trainee's other sessions.
     pub others: &'a [SessionListEntry],
 }
 
-/// Renders the page of one session.
+/// Renders a session's page.
 #[must_use]
 pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
     let body = html! {
@@ -205,7 +205,7 @@ fn tasks(record: &SessionRecord) -> Markup {
     }
 }
 
-/// Describes the completion of a task.
+/// Describes a task's completion.
 fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
     let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
     task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.words(covered, done_share))

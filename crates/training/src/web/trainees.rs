@@ -12,7 +12,7 @@ use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
-/// Prefix of the fields that contain the values at the time when the page was opened. They are used to detect conflicting edits.
+/// Prefix of the fields that contain the values from when the page was opened, used to detect conflicting edits.
 pub const ORIGINAL_VALUE_PREFIX: &str = "before_";
 
 /// Renders the list of trainees.
@@ -50,11 +50,11 @@ pub struct TraineeProfile<'a> {
     pub listed: &'a [SessionListEntry],
     /// Training plan; `None` without sessions.
     pub plan: Option<&'a TrainingPlan>,
-    /// Whether incomplete sessions count in progress and plan.
+    /// Whether incomplete sessions count toward progress and plan.
     pub incomplete: IncompletePolicy,
 }
 
-/// Renders the page of one trainee.
+/// Renders a trainee's page.
 #[must_use]
 pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
     let name = &about.person.pseudonym;
@@ -96,7 +96,7 @@ fn next(plan: &TrainingPlan) -> Markup {
     }
 }
 
-/// Renders progress separately for each job, because practice on one says little about another.
+/// Renders progress separately for each job because practice on one says little about another.
 fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy) -> Markup {
     let unfinished = records.iter().filter(|record| !record.is_complete()).count();
     html! {

@@ -1,13 +1,13 @@
 //! Possible outcomes of surface coverage.
 
-/// Coverage outcome of a surface patch, from worst to best. If there are several pictures, the best one counts.
+/// Coverage outcome of a surface patch, from worst to best. If several pictures show the patch, the best one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SurfaceOutcome {
     /// Never in the camera's view at the required distance and angle.
     NeverInView,
     /// In view but not photographed.
     NotPhotographed,
-    /// Photographed from too far away: the pixel size is too large.
+    /// Photographed from too far away, so the pixel size is too large.
     TooFar,
     /// Photographed at more than 60 degrees from the surface normal.
     TooOblique,
@@ -15,9 +15,9 @@ pub enum SurfaceOutcome {
     DarkLampOff,
     /// Too dark, even with the lamp on.
     DarkLampOn,
-    /// Motion blur is too large.
+    /// Too much motion blur.
     Blurred,
-    /// Shown well in a picture.
+    /// Captured well in a picture.
     Shown,
 }
 

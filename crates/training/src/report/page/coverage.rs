@@ -1,4 +1,4 @@
-//! Surface coverage by element: the area that the pictures show well, and why the rest does not count.
+//! Surface coverage by element: the area that the pictures capture well, and why the rest does not count.
 
 use super::figure::{figure, legend};
 use crate::report::Review;
@@ -12,7 +12,7 @@ use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 
 /// Maximum number of reasons named in the summary.
 const MAX_REASONS: usize = 3;
-/// Minimum fraction of the inspectable surface at which a reason is named.
+/// Minimum fraction of the inspectable surface for a reason to be named.
 const MIN_REASON_SHARE: f64 = 0.01;
 
 /// Renders the "Coverage" section of a session report.
@@ -34,7 +34,7 @@ pub fn section(review: &Review) -> Markup {
         (figure("Coverage of each element's inspectable surface", &html! {
             (legend(&key))
             div.split {
-                // Distributes the rows over two columns of about equal length.
+                // Distributes the rows between two columns of about equal length.
                 @let rows = rows(&review.coverage);
                 @let (left, right) = rows.split_at(rows.len().div_ceil(2));
                 (stacks(left, "Surface coverage by element"))
@@ -45,7 +45,7 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-/// Returns the main reasons why surface is not shown well; `None` if each is below [`MIN_REASON_SHARE`].
+/// Returns the main reasons that surface is not captured well; `None` if each is below [`MIN_REASON_SHARE`].
 fn reasons_not_shown(total: &ElementSurface) -> Option<String> {
     let share = |fate: &SurfaceOutcome| total.area_m2(*fate) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> = SurfaceOutcome::ALL

@@ -1,4 +1,4 @@
-//! Feedback given during the flight, and the trainee's reaction times.
+//! In-flight feedback and the trainee's reaction times.
 
 use super::figure::{figure, scrolling};
 use crate::report::Review;

@@ -1,4 +1,4 @@
-//! The flight on the site, its timeline and its charts, linked by a slider.
+//! The flight on the site, its timeline and charts, linked by a slider.
 
 use super::figure::{figure, legend, scrolling};
 use crate::report::feedback::KINDS;
@@ -180,7 +180,7 @@ fn control_intervals(review: &Review) -> TimeStrip {
     TimeStrip { name: "flown by".into(), stretches: review.assessment.flown_by.iter().map(stretch).collect(), marks: Vec::new() }
 }
 
-/// Returns the periods without received telemetry, in which frames are interpolated or missing.
+/// Returns the periods without telemetry, in which frames are interpolated or missing.
 fn gaps(review: &Review) -> TimeStrip {
     let mut stretches: Vec<(String, f64, f64, String)> = Vec::new();
     let mut open: Option<usize> = None;

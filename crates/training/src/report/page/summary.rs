@@ -1,4 +1,4 @@
-//! Page header and the four scores with their components.
+//! Page header and the four scores with explanations.
 
 use super::figure::figure;
 use crate::report::Review;
@@ -10,7 +10,7 @@ use spandrel_monitor::assessment::Scores;
 use spandrel_monitor::score::Score;
 use spandrel_monitor::score::completion::verdict;
 
-/// Renders trainee, job, date and overall score.
+/// Renders the trainee, job, date and overall score.
 pub fn header(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let end = &review.assessment.end;
@@ -54,7 +54,7 @@ fn telemetry_summary(review: &Review) -> String {
     }
 }
 
-/// Renders the diagram, the score cards and their table.
+/// Renders the radar chart, the score cards and their table.
 pub fn scores(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let spokes: Vec<RadarAxis> = scores_by_name(scores)
@@ -79,7 +79,7 @@ pub fn scores(review: &Review) -> Markup {
     }
 }
 
-/// Returns the name and value of the four scores, in the order of the diagram.
+/// Returns the names and values of the four scores, in chart order.
 pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     [
         ("Conformity", scores.conformity),

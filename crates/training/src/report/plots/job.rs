@@ -12,7 +12,7 @@ use spandrel_model::site::Site;
 
 /// Margin beyond each end of a bridge in its side view, m.
 const END_MARGIN_M: f64 = 25.0;
-/// Margin above a bridge, m, so that a drone above the deck is inside the drawing.
+/// Margin above a bridge, m, which keeps a drone above the deck inside the drawing.
 const TOP_MARGIN_M: f64 = 15.0;
 
 /// Draws the plan view with north up.
@@ -79,8 +79,8 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     sheet(map.size, "Job site viewed from the south", "map", &body)
 }
 
-/// Draws the drone and its trail, which a script moves. They are hidden until the script runs; in a bridge's side view, they are
-/// also hidden while the drone is far from that bridge.
+/// Draws the drone and its trail, which a script updates. They are hidden until the script runs and, in a bridge's side
+/// view, while the drone is far from that bridge.
 fn drone(map: &PlotMap, bridge: Option<&Bridge>) -> Markup {
     html! {
         path.trail data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] d="" {}

@@ -1,4 +1,4 @@
-//! Two flights of one job in the same drawing, each in its own color. The page's slider moves both drones.
+//! Two flights of the same job in one drawing, each in its own color. Both drones follow the page's slider.
 
 use super::backdrop::{ground, lake};
 use super::colors::plain_color;
@@ -12,7 +12,7 @@ use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::scenario::Bridge;
 
-/// Draws the plan view, north up.
+/// Draws the plan view with north up.
 #[must_use]
 pub fn plan(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &both.map(bounding_points).concat());

@@ -1,4 +1,4 @@
-//! Radar chart (Kiviat diagram): one axis per score, 0 at the center, 100 at the edge.
+//! Radar chart (Kiviat diagram) with one axis per score, 0 at the center and 100 at the edge.
 
 use super::{line, sheet, unit};
 use crate::report::formatting;
@@ -27,7 +27,7 @@ pub fn place(k: usize, count: usize, pct: f64) -> (f64, f64) {
     (r * s, -r * c)
 }
 
-/// Draws the chart of one session, or of several sessions in the same chart.
+/// Draws one or more sessions in the same chart.
 #[must_use]
 pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     let count = spokes.len();

@@ -1,4 +1,4 @@
-//! Questionnaire answers and their relation to the measured scores.
+//! Questionnaire answers compared with measured scores.
 
 use super::super::figure::{figure, legend, scrolling};
 use super::lists_individuals::lists_individuals;
@@ -42,7 +42,7 @@ fn chart(questions: &[LikertQuestion], title: &str) -> Markup {
     scrolling(title, &likert(questions, title))
 }
 
-/// Returns the text of a question in English, or its key if it is unknown.
+/// Returns a question's English text, or its key if it is unknown.
 fn question_text(one: &Likert) -> String {
     let wording = read_wording(SHIPPED[0].0, SHIPPED[0].1).ok();
     match (QuestionnaireItem::from_key(&one.question), wording) {
@@ -58,7 +58,7 @@ fn question_text(one: &Likert) -> String {
     }
 }
 
-/// Renders the comparison of self-rating and measured score.
+/// Renders the comparison of self-ratings with measured scores.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rating = &cohort.self_rating;
     html! {

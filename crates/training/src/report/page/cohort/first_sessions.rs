@@ -33,7 +33,7 @@ pub fn distributions(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Renders each trainee's scores and tasks, or their distributions if there are too many trainees to list.
+/// Renders each trainee's scores and tasks, or distributions if there are too many trainees to list.
 pub fn people(cohort: &Cohort) -> Markup {
     if lists_individuals(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
 }

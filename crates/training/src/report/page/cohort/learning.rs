@@ -1,4 +1,4 @@
-//! Practice effects: the group's learning curves and the trainees with repeated sessions.
+//! Practice effects: the group's learning curves and the trainees with repeat sessions.
 
 use super::super::figure::{figure, legend};
 use super::super::progress::{most, pictures, too_few};
@@ -8,12 +8,12 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
-/// Maximum number of individual curves drawn behind the group's curve; more would be indistinguishable.
+/// Maximum number of individual curves drawn behind the group's curve; more would be hard to tell apart.
 const MAX_INDIVIDUAL_CURVES: usize = 40;
 /// Maximum number of trainees shown individually.
 const MAX_INDIVIDUAL_TRAINEES: usize = 24;
 
-/// Renders the group's curves, or the reason why there are none.
+/// Renders the group's curves, or the reason that there are none.
 pub fn curves(cohort: &Cohort) -> Markup {
     let key = [
         ("dot-1", "mean".to_owned()),
@@ -94,7 +94,7 @@ pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress> {
     cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
 }
 
-/// Returns number and name of the tasks, as given in the trainee's first session.
+/// Returns the task numbers and names from the trainee's first session.
 fn tasks(cohort: &Cohort, one: &TraineeProgress) -> Vec<(u32, String)> {
     let first = cohort.individuals.iter().find(|first| first.trainee == one.trainee);
     first.map(|first| first.tasks.iter().map(|task| (task.id, task.name.clone())).collect()).unwrap_or_default()

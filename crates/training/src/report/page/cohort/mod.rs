@@ -1,4 +1,4 @@
-//! Cohort results, as a standalone page or as sections of another page: the figures of the TASBID paper with the underlying
+//! Cohort results, as a standalone page or as sections of another page: the TASBID paper's figures with the underlying
 //! numbers. For large cohorts, the page shows distributions; the CSV files contain the individual data.
 
 mod answers;
@@ -18,12 +18,12 @@ use crate::report::table::download;
 use lists_individuals::lists_individuals;
 use maud::{Markup, html};
 
-/// Location of the table files.
+/// Where the table files are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableLinks<'a> {
     /// Embedded in the page. Tables with one row per trainee are included only if the page lists trainees individually.
     Embedded,
-    /// Downloaded from the server: URL prefix and query, placed before and after the file name.
+    /// Downloaded from the server: URL prefix and query, which surround the file name.
     Served(&'a str, &'a str),
 }
 
@@ -46,7 +46,7 @@ pub fn cohort(cohort: &Cohort) -> String {
     )
 }
 
-/// Renders the number of trainees and sessions.
+/// Renders the numbers of trainees and sessions.
 #[must_use]
 pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
@@ -56,7 +56,7 @@ pub fn summary_lines(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Returns id, name and body of each section. Empty sections are skipped.
+/// Returns the ID, name and body of each section, omitting empty sections.
 #[must_use]
 pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str, &'static str, Markup)> {
     let mut sections = Vec::new();
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn exact_causal_model_is_drawn_or_explained() {
-        // All test answers are equal, so the model cannot be estimated.
+        // All test answers are identical, so the model cannot be estimated.
         let page = super::cohort(&of(
             &group(),
             &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude },

@@ -1,4 +1,4 @@
-//! Distributions shown in place of individual lists for large cohorts.
+//! Distributions that replace individual lists for large cohorts.
 
 use super::super::figure::figure;
 use crate::cohort::{Cohort, SelfRatingPair};
@@ -8,14 +8,14 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::{BoxPlot, HistogramBin, box_plot};
 use maud::{Markup, html};
 
-/// Maximum number of bins in the crash histogram; above it, each bin covers several counts.
+/// Maximum number of bins in the crash histogram; beyond it, each bin covers several counts.
 const MAX_BINS: usize = 20;
 
 fn too_many_note(cohort: &Cohort, file: &str) -> Markup {
     html! { p.note { (cohort.trainees) " trainees are too many to list. The figures show distributions; for individual data, see " (file) "." } }
 }
 
-/// A box plot with its label.
+/// A labeled box plot.
 type LabeledBox = (String, BoxPlot);
 
 fn draw_boxes(of: &[LabeledBox], most: f64, title: &str) -> Markup {
@@ -68,7 +68,7 @@ pub fn crashes(cohort: &Cohort) -> Markup {
     }
 }
 
-/// Returns bins of equal width that cover the counts from 0 to the maximum.
+/// Returns equal-width bins that cover the counts from 0 to the maximum.
 fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     let most = counts.iter().copied().max().unwrap_or(0);
     let wide = (most + 1).div_ceil(MAX_BINS).max(1);
@@ -79,7 +79,7 @@ fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     (0..=most).step_by(wide).map(bin).collect()
 }
 
-/// Renders measured scores for each self-rating, rounded to an integer.
+/// Renders measured scores by self-rating, rounded to an integer.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rated = |rating: usize| {
         let people = cohort.self_rating.people.iter();

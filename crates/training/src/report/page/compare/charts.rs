@@ -19,7 +19,7 @@ const CHARTS: [(&str, &str); 4] = [
 const READOUT: [(&str, &str); 5] =
     [("task", "Task"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")];
 
-/// Renders the section. Drawings are included only if both flights are of the same job.
+/// Renders the section. Drawings are included only if both flights are from the same job.
 pub fn section(both: [&Review; 2], same_job: bool, alignment_events: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
     html! {
         (controls(alignment_events, key))

@@ -11,7 +11,7 @@ use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};
 use maud::html;
 
-/// Renders the page that compares two sessions.
+/// Renders the session comparison page.
 #[must_use]
 pub fn comparison(first: &Review, second: &Review) -> String {
     let both = [first, second];
