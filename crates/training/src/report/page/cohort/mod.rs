@@ -194,7 +194,7 @@ mod tests {
             ))
         };
         let (three, four) = (flown(3), flown(4));
-        assert!(three.contains("needs 4 repetitions") && !three.contains("class=\"practice\""));
+        assert!(three.contains("requires 4 repetitions") && !three.contains("class=\"practice\""));
         assert_eq!((four.matches("class=\"practice\"").count(), four.matches("one-of-many\"").count()), (5, 10));
         assert!(three.contains("anna, 3 times") && four.contains("overall, 2 trainees"));
     }
@@ -210,7 +210,7 @@ mod tests {
         assert!(few.contains("By trainee") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
         let (some, many) = (super::cohort(&people(MAX_LISTED_TRAINEES + 1)), super::cohort(&people(20 * MAX_LISTED_TRAINEES)));
         assert!(
-            !some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are not listed individually")
+            !some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are too many to list")
         );
         assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
         assert!(some.contains("Histogram of crashes per trainee") && some.contains("On-path share by task"));
