@@ -89,7 +89,7 @@ pub struct EndRuleInput {
     pub on_ground: bool,
 }
 
-/// Detects the end of a session. A landing counts from the moment the drone came to rest but is confirmed only after
+/// Detects the end of a session. A landing counts from the time the drone came to rest but is confirmed only after
 /// the rest time. Events in between, such as an empty battery, do not override it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndRule {

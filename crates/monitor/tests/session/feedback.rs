@@ -1,4 +1,4 @@
-//! Tests of the six kinds of feedback sent over MAVLink, with their thresholds and timing.
+//! Tests of the six kinds of MAVLink feedback, with their thresholds and timing.
 
 use crate::live::{monitor_of, sent};
 use spandrel_mavlink::contract::cue;

@@ -1,4 +1,4 @@
-//! A projection of the site fitted to a sheet.
+//! A site projection fitted to a drawing.
 
 use crate::report::outline::ParallelView;
 use spandrel_model::frames::{Enu, Vec3};
