@@ -135,9 +135,9 @@ pub struct TaskResult {
     pub id: u32,
     /// Whether the drone entered the task's path. If not, the task is flagged `not_attempted`.
     pub attempted: bool,
-    /// State of the task: done, partly flown or not attempted.
+    /// Task state: done, partly flown or not attempted.
     pub state: TaskState,
-    /// Fraction of the task's path that was flown, 0 to 1.
+    /// Flown fraction of the task's path, 0 to 1.
     pub covered: f64,
     /// First frame number on the path.
     pub first_frame: Option<u32>,
@@ -179,7 +179,7 @@ pub struct SnapshotCounts {
     pub recall: Option<f64>,
     /// F-measure of precision and recall; `None` if no defect was placed.
     pub f_beta: Option<f64>,
-    /// Result of each picture in order, including any unmet conditions.
+    /// Individual picture results in order, including any unmet conditions.
     pub each: Vec<Snapshot>,
 }
 

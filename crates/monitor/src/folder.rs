@@ -42,7 +42,7 @@ pub struct SessionInfo {
     pub scenario_crc: String,
     /// SHA-256 of `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle id, such as `phantom2`.
+    /// Vehicle ID, such as `phantom2`.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,

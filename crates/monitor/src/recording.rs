@@ -17,7 +17,7 @@ const SLOW_DATA_INTERVAL_FRAMES: usize = 25;
 const SEVERITY_CRITICAL: u8 = 2;
 const SEVERITY_INFO: u8 = 6;
 
-/// Returns all messages of the recording in chronological order.
+/// Returns all messages in the recording in chronological order.
 #[must_use]
 pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<ChannelMessage> {
     let unix_ns = |time: SimTime| (scenario.light.start_unix_s * 1_000_000_000 + time.ns()).max(0).cast_unsigned();

@@ -191,7 +191,7 @@ pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     MIN_LIFT_OFF_HEIGHT_M.max(stand + RESTING_HEIGHT_MARGIN_M)
 }
 
-/// Time past the time limit during which frames are still evaluated; longer than it takes to confirm a landing.
+/// How long frames are still evaluated past the time limit; longer than it takes to confirm a landing.
 const EVALUATION_MARGIN: SimTime = SimTime::from_ms(10_000);
 
 /// A session's frames and end.

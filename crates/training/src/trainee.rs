@@ -7,7 +7,7 @@ pub const AGE_BANDS: &[&str] = &["18-24", "25-34", "35-44", "45-54", "55-64", "6
 /// Levels of experience with drones and with video games.
 pub const EXPERIENCE: &[&str] = &["none", "some", "regular"];
 
-/// Role of a user, which determines access rights.
+/// User role, which determines access rights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {

@@ -76,7 +76,7 @@ pub const COLUMNS: &[Column] = &[
     column("snapshot", "", "", "Whether a picture was taken since the previous frame.", Read::Boolean(|r| r.frame.snapshot)),
     column("east_m", "m", ENU, "True east position.", Read::Float(|r| Some(r.frame.position_m.east()))),
     column("north_m", "m", ENU, "True north position.", Read::Float(|r| Some(r.frame.position_m.north()))),
-    column("up_m", "m", ENU, "True up position.", Read::Float(|r| Some(r.frame.position_m.up()))),
+    column("up_m", "m", ENU, "True height above the origin.", Read::Float(|r| Some(r.frame.position_m.up()))),
     column(
         "speed_m_s",
         "m/s",
@@ -108,7 +108,7 @@ pub const COLUMNS: &[Column] = &[
         "True north velocity.",
         Read::Float(|r| Some(r.frame.velocity_m_s.north())),
     ),
-    column("velocity_up_m_s", "m/s", ENU_VELOCITY, "True up velocity.", Read::Float(|r| Some(r.frame.velocity_m_s.up()))),
+    column("velocity_up_m_s", "m/s", ENU_VELOCITY, "True vertical velocity, up positive.", Read::Float(|r| Some(r.frame.velocity_m_s.up()))),
     optional("roll_deg", "deg", BODY_FROM_NED, "True roll, right side down positive.", Read::Float(|r| attitude_deg(r, 0))),
     optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch, nose up positive.", Read::Float(|r| attitude_deg(r, 1))),
     optional(
@@ -149,10 +149,10 @@ pub const COLUMNS: &[Column] = &[
     ),
     optional("wind_east_m_s", "m/s", ENU_VELOCITY, "East wind component, relative to the ground.", Read::Float(|r| east(r.wind_m_s))),
     optional("wind_north_m_s", "m/s", ENU_VELOCITY, "North wind component, relative to the ground.", Read::Float(|r| north(r.wind_m_s))),
-    optional("wind_up_m_s", "m/s", ENU_VELOCITY, "Up wind component, relative to the ground.", Read::Float(|r| up(r.wind_m_s))),
+    optional("wind_up_m_s", "m/s", ENU_VELOCITY, "Vertical wind component, up positive, relative to the ground.", Read::Float(|r| up(r.wind_m_s))),
     optional("estimated_east_m", "m", ENU, "East position estimated by the autopilot.", Read::Float(|r| east(r.estimate_m))),
     optional("estimated_north_m", "m", ENU, "North position estimated by the autopilot.", Read::Float(|r| north(r.estimate_m))),
-    optional("estimated_up_m", "m", ENU, "Up position estimated by the autopilot.", Read::Float(|r| up(r.estimate_m))),
+    optional("estimated_up_m", "m", ENU, "Height above the origin estimated by the autopilot.", Read::Float(|r| up(r.estimate_m))),
     column(
         "interpolated",
         "",

@@ -1,4 +1,4 @@
-//! Visual attention: determines which defects each picture shows from geometry and lighting.
+//! Visual attention: determines which defects each picture shows, based on geometry and lighting.
 
 use serde::Serialize;
 use spandrel_mavlink::telemetry::{Flight, Frame};
@@ -59,7 +59,7 @@ const FOV_TOLERANCE_RAD: f64 = 1e-6;
 /// Evaluation of one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Snapshot {
-    /// Frame in which the picture was taken, from 1.
+    /// Frame number of the picture, from 1.
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,

@@ -18,9 +18,9 @@ const LOOK_BACK_FRAMES: usize = 2;
 /// Start of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crash {
-    /// Index of the first frame of the contact, from 0.
+    /// Index of the contact's first frame, from 0.
     pub frame: usize,
-    /// Index of the last frame of the same contact, from 0.
+    /// Index of the contact's last frame, from 0.
     pub last: usize,
     /// Kind of object hit.
     pub with: ContactKind,

@@ -3,8 +3,8 @@
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 
-/// Number of points per search block. Blocks whose bounding box is farther than the best point so far are skipped; the
-/// result stays exact.
+/// Number of points per search block. Blocks with a bounding box farther away than the best point so far are skipped;
+/// the result stays exact.
 const BLOCK_POINTS: usize = 16;
 /// Margin for rounding errors when testing whether a box can be skipped.
 const BOX_TOLERANCE: f64 = 1.0 + 1e-9;
@@ -244,9 +244,9 @@ impl ReferencePaths {
 /// A task's first and last on-path frames, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TaskWindow {
-    /// Index of the first frame.
+    /// First frame index.
     pub first: usize,
-    /// Index of the last frame, inclusive.
+    /// Last frame index, inclusive.
     pub last: usize,
 }
 

@@ -97,7 +97,7 @@ pub struct TaskVisits {
     pub visits: Vec<(u32, u32)>,
     /// Flown fraction of the reference path, 0 to 1.
     pub coverage: f64,
-    /// Fraction of the frames in the visits that are on the path, 0 to 1.
+    /// Fraction of the visits' frames on the path, 0 to 1.
     pub on_path: f64,
     /// TASBID speeding loss, computed over the frames in the visits.
     pub speeding: f64,
@@ -116,7 +116,7 @@ pub struct MergedCrash {
     pub speed_m_s: f64,
     /// Points lost by this crash.
     pub loss: f64,
-    /// Task number whose window contains the crash, if any.
+    /// Number of the task whose window contains the crash, if any.
     pub task: Option<u32>,
 }
 
@@ -165,7 +165,7 @@ pub struct CertificationInputs<'a> {
     pub counts: accuracy::DetectionTally,
     /// Defects placed in the session.
     pub defects: &'a [PlacedDefect],
-    /// Ids of the defects found.
+    /// IDs of the defects found.
     pub found: &'a BTreeSet<u32>,
 }
 

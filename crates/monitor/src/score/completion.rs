@@ -47,7 +47,7 @@ pub struct Completion {
     pub tasks_done: usize,
     /// Number of tasks in the job.
     pub tasks: usize,
-    /// Fraction of the total path length that was flown, 0 to 1.
+    /// Flown fraction of the total path length, 0 to 1.
     pub path_share: f64,
     /// Whether the session ended with a landing at home.
     pub landed_at_home: bool,

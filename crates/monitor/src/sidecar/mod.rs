@@ -48,7 +48,7 @@ const HEARTBEAT_WALL_INTERVAL: SimTime = SimTime::from_ms(2_000);
 const SCORING_DELAY: SimTime = SimTime::from_ms(500);
 /// Delay before scoring is retried if the live rule detected the session's end but the scorer did not.
 const END_RETRY_DELAY: SimTime = SimTime::from_ms(5_000);
-/// Wall-clock time without telemetry after which a session whose end was detected is closed.
+/// Wall-clock time without telemetry after which an ended session is closed.
 const SILENCE_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 /// Radius around the drone's center to search for the object in contact, m (estimate: half the size of the largest
 /// aircraft).

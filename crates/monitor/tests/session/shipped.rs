@@ -18,8 +18,7 @@ fn shipped() -> (Scenario, Vehicle) {
     (scenario, spandrel_model::vehicle::read("phantom2.toml", text).unwrap())
 }
 
-/// Returns a position (m), heading and gimbal pitch (rad) from which a defect can be photographed within the threshold of a
-/// task's path.
+/// Returns a position (m), heading and gimbal pitch (rad) for photographing a defect within a task's path threshold.
 fn viewpoint(
     defect: &PlacedDefect,
     scenario: &Scenario,

@@ -311,7 +311,7 @@ fn exact_simulator_restart_in_flight_ends_session_and_keeps_frames() {
     assert_eq!(graded.assessment.tasks[0].on_path, 1.0);
 }
 
-/// A site whose defects are visible only in pictures with a narrow field of view.
+/// A site with defects visible only in pictures with a narrow field of view.
 #[derive(Debug)]
 struct NarrowViewSite(Fence);
 

@@ -17,7 +17,7 @@ pub struct TraineeProgress {
     pub curves: Vec<ScoreCurve>,
 }
 
-/// One of a trainee's sessions on a job.
+/// A trainee's session on a job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Repetition {
     /// Repetition number, from 1.

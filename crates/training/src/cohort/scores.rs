@@ -89,7 +89,7 @@ pub struct CrashRow {
     pub total: usize,
 }
 
-/// Box plot of one score for one of the group's repetitions.
+/// Box plot of one score for one group repetition.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RepetitionBox {
     /// Score name, such as `conformity`.

@@ -30,7 +30,7 @@ const DOMINANCE_RATIO: f64 = 2.0;
 pub struct TrainingPlan {
     /// Trainee's pseudonym.
     pub trainee: String,
-    /// ID of the latest session, on which the plan is based.
+    /// ID of the latest session, the basis of the plan.
     pub session: String,
     /// Scenarios to fly, most urgent first; never empty.
     pub steps: Vec<PlanStep>,
@@ -131,7 +131,7 @@ pub fn plan_for_policy(
     if let Some(plan) = plan(&records, rules, now_unix_us) {
         return Some(TrainingPlan { left_out, ..plan });
     }
-    let words = format!("No complete session yet. The last one: {}.", newest.completion_summary());
+    let words = format!("No complete session yet. Latest session: {}.", newest.completion_summary());
     let steps = vec![single_reason_step(&rules.job, &newest, ("job", words), (0.0, 0.0))];
     let after = |days: f64| newest.started_unix_us.saturating_add((days * DAY_US) as u64);
     let (trainee, session) = (newest.trainee.clone(), newest.id.clone());

@@ -1,4 +1,4 @@
-//! Reading and writing of `answers.json`, which stores a trainee's answers so far.
+//! Reads and writes `answers.json`, which stores a trainee's answers so far.
 
 use super::language_tag::is_tag;
 use super::{QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale};

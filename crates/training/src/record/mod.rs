@@ -20,7 +20,7 @@ use spandrel_monitor::score::{SCORER_VERSION, Score};
 pub struct SessionRecord {
     /// Format version of this record.
     pub format: u32,
-    /// Name of the session folder: time, pseudonym, scenario and a short unique id.
+    /// Session folder name: time, pseudonym, scenario and a short unique ID.
     pub id: String,
     /// Hash of all inputs to the record.
     pub fingerprint: String,
@@ -39,7 +39,7 @@ pub struct SessionRecord {
     pub scenario: String,
     /// SHA-256 of the flown `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle id, such as `phantom2`.
+    /// Vehicle ID, such as `phantom2`.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
@@ -112,7 +112,7 @@ pub struct SessionListEntry {
     pub started_unix_us: u64,
     /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
-    /// Sum of the scores.
+    /// Sum of all applicable scores.
     pub overall: f64,
     /// Maximum possible `overall`.
     pub overall_max: f64,

@@ -2,7 +2,7 @@
 
 use spandrel_monitor::score::completion::{self, Completion};
 
-/// A session whose completion and certification are known.
+/// A session with a completion state and a certification result.
 pub trait SessionOutcome {
     /// Returns the job completion; `None` in format 1 records.
     fn completion(&self) -> Option<&Completion>;

@@ -9,7 +9,7 @@ use spandrel_monitor::score::SCORER_VERSION;
 /// Record format version. It is incremented when fields are added so that older records are recreated.
 pub const FORMAT: u32 = 2;
 
-/// Inputs from which a record is created.
+/// Inputs used to create a record.
 #[derive(Debug, Clone, Copy)]
 pub struct RecordSource<'a> {
     /// Session folder name.
@@ -24,7 +24,7 @@ pub struct RecordSource<'a> {
     pub spandrel_version: &'a str,
     /// The session's scenario.
     pub scenario: &'a Scenario,
-    /// Vehicle id, such as `phantom2`.
+    /// Vehicle ID, such as `phantom2`.
     pub vehicle: &'a str,
     /// Source file hashes.
     pub hashes: &'a SourceHashes,

@@ -20,7 +20,7 @@ pub struct TaskRecord {
     /// Whether the task is done, partly flown or not attempted; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<TaskState>,
-    /// Fraction of the task's path that was flown, 0 to 1; absent in format 1 records.
+    /// Flown fraction of the task's path, 0 to 1; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered: Option<f64>,
     /// Time from the first to the last on-path frame, s.

@@ -9,7 +9,7 @@ use spandrel_model::vehicle::Vehicle;
 /// Inputs shared by all parts of a review.
 #[derive(Debug, Clone, Copy)]
 pub struct ReviewContext<'a> {
-    /// Telemetry of the flight.
+    /// The flight's telemetry.
     pub flight: &'a Flight,
     /// The session's frames.
     pub frames: &'a [Frame],

@@ -105,7 +105,7 @@ pub fn collect_feedback(events: Vec<TimedEvent>, scene: &ReviewContext<'_>, trac
     said
 }
 
-/// Simulation time, s, and content of one line of `events.jsonl`.
+/// Simulation time, s, and content of one `events.jsonl` line.
 pub type TimedEvent = (f64, serde_json::Value);
 
 /// Replays a log through the monitor and returns its events.

@@ -32,7 +32,7 @@ type ShadeIndex = u32;
 /// Index of the sky color.
 const SKY_INDEX: ShadeIndex = 0;
 
-/// A site's colors. A drawing stores an index per pixel, which takes a sixth of the space of a color.
+/// A site's colors. A drawing stores an index per pixel, which takes a sixth of the space of a full color.
 struct Palette {
     colours: Vec<[f64; 3]>,
     numbers: BTreeMap<[u64; 3], ShadeIndex>,
@@ -58,7 +58,7 @@ struct ShadedBody {
     facets: Vec<Facet>,
 }
 
-/// The shaded site, which can be drawn from any camera.
+/// The shaded site, ready to draw from any camera.
 pub struct Sketcher {
     bodies: Vec<ShadedBody>,
     colours: Vec<[f64; 3]>,
@@ -280,7 +280,7 @@ impl SketchCanvas {
     }
 }
 
-/// Returns the range of pixels in a row for which no barycentric coordinate is negative.
+/// Returns the range of pixels in a row that have no negative barycentric coordinate.
 fn span(shares: &[(f64, f64); 3]) -> Option<(usize, usize)> {
     let (mut from, mut to) = (0.0, WIDTH_PX as f64);
     for (at, step) in shares {

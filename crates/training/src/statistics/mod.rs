@@ -40,7 +40,7 @@ pub enum StatisticsError {
     /// A value is infinite or NaN.
     #[error("value number {at} is {value}, which is not a finite number")]
     NotFinite {
-        /// Position of the value in the list, from 1.
+        /// The value's position in the list, from 1.
         at: usize,
         /// The value, which is infinite or NaN.
         value: f64,

@@ -12,7 +12,7 @@ const MAX_SESSION_AGE_US: u64 = 12 * 3_600_000_000;
 /// Maximum number of anonymous browser sessions. Limits the memory that clients without cookies can use.
 const MAX_ANONYMOUS_SESSIONS: usize = 4_096;
 
-/// Random bytes of a cookie or CSRF token.
+/// Random bytes for a cookie or CSRF token.
 pub type TokenBytes = [u8; 32];
 /// Hash of password and role. A login session is valid only while it matches the user's current credential.
 pub type CredentialHash = [u8; 32];

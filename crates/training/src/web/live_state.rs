@@ -23,7 +23,7 @@ const MAX_MESSAGES: usize = 40;
 /// Identifies the job being flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JobIdentity {
-    /// CRC of the scenario.
+    /// Scenario CRC.
     pub crc: u32,
     /// The session's seed.
     pub seed: u64,
@@ -269,7 +269,7 @@ mod tests {
         number(&mut watch, "traffic", -1_500);
         let moment = watch.to_json(true);
         assert_eq!(moment["traffic"], json!("closed"));
-        // degE7 has a resolution of about 1 cm; MAVLink altitude has one of 1 mm.
+        // The resolution is about 1 cm for degE7 and 1 mm for MAVLink altitudes.
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
         assert!(place[0].abs() < 0.02 && place[1].abs() < 0.02 && (place[2] - 12.0).abs() < 0.02, "{moment}");
         assert_eq!((&moment["speed_m_s"], &moment["t_s"]), (&json!(3.0), &json!(2.0)));

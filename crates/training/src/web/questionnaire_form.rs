@@ -34,7 +34,7 @@ pub struct FormContext<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{field} = {value}: invalid answer (allowed: {allowed})")]
 pub struct InvalidAnswer {
-    /// Name of the form field.
+    /// Form field name.
     pub field: String,
     /// Submitted value.
     pub value: String,

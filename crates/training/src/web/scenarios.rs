@@ -115,7 +115,7 @@ pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[Stri
             None => {},
             Some(UploadMessage::Invalid(words)) => (message("bad", words)),
             Some(UploadMessage::AlreadyImported { id, trainee }) => p.message.good role="status" {
-                "This recording was already imported as " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". No changes were made."
+                "This recording was already imported as " a href={ "/sessions/" (id) } { "a session by " (trainee) } ". No changes were made."
             },
         }
         section.narrow {
@@ -152,6 +152,6 @@ mod tests {
         }
         let there = recorded(&administrator(), &named, &[], Some(UploadMessage::AlreadyImported { id: "s-1", trainee: "anna" }))
             .into_string();
-        assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session of anna"), "{there}");
+        assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session by anna"), "{there}");
     }
 }

@@ -94,7 +94,7 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
     )
 }
 
-/// Data for a session's page that is not part of its record.
+/// Session page data that is not part of the session record.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionPageData<'a> {
     /// Whether the session folder exists. The report, questionnaire and downloads require it.

@@ -42,7 +42,7 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
 /// Contents of a trainee's page.
 #[derive(Debug, Clone, Copy)]
 pub struct TraineeProfile<'a> {
-    /// Trainee whose page is shown.
+    /// The trainee shown.
     pub person: &'a Trainee,
     /// Sessions, in chronological order.
     pub records: &'a [SessionRecord],
@@ -67,7 +67,7 @@ pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
         }))
         (section("details", "Details", &details(visitor, about.person)))
         (section("data", "Data", &html! {
-            p { a href={ "/trainees/" (name) "/export.json" } { "Download all data of " (name) } }
+            p { a href={ "/trainees/" (name) "/export.json" } { "Download all data for " (name) } }
             @if visitor.satisfies(AccessLevel::Administrator) { (erase(visitor, name)) }
         }))
     };

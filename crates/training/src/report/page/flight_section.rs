@@ -8,7 +8,7 @@ use crate::report::table::{Table, TableCell};
 use crate::report::{Review, formatting};
 use maud::{Markup, html};
 
-/// Id, title and data columns of each chart.
+/// ID, title and data columns of each chart.
 const CHARTS: [(&str, &str, &str); 5] = [
     ("speed", "Speed, m/s", "speed"),
     ("distance", "Distance to the current task's path, m", "distance"),

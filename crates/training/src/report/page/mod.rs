@@ -27,7 +27,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 /// Renders a session's report page.
 #[must_use]
 pub fn session(review: &Review) -> String {
-    let title = format!("Session of {}, {}", review.about.trainee, review.about.started_utc);
+    let title = format!("Session report: {}, {}", review.about.trainee, review.about.started_utc);
     let sketcher = gallery::sketcher(review);
     let sections = [
         ("scores", "Scores", summary::scores(review)),

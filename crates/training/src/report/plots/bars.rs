@@ -101,7 +101,7 @@ pub struct StackedBar {
     pub parts: Vec<(&'static str, f64)>,
 }
 
-/// Draws stacked bars, all of the same length.
+/// Draws stacked bars of equal length.
 #[must_use]
 pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
     sheet(

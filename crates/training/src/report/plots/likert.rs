@@ -16,7 +16,7 @@ const MAX_LINE_CHARACTERS: usize = 84;
 /// A question with its answer counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LikertQuestion {
-    /// Text of the question.
+    /// Question text.
     pub name: String,
     /// Counts from strongly agree to strongly disagree.
     pub counts: [usize; 5],

@@ -12,7 +12,7 @@ const RADIUS: f64 = 118.0;
 /// One axis of the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadarAxis {
-    /// Name of the score.
+    /// Score name.
     pub name: &'static str,
     /// Value for each session, 0 to 100; `None` if the score does not apply.
     pub values: Vec<Option<f64>>,

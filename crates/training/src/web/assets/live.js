@@ -117,7 +117,7 @@ function picture(version) {
   image.src = `/live/camera.jpg?vehicle=${root.dataset.vehicle}&v=${version}`;
 }
 
-// Without a vehicle, no events are sent.
+// Without a vehicle, there are no events.
 if ("live" in root.dataset) {
   const source = new EventSource(`/live/stream?vehicle=${root.dataset.vehicle}`);
   source.onmessage = (event) => show(JSON.parse(event.data));
