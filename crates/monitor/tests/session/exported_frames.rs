@@ -106,7 +106,10 @@ fn exact_wind_persists_and_estimate_is_interpolated() {
     let rows = rows(&flight());
     let reported = rows.iter().position(|row| row.wind_m_s.is_some()).unwrap();
     let windy: Vec<&FrameRow> = rows.iter().filter(|row| row.wind_m_s.is_some()).collect();
-    assert!(windy.iter().all(|row| row.wind_m_s.unwrap().array() == [2.0, 1.0, 0.5]), "wrong axis order; expected east, north, up");
+    assert!(
+        windy.iter().all(|row| row.wind_m_s.unwrap().array() == [2.0, 1.0, 0.5]),
+        "wrong axis order; expected east, north, up"
+    );
     assert!((rows[reported].frame.position_m.east() - 14.0).abs() < 0.2, "the wind report arrives one frame earlier, at 4 m/s");
     let lasting = 2.5 * one_task().scoring.frame_rate_hz;
     assert!((windy.len() as f64 - lasting).abs() <= 1.0, "{} frames", windy.len());

@@ -209,9 +209,7 @@ mod tests {
         let few = super::cohort(&people(MAX_LISTED_TRAINEES));
         assert!(few.contains("By trainee") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
         let (some, many) = (super::cohort(&people(MAX_LISTED_TRAINEES + 1)), super::cohort(&people(20 * MAX_LISTED_TRAINEES)));
-        assert!(
-            !some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are too many to list")
-        );
+        assert!(!some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are too many to list"));
         assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
         assert!(some.contains("Histogram of crashes per trainee") && some.contains("On-path share by task"));
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());

@@ -50,7 +50,7 @@ fn t_tests(tests: &[Comparison]) -> Table {
         "pairs",
         "change",
         "95 % CI, lower",
-"upper",
+        "upper",
         "t",
         "p upper",
         "p lower",
@@ -58,7 +58,12 @@ fn t_tests(tests: &[Comparison]) -> Table {
         "p two-tailed, Holm",
         "d_z",
     ];
-    Table { name: "t_tests", caption: "paired t tests (later minus earlier repetition)", columns, rows: tests.iter().map(row).collect() }
+    Table {
+        name: "t_tests",
+        caption: "paired t tests (later minus earlier repetition)",
+        columns,
+        rows: tests.iter().map(row).collect(),
+    }
 }
 
 fn homogeneity(cohort: &Cohort) -> Table {

@@ -26,7 +26,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
     let alignment_events = series::alignment_events(both, same);
     let key = [("dot-1", format!("1: {}", session_label(first))), ("dot-2", format!("2: {}", session_label(second)))];
     document(
-"Session comparison",
+        "Session comparison",
         &PageScripts::Comparison(series::comparison(both, &alignment_events)),
         &html! {
             header {
