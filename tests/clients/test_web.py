@@ -141,7 +141,7 @@ def test_progress_page_shows_repetitions_and_tables_download(browser, server, tm
     # The drill has one task, so there is one point for each of the four repetitions.
     assert progress.locator("svg.lines").nth(1).locator("circle").count() == 4
     with page.expect_download() as download:
-        progress.locator("summary", has_text="each repetition").click()
+        progress.locator("summary", has_text="crashes by repetition").click()
         progress.locator("details[open] a[download]").first.click()
     download.value.save_as(tmp_path / "progress.csv")
     lines = (tmp_path / "progress.csv").read_text(encoding="utf-8").splitlines()
@@ -493,13 +493,13 @@ def test_local_server_requires_login_only_after_a_password_is_set(browser, tmp_p
     person.page.fill("[name=name]", "ada")
     person.page.select_option("[name=role]", "trainee")
     person.page.fill("[name=password]", webserver.PASSWORD)
-    person.page.click("text=Set >> nth=-1")
+    person.page.click("text=Save >> nth=-1")
     expect(person.page.locator("main")).to_contain_text("must be an administrator's")
     person.go("/settings")
     person.page.fill("[name=name]", "ada")
     person.page.select_option("[name=role]", "administrator")
     person.page.fill("[name=password]", webserver.PASSWORD)
-    person.page.click("text=Set >> nth=-1")
+    person.page.click("text=Save >> nth=-1")
     assert person.page.url.endswith("/login")
     person.go("/sessions")
     assert person.page.url.endswith("/login")
@@ -593,7 +593,7 @@ def test_trainee_sees_only_the_camera_of_their_own_flight(browser, tmp_path):
             person.check()
         # When the flight ends, its picture disappears.
         spandrel.end(flight.monitor)
-        expect(page.locator("[data-state]")).to_contain_text("not flying", timeout=PATIENCE_MS)
+        expect(page.locator("[data-state]")).to_contain_text("No flight in progress", timeout=PATIENCE_MS)
         assert pilot.ask("/flight/camera.jpg")[0] == 404
     finally:
         server.close()

@@ -1,4 +1,5 @@
-//! Tests of the session report: it matches the scorer, escapes user-provided text, makes no network requests and stays small.
+//! Tests of the session report: it must match the scorer, escape user-provided text, make no network requests and stay
+//! small.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::Encoder;
@@ -16,7 +17,7 @@ use std::sync::OnceLock;
 
 /// Maximum size of a report page, bytes.
 const MAX_PAGE_BYTES: usize = 10_000_000;
-/// Maximum flight time in the TASBID job, s.
+/// Maximum flight time for the TASBID job, s.
 const MAX_FLIGHT_S: f64 = 1500.0;
 
 fn about() -> SessionMetadata {
@@ -66,7 +67,7 @@ fn loaded_urls(page: &str) -> Vec<&str> {
     starts.into_iter().flat_map(values).collect()
 }
 
-/// Returns the page without its scripts and styles, both Spandrel's own and those of libraries.
+/// Returns the page without scripts and styles, both Spandrel's and those of libraries.
 fn without_assets(page: &str) -> String {
     use spandrel_training::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
     [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
@@ -142,7 +143,8 @@ fn exact_user_text_is_escaped_everywhere() {
         for raw in ["<script>alert", "<img src=x", "<!--"] {
             assert!(!page.contains(raw), "{raw}");
         }
-        // The data block is JSON and contains quotes. No other part of the page contains a quote that could end an attribute.
+        // The data block is JSON and contains quotes. Nothing else on the page contains a quote that could end an
+        // attribute.
         let before = page.split("<script type=\"application/json\"").next().unwrap_or_default();
         assert!(!before.contains("\"'>"));
     }
@@ -177,13 +179,14 @@ fn exact_night_changes_only_light_outcomes() {
     {
         assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
     }
-    // The remaining surface is lit by the lamp, which is on only in the dark task.
+    // The lamp lights the remaining surface; it is on only during the dark task.
     assert!(night.area_m2(SurfaceOutcome::Shown) < day.area_m2(SurfaceOutcome::Shown));
     assert!(night.area_m2(SurfaceOutcome::DarkLampOff) > day.area_m2(SurfaceOutcome::DarkLampOff));
     assert!(night.average_picture().unwrap().lux < day.average_picture().unwrap().lux);
 }
 
-/// In the tape, the forward stick moves by 0.01 of full travel per 100 ms, so a movement of 0.1 takes up to 1 s to show.
+/// On the tape, the forward stick moves by 0.01 of full travel per 100 ms, so a movement of 0.1 takes up to 1 s to
+/// show.
 #[test]
 fn exact_speeding_cue_is_reported_with_reaction_time() {
     let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);
@@ -199,7 +202,7 @@ fn exact_speeding_cue_is_reported_with_reaction_time() {
     let lift_off_s = review.frames[0].time.s();
     let speeding: Vec<_> = review.feedback.episodes.iter().filter(|e| KINDS[e.kind].name == "speeding").collect();
     assert_eq!(speeding.len(), 1, "{:?}", review.feedback.episodes);
-    // Truth messages arrive every 20 ms. After its cause has ended, the cue stays on for a hold time.
+    // Truth messages arrive every 20 ms. The cue stays on for a hold time after its cause ends.
     assert!((speeding[0].from_s + lift_off_s - fast_from_s).abs() <= 0.021, "{:?}", speeding[0]);
     assert!((-0.021..=2.5).contains(&(speeding[0].to_s + lift_off_s - fast_to_s)), "{:?}", speeding[0]);
     assert!(speeding[0].reaction_s.is_some_and(|s| s <= 1.1), "{:?}", speeding[0]);

@@ -1,4 +1,4 @@
-//! Tests with a bad link: lost, duplicated, reordered and truncated datagrams.
+//! Tests of bad links: lost, duplicated, reordered and truncated datagrams.
 
 use spandrel_mavlink::telemetry::{Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
@@ -40,7 +40,7 @@ fn counts(datagrams: &[Vec<u8>]) -> spandrel_mavlink::telemetry::timeline::LinkC
     timeline.counts()
 }
 
-/// Simulation time at which a 32-bit counter of milliseconds wraps to zero.
+/// Simulation time at which a 32-bit millisecond counter wraps to zero.
 const WRAP_MS: u64 = 1 << 32;
 
 #[test]
@@ -112,7 +112,8 @@ fn exact_link_statistics_are_counted() {
 
 #[test]
 fn exact_long_loss_is_not_counted_as_reordering() {
-    // Sequence numbers wrap at 256. However many datagrams are lost, the next datagram received is not treated as an old one.
+    // Sequence numbers wrap at 256. No matter how many datagrams are lost, the next one received must not be treated as
+    // old.
     let tape = busy_flight();
     let whole = score_tape(&tape.datagrams).frames;
     for lost in [60, 100, 129, 200, 255, 256, 300] {

@@ -8,7 +8,7 @@ fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
-/// Checks that all of these keys exist and are in this order.
+/// Checks that these keys exist, in this order.
 fn check_keys(value: &Value, wanted: &[&str]) {
     let kept: Vec<&str> = keys(value).into_iter().filter(|key| wanted.contains(key)).collect();
     assert_eq!(kept, wanted);
@@ -42,8 +42,8 @@ fn exact_assessment_json_keys_are_stable() {
     assert_eq!(value["end"]["reason"], "landed");
 }
 
-/// The intervals are in order, and each frame is in exactly one of them. A frame's control source is that of the last heartbeat
-/// before it.
+/// The intervals are in order, and each frame is in exactly one of them. A frame's control source is that of the last
+/// preceding heartbeat.
 #[test]
 fn exact_assessment_lists_control_source_intervals() {
     let mut tape = Tape::new();
@@ -96,7 +96,7 @@ fn exact_frames_csv_columns_are_stable_and_numbers_round_trip() {
     assert!(rows.iter().map(|row| &row.frame).eq(&frames), "the exported frames equal the scored frames");
     let csv = export::frames_csv(&rows);
     let mut lines = csv.lines();
-    // Names and order of the released columns never change, because other tools read them by position.
+    // The names and order of released columns never change, because other tools read them by position.
     let released = "frame,t_s,fb,rl,ud,rt,light,snapshot,east_m,north_m,up_m,speed_m_s,battery_pct,contact,missing,";
     assert!(lines.next().unwrap().starts_with(released));
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();

@@ -1,4 +1,4 @@
-//! Tests that convert datagrams to frames and scores: gaps, respawns, contacts, windows and ends of sessions.
+//! Tests of the conversion from datagrams to frames and scores: gaps, respawns, contacts, windows and session ends.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Timeline;
@@ -35,7 +35,8 @@ fn exact_clean_flight_has_full_score_and_ends_at_touchdown() {
 
 #[test]
 fn exact_short_gaps_are_interpolated_and_long_gaps_stay_missing() {
-    // Each case lists the gap in ms, the interpolated frames and the missing frames. Frames are 40 ms apart, truth messages 20 ms.
+    // Each case lists the gap (ms), interpolated frames and missing frames. Frames are 40 ms apart; truth messages, 20
+    // ms.
     for (ms, interpolated, missing) in [(200, 0, 0), (240, 5, 0), (1_000, 24, 0), (1_040, 0, 25)] {
         let mut tape = Tape::new();
         tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -48,7 +49,7 @@ fn exact_short_gaps_are_interpolated_and_long_gaps_stay_missing() {
         let graded = score_tape(&tape, &one_task());
         let telemetry = graded.assessment.telemetry;
         let got = (telemetry.interpolated_frames, telemetry.missing_frames);
-        // The lift-off time determines when frames are sampled, so the gap may contain one frame more or less.
+        // Frame sampling starts at lift-off, so the gap may contain one frame more or less.
         assert!(got.0.abs_diff(interpolated) <= 1 && got.1.abs_diff(missing) <= 1, "{ms} ms: {got:?}");
         assert_eq!(telemetry.gaps, usize::from(ms > 200));
         assert_eq!(got.0 == 0, interpolated == 0, "{ms} ms");
@@ -167,7 +168,7 @@ fn exact_long_contact_is_one_crash_and_short_contact_counts() {
     tape.int("hits", 2);
     tape.contact(0);
     tape.hold(1.0);
-    // Both messages about a contact are lost. Only the contact count shows that it happened.
+    // Both messages for a contact are lost. Only the contact count shows that it happened.
     tape.int("hits", 3);
     tape.land();
     let graded = score_tape(&tape, &one_task());
@@ -279,7 +280,7 @@ fn exact_pictures_count_once_and_dark_picture_has_reason() {
     tape.snapshot(2);
     tape.fly((25.0, 0.0, 10.0), 4.0);
     tape.snapshot(3);
-    // Much later, the camera resends the message about a picture whose first message was lost.
+    // Much later, the camera resends the message for a picture whose first message was lost.
     tape.snapshot_at(1, taken_ms);
     tape.land();
     let snapshots = score_tape(&tape, &one_task()).assessment.snapshots;
@@ -310,7 +311,7 @@ fn exact_simulator_restart_in_flight_ends_session_and_keeps_frames() {
     assert_eq!(graded.assessment.tasks[0].on_path, 1.0);
 }
 
-/// A site whose defects are visible only in pictures with a narrow field of view.
+/// A site with defects visible only in pictures with a narrow field of view.
 #[derive(Debug)]
 struct NarrowViewSite(TestSurvey);
 
