@@ -58,7 +58,7 @@ fn long_flight() -> Vec<Vec<u8>> {
 
 /// Returns the longest times between receiving a datagram and sending the cue during a whole flight: over all datagrams, and over only those that
 /// changed a cue.
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+#[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duration) {
     let mut monitor = Monitor::new(MonitorConfig {
         scenario: scenario.clone(),
@@ -103,7 +103,7 @@ fn main() -> ExitCode {
     let megabytes = log.len() as f64 / 1e6;
     println!("log: {} MAVLink frames, {megabytes:.1} MB; session: {frames:?} frames", datagrams.len());
     println!(
-        "assess: {:.3} s, {:.0} times real time, {:.1} times hashing every byte once; limit {:.1} s: {}",
+        "assess: {:.3} s, {:.0} x real time, {:.1} x the time to hash the log once; limit {:.1} s: {}",
         assess.as_secs_f64(),
         FLIGHT_S / assess.as_secs_f64(),
         assess.as_secs_f64() / read.as_secs_f64(),
@@ -112,7 +112,7 @@ fn main() -> ExitCode {
     );
     let (slowest, change) = cue_latency(&scenario, &datagrams);
     println!(
-        "cue: at most {:.3} ms from a sample to its changed cue, {:.3} ms for any datagram; limit {} ms: {}",
+        "cue latency: at most {:.3} ms if the cue changes, {:.3} ms for any datagram; limit {} ms: {}",
         change.as_secs_f64() * 1e3,
         slowest.as_secs_f64() * 1e3,
         MAX_CUE_LATENCY.as_millis(),

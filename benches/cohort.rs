@@ -29,6 +29,6 @@ fn main() {
         let records: Vec<SessionRecord> = lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
         cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Exclude })
     });
-    println!("a cohort of {SESSIONS} sessions: {:.2} s (limit {} s)", took.as_secs_f64(), MAX_TIME.as_secs());
+    println!("cohort of {SESSIONS} sessions: {:.2} s (limit {} s)", took.as_secs_f64(), MAX_TIME.as_secs());
     assert!(took < MAX_TIME, "limit exceeded");
 }

@@ -39,14 +39,15 @@ fn main() {
     });
     let geometry = Geometry::new(&scenario);
     println!("{:<44} {:>8.1} ms, {} members", "built in", built.as_secs_f64() * 1e3, geometry.members().len());
-    let path = |kind: TaskKind| &scenario.tasks.iter().find(|t| t.kind == kind).expect("a task of each kind").path_m;
+    let path =
+        |kind: TaskKind| &scenario.tasks.iter().find(|t| t.kind == kind).expect("the job must have a task of each kind").path_m;
     let places = [
         ("in the open", around(&[Vec3::new(0.0, 75.0, 60.0)], 20.0, 1)),
         ("along the slab", around(path(TaskKind::SlabSide), 1.0, 2)),
         ("under the arch", around(path(TaskKind::ArchBottom), 1.0, 3)),
         ("in the interlayer", around(path(TaskKind::Interlayer), 0.7, 4)),
         ("around the pier", around(path(TaskKind::PierCircle), 1.0, 5)),
-        ("over the ground", around(&[scenario.ground_team.pad_m + Vec3::new(12.0, 0.0, 3.0)], 2.0, 6)),
+        ("above the ground", around(&[scenario.ground_team.pad_m + Vec3::new(12.0, 0.0, 3.0)], 2.0, 6)),
     ];
     let diagonal = Vec3::<Enu>::new(1.0, 2.0, -0.5).unit();
     for (place, points) in &places {
@@ -64,10 +65,10 @@ fn main() {
                 black_box(&found);
             }
         });
-        println!("{:<44} {:>8.0} ns", format!("contacts of a capsule, {place}"), taken.as_secs_f64() * 1e9 / points.len() as f64);
+        println!("{:<44} {:>8.0} ns", format!("capsule contacts, {place}"), taken.as_secs_f64() * 1e9 / points.len() as f64);
     }
     let deck = around(&[Vec3::new(10.0, 1.0, 34.0)], 0.005, 7);
-    print_cost("contacts of a capsule on the deck", &deck, |p| {
+    print_cost("capsule contacts on the deck", &deck, |p| {
         let mut found = Vec::new();
         let probe =
             HullProbe::Capsule { a_m: p + Vec3::new(0.0, 0.0, 0.03), b_m: p + Vec3::new(0.15, 0.1, 0.03), radius_m: 0.03 };

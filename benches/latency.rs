@@ -134,7 +134,7 @@ fn rates(client: &mut Client) -> (f64, f64) {
         ms(begin)
     };
     let spread = spread((0..STEPS).map(one).collect());
-    println!("roll rate at rest in flight: {deviation:.4} rad/s (1 sigma)");
+    println!("roll rate noise with centered sticks: {deviation:.4} rad/s (1 sigma)");
     spread
 }
 
@@ -163,7 +163,7 @@ fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     };
     let (pace, wall_s) = client.pace(FLOOD_DURATION);
     stop.store(true, Ordering::Relaxed);
-    flood.join().expect("the flood ends");
+    flood.join().expect("the flood thread must not panic");
     (pace, sent.load(Ordering::Relaxed) as f64 / wall_s)
 }
 
@@ -174,7 +174,7 @@ fn main() {
     client.wait(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(()));
     let mut good = true;
     for (what, (median, p99)) in
-        [("command to acknowledgment", commands(&mut client)), ("stick to its echo in telemetry", sticks(&mut client))]
+        [("command to acknowledgment", commands(&mut client)), ("stick movement to echo in telemetry", sticks(&mut client))]
     {
         println!(
             "{what}: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks; target 2)",
@@ -185,7 +185,7 @@ fn main() {
     }
     let (median, p99) = rates(&mut client);
     println!(
-        "stick to first change of the roll rate: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks)",
+        "stick movement to first change in roll rate: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks)",
         median / TICK_MS,
         p99 / TICK_MS
     );

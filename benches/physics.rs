@@ -109,13 +109,13 @@ impl Case {
             touched += i64::from(state.contact.touching());
         }
         let wanted = if self.touches { STEPS * 9 / 10..=STEPS } else { 0..=0 };
-        assert!(wanted.contains(&touched), "{}: touches in {touched} steps of {STEPS}", self.name);
+        assert!(wanted.contains(&touched), "{}: contact in {touched} of {STEPS} steps", self.name);
         state
     }
 }
 
 fn shipped(file: &str) -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("a shipped file")
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("the shipped file must be readable")
 }
 
 fn scenario() -> Scenario {
@@ -130,11 +130,11 @@ fn vehicle() -> Vehicle {
 
 /// Finds a point on a bridge deck that is surrounded only by road.
 fn deck(site: &Site) -> Vec3<Enu> {
-    let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("a road lane");
+    let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("the site must have a road lane");
     // The ends of a lane are on the approach road, so its middle is on the bridge.
     let (first, last) = (lane.points_m[0], lane.points_m[lane.points_m.len() - 1]);
     let above = (first + last) * 0.5 + Vec3::new(0.0, 0.0, 3.0);
-    let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck under its lane");
+    let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck must be below its lane");
     assert_eq!(hit.surface, Surface::Bridge);
     above - Vec3::new(0.0, 0.0, hit.distance_m)
 }
@@ -161,7 +161,7 @@ fn standing(model: &AirframeModel, site: &Site, vehicle: &Vehicle, deck: Vec3<En
         model.advance(&mut state, &Actuators::default(), &AirState::STILL, site, PowerLoad::default(), now, STEP);
         now += STEP;
     }
-    assert!(state.contact.touching(), "the aircraft stands");
+    assert!(state.contact.touching(), "the aircraft must stand on the deck");
     state
 }
 
@@ -173,15 +173,15 @@ fn cases(model: &AirframeModel, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
     let mut scrape = stand.clone();
     scrape.rigid.velocity_m_s = Vec3::new(4.0, 0.0, 0.0);
     vec![
-        Case::new("free, 60 m over the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
-        Case::new("near, 2 m over the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
-        Case::new("close, 0.5 m over the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
+        Case::new("free flight, 60 m above the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
+        Case::new("near, 2 m above the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
+        Case::new("close, 0.5 m above the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
         Case::on_deck("standing on the deck, motors off", MAX_STANDING, stand),
         Case::on_deck("scraping along the deck", MAX_SCRAPING, scrape),
     ]
 }
 
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+#[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 fn ns_per_step(work: impl FnOnce()) -> f64 {
     let start = std::time::Instant::now();
     work();

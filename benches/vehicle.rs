@@ -80,7 +80,7 @@ impl Job {
     }
 
     /// Replays a flight without the trainee. Returns the wall time and the number of bytes sent.
-    #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+    #[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
     fn replay(&self, inputs: &Inputs, end: SimTime) -> (Duration, usize) {
         let mut sim = self.sim(false);
         let (mut next, mut sent) = (inputs.iter().peekable(), 0);
@@ -139,13 +139,13 @@ fn main() -> ExitCode {
         misses |= times < MIN_SPEED;
         let verdict = if times >= MIN_SPEED { "reaches" } else { "MISSES" };
         println!(
-            "{name}: {end} of flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the minimum of {MIN_SPEED:.0}",
+            "{name}: {end} flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the minimum of {MIN_SPEED:.0}",
             wall.as_secs_f64(),
             sent as f64 / 1e3 / end.s()
         );
     }
     if let Some((now, most)) = memory() {
-        println!("resident memory {now:.0} MB, maximum {most:.0} MB");
+        println!("resident memory: {now:.0} MB, peak {most:.0} MB");
     }
     ExitCode::from(u8::from(misses))
 }

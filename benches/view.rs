@@ -66,7 +66,8 @@ impl Views {
         let software = gpu.software;
         let studio = Studio::on(gpu, two_bridges(), 7, preset, SimTime::ZERO);
         let quality = Quality::by_name(preset).expect("a preset");
-        let secondary = software.then(|| SecondaryRenderer::open(quality, Arc::clone(&studio.scene)).expect("a second device"));
+        let secondary = software
+            .then(|| SecondaryRenderer::open(quality, Arc::clone(&studio.scene)).expect("a second device must be available"));
         let textures = [(); 2].map(|()| picture_texture(&studio.gpu, (1, 1)));
         Self { studio, secondary, textures }
     }
@@ -77,7 +78,7 @@ impl Views {
         let moment = self.studio.moment(from, look, false, at(1.0, 0.5, 0.0));
         let camera = self.studio.stage().camera(&moment, size_px);
         if let Some(secondary) = &self.secondary {
-            secondary.start(camera.clone()).expect("the second device works");
+            secondary.start(camera.clone()).expect("the second device must not fail");
         }
         let inspector = self.studio.stage().inspector(&moment, size_px);
         let (gpu, renderer) = self.studio.renderer();
@@ -91,13 +92,13 @@ impl Views {
         };
         let counts = draw(&inspector, left).and(match &self.secondary {
             Some(secondary) => {
-                let (picture, cost) = secondary.picture().expect("the second device works");
+                let (picture, cost) = secondary.picture().expect("the second device must not fail");
                 fill(gpu, right, &picture);
                 cost
             }
             None => draw(&camera, right),
         });
-        gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device must not fail");
         Cost { frame: start.elapsed(), counts }
     }
 }
@@ -128,7 +129,7 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
         cpu = cpu.zip(spent).map(|(sum, spent)| sum + spent / viewpoints().len() as f64);
         let (counts, time) = (costs[0].counts, median(costs.into_iter().map(|cost| cost.frame).collect()));
         println!(
-            "  {name}: {:.0} ms, {:.0} ms of processor time, {} triangles, {} draw calls",
+            "  {name}: {:.0} ms, {:.0} ms CPU time, {} triangles, {} draw calls",
             1e3 * time.as_secs_f64(),
             1e3 * spent.unwrap_or(f64::NAN),
             counts.triangles,
@@ -138,7 +139,7 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
     }
     let whole = median(medians).as_secs_f64();
     println!(
-        "2 x {} x {}, {preset}: {:.0} ms ({:.1} frames/s), {:.0} ms of processor time",
+        "2 x {} x {}, {preset}: {:.0} ms ({:.1} frames/s), {:.0} ms CPU time",
         size_px.0,
         size_px.1,
         1e3 * whole,
@@ -169,7 +170,7 @@ fn beside(views: &mut Views) -> (f64, f64, Lateness) {
         views.frame((from, look), (640, 360));
         frames += 1.0;
     }
-    let (pace, wall_s) = watch.join().expect("the simulator sends");
+    let (pace, wall_s) = watch.join().expect("the client thread must not panic");
     (pace, frames / wall_s, running.end())
 }
 
@@ -184,14 +185,14 @@ fn main() {
     let (_, from, look) = viewpoints()[1];
     let first = views.frame((from, look), (640, 360));
     println!(
-        "startup: {:.1} s for loading the scene, {:.1} s more for the first frame (including shader compilation)",
+        "startup: {:.1} s to load the scene, then {:.1} s for the first frame (including shader compilation)",
         built.as_secs_f64(),
         first.frame.as_secs_f64()
     );
     let (small, _) = measure(&mut views, (640, 360), presets[0]);
     let (pace, rate_hz, late) = beside(&mut views);
     println!(
-        "a simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_PACE}), ticks at \
+        "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_PACE}), ticks at \
          most {:.1} ms late, {} clock slips (maximum {MAX_SLIPS})",
         late.latest_ms, late.slips
     );
@@ -205,7 +206,7 @@ fn main() {
     if card {
         println!("2 x 1920 x 1080, {}: minimum {MIN_CARD_HZ:.0} frames/s: {verdict}", presets[1]);
     } else {
-        println!("2 x 640 x 360: target {TARGET_HZ:.0} frames/s; limit {MAX_FRAME_CPU_S} s of processor time: {verdict}");
+        println!("2 x 640 x 360: target {TARGET_HZ:.0} frames/s; limit {MAX_FRAME_CPU_S} s CPU time per frame: {verdict}");
     }
     if !kept || pace < MIN_PACE || late.slips > MAX_SLIPS {
         std::process::exit(1);

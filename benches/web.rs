@@ -32,24 +32,27 @@ impl Server {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
-            .expect("the program starts");
+            .expect("the server must start");
         let mut line = String::new();
-        BufReader::new(process.stdout.take().expect("a pipe")).read_line(&mut line).expect("it announces itself");
-        let announced: serde_json::Value = serde_json::from_str(&line).expect("as JSON");
+        BufReader::new(process.stdout.take().expect("a pipe"))
+            .read_line(&mut line)
+            .expect("the server must announce its address");
+        let announced: serde_json::Value = serde_json::from_str(&line).expect("the announcement must be JSON");
         let address = announced["address"].as_str().unwrap_or_default().trim_start_matches("http://").to_owned();
         Self { process, address }
     }
 
     fn get(&self, path: &str) -> usize {
-        let mut socket = TcpStream::connect(&self.address).expect("it listens");
-        write!(socket, "GET {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", self.address).expect("it hears");
+        let mut socket = TcpStream::connect(&self.address).expect("the server must listen");
+        write!(socket, "GET {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", self.address)
+            .expect("the request must be sent");
         let mut answer = Vec::new();
-        socket.read_to_end(&mut answer).expect("it answers");
+        socket.read_to_end(&mut answer).expect("the server must respond");
         assert!(answer.starts_with(b"HTTP/1.1 200"), "{path}: {}", String::from_utf8_lossy(&answer[..answer.len().min(300)]));
         answer.len()
     }
 
-    #[expect(clippy::disallowed_methods, reason = "a bench measures time")]
+    #[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
     fn median(&self, path: &str, rounds: usize) -> (Duration, usize) {
         let mut size = 0;
         let mut times: Vec<Duration> = (0..rounds)
@@ -109,7 +112,7 @@ fn main() {
     let server = Server::start(folder.path());
     let empty = server.median("/sessions", ROUNDS).0;
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
-    let last = runtime.block_on(insert_sessions(&folder.path().join("records.sqlite"))).expect("the records go in");
+    let last = runtime.block_on(insert_sessions(&folder.path().join("records.sqlite"))).expect("the records must be inserted");
     let trainee = RECORDS
         .lines()
         .next()
@@ -117,11 +120,11 @@ fn main() {
         .map(|r| r.trainee)
         .unwrap_or_default();
     let pages = [
-        ("list of sessions", "/sessions".to_owned(), ROUNDS, MAX_PAGE_TIME),
-        ("last page of the list", "/sessions?page=1000000".to_owned(), ROUNDS, MAX_PAGE_TIME),
+        ("session list", "/sessions".to_owned(), ROUNDS, MAX_PAGE_TIME),
+        ("last page of the session list", "/sessions?page=1000000".to_owned(), ROUNDS, MAX_PAGE_TIME),
         ("one session", format!("/sessions/{last}"), ROUNDS, MAX_PAGE_TIME),
         ("one trainee", format!("/trainees/{trainee}-0"), ROUNDS, MAX_PAGE_TIME),
-        ("cohort of all", "/cohort".to_owned(), 5, MAX_COHORT_TIME),
+        ("cohort of all trainees", "/cohort".to_owned(), 5, MAX_COHORT_TIME),
         ("cohort report", "/cohort/report.html".to_owned(), 5, MAX_COHORT_TIME),
         ("largest cohort table", "/cohort/tables/progress.csv".to_owned(), 5, MAX_COHORT_TIME),
     ];
@@ -130,7 +133,7 @@ fn main() {
         let (took, size) = server.median(&path, rounds);
         let times = took.as_secs_f64() / empty.as_secs_f64();
         println!(
-            "{name}: median {:.1} ms, {times:.1} times an empty list, {} kB (limit {} ms)",
+            "{name}: median {:.1} ms, {times:.1} x an empty list, {} kB (limit {} ms)",
             took.as_secs_f64() * 1e3,
             size / 1000,
             ceiling.as_millis()

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 /// Returns the shortest wall time of `rounds` runs.
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+#[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 pub fn best<T>(rounds: usize, mut work: impl FnMut() -> T) -> Duration {
     let once = |_| {
         let start = std::time::Instant::now();

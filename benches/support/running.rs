@@ -1,5 +1,5 @@
 //! Starts a simulator process that runs in real time, and a client for it.
-#![allow(dead_code, reason = "each bench uses its part")]
+#![allow(dead_code, reason = "each benchmark uses only some of it")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::MavMessage;
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// Time without data after which the simulator is considered to have exited.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(5);
 
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+#[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 pub fn now() -> Instant {
     Instant::now()
 }
@@ -72,7 +72,7 @@ impl Client {
 
     pub fn send(&mut self, message: &MavMessage) {
         let frame = self.encoder.encode(message);
-        self.socket.send(&frame).expect("loopback takes it");
+        self.socket.send(&frame).expect("sending over loopback must work");
     }
 
     /// Measures for at least this duration. Returns the ratio of simulation time to wall time, and the wall time of the measurement, s.
@@ -92,7 +92,7 @@ impl Client {
 
     pub fn wait<T>(&mut self, mut pick: impl FnMut(&MavMessage) -> Option<T>) -> T {
         loop {
-            let len = self.socket.recv(&mut self.buffer).expect("the simulator sends");
+            let len = self.socket.recv(&mut self.buffer).expect("the simulator must keep sending");
             let frames = self.decoder.datagram(&self.buffer[..len]);
             if let Some(found) = frames.iter().filter_map(|frame| frame.message.as_ref()).find_map(&mut pick) {
                 return found;
@@ -110,7 +110,7 @@ pub fn start() -> (SimulatorProcess, u16) {
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
-        .expect("the program runs");
+        .expect("the program must start");
     let told = BufReader::new(child.stdout.take().expect("piped"));
     let mut running = SimulatorProcess { child, told };
     let port = running.line()["gcs_port"].as_u64().expect("a port");

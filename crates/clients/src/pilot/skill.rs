@@ -48,7 +48,7 @@ impl FromStr for SkillFactor {
             "noise" => Ok(Self::Noise),
             "preview" => Ok(Self::Preview),
             "lapses" => Ok(Self::Lapses),
-            other => Err(format!("unknown factor '{other}' (delay, gain, noise, preview, lapses)")),
+            other => Err(format!("unknown factor '{other}' (allowed: delay, gain, noise, preview, lapses)")),
         }
     }
 }
@@ -91,7 +91,7 @@ impl FromStr for Skill {
             "novice" => Ok(Self::NOVICE),
             "trained" => Ok(Self::TRAINED),
             "expert" => Ok(Self::EXPERT),
-            other => Err(format!("unknown skill '{other}' (novice, trained, expert)")),
+            other => Err(format!("unknown skill '{other}' (allowed: novice, trained, expert)")),
         }
     }
 }

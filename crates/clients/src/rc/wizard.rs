@@ -192,7 +192,7 @@ impl CalibrationWizard {
             }
         }
         if event == DeviceEvent::Lost {
-            self.note = Some("Device disconnected. Plug it in again.");
+            self.note = Some("Device disconnected. Reconnect it.");
             self.start_step(WizardStep::Release, now);
         }
     }
@@ -302,7 +302,7 @@ impl CalibrationWizard {
             return self.start_step(WizardStep::Range, now);
         }
         if self.is_known(axis) {
-            self.note = Some("That axis is already assigned. Push the other one.");
+            self.note = Some("That axis is already assigned. Push a different one.");
             return self.start_step(WizardStep::Middle(k), now);
         }
         self.note = None;

@@ -105,12 +105,12 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
             room,
             SMALL,
             HudColor::White,
-            "Press the flight keys: the dots must follow. Continue with Tab and Enter or the mouse.",
+            "Press the flight keys; the dots should follow. To continue, use Tab and Enter or the mouse.",
         );
     } else if controls.wizard.is_some() || !controls.calibrated {
         axes(pen, (x, below), room, &controls.axes);
     } else {
-        let words = "Move the sticks: the dots must follow, rest at the center, and reach all edges.";
+        let words = "Move the sticks; the dots should follow, return to the center, and reach all edges.";
         pen.lines((x, below), room, SMALL, HudColor::White, words);
     }
 }

@@ -82,7 +82,7 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
     press(&mut flow, &[KeyPress::Down, KeyPress::Left, KeyPress::Enter, KeyPress::Enter, KeyPress::Enter]);
     assert_eq!((flow.page(), flow.choice().scenario.as_str()), (Page::Controls, "drill-hover"));
     press(&mut flow, &[KeyPress::Enter]);
-    assert_eq!(flow.page(), Page::Waiting, "anna has flown before: no tutorial");
+    assert_eq!(flow.page(), Page::Waiting, "a returning trainee must not get the tutorial");
     let wanted = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted.clone()))]);
     flow.handle_message(flying(&wanted));
@@ -107,7 +107,7 @@ fn exact_new_trainee_gets_the_tutorial_and_may_skip_it() {
     press(&mut flow, &[KeyPress::Enter, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Tutorial(1, true));
     press(&mut flow, &[KeyPress::Escape, KeyPress::Up, KeyPress::Enter]);
-    assert_eq!(flow.page(), Page::Waiting, "the last row skips");
+    assert_eq!(flow.page(), Page::Waiting, "the last row must skip the tutorial");
     assert!(
         matches!(pending_requests(&mut flow).as_slice(), [WindowRequest::Send(FromWindow::Chosen(choice))] if choice.trainee == "n3w")
     );

@@ -8,7 +8,7 @@ pub enum GpuError {
     /// No graphics device is available.
     #[error(
         "no Vulkan, Metal or Direct3D 12 device found: install a graphics driver or a software renderer \
-         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); everything else works without one ({0})"
+         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); other features do not need one ({0})"
     )]
     NoDevice(String),
     /// The device stopped working.

@@ -88,8 +88,8 @@ fn exact_battery_color_changes_at_70_and_30_and_red_blinks() {
     assert_eq!(find(&at(30.0, 0.0), "30 %").unwrap().1, HudColor::Yellow);
     assert_eq!(find(&at(29.0, 0.0), "29 %").unwrap().1, HudColor::Red);
     let fills = |hud: &Hud| layout(hud, WIDE).iter().filter(|i| matches!(i, DrawItem::Fill { .. })).count();
-    assert!(fills(&at(29.0, 0.1)) > fills(&at(29.0, 0.3)), "red flashes");
-    assert_eq!(fills(&at(50.0, 0.1)), fills(&at(50.0, 0.3)), "yellow does not");
+    assert!(fills(&at(29.0, 0.1)) > fills(&at(29.0, 0.3)), "red must blink");
+    assert_eq!(fills(&at(50.0, 0.1)), fills(&at(50.0, 0.3)), "yellow must not blink");
     assert!(find(&Hud { battery_pct: None, ..hud() }, "no battery").is_some());
 }
 

@@ -113,6 +113,6 @@ fn exact_copies_shrink_to_fit_and_photos_keep_their_size() {
     assert_eq!(size(&free), (1280, 960));
     let quarter = copy(&picture, free.len() / 10).unwrap();
     assert!(quarter.len() <= free.len() / 10 && size(&quarter) == (640, 480), "{} of {}", quarter.len(), free.len());
-    assert_eq!(size(&copy(&picture, 1_000).unwrap()), (320, 240), "a copy must not become narrower, although it is too large");
+    assert_eq!(size(&copy(&picture, 1_000).unwrap()), (320, 240), "a copy must not become narrower even if it is too large");
     assert_eq!(size(&jpeg(&picture, &about()).unwrap()), (1600, 1200));
 }

@@ -75,8 +75,7 @@ pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<S
         (!is_slender(element) && normal.up() < MIN_UPWARD_COMPONENT).then_some(f32::INFINITY)
     };
     let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
-    let (straight, in_lake) =
-        (SceneItem::here("bridges", straight, true), SceneItem::here("bridges in the lake", in_lake, false));
+    let (straight, in_lake) = (SceneItem::here("bridges", straight, true), SceneItem::here("reflected bridges", in_lake, false));
     vec![
         SceneItem { visible_range: VisibleRange::STRAIGHT, ..straight },
         SceneItem { visible_range: VisibleRange::IN_LAKE, ..in_lake },

@@ -100,12 +100,12 @@ impl Scene {
             SceneItem::here("pad", ground::pad(site), false),
         ]);
         if quality.sparse {
-            let coarse = SceneItem::here("mountains in the lake", ground::mountains(scenario, site, true), false);
+            let coarse = SceneItem::here("reflected mountains", ground::mountains(scenario, site, true), false);
             parts[ground_at].visible_range = VisibleRange::STRAIGHT;
             parts[ground_at + 1].visible_range = VisibleRange::STRAIGHT;
             parts.push(SceneItem { backdrop: true, visible_range: VisibleRange::IN_LAKE, ..coarse });
             let rough = ground(&fields::sparse(scenario, site, LAKE_TOLERANCE_FACTOR), 0.0);
-            parts.push(SceneItem { visible_range: VisibleRange::IN_LAKE, ..SceneItem::here("ground in the lake", rough, false) });
+            parts.push(SceneItem { visible_range: VisibleRange::IN_LAKE, ..SceneItem::here("reflected ground", rough, false) });
         }
         parts.extend(plants::parts(scenario, site, quality));
         Self {

@@ -96,7 +96,7 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
             SceneItem { visible_range: near, ..SceneItem::here("trees", wood(&spruce, &fir), true) },
             SceneItem {
                 visible_range: far,
-                ..SceneItem::here("trees far away", wood(&distant_conifer(0.21), &distant_conifer(0.15)), false)
+                ..SceneItem::here("distant trees", wood(&distant_conifer(0.21), &distant_conifer(0.15)), false)
             },
             boulders,
         ];

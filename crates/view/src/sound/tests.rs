@@ -57,7 +57,7 @@ fn exact_level_depends_on_speed_squared_and_distance() {
     };
     let near = level(80.0, 1.0);
     assert!((level(160.0, 1.0) / near - 4.0).abs() < 0.05);
-    assert!((level(80.0, 30.0) / near - 0.5).abs() < 0.01, "15 m is full, 30 m half");
+    assert!((level(80.0, 30.0) / near - 0.5).abs() < 0.01, "full level at 15 m, half at 30 m");
     assert!((level(80.0, 10.0) / near - 1.0).abs() < 0.01);
 }
 
@@ -122,7 +122,7 @@ fn prop_sound_never_clips_or_clicks() {
             sound.fill(&mut out);
             for sample in out {
                 assert!(sample.abs() <= 1.0, "seed {seed}: {sample}");
-                assert!(f64::from((sample - last).abs()) < steepest, "seed {seed}: a click of {}", (sample - last).abs());
+                assert!(f64::from((sample - last).abs()) < steepest, "seed {seed}: click of {}", (sample - last).abs());
                 last = sample;
             }
         }

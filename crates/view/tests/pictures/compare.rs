@@ -168,6 +168,6 @@ fn exact_comparison_detects_missing_or_moved_parts_and_tolerates_jpeg() {
     let read = image::load_from_memory(&jpeg(&plain)).unwrap().to_rgba8();
     let lossy = Picture { width: read.width(), height: read.height(), rgba: read.into_raw() };
     let found = difference(&plain, &lossy).unwrap();
-    assert!(found.small(), "JPEG alone: {found:?}");
+    assert!(found.small(), "JPEG losses alone: {found:?}");
     assert_eq!(difference(&plain, &Picture { width: 1, height: 1, rgba: vec![0; 4] }), None);
 }

@@ -169,9 +169,9 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
             }
         }
     }
-    println!("{} photos show a defect according to the measures, by kind {kinds:?}", shown.len());
-    println!("signal to noise: {}; from behind: {}", summary(&shown), summary(&behind));
-    assert!(behind.len() >= 30, "too few from behind: {}", behind.len());
+    println!("according to the measures, {} photos show a defect; by kind: {kinds:?}", shown.len());
+    println!("signal-to-noise ratios: {}; from behind: {}", summary(&shown), summary(&behind));
+    assert!(behind.len() >= 30, "too few photos from behind: {}", behind.len());
     assert!(kinds.len() >= 6, "too few kinds: {kinds:?}");
     assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
 }
