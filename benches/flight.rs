@@ -1,5 +1,6 @@
-//! Measures the processor time that each component needs for one simulated second of flight: the sensors, the estimator, the autopilot, and all of
-//! them together with the physics. Also prints each as a multiple of real time on one core. (The `vehicle` benchmark adds the telemetry.)
+//! Measures the CPU time per simulated second of flight: for the sensors, the estimator and the autopilot separately,
+//! and for all of them together with the physics. Also prints the speed as a multiple of real time on one core. (The
+//! `vehicle` benchmark adds the telemetry.)
 
 #[path = "support/best.rs"]
 mod best;

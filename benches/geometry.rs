@@ -1,5 +1,5 @@
-//! Measures the cost of queries to the site's static geometry at different locations: in the open, near the structure, in the interlayer, and over
-//! the ground.
+//! Measures the cost of queries to the site's static geometry at different locations: in the open, near the structure,
+//! in the interlayer, and above the ground.
 
 #[path = "support/best.rs"]
 mod best;

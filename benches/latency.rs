@@ -12,10 +12,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 const TICK_MS: f64 = 2.5;
-/// Target for the 99th percentile, as required by the issue: two control ticks.
+/// Target for the 99th percentile, two control ticks (requirement).
 const TARGET_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
-/// Pause between measurements. It is not a multiple of any period in the vehicle, so that the measurements sample all phases of each period.
+/// Pause between measurements. It is not a multiple of any period in the vehicle, so the measurements sample every
+/// phase of each period.
 const MEASUREMENT_PAUSE: Duration = Duration::from_micros(7_310);
 /// Message rate and duration of the flood.
 const FLOOD_HZ: u64 = 50_000;
@@ -23,7 +24,7 @@ const FLOOD_DURATION: Duration = Duration::from_secs(5);
 /// Minimum ratio of simulation time to wall time during the flood.
 const MIN_PACE: f64 = 0.99;
 
-/// Number of stick steps in flight, and the time for which the stick is centered before each step, so that the vehicle comes to rest.
+/// Number of stick steps in flight, and the time with a centered stick before each step, which lets the vehicle settle.
 const STEPS: usize = 150;
 const CENTERED_DURATION: Duration = Duration::from_millis(400);
 /// Interval between stick samples in flight.
@@ -138,8 +139,8 @@ fn rates(client: &mut Client) -> (f64, f64) {
     spread
 }
 
-/// Returns the simulation time per second of wall time, as one peer observes it while another peer floods the simulator, and the message rate of the
-/// flood.
+/// Returns the ratio of simulation time to wall time that one peer observes while another floods the simulator, and the
+/// message rate of the flood.
 fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     let (stop, sent) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
     let flood = {
@@ -153,7 +154,7 @@ fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
                 let due = (begin.elapsed().as_secs_f64() * FLOOD_HZ as f64) as u64;
                 let before = sent.load(Ordering::Relaxed);
                 for _ in before..due {
-                    // A full system buffer drops the message, as a network would.
+                    // If the system buffer is full, it drops the message, as a network would.
                     let _ = rude.socket.send(&frame);
                 }
                 sent.store(due.max(before), Ordering::Relaxed);

@@ -1,6 +1,7 @@
-//! Measures the cost of a physics step in free flight, near a bridge, standing on a bridge, and scraping along it. Prints the medians in nanoseconds
-//! and as ratios to a baseline from the same run: a minimal Runge-Kutta quadrotor with rotor lag and drag that uses plain arrays. The ratios hardly
-//! depend on the speed and the load of the machine. The benchmark fails if a ratio exceeds its limit.
+//! Measures the cost of a physics step in free flight, near a bridge, standing on a bridge, and scraping along it.
+//! Prints the medians in nanoseconds and as ratios to a baseline from the same run: a minimal Runge-Kutta quadrotor
+//! with rotor lag and drag that uses plain arrays. The ratios barely depend on the machine's speed and load. The
+//! benchmark fails if a ratio exceeds its limit.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{BatteryModel, Scenario};
@@ -128,7 +129,7 @@ fn vehicle() -> Vehicle {
     spandrel_model::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Finds a point on a bridge deck that is surrounded only by road.
+/// Returns a point on a bridge deck with only road around it.
 fn deck(site: &Site) -> Vec3<Enu> {
     let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("the site must have a road lane");
     // The ends of a lane are on the approach road, so its middle is on the bridge.

@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Minimum speed of the whole vehicle, as a multiple of real time, as required by the issue.
+/// Minimum speed of the whole vehicle, as a multiple of real time (requirement).
 const MIN_SPEED: f64 = 300.0;
 const STEP: SimTime = SimTime::from_ms(20);
 /// Time limit of a flight. The battery runs out earlier.
@@ -55,8 +55,8 @@ impl Job {
         sim
     }
 
-    /// Runs a flight with the synthetic trainee. Returns the trainee's inputs with their times, the end time, the number of contacts, and the reason
-    /// for the end.
+    /// Runs a flight with the synthetic trainee. Returns the trainee's timestamped inputs, the end time, the number of
+    /// contacts, and the reason for the end.
     fn fly(&self, skill: Skill) -> (Inputs, SimTime, usize, String) {
         let (scenario, vehicle) = (Arc::clone(&self.scenario), Arc::clone(&self.vehicle));
         let mut pilot = Pilot::new(PilotConfig { scenario, vehicle, skill, seed: self.seed });

@@ -1,6 +1,6 @@
-//! Measures the cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup time. Renders in software, as
-//! on a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best available device and higher presets, and fails if a graphics card
-//! does not reach the target frame rate.
+//! Measures the cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup
+//! time. Uses software rendering, as on a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best
+//! available device and higher presets, and fails if a graphics card does not reach the target frame rate.
 
 #[path = "support/running.rs"]
 mod running;
@@ -18,12 +18,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Target frame rate of both views at 640 x 360 with the preset `low` on two cores, 1/s, as required by the issue.
+/// Target frame rate of both views at 640 x 360 with the preset `low` on two cores, 1/s (requirement).
 const TARGET_HZ: f64 = 15.0;
-/// Maximum processor time per frame, s: twice the value that the slowest viewpoints needed when the limit was set. Processor time is used because it
-/// hardly depends on other load on the machine.
+/// Maximum CPU time per frame, s: twice the time of the slowest viewpoints when the limit was set. CPU time barely
+/// depends on other load on the machine.
 const MAX_FRAME_CPU_S: f64 = 0.25;
-/// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s, as required by the issue.
+/// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s
+/// (requirement).
 const MIN_CARD_HZ: f64 = 144.0;
 /// Number of measured frames per viewpoint, after one frame that warms up the caches.
 const FRAMES: usize = 4;
@@ -103,7 +104,8 @@ impl Views {
     }
 }
 
-/// Returns the processor time of this process so far, s; `None` except on Linux, which reports it in hundredths of a second.
+/// Returns the CPU time of this process so far, s. Linux reports it in hundredths of a second; other systems return
+/// `None`.
 fn cpu_s() -> Option<f64> {
     const TICKS_PER_S: f64 = 100.0;
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
@@ -118,7 +120,7 @@ fn median(mut times: Vec<Duration>) -> Duration {
     times[times.len() / 2]
 }
 
-/// Renders all locations. Returns the processor time per frame, s, if available, and the frame rate, 1/s.
+/// Renders all viewpoints. Returns the CPU time per frame, s, if available, and the frame rate, 1/s.
 fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>, f64) {
     let (mut medians, mut cpu) = (Vec::new(), Some(0.0));
     for (name, from, look) in viewpoints() {

@@ -1,5 +1,6 @@
-//! Measures the response times of `spandrel serve` with a database of 10,000 sessions, which are copies of the example study under new names. The
-//! requests are for the session list, its last page, one session, one trainee, and the cohort. Also checks that the cohort page stays small.
+//! Measures the response times of `spandrel serve` with a database of 10,000 sessions, which are renamed copies of the
+//! example study. Requests the session list, its last page, one session, one trainee, and the cohort. Also checks that
+//! the cohort page stays small.
 
 use spandrel_training::record::SessionRecord;
 use sqlx::{Connection, Row, SqliteConnection};
@@ -12,7 +13,7 @@ use std::time::{Duration, Instant};
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
 const SESSIONS: usize = 10_000;
 const ROUNDS: usize = 31;
-/// Limits, as required by the issue: the median response time of a page, and the time for a cohort report.
+/// Limits (requirements): the median response time of a page, and the time for a cohort report.
 const MAX_PAGE_TIME: Duration = Duration::from_millis(100);
 const MAX_COHORT_TIME: Duration = Duration::from_secs(2);
 
@@ -79,7 +80,7 @@ const INSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     telemetry_sha256, spandrel_version, scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, overall_max, \
     fingerprint, record) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
 
-/// Adds copies of the study's records to the existing tables.
+/// Inserts copies of the study's records into the existing tables.
 async fn insert_sessions(file: &Path) -> Result<String, sqlx::Error> {
     let originals: Vec<SessionRecord> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     let mut database = SqliteConnection::connect(&format!("sqlite://{}", file.display())).await?;

@@ -8,7 +8,8 @@ use spandrel_model::{scenario, shipped};
 
 /// Builds the site of the job and prints facts about it.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A job is a TOML file. scenarios/README.md documents its keys. This job has another name and no cars or trucks.
+    // A job is a TOML file. scenarios/README.md documents its keys. This job has a different name and no cars or
+    // trucks.
     let text = shipped::TWO_BRIDGES.replace("name = \"two-bridges\"", "name = \"quiet-bridges\"");
     let mut job = scenario::read("quiet-bridges.toml", &text, &|file| Err(format!("{file} does not exist")))?;
     job.traffic.cars = 0;

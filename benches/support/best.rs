@@ -1,4 +1,4 @@
-//! Measures the fastest of several runs, which is least affected by other load on the machine.
+//! Times several runs and keeps the fastest, which is least affected by other load on the machine.
 
 use std::hint::black_box;
 use std::time::Duration;

@@ -16,13 +16,13 @@ pub fn now() -> Instant {
     Instant::now()
 }
 
-/// A simulator process, stopped when this is dropped.
+/// A simulator process. Dropping this stops it.
 pub struct SimulatorProcess {
     child: Child,
     told: BufReader<ChildStdout>,
 }
 
-/// Delays of a simulator behind real time, in wall time.
+/// Delays of a simulator relative to real time.
 pub struct Lateness {
     /// Longest delay of a tick, ms.
     pub latest_ms: f64,
@@ -31,7 +31,7 @@ pub struct Lateness {
 }
 
 impl SimulatorProcess {
-    /// Stops the simulator and returns the delays that it reports.
+    /// Stops the simulator and returns its reported delays.
     pub fn end(mut self) -> Lateness {
         drop(self.child.stdin.take());
         let told = self.line();

@@ -1,6 +1,6 @@
-//! Feeds arbitrary bytes to the vehicle in flight. The input is split into chunks by length bytes. The first byte of a chunk selects whether the rest
-//! is sent as a raw datagram, or as the payload of a message that the vehicle handles, with a valid checksum. The vehicle must not panic, and its
-//! state must stay finite.
+//! Feeds arbitrary bytes to the vehicle in flight. The input is split into chunks by length bytes. The first byte of a
+//! chunk selects whether the rest is sent as a raw datagram or, with a valid checksum, as the payload of a message that
+//! the vehicle handles. The vehicle must not panic, and its state must stay finite.
 #![no_main]
 
 use mavlink::Message;

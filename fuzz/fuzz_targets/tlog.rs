@@ -1,4 +1,4 @@
-//! Feeds arbitrary bytes to the scorer as a telemetry log; it must return a score or an error without a panic.
+//! Feeds arbitrary bytes to the scorer as a telemetry log. It must return a score or an error and never panic.
 #![no_main]
 
 use spandrel_model::{scenario::Scenario, vehicle::Vehicle};

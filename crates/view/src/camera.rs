@@ -40,8 +40,7 @@ impl PinholeCamera {
         Self { position_m, forward, right, hfov_rad }
     }
 
-    /// Creates the view through the aircraft's camera. The horizontal field of view does not depend on the picture's
-    /// height.
+    /// Creates the view of the aircraft's camera. The horizontal field of view does not depend on the picture's height.
     #[must_use]
     pub fn of(pose: &CameraPose, camera: &Camera) -> Self {
         Self { position_m: pose.position_m, forward: pose.forward, right: pose.right, hfov_rad: camera.hfov_rad }

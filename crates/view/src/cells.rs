@@ -8,12 +8,12 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use std::collections::BTreeMap;
 
-/// Side of a cell, m (estimate: some cells are in view in any picture, most are not).
+/// Side of a cell, m (estimate: most pictures show only a few cells).
 const CELL_M: f64 = 80.0;
-/// Distance from the origin beyond which geometry belongs to the backdrop, m.
+/// Minimum distance of the backdrop from the origin, m.
 const BACKDROP_M: f64 = 500.0;
-/// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. In a software renderer, a draw call
-/// costs as much as fifty triangles, a sixth of a sector of mountains.
+/// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. In a software renderer, a
+/// draw call costs as much as fifty triangles, or a sixth of a sector of mountains.
 const BACKDROP_SECTORS: f64 = 16.0;
 
 /// Bounding sphere of a cell.
@@ -159,18 +159,18 @@ impl Frustum {
         Self([sum(w, x, 1.0), sum(w, x, -1.0), sum(w, y, 1.0), sum(w, y, -1.0), sum(w, z, -1.0), z])
     }
 
-    /// Returns false if the sphere is certainly outside the frustum.
+    /// Returns false if the sphere is definitely outside the frustum.
     #[must_use]
     pub fn may_be_visible(&self, ball: &BoundingSphere) -> bool {
         self.0.iter().all(|plane| {
             let [a, b, c, _] = plane;
             let length = (a * a + b * b + c * c).sqrt();
-            // An infinite projection has no far plane.
+            // A projection with infinite depth has no far plane.
             length < 1e-12 || inside(plane, ball.center_m) >= -ball.radius_m * length
         })
     }
 
-    /// Returns false if the cell is certainly outside the frustum: all of its corners are beyond one plane.
+    /// Returns false if the cell is definitely outside the frustum, because all its corners are beyond one plane.
     #[must_use]
     pub fn cell_may_be_visible(&self, bounds: &CellBounds) -> bool {
         let corners = &bounds.corners_m;

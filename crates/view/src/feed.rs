@@ -10,9 +10,9 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// Time after which an unrepeated cue expires; the monitor repeats active cues at 5 Hz.
+/// Timeout of a cue that is not repeated; the monitor repeats active cues at 5 Hz.
 const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
-/// Time for which the shutter indicator is shown after a picture.
+/// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
 
 /// Latest values received.

@@ -4,7 +4,7 @@ use super::camera::{EYE_HEIGHT_M, INSPECTOR_FOV_RAD, PinholeCamera};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Distance beyond which the view zooms in on the aircraft, m, as with binoculars.
+/// Minimum distance for zooming in on the aircraft automatically, m, as with binoculars.
 const AUTO_ZOOM_START_M: f64 = 60.0;
 /// Minimum field of view when zooming in automatically, rad.
 const MIN_AUTO_FOV_RAD: f64 = 0.22;
@@ -32,8 +32,8 @@ impl Default for InspectorCamera {
 }
 
 impl InspectorCamera {
-    /// Turns the view to the right and up, rad. Turning stops following the aircraft; `to` is the vector from the inspector to
-    /// the aircraft, m.
+    /// Turns the view to the right and up, rad. The view then no longer follows the aircraft; `to` is the vector from
+    /// the inspector to the aircraft, m.
     pub fn turn(&mut self, right_rad: f64, up_rad: f64, to: Vec3<Enu>) {
         if self.follows {
             // Keeps the magnification of the narrowed view.

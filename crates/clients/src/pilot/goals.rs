@@ -13,9 +13,9 @@ use spandrel_model::vehicle::Vehicle;
 const TRANSIT_M_S: f64 = 6.0;
 /// Transit speed near obstacles, m/s (estimate).
 const NEAR_OBSTACLE_M_S: f64 = 2.5;
-/// Distance below which an obstacle counts as near in transit, m (estimate).
+/// Maximum distance of an obstacle that counts as near in transit, m (estimate).
 const NEAR_OBSTACLE_M: f64 = 4.0;
-/// Height above the landing pad at which takeoff ends and landing begins, m (estimate).
+/// Height above the landing pad where takeoff ends and landing begins, m (estimate).
 pub const PAD_HOVER_M: f64 = 6.0;
 
 /// The next goal of the flight.
@@ -53,7 +53,7 @@ pub struct PlanningContext<'a> {
     pub site: &'a Site,
     /// The aircraft.
     pub vehicle: &'a Vehicle,
-    /// Simulation time of planning.
+    /// Simulation time used for planning.
     pub at: SimTime,
     /// Clearance in transit, m, except near an endpoint that has less. `None` uses the pilot's default.
     pub transit_clearance_m: Option<f64>,

@@ -1,4 +1,4 @@
-//! Human operator model with five skill parameters. Errors result from these parameters; no type of error is scripted.
+//! Human operator model with five skill parameters. Errors result from these parameters; none are scripted.
 
 use std::str::FromStr;
 
@@ -19,7 +19,7 @@ pub struct Skill {
     pub lapses_per_min: f64,
 }
 
-/// One of the five skill parameters; used to exchange a single parameter between pilots.
+/// One of the five skill parameters; used to swap a single parameter between pilots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SkillFactor {
     /// Selects [`Skill::delay_s`].
@@ -75,9 +75,9 @@ impl Skill {
         self
     }
 
-    /// Returns the defect length at which the probability of detection is 50 %, mm: 26 for the trained pilot (Campbell
-    /// et al. 2020), 15 for the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power
-    /// law of the noise fits these values within 10 %.
+    /// Returns the defect length with a 50 % probability of detection, mm: 26 for the trained pilot (Campbell et al.
+    /// 2020), 15 for the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power law of
+    /// the noise fits these values within 10 %.
     #[must_use]
     pub fn median_length_mm(&self) -> f64 {
         26.0 * spandrel_model::math::pow(self.noise, 1.3)

@@ -61,7 +61,7 @@ impl InputRecording {
         Ok(Self { device, events })
     }
 
-    /// Returns the next event whose time is not later than `now`.
+    /// Returns the next event that is due at `now`.
     pub fn due(&mut self, now: SimTime) -> Option<DeviceEvent> {
         self.events.front().filter(|(at, _)| *at <= now)?;
         self.events.pop_front().map(|(_, event)| event)

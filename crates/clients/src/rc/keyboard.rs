@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// Stick deflection of a key (estimate: half, so that beginners do not fly at full speed).
 pub const DEFAULT_DEFLECTION: f64 = 0.5;
-/// Time for which a key counts as held after its last event, s. Used in terminals, which report no key releases. Longer
+/// Time that a key counts as held after its last event, s. Used in terminals, which do not report key releases. Longer
 /// than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
 pub const KEY_HOLD_TIMEOUT_S: f64 = 0.7;
 /// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than the usual
@@ -302,8 +302,8 @@ impl KeyboardState {
 
     /// Handles a key press and returns its action unless the key controls a stick. If the system reports key releases
     /// (`until_released`), do not pass on the repeats of a held key. Otherwise, a stick key counts as held for
-    /// [`KEY_HOLD_TIMEOUT_S`], and repeats are ignored: an action must have been idle for that time, a gimbal or zoom step for
-    /// `MIN_TAP_INTERVAL_S`.
+    /// [`KEY_HOLD_TIMEOUT_S`], and repeats are ignored: an action key must have been idle for that time, or for
+    /// `MIN_TAP_INTERVAL_S` if it is a gimbal or zoom step.
     pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<ControllerAction> {
         let key = key.to_lowercase();
         if let Some(push) = self.keys.pushes.get(&key) {
@@ -323,7 +323,7 @@ impl KeyboardState {
         }
     }
 
-    /// Releases all keys, as when the window loses focus.
+    /// Releases all keys, such as when the window loses focus.
     pub fn release_all(&mut self) {
         self.held.clear();
     }

@@ -26,7 +26,7 @@ pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], fo
 
 /// Draws the button that pauses a practice session or ends an assessment.
 pub fn button(flow: &WindowFlow, mut pen: PageWriter) -> PageLayout {
-    // In the inspector's view, because the HUD covers the edges of the camera view.
+    // The button is in the inspector's view, because the HUD covers the edges of the camera view.
     let (across, down) = flow.arrangement.button();
     if let Some(flying) = &flow.flying {
         let words = match flying.choice.purpose {

@@ -1,6 +1,6 @@
 //! A page as plain data: items to draw, clickable areas and pictures. Sizes are fractions of the window's height, so
-//! that text scales with the window. During layout, horizontal positions also use the height; they become fractions of
-//! the width at the end.
+//! text scales with the window. During layout, horizontal positions use the same unit; at the end, they become
+//! fractions of the width.
 
 use super::KeyPress;
 use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};

@@ -129,7 +129,7 @@ fn choose_practice(flow: &mut WindowFlow) {
 fn exact_tutorial_precedes_every_trainees_first_practice() {
     let mut flow = in_flight(Purpose::Assessment);
     flow.handle_message(ToWindow::Ended(ended()));
-    // Goes from the start page to the flight: name, controller check, flight.
+    // Goes from the start page to the flight: enters the name, checks the controller, and starts.
     let named = |flow: &mut WindowFlow, name: &str| {
         flow.press(KeyPress::Row(0));
         press(flow, &[KeyPress::Backspace; 32]);
@@ -368,7 +368,7 @@ fn prop_pages_fit_windows_of_any_aspect_ratio() {
     }
 }
 
-/// Returns every text of a page with its position in percent of the window.
+/// Returns all texts of a page with their positions in percent of the window.
 fn words(flow: &WindowFlow) -> String {
     let line = |item: &DrawItem| match item {
         DrawItem::Text { place, words, .. } => Some(format!("{:3.0} {:3.0} {words}\n", 100.0 * place.x, 100.0 * place.y)),

@@ -1,5 +1,5 @@
-//! Tutorial before the first practice session, as in the TASBID protocol: simulator pictures with labels and arrows,
-//! and the HUD as drawn in flight.
+//! Tutorial before the first practice session, as in the TASBID protocol: pictures from the simulator with labels and
+//! arrows, and the HUD as in flight.
 
 use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
@@ -109,7 +109,7 @@ fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64
     let half = 0.5 * text_width(words, SMALL) + 0.012;
     let (x, y) = frame.at(from.0, from.1);
     let (tx, ty) = frame.at(to.0, to.1);
-    // The arrow starts at the side of the label that faces its target.
+    // The arrow starts on the side of the label that faces its target.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
     pen.arrow(foot, (tx, ty), HudColor::Yellow);
     pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::Night);
@@ -228,7 +228,7 @@ fn example(cues: i32) -> Hud {
         lamp: false,
         left_s: 1104.0,
         pictures: 2,
-        // Red elements blink and are visible in the first half of the period.
+        // Red elements blink; they are visible in the first half of the period.
         shutter: false,
         time_s: if cues & cue::CRASH != 0 { 0.1 } else { 95.0 },
         position_m: Vec3::new(-60.0, 130.0, 12.0),

@@ -46,7 +46,7 @@ impl GpuMesh {
         self.count / 3
     }
 
-    /// Draws the mesh once, without instances.
+    /// Draws the mesh once, without instance data.
     pub fn draw_without_instances(&self, pass: &mut wgpu::RenderPass) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);

@@ -66,8 +66,8 @@ fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
     move |p| (x + share(p.east(), 0), y - share(p.north(), 1))
 }
 
-/// Returns a label position that does not overlap other labels: `place`, or a position to its right, or to its left at
-/// the edge of the map.
+/// Returns a label position that does not overlap other labels: `place`, or a position to its right (to its left at the
+/// edge of the map).
 fn free_label_position(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f64) {
     let covered = |here: (f64, f64)| {
         let covers =

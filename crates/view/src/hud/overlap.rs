@@ -99,7 +99,7 @@ fn check_block(block: &DisplayBlock, what: &str) {
         assert!(block.shapes.iter().all(|shape| are_separate(place, shape)), "{what}: '{words}' overlaps a shape");
     }
     for (k, one) in block.shapes.iter().enumerate() {
-        // One shape may contain another, as a battery outline contains its level.
+        // A shape may contain another one, as the battery outline contains its level.
         let fine = |other: &PictureRect| are_separate(one, other) || contains(one, other) || contains(other, one);
         assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block overlap");
     }
@@ -183,8 +183,8 @@ fn prop_items_do_not_overlap_at_any_size() {
 
 #[test]
 fn prop_status_text_does_not_cover_the_hud() {
-    // Six lines of the window's font with their background. They end above the center of the picture, which the pilot
-    // uses for aiming.
+    // Height of six lines in the window's font with their background. They end above the center of the picture, which
+    // the pilot uses for aiming.
     const TEXT_HEIGHT: f64 = 0.2;
     let words = ViewLayout::Camera.words();
     let [_, eyes] = ViewLayout::Camera.places();

@@ -49,7 +49,7 @@ fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
     texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, color, _)| (place, color))
 }
 
-/// Returns every text of the HUD with its position in percent of the picture and its color.
+/// Returns all texts of the HUD with their positions in percent of the picture and their colors.
 fn snapshot(hud: &Hud) -> String {
     let line = |(place, color, words): (ScreenPoint, HudColor, String)| {
         format!("{:3.0} {:3.0} {color:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)

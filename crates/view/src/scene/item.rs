@@ -61,13 +61,13 @@ pub struct SceneItem {
     pub instances: Vec<Instance>,
     /// Whether it casts shadows.
     pub casts: bool,
-    /// Distances at which it is drawn.
+    /// Range of distances where it is drawn.
     pub visible_range: VisibleRange,
     /// Whether it belongs to the backdrop, which is split into sectors.
     pub backdrop: bool,
 }
 
-/// Minimum and maximum distances at which an object is drawn, m.
+/// Minimum and maximum distance for drawing an object, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisibleRange {
     /// Distances in the direct view, m.
@@ -81,26 +81,26 @@ impl VisibleRange {
     pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
     /// No distance.
     pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
-    /// Visible in the direct view and in the lake at any distance.
+    /// Visible in the direct view and in the lake's reflection at any distance.
     pub const EVERYWHERE: Self = Self { direct_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
     /// Visible only in the direct view.
     pub const STRAIGHT: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
-    /// Visible only in the lake, for simplified substitutes.
+    /// Visible only in the lake's reflection, for simplified substitutes.
     pub const IN_LAKE: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
 
-    /// Returns the range below this distance, m.
+    /// Returns the range of distances up to this one, m.
     #[must_use]
     pub const fn within(most_m: f64) -> [f64; 2] {
         [f64::NEG_INFINITY, most_m]
     }
 
-    /// Returns the range from this distance on, m.
+    /// Returns the range of distances beyond this one, m.
     #[must_use]
     pub const fn beyond(least_m: f64) -> [f64; 2] {
         [least_m, f64::INFINITY]
     }
 
-    /// Checks whether the object is drawn at a distance, directly or in the lake.
+    /// Checks whether the object is drawn at a distance, in the direct view or in the lake's reflection.
     #[must_use]
     pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
         let [begins, ends] = if in_lake { self.in_lake_m } else { self.direct_m };

@@ -14,7 +14,7 @@ pub struct StaticCell {
     pub copies: MeshInstances,
     /// Whether it casts shadows.
     pub casts: bool,
-    /// Distances at which it is drawn.
+    /// Range of distances where it is drawn.
     pub visible_range: VisibleRange,
     /// Bounds for culling.
     pub bounds: CellBounds,
