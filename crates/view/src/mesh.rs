@@ -37,7 +37,7 @@ pub enum Material {
     Pad = 13,
     /// The translucent disk of a fast propeller.
     Blur = 14,
-    /// Paint whose color an instance does not override.
+    /// Paint with a color that instances do not override.
     Enamel = 15,
 }
 
@@ -50,7 +50,7 @@ pub struct Vertex {
     pub position: [f32; 3],
     /// Outward unit normal.
     pub normal: [f32; 3],
-    /// Surface coordinates, m: along the member or horizontal, and across it or up.
+    /// Surface coordinates, m: along the member or horizontally, and across it or up.
     pub uv: [f32; 2],
     /// Indirect light: fractions of the sky and sun illuminance (see `LightModel::indirect_fractions`).
     pub light: [f32; 2],

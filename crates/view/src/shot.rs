@@ -46,7 +46,7 @@ impl LampBeam {
     }
 }
 
-/// Response of a sensor or an eye that turns light into a picture.
+/// Response of a sensor or an eye that converts light to a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorResponse {
     /// Exposure.

@@ -1,5 +1,5 @@
-//! Sky model: radiance and color in every direction, scaled to the horizontal illuminance of the light model. The shader
-//! `sky.wgsl` contains the same function; its clouds are visual only and cast no light.
+//! Sky model: radiance and color in every direction, scaled to the horizontal illuminance of the light model. The
+//! shader `sky.wgsl` contains the same function; its clouds are decorative and cast no light.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -11,17 +11,17 @@ const ZENITH: [f64; 3] = [0.62, 0.97, 2.0];
 const HORIZON: [f64; 3] = [0.94, 0.995, 1.24];
 /// Color of clouds, luminance 1 (estimate: about 6,500 K).
 const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
-/// Optical depths of clear air for red, green and blue light, per air mass (Rayleigh's inverse fourth power with slight haze;
-/// estimate).
+/// Optical depths of clear air for red, green and blue light, per air mass (Rayleigh scattering, inverse fourth power,
+/// with slight haze; estimate).
 const AIR_OPTICAL_DEPTH: [f64; 3] = [0.07, 0.12, 0.24];
 
-/// Fraction of the blue tint of shade that a camera's white balance removes (estimate).
+/// Fraction of the blue tint of shadows that a camera's white balance removes (estimate).
 const WHITE_BALANCE_FRACTION: f64 = 0.55;
 
 /// Sky parameters of the shaders.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sky {
-    /// Unit vector towards the sun.
+    /// Unit vector toward the sun.
     pub sun: Vec3<Enu>,
     /// Illuminance by the sun on a surface that faces it, lx.
     pub direct_lux: f64,

@@ -15,7 +15,7 @@ pub struct EstimatedPose {
 }
 
 impl EstimatedPose {
-    /// Processes a message. A position completes a pose and returns it.
+    /// Processes a message. Returns a pose when a position message completes it.
     pub fn take(&mut self, message: &MavMessage, plane: &LocalPlane) -> Option<Truth> {
         match message {
             MavMessage::ATTITUDE(a) => {

@@ -31,15 +31,16 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use std::collections::{BTreeSet, VecDeque};
 
-/// System ID of a viewer, distinct from vehicles and ground stations (255 is QGroundControl, 254 is `spandrel rc`).
+/// System ID of a viewer, distinct from those of vehicles and ground stations (255 is QGroundControl, 254 is `spandrel
+/// rc`).
 pub const SYSTEM: u8 = 253;
-/// MAV_COMP_ID_ONBOARD_COMPUTER2: distinct from the monitor.
+/// MAV_COMP_ID_ONBOARD_COMPUTER2: distinct from the monitor's.
 const COMPONENT: u8 = 192;
 const AUTOPILOT: u8 = 1;
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
-/// Time without ground truth after which the vehicle counts as a real one and this client requests its estimates.
+/// Time without ground truth, after which the vehicle counts as a real one and this client requests its estimates.
 const TRUTH_TIMEOUT: SimTime = SimTime::from_ms(3_000);
-/// Interval at which requests are repeated, in case one is lost.
+/// Interval for repeating requests, in case one is lost.
 const REQUEST_INTERVAL: SimTime = SimTime::from_ms(5_000);
 /// Messages used instead of ground truth and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
@@ -51,7 +52,7 @@ const ROTOR_STREAM: (u32, f32) = (36, 20.0);
 const FLIGHT_INFORMATION_ID: u32 = 264;
 /// Pulse widths of idle and full outputs, µs (SERVO_OUTPUT_RAW).
 const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
-/// Time without a picture after which a video stream counts as ended; a hidden window renders no pictures.
+/// Maximum time between pictures of an active video stream; a hidden window renders no pictures.
 const VIDEO_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 
 /// State of a live flight.
@@ -81,7 +82,7 @@ pub struct LiveFlight {
     video: Option<(VideoStatus, SimTime)>,
 }
 
-/// State that a restart of the simulator resets.
+/// State that is reset when the simulator restarts.
 #[derive(Debug, Clone, Default)]
 struct SimulatorRun {
     feed: Feed,
@@ -107,7 +108,7 @@ pub struct LiveMoment {
     pub moment: SceneMoment,
     /// Additional HUD inputs.
     pub hud: HudInputs,
-    /// Times at which traffic was stopped and released.
+    /// Times when traffic was stopped and released.
     pub closures: BridgeClosures,
 }
 
@@ -280,7 +281,7 @@ impl LiveFlight {
         self.state.trace.push(truth);
     }
 
-    /// Handles a seed. A different seed means a new session, even if the clock has not gone back.
+    /// Handles a seed. A different seed means a new session, even if the clock has not gone backward.
     fn handle_seed(&mut self, seed: u64) {
         if self.seed.is_some_and(|known| known != seed) {
             self.restart();
@@ -294,8 +295,8 @@ impl LiveFlight {
         self.state = SimulatorRun::default();
     }
 
-    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if it is off. The vehicle
-    /// receives the status every second and announces it.
+    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if it is off.
+    /// The vehicle receives the status every second and announces the stream.
     pub fn set_video_status(&mut self, video: Option<VideoStatus>, wall: SimTime) {
         match video {
             Some(video) => self.video = Some((video, wall)),

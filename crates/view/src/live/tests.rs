@@ -125,7 +125,7 @@ fn exact_another_seed_starts_a_new_session() {
     say_seed(&mut wire, 8, 1_400);
     assert_eq!(wire.live.seed(), Some(8));
     assert!(wire.now(1_400).is_some(), "the new seed must not cause another restart");
-    // The next session starts before the clock has gone back far enough, so that only the seed identifies it.
+    // The next session starts before the clock has gone back far enough, so only the seed identifies it.
     wire.send(&MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA { enable: 1, ..Default::default() }), 1_420);
     say_seed(&mut wire, 9, 1_440);
     assert_eq!((wire.live.seed(), wire.now(1_440)), (Some(9), None));

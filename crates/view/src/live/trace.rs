@@ -10,8 +10,8 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the general delay
-/// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it leaves time for the next sample to arrive, including 20 ms of jitter
-/// (estimate).
+/// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it gives the next sample time to arrive, including 20 ms of
+/// jitter (estimate).
 const LENS_DELAY: SimTime = SimTime::from_ms(160);
 
 /// Recent samples in time order.
@@ -97,7 +97,7 @@ impl MotionHistory {
         CameraTurnRate { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
     }
 
-    /// Returns the samples before and after a time between which motion is interpolated.
+    /// Returns the samples before and after a time, for interpolating motion.
     fn around(&self, time: SimTime) -> Option<(&Truth, &Truth)> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
         let before = self.truths.get(after.checked_sub(1)?)?;

@@ -18,12 +18,12 @@ const BEARING: [u8; 3] = [38, 34, 30];
 /// Galvanized wire.
 const WIRE: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
-/// Width below which a face has constant light across it, m.
+/// Maximum width of a face with constant light across it, m.
 const NARROW_FACE_M: f64 = 0.8;
 /// Tolerance of the fractions of sky and sun light for presets that save triangles (a hundredth of the open-air value
-/// is not visible; rays of a lean preset have more noise).
+/// is invisible; lean presets have noisier rays).
 const LIGHT_TOLERANCE: f32 = 0.03;
-/// Same tolerance for slender members.
+/// Tolerance for slender members.
 const SLENDER_LIGHT_TOLERANCE: f32 = 0.12;
 
 /// Material and paint of an element.
@@ -45,12 +45,12 @@ struct TextureAxes {
     half_deck_m: f64,
 }
 
-/// Spacing of the probes that test whether a face is covered, and distance of the probes from the edges, m (estimate:
-/// smaller gaps are not visible).
+/// Spacing of the probes that test whether a face is covered, and their distance from the edges, m (estimate: smaller
+/// gaps are not visible).
 const COVER_PROBE_M: (f64, f64) = (0.5, 0.02);
 /// Minimum number of probe steps, so that the center is always probed.
 const MIN_PROBE_STEPS: f64 = 2.0;
-/// Minimum vertical component of the normal of an upward face; the lake's reflection never shows such faces from above.
+/// Minimum vertical component of the normal of an upward face; the lake's reflection never shows such faces.
 const MIN_UPWARD_COMPONENT: f64 = 0.999;
 
 /// Hangers and railings, which are not visible in the small reflection of a distant bridge.
@@ -285,8 +285,7 @@ fn quad_face<'a>(
     }
 }
 
-/// Returns the indices of the sample lines to keep: the first, the last, and those needed to keep the error within the
-/// tolerance.
+/// Returns the indices of the sample lines to keep: the first, the last, and those needed to stay within the tolerance.
 fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
     let all: Vec<Vec<[f32; 2]>> = (0..lines).map(line).collect();
     let smooth = |from: usize, to: usize| {

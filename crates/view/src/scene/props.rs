@@ -34,8 +34,8 @@ const JACKETS: [[f32; 3]; 6] =
     [[0.35, 0.03, 0.03], [0.03, 0.07, 0.25], [0.4, 0.3, 0.05], [0.05, 0.2, 0.08], [0.3, 0.3, 0.3], [0.25, 0.05, 0.2]];
 /// The inspector's high-visibility vest.
 pub const VEST: [f32; 3] = [0.85, 0.28, 0.01];
-/// Color of the crew's truck: safety yellow, which is visible from a distance and, unlike white, looks right without
-/// company lettering.
+/// Color of the crew's truck: safety yellow, which is visible from a distance and, unlike white, does not look bare
+/// without a company logo.
 pub const CREW_TRUCK: [f32; 3] = [0.75, 0.48, 0.03];
 
 /// Returns the color of the k-th mover.

@@ -37,7 +37,7 @@ impl H264Encoder {
             .rate_control_mode(RateControlMode::Bitrate)
             .usage_type(UsageType::CameraVideoRealTime)
             .intra_frame_period(IntraFramePeriod::from_num_frames(key_every))
-            // Frames must not be skipped, because reviewers may need the one that shows the defect.
+            // Skips no frames, because reviewers may need the one that shows the defect.
             .skip_frames(false)
             .vui(VuiConfig::bt601());
         let refused = |error: openh264::Error| VideoError::Encoder(error.to_string());

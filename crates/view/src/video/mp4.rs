@@ -1,4 +1,4 @@
-//! MP4 file written while pictures arrive: media data first, index at the end.
+//! MP4 file written as pictures arrive: media data first, index at the end.
 
 use super::{EncodedPicture, VideoError};
 use shiguredo_mp4::boxes::{Avc1Box, AvccBox, SampleEntry, VisualSampleEntryFields};
