@@ -17,7 +17,7 @@ use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// Objects closer than this to the front of the aircraft do not count as hiding it, m (about the size of the aircraft).
+/// Objects at most this far in front of the aircraft do not count as hiding it, m (about the size of the aircraft).
 const DRONE_CLEARANCE_M: f64 = 0.5;
 
 /// Inputs that stay constant during a session.

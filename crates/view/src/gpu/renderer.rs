@@ -77,7 +77,7 @@ impl Renderer {
             ..Default::default()
         });
         let noise = noise_texture(gpu);
-        // Only lean presets read tiles, so the others bind the noise texture instead.
+        // Only lean presets read tiles; other presets bind the noise texture instead.
         let tile = |levels: fn() -> tiles::MipLevels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
         let (ground, concrete) = (tile(tiles::ground), tile(tiles::concrete));
         let bind = |data: &wgpu::Buffer| {

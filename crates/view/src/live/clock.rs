@@ -14,7 +14,7 @@ const SPEED_WINDOW: SimTime = SimTime::from_ms(1_000);
 const JUMP_S: f64 = 0.5;
 /// Time constant for correcting smaller errors, s.
 const SETTLE_S: f64 = 0.25;
-/// Maximum gap in telemetry that counts as jitter, s; after a longer gap, the picture freezes at the latest sample.
+/// Maximum gap in telemetry that counts as jitter, s; in a longer gap, the picture freezes at the latest sample.
 const JITTER_LIMIT_S: f64 = 0.1;
 
 /// Playback position.

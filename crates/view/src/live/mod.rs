@@ -1,6 +1,6 @@
 //! A live flight from telemetry: processes datagrams and returns the moment to draw. It subscribes to telemetry like
-//! any other client, so it can show any MAVLink vehicle: the simulated one from ground truth, others from their own
-//! estimate. It does not access sockets or clocks.
+//! any other client, so it can show any MAVLink vehicle: the simulated vehicle from ground truth, other vehicles from
+//! their own estimates. It does not access sockets or clocks.
 
 pub mod clock;
 mod estimate;

@@ -1,5 +1,5 @@
-//! Pictures rendered by Mesa's software Vulkan (lavapipe): a gallery compared with committed pictures, contrast
-//! depending on ground sampling distance, and agreement between pictures and measures.
+//! Pictures rendered by Mesa's software Vulkan (lavapipe): a gallery compared with committed pictures, contrast as a
+//! function of ground sampling distance, and agreement between pictures and measures.
 #![allow(clippy::unwrap_used, reason = "test code")]
 #![allow(missing_docs, reason = "test code")]
 

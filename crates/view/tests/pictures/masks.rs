@@ -1,5 +1,5 @@
-//! Pixel labels: they must match the surface that a ray through the pixel hits in the collision geometry, and a defect
-//! visible in a picture must have pixels.
+//! Pixel labels must match the surface that a ray through the pixel hits in the collision geometry. A defect visible in
+//! a picture must have labeled pixels.
 
 use spandrel_model::math;
 use spandrel_model::site::Surface;
@@ -7,8 +7,8 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, two_bridges};
 
 const SIZE: (u32, u32) = (160, 120);
-/// Maximum fraction of pixels whose label may differ from the ray's: edges, where rendering and rays round differently,
-/// and trees, which hide surfaces but do not collide.
+/// Maximum fraction of pixels with a label that differs from the ray's: edges, where rendering and rays round
+/// differently, and trees, which hide surfaces but do not collide.
 const MIN_DIFFERENCE: f64 = 0.03;
 
 #[test]
