@@ -135,7 +135,7 @@ fn rates(client: &mut Client) -> (f64, f64) {
         ms(begin)
     };
     let spread = spread((0..STEPS).map(one).collect());
-    println!("roll rate noise with centered sticks: {deviation:.4} rad/s (1 sigma)");
+    println!("roll rate noise with a centered stick: {deviation:.4} rad/s (1 sigma)");
     spread
 }
 

@@ -85,7 +85,7 @@ struct Case {
     /// Simulation time of the state.
     start_time: SimTime,
     actuators: Actuators,
-    /// True if the aircraft touches the deck in almost every step.
+    /// Whether the aircraft is in contact with the deck in almost every step.
     touches: bool,
     samples: Vec<f64>,
 }

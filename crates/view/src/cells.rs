@@ -42,7 +42,7 @@ impl BoundingSphere {
         Self { center_m, radius_m }
     }
 
-    /// Returns the distance from a point to the sphere's surface, m; negative inside.
+    /// Returns the distance from a point to the sphere's surface, m; negative within the sphere.
     #[must_use]
     pub fn distance_to_m(&self, point_m: Vec3<Enu>) -> f64 {
         (point_m - self.center_m).norm() - self.radius_m
@@ -179,7 +179,7 @@ impl Frustum {
     }
 }
 
-/// Returns the signed distance of a point from a plane, positive inside, in units of the plane's normal.
+/// Returns the signed distance of a point from a plane, positive on the inner side, in units of the plane's normal.
 fn inside([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
     let [x, y, z] = p.array();
     a * x + b * y + c * z + d

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 const CELL_M: f64 = 2.0;
 /// Preferred clearance, m (typical practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
 const PREFERRED_CLEARANCE_M: f64 = 4.0;
-/// Radius around an endpoint with too little clearance, m; inside it, the route may come as close to obstacles as the
+/// Radius around an endpoint with too little clearance, m; within it, the route may come as close to obstacles as the
 /// endpoint (estimate: within a task's own "too close" distance).
 const ENDPOINT_RADIUS_M: f64 = 8.0;
 /// Tolerance of the clearance at such an endpoint, m (estimate: stand-offs are rounded).

@@ -59,7 +59,7 @@ pub struct SceneItem {
     pub mesh: Mesh,
     /// Instances.
     pub instances: Vec<Instance>,
-    /// Whether it casts shadows.
+    /// Whether it is drawn into shadow maps.
     pub casts: bool,
     /// Range of distances where it is drawn.
     pub visible_range: VisibleRange,

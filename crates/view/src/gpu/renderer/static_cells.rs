@@ -12,7 +12,7 @@ pub struct StaticCell {
     pub solid: Arc<GpuMesh>,
     /// Instances.
     pub copies: MeshInstances,
-    /// Whether it casts shadows.
+    /// Whether it is drawn into shadow maps.
     pub casts: bool,
     /// Range of distances where it is drawn.
     pub visible_range: VisibleRange,
