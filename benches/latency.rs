@@ -29,7 +29,7 @@ const STEPS: usize = 150;
 const CENTERED_DURATION: Duration = Duration::from_millis(400);
 /// Interval between stick samples in flight.
 const STICK_INTERVAL: Duration = Duration::from_millis(20);
-/// Deviation of the roll rate from its mean at rest that counts as a response, in standard deviations.
+/// Minimum deviation of the roll rate from its mean at rest that counts as a response, in standard deviations.
 const NOISE_SIGMAS: f64 = 6.0;
 /// PX4's mode numbers: automatic takeoff, hold, and altitude mode.
 const TAKE_OFF: [f32; 3] = [1.0, 4.0, 2.0];
@@ -71,7 +71,7 @@ fn commands(client: &mut Client) -> (f64, f64) {
 }
 
 fn sticks(client: &mut Client) -> (f64, f64) {
-    // Requests RC_CHANNELS at the rate of the control loop.
+    // Requests RC_CHANNELS at the control loop rate.
     client.send(&command_long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0, 0.0]));
     let one = |k: usize| {
         std::thread::sleep(MEASUREMENT_PAUSE);

@@ -6,7 +6,7 @@ use spandrel_training::report::{Review, SessionMetadata, page};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Limits (requirements).
+/// Limits of the report time and the page size (requirements).
 const MAX_TIME: Duration = Duration::from_secs(2);
 const MAX_PAGE_BYTES: usize = 10_000_000;
 const FLIGHT_S: f64 = 1480.0;

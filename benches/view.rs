@@ -43,10 +43,11 @@ fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
 
 /// Minimum ratio of simulation time to wall time for a simulator that runs while views are rendered continuously.
 const MIN_PACE: f64 = 0.99;
-/// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip makes the flight shorter. Pilots notice
-/// control delays above 0.1 s. Such delays are printed but not limited, because other load on the machine can cause them.
+/// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip shortens the
+/// flight. Pilots notice control delays above 0.1 s. Such delays are printed but not limited, because other load on the
+/// machine can cause them.
 const MAX_SLIPS: u64 = 0;
-/// Duration of this measurement.
+/// Duration of the measurement with a simulator.
 const PACE_DURATION: Duration = Duration::from_secs(10);
 
 struct Cost {
@@ -54,7 +55,8 @@ struct Cost {
     counts: DrawCounts,
 }
 
-/// Renders both views in the same way as the window: without a graphics card, a second device renders the camera's view.
+/// Renders both views the same way as the window does: without a graphics card, a second device renders the camera's
+/// view.
 struct Views {
     studio: Studio,
     secondary: Option<SecondaryRenderer>,

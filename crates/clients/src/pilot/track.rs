@@ -139,7 +139,7 @@ impl TrackLeg {
         speed.max(0.3)
     }
 
-    /// Returns the speed factor for the bend at a point: 1 for straight on, 0.3 for a reversal.
+    /// Returns the speed factor for the bend at a point: 1 for straight ahead, 0.3 for a reversal.
     fn bend_speed_factor(&self, at: usize) -> f64 {
         let Some(after) = self.points_m.get(at + 1) else { return 0.0 };
         let into = (self.points_m[at] - self.points_m[at - 1]).unit();

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A gamepad or transmitter, as it identifies itself.
+/// Identity of a gamepad or transmitter, as reported by the device.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Device {
     /// Display name.

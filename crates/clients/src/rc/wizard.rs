@@ -525,7 +525,7 @@ mod tests {
         (3.9, 4, 1.0),
         (4.0, 4, -1.0),
         (4.1, 4, 0.0),
-        // Push the left stick up by way of the left; at the same time, squeeze and release the trigger.
+        // Push the left stick up, passing through left; at the same time, squeeze and release the trigger.
         (6.0, 0, -0.5),
         (6.05, 1, -1.0),
         (6.1, 0, 0.0),

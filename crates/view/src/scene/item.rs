@@ -61,7 +61,7 @@ pub struct SceneItem {
     pub instances: Vec<Instance>,
     /// Whether it is drawn into shadow maps.
     pub casts: bool,
-    /// Range of distances where it is drawn.
+    /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
     /// Whether it belongs to the backdrop, which is split into sectors.
     pub backdrop: bool,
@@ -77,9 +77,9 @@ pub struct VisibleRange {
 }
 
 impl VisibleRange {
-    /// Any distance.
+    /// Matches any distance.
     pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-    /// No distance.
+    /// Matches no distance.
     pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
     /// Visible in the direct view and in the lake's reflection at any distance.
     pub const EVERYWHERE: Self = Self { direct_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };

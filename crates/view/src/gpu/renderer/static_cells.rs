@@ -14,7 +14,7 @@ pub struct StaticCell {
     pub copies: MeshInstances,
     /// Whether it is drawn into shadow maps.
     pub casts: bool,
-    /// Range of distances where it is drawn.
+    /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
     /// Bounds for culling.
     pub bounds: CellBounds,
