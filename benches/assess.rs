@@ -21,7 +21,8 @@ const MAX_CUE_LATENCY: Duration = Duration::from_millis(100);
 const FLIGHT_S: f64 = 1500.0;
 const ROUNDS: usize = 7;
 
-/// Generates a long flight with the message rates of a busy link: 340 frames per second in total, and `clearance` at 30 Hz.
+/// Generates a long flight with the message rates of a busy link: 340 frames per second, including `clearance` at 30
+/// Hz.
 fn long_flight() -> Vec<Vec<u8>> {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);

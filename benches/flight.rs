@@ -22,7 +22,7 @@ fn print_cost(what: &str, taken: Duration) {
     println!("{what:<40} {per_second_us:>9.1} us per simulated second {:>9.0} x real time", 1e6 / per_second_us);
 }
 
-/// Returns sensor readings recorded while hovering, so that the autopilot can be timed without the physics and the sensors.
+/// Returns sensor readings recorded while hovering, for timing the autopilot without the physics and the sensors.
 fn recorded_readings(start: &Bench) -> Vec<(SimTime, Readings)> {
     let mut sensors = start.sensors.clone();
     let battery = BatteryReading { voltage_v: 11.5, current_a: 12.0, remaining_pct: 80.0 };

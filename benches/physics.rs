@@ -14,12 +14,12 @@ use std::path::Path;
 use std::process::ExitCode;
 
 const STEP: SimTime = SimTime::from_ms(1);
-/// Number of steps per sample. Every sample starts from the same state, so that all samples do the same work.
+/// Number of steps per sample. Every sample starts from the same state, so all samples do the same work.
 const STEPS: i64 = 500;
-/// Number of samples per median. The cases alternate, so that a period of high machine load affects all of them.
+/// Number of samples per median. The cases alternate, so a period of high machine load affects them all.
 const SAMPLES: usize = 61;
 
-/// Limits of the medians, as ratios to the baseline.
+/// Maximum medians, as ratios to the baseline.
 const MAX_FREE: f64 = 4.0;
 const MAX_NEAR: f64 = 8.0;
 const MAX_CLOSE: f64 = 20.0;
@@ -150,7 +150,7 @@ fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
     state
 }
 
-/// Simulation time by which an aircraft placed on the deck has settled.
+/// Simulation time that an aircraft placed on the deck needs to settle.
 const SETTLED_AT: SimTime = SimTime::from_ms(2000);
 
 /// Returns the state of an aircraft standing on the deck at [`SETTLED_AT`].

@@ -1,6 +1,7 @@
-//! Measures the speed of the whole vehicle as a multiple of real time on one core: physics, site, sensors, estimator, autopilot, and telemetry
-//! encoding for a ground station, an SDK and the monitor. The runs are complete demo flights at the two bridges, including contacts. The synthetic
-//! trainee flies each one once to record its inputs. The timed runs replay these inputs, so that the measurement does not include the trainee.
+//! Measures the speed of the whole vehicle as a multiple of real time on one core: physics, site, sensors, estimator,
+//! autopilot, and telemetry encoding for a ground station, an SDK and the monitor. The runs are complete demo flights
+//! at the two bridges, including contacts. The synthetic trainee flies each one once to record its inputs. The timed
+//! runs replay these inputs, so the measurement does not include the trainee.
 
 use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
 use spandrel_mavlink::codec::Decoder;

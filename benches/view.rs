@@ -29,7 +29,7 @@ const MIN_CARD_HZ: f64 = 144.0;
 /// Number of measured frames per viewpoint, after one frame that warms up the caches.
 const FRAMES: usize = 4;
 
-/// Returns viewpoints along a flight, each with the point that the camera looks at.
+/// Returns viewpoints along a flight, each with the camera's target point.
 fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
     vec![
         ("take-off", at(-112.0, 78.0, 12.0), at(-40.0, 20.0, 25.0)),
@@ -41,7 +41,7 @@ fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
     ]
 }
 
-/// Minimum ratio of simulation time to wall time for a simulator that runs while views are rendered continuously.
+/// Minimum ratio of simulation time to wall time for a simulator that runs during continuous rendering.
 const MIN_PACE: f64 = 0.99;
 /// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip shortens the
 /// flight. Pilots notice control delays above 0.1 s. Such delays are printed but not limited, because other load on the

@@ -6,7 +6,7 @@ use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::{scenario, shipped};
 
-/// Builds the site of the job and prints facts about it.
+/// Builds the site of the job and prints information about it.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A job is a TOML file. scenarios/README.md documents its keys. This job has a different name and no cars or
     // trucks.

@@ -8,7 +8,7 @@ use std::net::UdpSocket;
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Time without data after which the simulator is considered to have exited.
+/// Maximum time without data before the simulator counts as exited.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(5);
 
 #[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
@@ -75,7 +75,8 @@ impl Client {
         self.socket.send(&frame).expect("sending over loopback must work");
     }
 
-    /// Measures for at least this duration. Returns the ratio of simulation time to wall time, and the wall time of the measurement, s.
+    /// Returns the ratio of simulation time to wall time, measured over at least this duration, and the wall time of
+    /// the measurement, s.
     pub fn pace(&mut self, over: Duration) -> (f64, f64) {
         let (sim_begin, wall_begin) = self.clock();
         let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);

@@ -25,7 +25,7 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
     })
 });
 
-/// Creates a frame that the vehicle could have sent, with these payload bytes.
+/// Creates a frame that the vehicle could send, with these payload bytes.
 fn framed(choice: u16, payload: &[u8]) -> Vec<u8> {
     let ids = MavMessage::all_ids();
     let id = ids[usize::from(choice) % ids.len()];

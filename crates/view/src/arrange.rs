@@ -163,7 +163,7 @@ mod tests {
             let off = [place.left - left, place.top - top, place.width - width, place.height - height];
             assert!(off.iter().all(|off| off.abs() < 1e-12), "{place:?}");
         };
-        // Half of a 1920 x 1080 px window is taller than 4:3; the whole window is wider.
+        // Half of a 1920 x 1080 px window is narrower than 4:3; the whole window is wider.
         near(whole.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.5, 1.0 / 6.0, 0.5, 2.0 / 3.0);
         near(ViewRect { left: 0.0, width: 1.0, ..whole }.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.125, 0.0, 0.75, 1.0);
         assert_eq!(largest_even_size_px((1280, 720), 4.0 / 3.0), (960, 720));

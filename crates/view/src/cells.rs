@@ -1,4 +1,4 @@
-//! Spatial partition for culling: a grid of square cells on the site and angular sectors for the backdrop, so that only
+//! Spatial partition for culling: a grid of square cells for the site and angular sectors for the backdrop. Only
 //! potentially visible cells are drawn.
 
 use super::matrix::Matrix;
@@ -236,7 +236,7 @@ mod tests {
         let (beside, across) = (wall(-260.0), wall(-60.0));
         assert!(frustum.may_be_visible(&beside.ball) && !frustum.cell_may_be_visible(&beside));
         assert!(frustum.cell_may_be_visible(&across) && frustum.cell_may_be_visible(&CellBounds::from(across.ball)));
-        // The frustum test must keep a cell that contains the camera, although none of its corners are in view.
+        // The frustum test must keep a cell that contains the camera even though none of its corners are in view.
         let mut hall = Mesh::default();
         hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
         assert!(frustum.cell_may_be_visible(&CellBounds::of(&hall)));

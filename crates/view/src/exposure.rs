@@ -123,7 +123,7 @@ fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -
     };
     let point = from + ray * hit.distance_m;
     if hit.surface == Surface::Water {
-        // Water reflects the sky, more strongly at grazing angles (Schlick), over a dark body.
+        // Water reflects the sky, more strongly at grazing angles (Schlick), and is dark below.
         let mirrored = Vec3::new(ray.east(), ray.north(), ray.up().abs());
         let glance = 1.0 - ray.up().abs();
         let fresnel = 0.02 + 0.98 * glance * glance * glance * glance * glance;
@@ -228,7 +228,7 @@ mod tests {
         let dark = Exposure::camera(0.1 * limit, &REFERENCE_CAMERA);
         assert_eq!((dark.white_lux, dark.time_s), (limit, REFERENCE_CAMERA.exposure_max_s));
         assert!((dark.iso - REFERENCE_CAMERA.iso_max).abs() < 1e-6);
-        // 160 times the light: a tenth of the exposure time at a sixteenth of the sensitivity.
+        // 160 times the light requires a tenth of the exposure time at a sixteenth of the sensitivity.
         let bright = Exposure::camera(160.0 * limit, &REFERENCE_CAMERA);
         assert!((bright.iso - 100.0).abs() < 1e-6 && (bright.time_s - 0.1 * REFERENCE_CAMERA.exposure_max_s).abs() < 1e-9);
     }

@@ -7,7 +7,8 @@ use spandrel_model::frames::{Enu, Vec3};
 pub struct Matrix(pub [[f64; 4]; 4]);
 
 impl Matrix {
-    /// Returns the view matrix from a rotation (unit vectors right, up, back) and the eye position, which becomes the origin.
+    /// Returns the view matrix for an orientation (unit vectors right, up, back) and an eye position, which becomes the
+    /// origin.
     #[must_use]
     pub fn view(eye: Vec3<Enu>, right: Vec3<Enu>, up: Vec3<Enu>, back: Vec3<Enu>) -> Self {
         let row = |axis: Vec3<Enu>| {

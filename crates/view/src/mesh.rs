@@ -54,8 +54,8 @@ pub struct Vertex {
     pub uv: [f32; 2],
     /// Indirect light: fractions of the sky and sun illuminance (see `LightModel::indirect_fractions`).
     pub light: [f32; 2],
-    /// [`Material`] in the lowest eight bits; above them the AASHTO element number, or 0 for anything that is not part of a
-    /// bridge.
+    /// [`Material`] in the lowest eight bits; AASHTO element number in the bits above, or 0 for anything that is not
+    /// part of a bridge.
     pub material: u32,
     /// Color, linear RGBA in 1/255.
     pub tint: [u8; 4],
@@ -133,8 +133,8 @@ impl Mesh {
         }
     }
 
-    /// Adds a block whose top face may be smaller than its bottom: `inset` reduces it at the front, at the rear and on both
-    /// sides.
+    /// Adds a block with a top face that may be smaller than the bottom: `inset` reduces it at the front, at the rear
+    /// and on both sides.
     pub fn block(&mut self, low: [f64; 3], high: [f64; 3], inset: [f64; 3], finish: SurfaceFinish) {
         let [front, rear, side] = inset;
         let p = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);

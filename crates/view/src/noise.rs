@@ -13,7 +13,7 @@ const OCTAVES: usize = 5;
 pub const MAX_DISTANCE: f64 = 1.28;
 
 /// A mip level: row-major texels with four channels: several octaves of noise, one octave, distance to the nearest
-/// scattered point, and a random number of that point.
+/// scattered point, and a random number for that point.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NoiseLevel {
     /// Texels per side.

@@ -37,7 +37,7 @@ impl Picture {
         if count > 0.0 { sum / count } else { 0.0 }
     }
 
-    /// Scales the picture down to at most `most_px` wide by averaging; smaller pictures are returned unchanged.
+    /// Scales the picture down to a width of at most `most_px` by averaging. Returns smaller pictures unchanged.
     #[must_use]
     pub fn scaled_to_width(&self, most_px: u32) -> Self {
         if self.width <= most_px {

@@ -18,8 +18,8 @@ pub struct Quality {
     pub lamp_shadow: bool,
     /// Size of the water reflection relative to the picture; 0 reflects only the sky.
     pub reflection: f64,
-    /// Draws the ground and the lake with fewer triangles where the difference is not visible, and no lake bed in deep
-    /// water. The reflection omits boulders, hangers, railings and distant trees, and uses simplified bridges and
+    /// Draws the ground and the lake with fewer triangles where the difference is invisible, and omits the lake bed in
+    /// deep water. The reflection omits boulders, hangers, railings and distant trees, and uses simplified bridges and
     /// mountains.
     pub sparse: bool,
     /// Spacing of baked light samples on the bridges, m.

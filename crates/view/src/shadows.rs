@@ -1,4 +1,4 @@
-//! Projections of the shadow maps: the sun's, over the whole site or in cascades ahead of the camera, and the lamp's.
+//! Projections of the shadow maps of the sun, over the whole site or in cascades ahead of the camera, and of the lamp.
 
 use super::camera::PinholeCamera;
 use super::matrix::Matrix;

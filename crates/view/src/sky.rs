@@ -23,17 +23,17 @@ const WHITE_BALANCE_FRACTION: f64 = 0.55;
 pub struct Sky {
     /// Unit vector toward the sun.
     pub sun: Vec3<Enu>,
-    /// Illuminance by the sun on a surface that faces it, lx.
+    /// Illuminance of the sun on a surface that faces it, lx.
     pub direct_lux: f64,
     /// Color of the sun, luminance 1.
     pub sun_rgb: [f64; 3],
-    /// Horizontal illuminance by the sky, lx.
+    /// Horizontal illuminance of the sky, lx.
     pub sky_lux: f64,
     /// Color of the sky's total light, luminance 1.
     pub sky_rgb: [f64; 3],
     /// Cloud cover, 0 to 1.
     pub cloud: f64,
-    /// Factor on [`relative`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
+    /// Factor on [`relative_radiance`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
     pub scale: f64,
 }
 
@@ -107,8 +107,8 @@ mod tests {
 
     #[test]
     fn exact_sky_radiance_integrates_to_the_illuminance() {
-        // Compares with an independent quadrature over 20,000 directions; the tolerance allows for the coarser one in
-        // `Sky::new`.
+        // Compares with an independent quadrature over 20,000 directions; the tolerance allows for the coarser
+        // quadrature in `Sky::new`.
         const TOLERANCE: f64 = 0.02;
         for (up, cloud) in [(0.9, 0.0), (0.2, 0.3), (0.5, 1.0)] {
             let sun = Vec3::new((1.0_f64 - up * up).sqrt(), 0.0, up);

@@ -187,7 +187,7 @@ fn camera_at_shutter_open(eye: &PinholeCamera, moment: &SceneMoment, time_s: f64
     PinholeCamera { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
 }
 
-/// HUD inputs other than the moment and the feed.
+/// HUD inputs in addition to the moment and the feed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HudInputs {
     /// Battery, %, once received.
@@ -333,7 +333,7 @@ mod tests {
             (yawed.forward.dot(yawed.right)).abs() < ROUNDING
                 && (yawed.position_m - Vec3::new(-0.03, 0.0, 0.02)).norm() < ROUNDING
         );
-        // The camera turned up, so it pointed lower before, at any pitch.
+        // The camera turned up, so it pointed lower before, whatever its pitch.
         for pitch_deg in [0.0, -60.0, 60.0] {
             let tilted = before(&moment(pitch_deg, CameraTurnRate { heading_rad_s: 0.0, pitch_rad_s: fast }), 0.01);
             assert!((math::asin(tilted.forward.up()).to_degrees() - (pitch_deg - 1.0)).abs() < 1e-9, "{tilted:?}");

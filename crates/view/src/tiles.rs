@@ -1,5 +1,6 @@
-//! Precomputed tiles for the cheaper presets. One texture holds several slow patterns of ground or concrete, so that one lookup
-//! replaces four or five noise lookups. The tiles repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader `lean` reads them.
+//! Precomputed tiles for the cheaper presets. One texture contains several slow patterns of ground or concrete, so one
+//! lookup replaces four or five noise lookups. The tiles repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader
+//! `lean` reads them.
 
 use spandrel_model::random::RandomStream;
 
@@ -34,7 +35,7 @@ fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u3
     field
 }
 
-/// Returns the interpolation positions of the texels between lattice corners: previous corner, next corner, smooth
+/// Returns the interpolation positions of the texels between lattice corners: previous corner, next corner, smoothed
 /// fraction.
 fn interpolation_corners(cells: usize) -> Vec<(usize, usize, f32)> {
     let of = |k: usize| {

@@ -66,7 +66,7 @@ impl PlanWriter {
         });
         if frame == FRAME_RELATIVE_ALT {
             item["Altitude"] = json!(params[6]);
-            // 1 means an altitude relative to home.
+            // 1: altitude relative to home.
             item["AltitudeMode"] = json!(1);
             item["AMSLAltAboveTerrain"] = Value::Null;
         }
@@ -122,7 +122,7 @@ impl PlanWriter {
     }
 }
 
-/// Returns the indices of the leg's points that become waypoints: both ends, every turn, and one per stride.
+/// Returns the indices of the leg points that become waypoints: both ends, every turn, and one per stride.
 fn waypoint_indices(leg: &TrackLeg) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     for k in 0..leg.points_m.len() {
@@ -144,8 +144,8 @@ fn is_turn(leg: &TrackLeg, k: usize) -> bool {
     bent || matches!((leg.line_of_sight[k - 1], leg.line_of_sight[k]), (Some(before), Some(now)) if angle(before, now) > MIN_TURN_RAD)
 }
 
-/// Returns the plan: takeoff, all tasks in order with pictures, and return to launch. Altitudes are relative to the landing pad,
-/// which becomes home. `firmware` is the target autopilot.
+/// Returns the plan: takeoff, all tasks in order (with pictures), and return to launch. Altitudes are relative to the
+/// landing pad, which becomes home. `firmware` is the target autopilot.
 #[must_use]
 pub fn plan(map: &PlanningContext, firmware: MavAutopilot) -> Value {
     let scenario = map.scenario;

@@ -51,7 +51,7 @@ impl Pilot {
         sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
     }
 
-    /// Handles motors that stopped in flight: continues the job unless the session is over.
+    /// Handles motors stopping in flight: continues the job unless the session is over.
     fn recover_from_disarm(&mut self) -> StickAxes {
         if matches!(self.link.status.contact, ContactKind::Person | ContactKind::Vehicle) {
             self.finish("hit a person or a vehicle");
@@ -201,7 +201,7 @@ impl Pilot {
         self.guidance.target = Some(target);
     }
 
-    /// Checks whether the defect appears well framed on the screen, as this pilot judges it.
+    /// Checks whether the defect appears well framed on the screen in this pilot's judgment.
     fn is_well_framed(&self, target: &PhotoTarget) -> bool {
         let (vehicle, skill) = (&self.config.vehicle, self.config.skill);
         let (Some(site), Some(picture)) = (&self.site, self.perception.delayed_view(skill.delay_s)) else { return true };

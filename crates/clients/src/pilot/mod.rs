@@ -192,7 +192,7 @@ impl Pilot {
         if put_back {
             self.respawns = self.link.status.respawns;
             if self.phase == PilotPhase::Done {
-                // The aircraft landed outside the home circle and has been put back in the air.
+                // The aircraft landed outside the home circle and was respawned in the air.
                 self.report = None;
                 self.enter(PilotPhase::Descend);
             }
@@ -227,7 +227,7 @@ impl Pilot {
         }
     }
 
-    /// Checks whether enough time has passed to send a command again.
+    /// Checks whether enough time has passed to resend a command.
     fn may_retry(&mut self) -> bool {
         let may = (self.now - self.last_attempt).s() > RETRY_INTERVAL_S;
         if may {

@@ -15,7 +15,7 @@ const PREFERRED_CLEARANCE_M: f64 = 4.0;
 const ENDPOINT_RADIUS_M: f64 = 8.0;
 /// Tolerance of the clearance at such an endpoint, m (estimate: stand-offs are rounded).
 const ENDPOINT_MARGIN_M: f64 = 0.1;
-/// Clearances to try in order, as fractions of the difference between the preferred and the minimum clearance.
+/// Clearances to try, in order, as fractions of the difference between the preferred and the minimum clearance.
 const CLEARANCE_FRACTIONS: [f64; 3] = [1.0, 0.7, 0.4];
 /// Search margin around the two endpoints, m.
 const SEARCH_MARGIN_M: f64 = 40.0;
@@ -151,7 +151,7 @@ fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
             if best.get(&next).is_none_or(|(known, _)| total < *known) {
                 best.insert(next, (total, cell));
                 let estimate = total + distance(next, goal);
-                // Uses millimeters as an integer key, because floats have no total order.
+                // Uses integer millimeters as the key, because floats have no total order.
                 open.push(Reverse(((estimate * 1000.0) as u64, next)));
             }
         }

@@ -62,7 +62,7 @@ impl Skill {
     /// A professional pilot.
     pub const EXPERT: Self = Self { delay_s: 0.18, gain: 1.0, noise: 0.7, preview_s: 1.5, lapses_per_min: 0.02 };
 
-    /// Returns this skill with one parameter taken from `from`.
+    /// Returns this skill with one parameter replaced by that of `from`.
     #[must_use]
     pub fn with(mut self, factor: SkillFactor, from: Self) -> Self {
         match factor {

@@ -71,7 +71,7 @@ pub enum VehicleUpdate {
 }
 
 impl VehicleLink {
-    /// Creates a link that has not sent anything yet.
+    /// Creates a link before any communication.
     #[must_use]
     pub fn new() -> Self {
         let encoder = Encoder::new(SYSTEM, COMPONENT);

@@ -75,7 +75,7 @@ impl VisualSearch {
         self.next_glimpse = now + SimTime::from_s(GLIMPSE_INTERVAL_S);
         let deceived = self.random.normal() * skill.noise > FALSE_ALARM_SIGMAS;
         for view in views() {
-            // A defect that is seen edge-on, too small or in the dark cannot be noticed now, but may become detectable
+            // The pilot cannot notice a defect that is edge-on, too small or in the dark, but it may become detectable
             // later.
             let lit = view.illuminance_lux >= view.needed_lux;
             let plain = lit && view.unoccluded && view.extent_px >= MIN_EXTENT_PX && view.incidence_rad < MAX_INCIDENCE_RAD;
@@ -92,7 +92,7 @@ impl VisualSearch {
         if deceived && surface_in_view { Glimpse::Distractor } else { Glimpse::Nothing }
     }
 
-    /// Ignores a noticed defect until `until`, because it is poorly visible from here.
+    /// Ignores a noticed defect until this time, because it is poorly visible from here.
     pub fn ignore_until(&mut self, defect: u32, until: SimTime) {
         self.ignored_until.insert(defect, until);
     }

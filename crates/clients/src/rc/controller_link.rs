@@ -18,7 +18,7 @@ pub const SYSTEM: u8 = 254;
 const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
 const CAMERA: u8 = 100;
-/// Interval between MANUAL_CONTROL messages, s (50 Hz, the rate at which the monitor records them).
+/// Interval between MANUAL_CONTROL messages, s (50 Hz, the monitor's recording rate).
 const STICK_INTERVAL_S: f64 = 0.02;
 const HEARTBEAT_INTERVAL_S: f64 = 1.0;
 /// Duration of sending centered sticks after a device is lost, s (estimate: long enough to get through a poor radio
@@ -33,7 +33,7 @@ const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
 /// Retry interval for missing streams, s, in case an acknowledgment was lost or the vehicle restarted (estimate).
 const STREAM_RETRY_S: f64 = 5.0;
 const STREAM_REQUEST_NAME: &str = "lamp and gimbal telemetry";
-/// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: each press zooms by one step of the camera.
+/// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: each press zooms the camera by one step.
 const ZOOM_STEP: f32 = 0.0;
 /// Gimbal step per button press, degrees.
 const GIMBAL_STEP_DEG: f32 = 10.0;
@@ -206,7 +206,7 @@ impl ControllerLink {
         self.pending.iter().any(|p| p.description == ControllerAction::Arm.name())
     }
 
-    /// Sets the name of the arm key for the hint shown when takeoff is requested while disarmed.
+    /// Sets the name of the arm key for the hint that appears when the user requests takeoff while disarmed.
     pub fn set_arm_key(&mut self, key: &str) {
         self.arm_hint = format!(" (key {key})");
     }
@@ -373,7 +373,7 @@ mod tests {
         link
     }
 
-    /// Returns the messages sent in a time interval, with one poll per millisecond.
+    /// Returns the messages sent during a time interval, polling every millisecond.
     fn sent(link: &mut ControllerLink, from: f64, to: f64) -> Vec<MavMessage> {
         let mut decoder = Decoder::new();
         let mut found = Vec::new();

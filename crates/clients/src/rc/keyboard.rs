@@ -5,7 +5,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 
-/// Stick deflection of a key (estimate: half, so that beginners do not fly at full speed).
+/// Stick deflection of a key (estimate: half, to keep beginners from flying at full speed).
 pub const DEFAULT_DEFLECTION: f64 = 0.5;
 /// Time that a key counts as held after its last event, s. Used in terminals, which do not report key releases. Longer
 /// than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
@@ -203,15 +203,15 @@ impl KeyBindings {
         self.pushes.contains_key(&key.to_lowercase())
     }
 
-    /// Returns the stick direction or vehicle action of a key, as the name used in configuration files.
+    /// Returns the configuration file name of the stick direction or vehicle action of a key.
     #[must_use]
     pub fn binding_name(&self, key: &str) -> Option<&'static str> {
         let push = self.pushes.get(key).and_then(|push| STICK_BINDINGS.iter().find(|p| p.1 == *push)).map(|p| p.0);
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
 
-    /// Returns the display name of the key that is bound to a stick direction, vehicle action or window action, given
-    /// by its name in configuration files; empty if the name is unknown.
+    /// Returns the display name of the key for a stick direction, vehicle action or window action, given by its name in
+    /// configuration files; empty if the name is unknown.
     #[must_use]
     pub fn label(&self, name: &str) -> String {
         self.of(name).map_or(String::new(), key::label)
@@ -226,8 +226,8 @@ impl KeyBindings {
         sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
     }
 
-    /// Returns the key that is bound to a stick direction, vehicle action or window action, given by its name in
-    /// configuration files.
+    /// Returns the key for a stick direction, vehicle action or window action, given by its name in configuration
+    /// files.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&str> {
         let push = STICK_BINDINGS.iter().find(|p| p.0 == name).map(|p| p.1);

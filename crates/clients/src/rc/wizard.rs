@@ -46,7 +46,7 @@ enum WizardStep {
     Middle(usize),
     /// Waiting for a push in this direction.
     Push(usize),
-    /// Waiting for a button for this action, or for Enter to skip it.
+    /// Waiting for the button for this action, or for Enter to skip it.
     Button(usize),
     /// Calibration is complete.
     Done,
@@ -65,7 +65,7 @@ const BUTTONS: [(ControllerAction, &str); 7] = [
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct AxisStatistics {
-    /// Sum and number of the readings at rest, for their mean.
+    /// Sum and count of the readings at rest, for their mean.
     sum: f64,
     count: u32,
     /// Minimum and maximum at rest.
@@ -313,7 +313,7 @@ impl CalibrationWizard {
         }
     }
 
-    /// Accepts sticks that were still held when the push was requested and have been released since.
+    /// Resets the start of the push for sticks that have been released since the prompt.
     fn track_released_sticks(&mut self, now: SimTime) {
         for axis in &self.fully_moved {
             let Some((value, part)) = self.deflection(*axis) else { continue };
@@ -331,8 +331,8 @@ impl CalibrationWizard {
         ends.map_or(0.0, |(from, value)| (value - from).abs())
     }
 
-    /// Returns the only axis that has reached an end since the push was requested, and whether it is the upper end.
-    /// Returns `None` if there are several.
+    /// Returns the axis that has reached an end since the push was requested, and whether it is the upper end. Returns
+    /// `None` if there is more than one.
     fn single_pushed_axis(&self) -> Option<(u32, bool)> {
         let pushed = |axis: &u32| {
             let ends = self.statistics.get(axis)?.ends;
@@ -370,7 +370,7 @@ fn is_fully_moved(seen: &AxisStatistics) -> bool {
 }
 
 /// Returns the rest position of the stick: the measured one, or the middle of the range if the stick rests near an end,
-/// as a throttle without a spring may.
+/// like a throttle without a spring.
 fn rest_position(seen: &AxisStatistics) -> f64 {
     let middle = f64::midpoint(seen.ends.0, seen.ends.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };

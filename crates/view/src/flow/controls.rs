@@ -22,7 +22,7 @@ pub struct ControllerStatus {
     pub expo: f64,
     /// Left vertical, left horizontal, right vertical, right horizontal, each in [-1, 1]; up and right are positive.
     pub sticks: [f64; 4],
-    /// Raw axes: number, value, and minimum and maximum seen, all in [-1, 1].
+    /// Raw axes: number, value, and observed minimum and maximum, all in [-1, 1].
     pub axes: Vec<(u32, f64, (f64, f64))>,
     /// Prompt of the calibration wizard; `None` if it is not running.
     pub wizard: Option<String>,

@@ -72,7 +72,7 @@ pub enum RowKind {
     Button,
     /// The left and right keys change the value.
     Choice,
-    /// Typing changes the value; the left and right keys select a known one.
+    /// Typing changes the value; the left and right keys select a known value.
     Typed,
 }
 
@@ -140,6 +140,6 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
     }
 }
 
-/// Start of the value as a fraction of the row's width, and width of its arrows.
+/// Start of the value, as a fraction of the row's width, and width of its arrows.
 const VALUE_START: f64 = 0.3;
 const ARROW_WIDTH: f64 = 0.06;

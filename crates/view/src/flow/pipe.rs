@@ -176,7 +176,7 @@ pub fn line<T: Serialize>(message: &T) -> String {
 /// # Errors
 /// Returns a description of the problem, with the start of the line.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
-    /// Maximum number of characters of the line in an error message.
+    /// Maximum number of characters of the line to quote in an error message.
     const MAX_SHOWN_CHARS: usize = 120;
     serde_json::from_str(line).map_err(|error| {
         let shown: String = line.chars().take(MAX_SHOWN_CHARS).collect();

@@ -1,4 +1,4 @@
-//! Handling of key presses and clicks on a page.
+//! Handles key presses and clicks on a page.
 
 use super::menu::{MenuAction, MenuRow, RowKind};
 use super::pipe::{FlightOptions, FlightSummary, FromWindow, Purpose};
@@ -241,7 +241,7 @@ impl WindowFlow {
     }
 }
 
-/// Returns the next or previous name, wrapping around; returns the first name if `name` is not in the list.
+/// Returns the next or previous name, wrapping around, or the first name if `name` is not in the list.
 fn adjacent_name<'a>(names: &[&'a str], name: &str, on: bool) -> Option<&'a str> {
     let count = names.len();
     let at = names.iter().position(|known| *known == name);

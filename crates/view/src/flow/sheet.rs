@@ -5,7 +5,7 @@
 use super::KeyPress;
 use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
-/// Font size of titles, as a fraction of the window's height; all sizes in this module use that unit.
+/// Font size of titles, as a fraction of the window's height (the unit of all sizes in this module).
 pub const TITLE: f64 = 0.075;
 /// Font size of body text.
 pub const TEXT: f64 = 0.038;

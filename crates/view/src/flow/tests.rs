@@ -1,4 +1,4 @@
-//! Tests of navigation through the pages by key, rejected actions, and page contents.
+//! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobOffer, Purpose, ToWindow,
@@ -113,7 +113,7 @@ fn exact_new_trainee_gets_the_tutorial_and_may_skip_it() {
     );
     flow.handle_message(ToWindow::Refused { words: "the port is taken".into() });
     assert_eq!((flow.page(), flow.notice()), (Page::Start, Some("the port is taken")));
-    // Opens the tutorial again from the start page and reads it to the end.
+    // Reopens the tutorial from the start page and reads it to the end.
     press(&mut flow, &[KeyPress::Row(4)]);
     (0..6).for_each(|_| flow.press(KeyPress::Enter));
     assert_eq!((flow.page(), pending_requests(&mut flow).len()), (Page::Start, 0));

@@ -53,7 +53,7 @@ impl GpuMesh {
         pass.draw_indexed(0..self.count, 0, 0..1);
     }
 
-    /// Draws all instances regardless of material, for depth passes.
+    /// Draws all instances, regardless of material, in depth passes.
     pub fn draw(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances) {
         self.draw_range(pass, copies, 0..self.count);
     }

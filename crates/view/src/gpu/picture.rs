@@ -46,7 +46,7 @@ pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
     Ok(Picture { width, height, rgba: read_bytes(gpu, texture, 4)? })
 }
 
-/// Reads the pixels of a texture back, `pixel` bytes each.
+/// Reads back the pixels of a texture, `pixel` bytes each.
 pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<u8>, GpuError> {
     let (width, height) = (texture.width(), texture.height());
     let row = (pixel * width).div_ceil(ROW_ALIGNMENT) * ROW_ALIGNMENT;

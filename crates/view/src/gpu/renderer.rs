@@ -199,7 +199,7 @@ impl Renderer {
         (sun, lamp): (&[ShadowMap], Option<&ShadowMap>),
         moving: &[(MoverModel, MeshInstances)],
     ) {
-        // A single whole-site map contains only static objects and is reused while the sun does not move.
+        // A single whole-site map contains only static objects and is reused until the sun moves.
         let whole = self.quality.cascades <= 1;
         let kept = whole && self.site_map_sun_direction.is_some_and(|was| was.dot(shot.sky.sun) > MIN_SUN_COSINE);
         for (k, map) in sun.iter().chain(lamp).enumerate() {

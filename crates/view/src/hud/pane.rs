@@ -23,7 +23,7 @@ impl Pane {
         Self { width: aspect / unit, height: 1.0 / unit }
     }
 
-    /// Returns the unit of [`Self::of`] for a picture size, in the same unit as that size.
+    /// Returns the unit of [`Self::of`] for a picture size, in the units of that size.
     pub fn unit((width, height): (f64, f64)) -> f64 {
         height.min(width / FULL_ASPECT)
     }

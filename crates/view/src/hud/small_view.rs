@@ -62,7 +62,7 @@ fn width(words: &str, signed: bool) -> f64 {
     2.0 * PADDING + text_width(words, 1.0) + if signed { ICON_COLUMN_WIDTH } else { 0.0 }
 }
 
-/// Returns text on a background. The optional icon comes with a flag that is false while a blinking icon is off.
+/// Returns text on a background. The flag next to the optional icon is false while a blinking icon is off.
 fn block(pane: Pane, (x, y): (f64, f64), sign: Option<(IconShape, bool)>, color: HudColor, words: &str) -> Vec<DrawItem> {
     let middle = y + 0.5 * ROW_HEIGHT;
     let mut items = vec![pane.panel((x, y), (x + width(words, sign.is_some()), y + ROW_HEIGHT))];

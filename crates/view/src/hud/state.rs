@@ -72,7 +72,7 @@ pub struct Hud {
     pub pictures: usize,
     /// Whether a picture has just been taken.
     pub shutter: bool,
-    /// Time base of blinking elements, s. It never pauses; in a live flight it is wall-clock time.
+    /// Time base of blinking elements, s. It never pauses; in a live flight, it is wall-clock time.
     pub time_s: f64,
     /// Position of the drone, ENU, m.
     pub position_m: Vec3<Enu>,

@@ -131,7 +131,7 @@ fn exact_icon_shapes_differ_like_their_colors() {
     assert_eq!([corners(90.0), corners(50.0), corners(10.0)], [Some(16), Some(3), Some(8)]);
 }
 
-/// Returns the texts and colors of a state that differ from those of a normal flight.
+/// Returns the texts and colors of a state that differ from a normal flight.
 fn changed_texts(hud: &Hud) -> Vec<String> {
     let said = |hud: &Hud| texts(hud).into_iter().map(|(_, color, words)| format!("{color:?}: {words}")).collect::<Vec<_>>();
     let calm = said(&self::hud());

@@ -67,7 +67,7 @@ impl Playhead {
                 if error_s.abs() > JUMP_S * speed_factor.max(1.0) {
                     target_s
                 } else {
-                    // Playback never steps back, because reversed motion is conspicuous.
+                    // Playback never runs backward, because reversed motion is conspicuous.
                     (even_s + error_s * (step_s / SETTLE_S).min(1.0)).max(shown.s())
                 }
             }

@@ -1,4 +1,4 @@
-//! Pose of a vehicle that sends no ground truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and
+//! Pose of a vehicle that does not send ground truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and
 //! GLOBAL_POSITION_INT.
 
 use spandrel_mavlink::contract::truth::Truth;

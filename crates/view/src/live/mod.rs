@@ -42,7 +42,7 @@ const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
 const TRUTH_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 /// Interval for repeating requests, in case one is lost.
 const REQUEST_INTERVAL: SimTime = SimTime::from_ms(5_000);
-/// Messages used instead of ground truth and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
+/// Messages used instead of ground truth, and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
 const ESTIMATE_STREAMS: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
 /// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of a tenth of a second between sound and
@@ -163,8 +163,8 @@ impl LiveFlight {
         self.last_sample_at.is_some() && !self.truth_requested
     }
 
-    /// Checks whether no ground truth arrived although it was requested. Such a vehicle is not the simulator and sends
-    /// no seed.
+    /// Checks whether no ground truth has arrived despite a request. Such a vehicle is not the simulator and does not
+    /// send a seed.
     #[must_use]
     pub fn has_no_truth(&self, wall: SimTime) -> bool {
         !self.truth_requested && self.first_message_at.is_some_and(|met| wall >= met + TRUTH_TIMEOUT + TRUTH_TIMEOUT)
@@ -207,7 +207,7 @@ impl LiveFlight {
         if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.next_takeoff_request)
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
         {
-            // The field holds the time since boot despite its name (MAVLink common).
+            // The field contains the time since boot despite its name (MAVLink common).
             (self.state.lift_off, self.state.next_takeoff_request) = (Some(SimTime::from_us(took_off_us)), None);
         }
         if !self.truth_requested

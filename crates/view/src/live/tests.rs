@@ -27,7 +27,7 @@ impl FakeVehicle {
         self.live.handle_datagram(&bytes, SimTime::from_ms(wall_ms));
     }
 
-    /// Sends ground truth for a simulation time at a position this far east of the origin.
+    /// Sends ground truth for a simulation time, at a position `east_m` east of the origin.
     fn truth(&mut self, sim_ms: i64, wall_ms: i64, east_m: f64) {
         let geo = self.live.plane.geo_from_enu(spandrel_model::frames::Vec3::new(east_m, 0.0, self.live.pad_up_m + 20.0));
         let truth = HIL_STATE_QUATERNION_DATA {
@@ -163,7 +163,7 @@ fn exact_vehicle_without_truth_is_shown_by_its_estimate() {
     let now = wire.now(3_600).expect("there must be a moment to draw");
     assert!((now.moment.drone.pose.position_m.up() - 30.0).abs() < POSITION_ROUNDING_M && wire.live.is_estimated());
     assert!((now.moment.drone.pose.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
-    // Ground truth replaces the estimate once it arrives, and requests stop.
+    // Once ground truth arrives, it replaces the estimate, and requests stop.
     for k in 0..10 {
         wire.truth(1_000 + 20 * k, 4_000 + 20 * k, 3.0);
     }

@@ -68,7 +68,7 @@ impl MotionHistory {
         Some(before.motion.lerp(&next.motion, t))
     }
 
-    /// Returns the gimbal's pitch at a time, rad; level without samples.
+    /// Returns the gimbal's pitch at a time, rad; zero without samples.
     #[must_use]
     pub fn gimbal_at(&self, time: SimTime) -> f64 {
         self.gimbal.at(time).unwrap_or(0.0)
@@ -87,7 +87,8 @@ impl MotionHistory {
         self.lens.at(time)
     }
 
-    /// Returns the camera's turn rate at a time, interpolated between samples; zero where there is no interpolation.
+    /// Returns the camera's turn rate at a time, interpolated between samples; zero where interpolation is not
+    /// possible.
     #[must_use]
     pub fn turn_at(&self, time: SimTime) -> CameraTurnRate {
         let heading_rad_s = self.around(time).map_or(0.0, |(before, next)| {

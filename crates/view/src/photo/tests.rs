@@ -98,7 +98,8 @@ fn exact_quality_is_the_highest_that_fits() {
     let free = plain(&picture, usize::MAX).unwrap();
     let most = free.len() / 2;
     let fitted = plain(&picture, most).unwrap();
-    // Bisection stops at most one quality step below the limit; for noise, a step is a few percent of the size.
+    // Bisection stops at most one quality step below the limit; for a picture of noise, a step is a few percent of the
+    // size.
     assert!(fitted.len() <= most && fitted.len() > most * 9 / 10, "{} of {most}", fitted.len());
 }
 

@@ -56,8 +56,7 @@ const MIN_UPWARD_COMPONENT: f64 = 0.999;
 /// Hangers and railings, which are not visible in the small reflection of a distant bridge.
 const SLENDER_ELEMENTS: [Element; 3] = [Element::Hanger, Element::MetalRailing, Element::RcRailing];
 
-/// Function that returns the tolerance of the light between the corners of a face, by element and normal; `None` omits
-/// the face.
+/// Returns the tolerance of the light between the corners of a face, by element and normal; `None` omits the face.
 type LightTolerance<'a> = &'a dyn Fn(Element, Vec3<Enu>) -> Option<f32>;
 /// Tolerance that keeps every sample.
 const KEEP_ALL_SAMPLES: f32 = f32::NEG_INFINITY;
@@ -82,7 +81,7 @@ pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<S
     ]
 }
 
-/// Builds one mesh per tolerance; light is computed once for all of them.
+/// Builds one mesh per tolerance; the light is computed only once.
 fn meshes<const N: usize>(scenario: &Scenario, bake: &LightBaker, quality: &Quality, thinned: [LightTolerance; N]) -> [Mesh; N] {
     let mut meshes = [(); N].map(|()| Mesh::default());
     for bridge in &scenario.bridges {
@@ -235,7 +234,7 @@ fn quad_face<'a>(
     let lengths = quad.lengths_m();
     let steps = |length: f64| ((length / light_cell_m).ceil() as usize).max(1);
     let (nu, nv) = if look.smooth { (1, 1) } else { (steps(lengths.0), steps(lengths.1)) };
-    // Samples are inset from the edges; a narrow face needs only one sample across.
+    // Samples are inset from the edges; a narrow face needs only one sample across its width.
     let inside = |k: usize, n: usize, length: f64| {
         let margin = (INSET_M / length).min(0.25);
         if length < NARROW_FACE_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }

@@ -35,7 +35,7 @@ pub fn body(vehicle: &Vehicle) -> Mesh {
         let end = hub + Vec3::new(0.0, 0.0, 0.6 * thin);
         mesh.round((root, 1.3 * thin), (end, 0.9 * thin), 8, ARM);
         mesh.round((hub + Vec3::new(0.0, 0.0, 1.8 * thin), 1.5 * thin), (hub, 1.3 * thin), 10, DARK);
-        // Red bands on the front arms indicate the heading.
+        // Red bands on the front arms mark the front.
         if hub.east() > 0.0 && k < 8 {
             let (a, b) = (root.lerp(end, 0.5), root.lerp(end, 0.65));
             mesh.round((a, 1.35 * thin), (b, 1.3 * thin), 8, RED);

@@ -1,4 +1,4 @@
-//! Selection of the ground triangles to draw: all of them, or fewer where the difference is not visible.
+//! Selects the ground triangles to draw: all, or fewer where the difference is invisible.
 
 use super::sparse::{self, GridSquare};
 use spandrel_model::frames::{Enu, Vec3};

@@ -45,7 +45,7 @@ pub fn mesh(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 
     let vertex = |k: u32| {
         let (p, n) = (&points[k as usize], &normals[k as usize]);
         let near = site.geometry().nearest_member(*p, BAKED_LIGHT_RANGE_M).is_some();
-        // On an open slope, light comes from the sky above the slope and, to a small part, from the ground.
+        // On an open slope, light comes from the sky above the slope and, to a small extent, from the ground.
         let open = [0.5 + 0.5 * n.up() as f32, 0.02];
         let light = if near { bake.at(*p + *n * 0.3, *n) } else { open };
         ground_vertex(*p, *n, light, p.up() - scenario.terrain.water_level_m)
@@ -131,8 +131,8 @@ fn rim(k: usize) -> (f64, f64) {
     }
 }
 
-/// Returns the height above the water beyond the rim: the rim's height, then ridges; the lake continues for some
-/// distance.
+/// Returns the height above the water beyond the rim: starts at the rim's height and continues with ridges; the lake
+/// extends for some distance.
 fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
     let ridges = 0.5
         + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)

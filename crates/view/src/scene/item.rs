@@ -10,9 +10,9 @@ use spandrel_model::frames::{Enu, Vec3};
 pub struct Instance {
     /// Rows of the affine transform from mesh axes to the site.
     pub rows: [[f32; 4]; 3],
-    /// Color of painted parts, linear; the last component is 1 if it applies.
+    /// Color of painted parts, linear; the last component is 1 if the color applies.
     pub paint: [f32; 4],
-    /// Indirect light on upward surfaces (fractions of sky and sun) and on downward surfaces.
+    /// Indirect light (fractions of sky and sun) on upward surfaces and on downward surfaces.
     pub around: [f32; 4],
 }
 
@@ -29,7 +29,7 @@ impl Instance {
         Self { rows: [0, 1, 2].map(|k| [x[k], y[k], z[k], o[k]]), paint: [0.0; 4], around }
     }
 
-    /// Transforms and lights a vertex in the same way as the shaders.
+    /// Transforms and lights a vertex the same way as the shaders.
     pub(super) fn transformed(&self, v: &Vertex) -> Vertex {
         let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
         let [x, y, z] = turned(v.normal);

@@ -81,7 +81,7 @@ const LAKE_TOLERANCE_FACTOR: f64 = 4.0;
 const DISPLAYED_ROTOR_SPEED_RAD_S: f64 = 43.0;
 
 impl Scene {
-    /// Builds the scene of a site for the light at one time.
+    /// Builds the scene of a site with the light at one time.
     #[must_use]
     pub fn build(scenario: &Scenario, site: &Site, vehicle: &Vehicle, quality: &Quality, at: QueryTime) -> Self {
         let sun = site.light().daylight(at).sun;

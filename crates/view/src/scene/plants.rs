@@ -1,4 +1,5 @@
-//! Conifers and boulders for visual scale. They do not collide and are therefore kept clear of bridges, task paths and the pad.
+//! Conifers and boulders for visual scale. They have no collision geometry, so they are kept clear of bridges, task
+//! paths and the pad.
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish, Vertex, single};
 use super::super::quality::Quality;
@@ -111,7 +112,7 @@ fn tree_density(east: f64, north: f64) -> f64 {
     (0.25 + 0.75 * wave).clamp(0.03, 1.0)
 }
 
-/// Returns the ground point if there is enough clearance for a plant.
+/// Returns the ground point if it has enough clearance for a plant.
 fn free_ground_point(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
     let (up, normal) = site.geometry().terrain.ground.ground(east, north);
     let at = Vec3::new(east, north, up);

@@ -126,7 +126,7 @@ pub fn truck(rounds: RoundDetail) -> Mesh {
         mesh.block([4.9, y - 0.17, 0.72], [4.985, y + 0.17, 0.92], [0.0; 3], LAMP);
         mesh.block([-5.0, y - 0.15, 0.72], [-4.96, y + 0.15, 0.86], [0.0; 3], TAIL);
     }
-    // Box body with a ribbed frame, door gap and bars. No two faces are coplanar, to avoid z-fighting.
+    // Box body with a ribbed frame, door gap and bars. Avoids coplanar faces, which would cause z-fighting.
     mesh.block([-4.98, -1.22, 0.95], [2.56, 1.22, 3.46], [0.0; 3], BOX);
     mesh.block([-5.0, -1.25, 0.88], [2.58, 1.25, 1.02], [0.0; 3], DARK);
     for x in [-4.92, -2.45, 0.05, 2.5] {

@@ -49,7 +49,7 @@ struct Globals {
 @group(0) @binding(0) var<uniform> g: Globals;
 @group(0) @binding(1) var shadow_map: texture_depth_2d_array;
 @group(0) @binding(2) var shadow_sampler: sampler_comparison;
-// Noise of several octaves, of one octave, distance to the nearest scattered point, random number of that point
+// Noise of several octaves, of one octave, distance to the nearest scattered point, random number for that point
 // (noise.rs).
 @group(0) @binding(3) var noise_map: texture_2d<f32>;
 @group(0) @binding(4) var noise_sampler: sampler;
@@ -88,7 +88,7 @@ fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
     return instead;
 }
 
-// Cellular pattern: distance to the nearest center, and a random number of its cell.
+// Cellular pattern: distance to the nearest center, and a random number for its cell.
 fn pebbles(p: vec2<f32>) -> vec2<f32> {
     let found = textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0);
     return vec2<f32>(found.b * 1.28, found.a);

@@ -3,8 +3,8 @@
 use super::smoothing::{SAMPLE_RATE_HZ, SmoothedValue};
 use spandrel_model::math;
 
-/// Blades per propeller. TASBID's aircraft, a DJI Phantom 2, has two-bladed propellers of 9.4 inches, as do most
-/// aircraft of its size.
+/// Blades per propeller. TASBID's aircraft, a DJI Phantom 2, has two-bladed 9.4-inch propellers, like most aircraft of
+/// its size.
 pub const BLADES: f64 = 2.0;
 /// Number of harmonics, and level of each harmonic relative to the previous one (estimate: 6 dB, as with small
 /// propellers from the second harmonic on).

@@ -1,4 +1,4 @@
-//! Warning tones, distinguished by pitch and rhythm; only the most serious one sounds.
+//! Warning tones, distinguished by pitch and rhythm. Only the most serious tone sounds.
 
 use super::smoothing::SAMPLE_RATE_HZ;
 use spandrel_mavlink::contract::cue;

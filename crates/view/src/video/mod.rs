@@ -1,4 +1,4 @@
-//! Video: H.264 in RTP packets, or with chapters in an MP4 file. This module only produces bytes; the caller sends or
+//! Video: H.264 in RTP packets, or in an MP4 file with chapters. This module only produces bytes; the caller sends or
 //! writes them.
 
 mod h264;

@@ -2,7 +2,7 @@
 
 use spandrel_model::random::RandomStream;
 
-/// Payload type of the stream: the first dynamic type, which ground stations expect.
+/// Payload type of the stream: the first dynamic type, as ground stations expect.
 pub const PAYLOAD_TYPE: u8 = 96;
 /// RTP clock rate for video, Hz.
 pub const CLOCK_HZ: f64 = 90_000.0;

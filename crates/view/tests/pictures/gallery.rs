@@ -1,4 +1,4 @@
-//! Pictures whose contents must be recognizable to any viewer, compared with committed ones.
+//! Pictures with contents that any viewer must recognize, compared with committed pictures.
 
 use super::compare::{Difference, beside, check_picture, check_picture_at};
 use spandrel_mavlink::contract::cue;
@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Size of a scene picture, px.
 const SCENE: (u32, u32) = (640, 360);
-/// Size of each view with a HUD, whose text must stay legible.
+/// Size of each view with a HUD, large enough for legible text.
 const VIEW: (u32, u32) = (640, 360);
 /// Size of each close-up of a defect, px.
 const CLOSE: (u32, u32) = (320, 240);
@@ -30,7 +30,7 @@ const CLOSE_DEG: [f64; 2] = [30.0, 15.0];
 const TUTORIAL: (u32, u32) = (240, 180);
 const TUTORIAL_DEG: f64 = 30.0;
 
-/// Collects all problems, so that one run reports on every picture.
+/// Collects all errors, so one run reports on every picture.
 #[derive(Default)]
 struct Gallery {
     errors: Vec<String>,
@@ -213,7 +213,7 @@ fn regress_defects_at_1_3_and_8_m() {
     wall.assert_no_errors();
 }
 
-/// The tutorial compares distances: each row shows one defect through one lens, so that its size decreases with
+/// The tutorial compares distances: each row shows one defect through the same lens, so its size decreases with
 /// distance.
 #[test]
 fn regress_tutorial_shows_defects_at_true_scale() {

@@ -55,7 +55,7 @@ fn val_visible_defect_is_labeled_at_its_position() {
         };
         let legend = masks.legend(studio.site.defects());
         let entry = legend["defects"].as_array().unwrap().iter().find(|entry| entry["id"] == defect.id);
-        // A hairline narrower than a quarter of this picture's pixels.
+        // Skips hairline cracks, which may cover too little of a pixel in this picture.
         let pixel_m = 2.0 * 1.5 * math::tan(0.5 * 60.0_f64.to_radians()) / 320.0;
         if defect.line && defect.width_m < 0.6 * pixel_m {
             continue;

@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 const SHOWN: usize = 200;
 /// Number of photos tried for each defect.
 const TRIES: usize = 4;
-/// Size of the rendered area around each defect, px of the camera.
+/// Size of the rendered area around each defect, in camera pixels.
 const CROP: (u32, u32) = (192, 144);
 /// Size of the picture for metering the exposure, px; any size will do.
 const FRAME: (u32, u32) = (400, 300);
@@ -120,8 +120,8 @@ fn visibility([with, without]: &[Picture; 2], region: &[bool]) -> DefectVisibili
     DefectVisibility { signal_to_noise: changed.sqrt() / variance.sqrt().max(1.0) }
 }
 
-/// Returns a photo of the same point from the other side of the member. The measures must not call the defect visible,
-/// and the picture must not show it.
+/// Returns a photo of the same point from the other side of the member. The measures must not count the defect as
+/// visible, and the picture must not show it.
 fn from_behind(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect) -> Option<Snapshot> {
     let from = (3..16).map(|k| defect.position_m - defect.normal * (0.5 * f64::from(k)));
     let free = from.clone().find(|from| site.nearest(*from, 0.6, SimTime::ZERO).is_none())?;
