@@ -33,7 +33,8 @@ fn around(path: &[Vec3<Enu>], spread_m: f64, seed: u64) -> Vec<Vec3<Enu>> {
 
 fn main() {
     let text = include_str!("../scenarios/two-bridges.toml");
-    let scenario: Scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("no file".into())).expect("reads");
+    let scenario: Scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("no file".into()))
+        .expect("the shipped scenario must be valid");
     let built = best(ROUNDS, || {
         black_box(Geometry::new(&scenario));
     });

@@ -37,9 +37,10 @@ struct Job {
 impl Job {
     fn two_bridges(seed: u64) -> Self {
         let scenario = include_str!("../scenarios/two-bridges.toml");
-        let scenario = spandrel_model::scenario::read("two-bridges.toml", scenario, &|_| Err("none".into())).expect("shipped");
-        let vehicle =
-            spandrel_model::vehicle::read("phantom2.toml", include_str!("../vehicle-params/phantom2.toml")).expect("shipped");
+        let scenario = spandrel_model::scenario::read("two-bridges.toml", scenario, &|_| Err("none".into()))
+            .expect("the shipped file must be valid");
+        let vehicle = spandrel_model::vehicle::read("phantom2.toml", include_str!("../vehicle-params/phantom2.toml"))
+            .expect("the shipped file must be valid");
         let site = Arc::new(Site::build(&scenario, seed));
         Self { scenario: Arc::new(scenario), vehicle: Arc::new(vehicle), site, seed }
     }

@@ -68,7 +68,7 @@ impl Views {
     fn on(gpu: Gpu, preset: &str) -> Self {
         let software = gpu.software;
         let studio = Studio::on(gpu, two_bridges(), 7, preset, SimTime::ZERO);
-        let quality = Quality::by_name(preset).expect("a preset");
+        let quality = Quality::by_name(preset).expect("the preset must exist");
         let secondary = software
             .then(|| SecondaryRenderer::open(quality, Arc::clone(&studio.scene)).expect("a second device must be available"));
         let textures = [(); 2].map(|()| picture_texture(&studio.gpu, (1, 1)));
@@ -182,7 +182,7 @@ fn main() {
     let best = std::env::var("SPANDREL_BENCH_DEVICE").is_ok_and(|device| device == "best");
     let presets = if best { ["low", "high"] } else { ["low", "low"] };
     let start = now();
-    let gpu = if best { Gpu::open() } else { Gpu::open_software() }.expect("a device");
+    let gpu = if best { Gpu::open() } else { Gpu::open_software() }.expect("a device must be available");
     println!("device: {}", gpu.name);
     let mut views = Views::on(gpu, presets[0]);
     let built = start.elapsed();

@@ -35,7 +35,7 @@ impl Server {
             .spawn()
             .expect("the server must start");
         let mut line = String::new();
-        BufReader::new(process.stdout.take().expect("a pipe"))
+        BufReader::new(process.stdout.take().expect("standard output must be piped"))
             .read_line(&mut line)
             .expect("the server must announce its address");
         let announced: serde_json::Value = serde_json::from_str(&line).expect("the announcement must be JSON");
@@ -109,10 +109,10 @@ async fn insert_sessions(file: &Path) -> Result<String, sqlx::Error> {
 }
 
 fn main() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempfile::tempdir().expect("a temporary folder must be available");
     let server = Server::start(folder.path());
     let empty = server.median("/sessions", ROUNDS).0;
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("the runtime must start");
     let last = runtime.block_on(insert_sessions(&folder.path().join("records.sqlite"))).expect("the records must be inserted");
     let trainee = RECORDS
         .lines()

@@ -35,14 +35,14 @@ impl SimulatorProcess {
     pub fn end(mut self) -> Lateness {
         drop(self.child.stdin.take());
         let told = self.line();
-        let number = |key: &str| told[key].as_f64().expect("a number");
+        let number = |key: &str| told[key].as_f64().expect("the value must be a number");
         Lateness { latest_ms: number("latest_ms"), slips: number("slips") as u64 }
     }
 
     fn line(&mut self) -> serde_json::Value {
         let mut line = String::new();
-        self.told.read_line(&mut line).expect("one line");
-        serde_json::from_str(&line).expect("JSON")
+        self.told.read_line(&mut line).expect("the simulator must print a line");
+        serde_json::from_str(&line).expect("the line must be JSON")
     }
 }
 
@@ -64,9 +64,9 @@ pub struct Client {
 
 impl Client {
     pub fn new(port: u16, system: u8) -> Self {
-        let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
-        socket.connect(("127.0.0.1", port)).expect("loopback");
-        socket.set_read_timeout(Some(SILENCE_TIMEOUT)).expect("a timeout");
+        let socket = UdpSocket::bind("127.0.0.1:0").expect("a port must be free");
+        socket.connect(("127.0.0.1", port)).expect("loopback must be available");
+        socket.set_read_timeout(Some(SILENCE_TIMEOUT)).expect("the timeout must be valid");
         Self { socket, encoder: Encoder::new(system, 190), decoder: Decoder::new(), buffer: vec![0; 65_536] }
     }
 
@@ -112,8 +112,8 @@ pub fn start() -> (SimulatorProcess, u16) {
         .stdout(Stdio::piped())
         .spawn()
         .expect("the program must start");
-    let told = BufReader::new(child.stdout.take().expect("piped"));
+    let told = BufReader::new(child.stdout.take().expect("standard output must be piped"));
     let mut running = SimulatorProcess { child, told };
-    let port = running.line()["gcs_port"].as_u64().expect("a port");
+    let port = running.line()["gcs_port"].as_u64().expect("the port must be a number");
     (running, port as u16)
 }

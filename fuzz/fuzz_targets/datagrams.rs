@@ -14,8 +14,9 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
     let scenario = include_str!("../../scenarios/drill-hover.toml");
     let vehicle = include_str!("../../vehicle-params/phantom2.toml");
     Monitor::new(MonitorConfig {
-        scenario: spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"),
-        vehicle: spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"),
+        scenario: spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into()))
+            .expect("the shipped file must be valid"),
+        vehicle: spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("the shipped file must be valid"),
         trainee: "fuzz".into(),
         purpose: None,
         started_unix_us: 0,

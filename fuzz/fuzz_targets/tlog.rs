@@ -9,7 +9,7 @@ static JOB: LazyLock<(Scenario, Vehicle)> = LazyLock::new(|| {
     let scenario = include_str!("../../scenarios/drill-hover.toml");
     let vehicle = include_str!("../../vehicle-params/phantom2.toml");
     let read = spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into()));
-    (read.expect("shipped"), spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"))
+    (read.expect("the shipped file must be valid"), spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"))
 });
 
 libfuzzer_sys::fuzz_target!(|log: &[u8]| {

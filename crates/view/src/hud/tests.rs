@@ -70,13 +70,13 @@ fn regress_hud_in_normal_flight() {
 fn exact_item_positions_match_the_assessment_rules() {
     let all = Hud { cues: ALL_CUES, hit: Some("bridge".into()), ..hud() };
     let speed = find(&all, "3.2 m/s").unwrap().0;
-    assert!(speed.x < 0.3 && speed.y < 0.2, "speed is upper left");
+    assert!(speed.x < 0.3 && speed.y < 0.2, "the speed must be at the upper left");
     let battery = find(&all, "76 %").unwrap().0;
-    assert!(battery.x > 0.7 && battery.y < 0.2, "battery is upper right");
+    assert!(battery.x > 0.7 && battery.y < 0.2, "the battery must be at the upper right");
     for words in ["CRASH: bridge", "TOO CLOSE", "TOO FAST", "OFF THE PATH"] {
         let place = find(&all, words).unwrap().0;
-        assert!(place.x < 0.5 && place.y > 0.5, "{words} is lower left");
-        assert!(find(&hud(), words).is_none(), "{words} appears without its cue");
+        assert!(place.x < 0.5 && place.y > 0.5, "{words} must be at the lower left");
+        assert!(find(&hud(), words).is_none(), "{words} must not appear without its cue");
     }
 }
 

@@ -130,7 +130,7 @@ fn val_crack_visibility_follows_its_width_in_pixels() {
     assert!(found[1].1 >= IDENTIFIED && found[0].1 >= IDENTIFIED, "one and two pixels: {found:?}");
     assert!(found[2].1 >= DETECTED, "half a pixel: {found:?}");
     assert!(found[3].1 <= UNDETECTED, "a tenth of a pixel: {found:?}");
-    assert!((found[2].0 / found[1].0 - HALF).abs() <= HALF_TOLERANCE, "half a pixel compared with one: {found:?}");
+    assert!((found[2].0 / found[1].0 - HALF).abs() <= HALF_TOLERANCE, "contrast at half a pixel relative to one: {found:?}");
 }
 
 /// As the camera moves away from a crack in steps of 6 %, the contrast must decrease without jumps.
