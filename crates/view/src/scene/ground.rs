@@ -19,7 +19,7 @@ const RIM_SIDE_VERTICES: usize = 48;
 const RIM_OVERLAP_M: f64 = 8.0;
 /// Height of the mountains above the rim, m (estimate: a lake in a pre-alpine valley).
 const PEAK_HEIGHT_M: f64 = 620.0;
-/// Minimum height of the rim above the water to count as land, m.
+/// Minimum height above the water for the rim to count as land, m.
 const LAND_HEIGHT_M: f64 = 45.0;
 /// Extent of the lake, m.
 const LAKE_EXTENT_M: f64 = 9_000.0;
