@@ -80,7 +80,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             let files = count(args.files.len(), "file");
             match warnings.len() {
                 0 => println!("{files} valid"),
-                many => println!("{files} without errors, {}", count(many, "warning")),
+                many => println!("{files} valid, with {}", count(many, "warning")),
             }
             Ok(())
         }
@@ -163,7 +163,7 @@ fn clearance_problems(source: &SourceFile, scenario: &Scenario, aircraft: &Vehic
             key: format!("tasks.{k}"),
             value: format!("{clearance_m:.2} m"),
             allowed: format!(
-                "at least {needed_m:.2} m for {}: half its {:.2} m tip to tip plus {MIN_CLEARANCE_M} m",
+                "at least {needed_m:.2} m for {}: half its {:.2} m tip-to-tip width plus {MIN_CLEARANCE_M} m",
                 aircraft.id, aircraft.hull.tip_to_tip_m
             ),
             message: format!(
@@ -187,7 +187,7 @@ fn missing_defects_warning(source: &SourceFile, scenario: &Scenario) -> Option<S
     let line = source.text.lines().position(|line| line.trim_start().starts_with("[defects]")).map_or(1, |k| k + 1);
     (least < wanted).then(|| {
         format!(
-            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other place on a bridge can be \
+            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other spot on a bridge can be \
              photographed from within a task's threshold; move the tasks closer to the structure, extend defects.elements or \
              defects.kinds, or set the count to {least}",
             source.file

@@ -24,7 +24,7 @@ const MAX_CONTRADICTIONS: usize = 12;
 Examples:
   spandrel cohort                                       print a summary
   spandrel cohort --json cohort.json --csv tables       write all results
-  spandrel cohort --report cohort.html                  write all figures as one page that opens offline
+  spandrel cohort --report cohort.html                  write all figures as one page that works offline
   spandrel cohort --scenario two-bridges --scenario two-bridges-small --repetitions 2
   spandrel cohort --records all.jsonl --json -
 
@@ -74,12 +74,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         && let Some(words) = omitted_summary(cohort.left_out)
     {
         return Err(AppError::wrong(format!(
-            "there is no complete session of this scenario: {words} (--include-incomplete counts them)"
+            "this scenario has no complete sessions: {words} (use --include-incomplete to count them)"
         )));
     }
     if cohort.sessions == 0 {
         return Err(AppError::wrong(
-            "there is no session of this scenario in the records; use spandrel records import to add sessions",
+            "the records contain no sessions of this scenario; use spandrel records import to add sessions",
         ));
     }
     if let Some(folder) = &args.csv {
@@ -102,7 +102,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 fn summary_of_first_sessions(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
     if let Some(words) = omitted_summary(cohort.left_out) {
-        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
+        let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
     out.push('\n');
     let _ = writeln!(out, "{:<12}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}", "first", "n", "mean", "sd", "min", "median", "max");
@@ -153,7 +153,7 @@ fn words(cohort: &Cohort) -> String {
         let (score, test) = (&one.score, &one.test);
         let _ = writeln!(
             out,
-            "{score}: this group compared with the others, chi-squared {:.2}, df {}, p {:.3}",
+            "{score}: this group vs. the other trainees, chi-squared {:.2}, df {}, p {:.3}",
             test.chi_squared, test.df, test.p
         );
     }
@@ -161,14 +161,14 @@ fn words(cohort: &Cohort) -> String {
         let _ = writeln!(out, "\ndemand -> strain -> performance, {} people", model.n);
         for one in &model.indirect {
             let ends = one.interval_95.map_or(String::new(), |[low, high]| format!(" [{low:.2}, {high:.2}]"));
-            let _ = writeln!(out, "at feedback {:.1}: {:.2} % per step of demand{ends}", one.feedback, one.effect);
+            let _ = writeln!(out, "at feedback {:.1}: {:.2} % per demand step{ends}", one.feedback, one.effect);
         }
     }
     for one in &cohort.learning {
         let (first, last) = (one.means.first().copied().unwrap_or_default(), one.means.last().copied().unwrap_or_default());
         let _ = writeln!(
             out,
-            "{}: from {first:.1} to {last:.1} over {} repetitions of {} people, learning exponent {:.3}",
+            "{}: from {first:.1} to {last:.1} over {} repetitions by {} people, learning exponent {:.3}",
             one.score,
             one.means.len(),
             one.people,
@@ -180,7 +180,8 @@ fn words(cohort: &Cohort) -> String {
         let _ = writeln!(out, "{}: {}", one.trainee, one.words);
     }
     if contradictions.len() > MAX_CONTRADICTIONS {
-        let _ = writeln!(out, "and {} more contradictions (--json, --csv)", contradictions.len() - MAX_CONTRADICTIONS);
+        let _ =
+            writeln!(out, "and {} more contradictions (listed by --json and --csv)", contradictions.len() - MAX_CONTRADICTIONS);
     }
     for warning in &cohort.warnings {
         let _ = writeln!(out, "note: {warning}");

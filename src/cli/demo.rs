@@ -128,7 +128,7 @@ fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &
             if let Some(status) = child.ended()
                 && monitor.ended().is_none()
             {
-                return Some(AppError::failed(format!("the {name} ended early ({status})")));
+                return Some(AppError::failed(format!("the {name} exited early ({status})")));
             }
         }
         std::thread::sleep(CHECK_INTERVAL);

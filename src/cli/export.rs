@@ -35,9 +35,9 @@ use std::path::Path;
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel export sessions/20260801T... --frames frames.csv
-  spandrel export two-bridges --seed 7 --scenario -          paths, and defects as placed by seed 7
-  spandrel export two-bridges --plan tasks.plan              open in QGroundControl, upload, start
-  spandrel export two-bridges --glb bridges.glb              for any 3D viewer
+  spandrel export two-bridges --seed 7 --scenario -          reference paths, and the defects of seed 7
+  spandrel export two-bridges --plan tasks.plan              a plan to open, upload and fly in QGroundControl
+  spandrel export two-bridges --glb bridges.glb              for 3D viewers
   spandrel export sessions/20260801T... --mcap flight.mcap   for Foxglove
   spandrel export sessions/20260801T... --parquet frames.parquet --xapi statements.jsonl --scorm result.zip
   spandrel export broken.mcap --mcap whole.mcap              recover a truncated recording
@@ -121,7 +121,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let seed = args.seed.or(scenario.seed);
     if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
         return Err(AppError::wrong(format!(
-            "'{}' places its defects differently in every session: choose a seed with --seed N",
+            "the defects of '{}' differ in every session: choose a seed with --seed N",
             args.from
         )));
     }

@@ -46,7 +46,7 @@ const BATCH: usize = 256;
 Examples:
   spandrel monitor --trainee anna                      score instance 0 of the simulator (UDP 14030)
   spandrel monitor --connect 127.0.0.1:14280 --port 0  connect as an additional monitor, to the vehicle's payload port
-  spandrel monitor --session sessions/20260801T...     continue in mid-flight after a kill
+  spandrel monitor --session sessions/20260801T...     resume in flight after the monitor was killed
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -218,11 +218,11 @@ impl MonitorProcess {
         if self.peer != Some(*from) {
             let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_heard) < SILENCE_TIMEOUT;
             if current_is_alive {
-                tracing::debug!("ignored a datagram from another address {from}");
+                tracing::debug!("ignored a datagram from another address: {from}");
                 return;
             }
             if !self.monitor.is_from_vehicle(bytes) {
-                tracing::debug!("ignored a datagram from {from} that is not the vehicle's");
+                tracing::debug!("ignored a datagram from {from}: not from the vehicle");
                 return;
             }
             tracing::info!("receiving from {from}");
@@ -348,9 +348,11 @@ impl MonitorProcess {
         let place = self.folder.path().display();
         match self.monitor.finished() {
             Some(Ok(graded)) => Ok(graded),
-            Some(Err(error @ (AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. }))) => Err(AppError::wrong(
-                format!("{error}: use the same --scenario and --seed for simulator and monitor (telemetry is in {place})"),
-            )),
+            Some(Err(error @ (AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. }))) => {
+                Err(AppError::wrong(format!(
+                    "{error}: use the same --scenario and --seed for the simulator and the monitor (telemetry is in {place})"
+                )))
+            }
             Some(Err(error)) => Err(AppError::failed(format!("{error} (telemetry is in {place})"))),
             None => Err(AppError::failed(format!("the session has not ended (telemetry is in {place})"))),
         }

@@ -157,7 +157,7 @@ fn flight_result(pilot: &Pilot) -> Result<(), AppError> {
     match pilot.finished() {
         Some(report) if report.reason == "landed" => Ok(()),
         Some(report) => Err(AppError::failed(report.reason.clone())),
-        None => Err(AppError::failed(format!("stopped in mid-flight ({})", pilot.status_text()))),
+        None => Err(AppError::failed(format!("stopped in flight ({})", pilot.status_text()))),
     }
 }
 

@@ -61,7 +61,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let incomplete = IncompletePolicy::included(args.include_incomplete);
     let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us()) else {
         return Err(AppError::wrong(format!(
-            "there is no session of '{trainee}' in the records; use spandrel records import to add sessions"
+            "the records contain no sessions of '{trainee}'; use spandrel records import to add sessions"
         )));
     };
     files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())
@@ -77,7 +77,7 @@ fn words(plan: &TrainingPlan) -> String {
         }
     }
     if let Some(words) = omitted_summary(plan.left_out) {
-        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
+        let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
     if let Some(changes) = &plan.changes {
         let _ = writeln!(out, "Since {}:", changes.since);

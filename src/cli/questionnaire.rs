@@ -20,10 +20,10 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel questionnaire sessions/20260801T...             ask the questions that are still open
+  spandrel questionnaire sessions/20260801T...             ask the unanswered questions
   spandrel questionnaire sessions/20260801T... --tlx       also ask the six NASA-TLX scales
-  spandrel questionnaire sessions/20260801T... --again     ask everything again; Enter keeps an answer
-  spandrel questionnaire sessions/20260801T... --language de    in German (en, de, es)
+  spandrel questionnaire sessions/20260801T... --again     ask all questions again; Enter keeps an answer
+  spandrel questionnaire sessions/20260801T... --language de    ask in German (available: en, de, es)
 
 {EXIT_CODES}"))]
 pub struct Args {

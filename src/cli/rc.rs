@@ -39,10 +39,10 @@ const STDIN_ENDED_MESSAGE: &str = "nothing was saved: the calibration needs the 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel rc --list                       list connected devices, and whether they are calibrated
+  spandrel rc --list                       list connected devices and show which are calibrated
   spandrel rc --calibrate                  calibrate a device in the terminal
   spandrel rc                              fly the simulator on this machine
-  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take-off, L land, Escape exits
+  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take off, L land, Escape quit
   spandrel rc --record flight.jsonl        record the device's input; --replay replays it
 
 {EXIT_CODES}"))]
@@ -130,7 +130,7 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
         if let Some(duty) = keys.binding_name(QUIT_KEY) {
             let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
             return Err(AppError::wrong(format!(
-                "{file}{duty} = \"{QUIT_KEY}\": this key quits in the terminal; choose another one"
+                "{file}{duty} = \"{QUIT_KEY}\": this key quits the program in the terminal; choose another one"
             )));
         }
         let words = keys.help_text();

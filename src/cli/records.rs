@@ -28,7 +28,7 @@ const MAX_RETENTION_DAYS: i64 = 36_525;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel records import                                   import all new or changed sessions of ./sessions
+  spandrel records import                                   import all new or changed sessions from ./sessions
   spandrel records import --database postgres://spandrel@db/training
   spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
   spandrel records list
@@ -36,7 +36,7 @@ Examples:
   spandrel records export --trainee anna --out anna.json    write all stored data of this trainee
   spandrel records export --out all.jsonl                   write all records, one per line, for spandrel cohort --records
   spandrel records push https://lrs.example/xapi            send xAPI statements to a learning record store
-  spandrel records erase --trainee anna                     list what would be erased; --yes erases it, including folders
+  spandrel records erase --trainee anna                     list what would be erased; --yes also erases it, including folders
   spandrel records retention --days 730                     the same for everything older than two years
   spandrel records rebuild                                  rebuild the database from the folders
 
@@ -266,11 +266,11 @@ fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppErr
     let before = clock::utc(limit_us).0;
     if !yes {
         let (old, folders) = (database.older_than(limit_us)?, folders_older_than(place, limit_us)?);
-        println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());
+        println!("{} sessions and {} folders are older than {before}; use --yes to erase them", old.len(), folders.len());
         return Ok(());
     }
     let (deleted, folders) = erase_older_than(&database, place, limit_us)?;
-    println!("erased {deleted} sessions and {folders} folders from before {before}");
+    println!("erased {deleted} sessions and {folders} folders older than {before}");
     Ok(())
 }
 
@@ -311,7 +311,7 @@ fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppErr
         let sessions = database.records(Some(trainee))?.len();
         let known = if find(&database, trainee)?.is_some() { "in the database" } else { "not in the database" };
         println!(
-            "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; --yes erases them",
+            "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; use --yes to erase them",
             database.name(),
             folders.len()
         );

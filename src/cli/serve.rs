@@ -176,7 +176,7 @@ fn prompt_password(name: &str) -> Result<String, AppError> {
     if std::io::stdin().is_terminal() {
         let first = rpassword::prompt_password(format!("Password for {name}: ")).map_err(failed)?;
         let again = rpassword::prompt_password("Repeat password: ").map_err(failed)?;
-        return if first == again { Ok(first) } else { Err(AppError::wrong("the two passwords differ")) };
+        return if first == again { Ok(first) } else { Err(AppError::wrong("the passwords do not match")) };
     }
     let mut line = String::new();
     std::io::stdin().lock().read_line(&mut line).map_err(failed)?;

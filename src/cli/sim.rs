@@ -110,7 +110,7 @@ pub struct Args {
 }
 
 fn seconds(text: &str) -> Result<SimTime, String> {
-    let s: f64 = text.parse().map_err(|_| format!("'{text}' is not a number of seconds"))?;
+    let s: f64 = text.parse().map_err(|_| format!("'{text}' is not a time in seconds"))?;
     if (0.0..=1e6).contains(&s) {
         Ok(SimTime::from_s(s))
     } else {

@@ -145,5 +145,5 @@ fn picture(args: &Args) -> Result<Option<CaptureRequest>, AppError> {
 /// Always.
 #[cfg(not(feature = "view"))]
 pub fn run(_: &Args) -> Result<(), AppError> {
-    Err(AppError::failed("this program was built without the view: build it with `cargo build --release --features view`"))
+    Err(AppError::failed("this program was built without the view: rebuild it with `cargo build --release --features view`"))
 }

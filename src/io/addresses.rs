@@ -26,7 +26,10 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
         .map_err(|error| format!("'{text}' is not HOST:PORT, for example 127.0.0.1:14550 ({error})"))?
         .collect();
     found.sort_by_key(|address| !address.is_ipv4());
-    found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' has no usable address and port"))
+    found
+        .into_iter()
+        .find(|address| address.port() != 0)
+        .ok_or_else(|| format!("'{text}' does not resolve to a usable address and port"))
 }
 
 /// A port number, or none.

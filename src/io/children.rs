@@ -121,7 +121,7 @@ impl Child {
             }
             std::thread::sleep(CHECK_INTERVAL);
         }
-        tracing::warn!("the {} does not finish and is killed", self.name);
+        tracing::warn!("the {} did not exit in time and was killed", self.name);
         // Both calls fail only if the child has just exited.
         let _ = self.process.kill();
         self.process.wait().ok()

@@ -19,7 +19,7 @@ pub fn read(path: &Path) -> Result<SigningKey, AppError> {
     }
     let text = text.trim_end_matches(['\r', '\n']);
     if text.contains('\n') {
-        return Err(wrong("it has more than one line"));
+        return Err(wrong("the file has more than one line (allowed: exactly one)"));
     }
     match parse_hex_key(text) {
         Some(key) => Ok(SigningKey(key)),

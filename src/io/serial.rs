@@ -48,7 +48,7 @@ impl FromStr for SerialDevice {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
             format!(
-                "'{text}' is not DEVICE:BAUD_RANGE, for example /dev/ttyUSB0:57600 (allowed: {} to {} baud)",
+                "'{text}' is not DEVICE:BAUD, for example /dev/ttyUSB0:57600 (allowed: {} to {} baud)",
                 BAUD_RANGE.start(),
                 BAUD_RANGE.end()
             )
@@ -73,7 +73,7 @@ pub fn run_with_reconnect(
         if !read_until_disconnect(port, frames, &give) || !end() {
             return;
         }
-        tracing::warn!("serial port {device} disconnected; it is reopened when it is back");
+        tracing::warn!("serial port {device} disconnected; waiting for it to return");
         port = loop {
             std::thread::sleep(REOPEN_INTERVAL);
             if let Ok(port) = device.open() {

@@ -21,7 +21,7 @@ const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 /// # Errors
 /// If the body is too large, too slow, not a form, or its token is wrong.
 pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
-    let late = |_| WebError::BadRequest("the form arrived too slowly".into());
+    let late = |_| WebError::BadRequest("the upload of the form timed out".into());
     match how {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
         RouteKind::Change => {
@@ -75,7 +75,7 @@ async fn arrive(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<Spoo
 }
 
 fn not_a_form() -> WebError {
-    WebError::BadRequest("this is not a form with a file".into())
+    WebError::BadRequest("the request is not a form with a file".into())
 }
 
 fn unreadable(error: &MultipartError, most: usize) -> WebError {

@@ -98,7 +98,7 @@ impl FlightView {
         };
         if crc.is_some_and(|crc| crc != self.job.0.crc) {
             return Err(AppError::wrong(
-                "the simulator uses another scenario than this window: start both with the same --scenario",
+                "the simulator and this window use different scenarios: start both with the same --scenario",
             ));
         }
         self.follow_seed(said);
@@ -132,7 +132,7 @@ impl FlightView {
     /// Follows the simulator's seed, which takes precedence over the requested one and over that of an earlier session.
     fn follow_seed(&mut self, said: Option<u64>) {
         if let Some((given, said)) = self.session.requested_seed_mismatch(said) {
-            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the latter");
+            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the simulator's");
         }
         if let Some((built, said)) = self.session.built_seed_mismatch(said) {
             tracing::info!("the simulator now uses seed {said} instead of {built}; rebuilding defects and traffic");

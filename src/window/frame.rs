@@ -99,7 +99,7 @@ impl Cockpit {
             WindowRequest::ChangeProfile(tune) => self.send_to_pilot(PilotCommand::ChangeProfile(tune)),
             WindowRequest::Open(address) => {
                 if let Err(error) = open::that_detached(&address) {
-                    self.flow.show_notice(format!("Cannot open a browser ({error}). Open the address above yourself."));
+                    self.flow.show_notice(format!("Cannot open a browser ({error}). Enter the address above in a browser."));
                 }
             }
             WindowRequest::Sound(on) => {

@@ -152,7 +152,7 @@ impl PilotLoop {
             }
             if self.controller.open_new_device() {
                 self.lost = false;
-                let flies = if self.controller.flies() { "Flying with it." } else { "Use the keyboard until it is calibrated." };
+                let flies = if self.controller.flies() { "Use it to fly." } else { "Use the keyboard until it is calibrated." };
                 send_message(teller, format!("Controller connected. {} {flies}", self.controller.note()));
             }
             let (sticks, news) = self.sticks(now);

@@ -44,7 +44,7 @@ impl WindowSurface {
         let size = window.inner_size();
         let config = surface
             .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
-            .ok_or_else(|| failed(format!("{} cannot draw in windows", gpu.name)))?;
+            .ok_or_else(|| failed(format!("{} cannot render to windows", gpu.name)))?;
         // egui and the rendered images are already in sRGB, so the surface must not convert them again.
         let plain = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
         let formats = surface.get_capabilities(&gpu.adapter).formats;

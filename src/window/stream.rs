@@ -93,7 +93,7 @@ impl Drop for StreamSender {
         // A panic in the thread has already been reported.
         if let Some(Ok(sent)) = self.sender.take().map(JoinHandle::join) {
             let each_ms = 1e3 * sent.encoding.as_secs_f64() / (sent.pictures.max(1) as f64);
-            tracing::info!("{} pictures streamed, encoded in {each_ms:.1} ms each", sent.pictures);
+            tracing::info!("{} frames streamed, encoded in {each_ms:.1} ms each", sent.pictures);
         }
     }
 }
@@ -130,7 +130,7 @@ impl Line {
                 && error.kind() != std::io::ErrorKind::ConnectionRefused
                 && !std::mem::replace(&mut self.told, true)
             {
-                tracing::warn!("packets of the stream to {} are lost: {error}", self.to);
+                tracing::warn!("lost packets of the stream to {}: {error}", self.to);
             }
         }
     }

@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 #[cfg(not(feature = "view"))]
 pub fn run(args: &Args) -> Result<(), AppError> {
     Err(AppError::failed(format!(
-        "this program was built without the view, so '{}' cannot be rendered: build it with `cargo build --release --features view`",
+        "this program was built without the view, so '{}' cannot be rendered: rebuild it with `cargo build --release --features view`",
         args.what
     )))
 }

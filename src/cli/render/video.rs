@@ -36,7 +36,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let track = path.with_extension("vtt");
     if track == path {
         return Err(AppError::wrong(format!(
-            "--video {}: this file name is needed for the chapters; choose another extension, for example .mp4",
+            "--video {}: this file name is reserved for the chapters; choose another extension, for example .mp4",
             path.display()
         )));
     }

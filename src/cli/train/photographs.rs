@@ -24,7 +24,7 @@ impl PhotographJobs {
         });
         match started {
             Ok(child) => self.0.push(child),
-            Err(error) => tracing::warn!("cannot draw the photographs of {}: {error}", session.display()),
+            Err(error) => tracing::warn!("cannot render the photographs of {}: {error}", session.display()),
         }
     }
 
@@ -32,7 +32,7 @@ impl PhotographJobs {
     pub fn finish(&mut self, stop: &StopRequest) {
         self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         if !self.0.is_empty() && !stop.is_requested() {
-            tracing::info!("drawing the photographs into the report; press Ctrl-C to skip");
+            tracing::info!("rendering the photographs for the report; press Ctrl-C to skip");
         }
         while !self.0.is_empty() && !stop.is_requested() {
             std::thread::sleep(CHECK_INTERVAL);

@@ -177,7 +177,7 @@ impl<'a> TrainRun<'a> {
             return NextFlight::Leave;
         }
         tracing::info!(
-            "using the command line: {} flies {}; use --trainee, --scenario and --purpose for another choice",
+            "using the command line: {} flies {}; use --trainee, --scenario and --purpose to change this",
             usual.trainee,
             usual.scenario
         );

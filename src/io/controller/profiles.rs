@@ -7,7 +7,7 @@ use spandrel_clients::rc::{ControllerProfile, Device};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-const NO_HOME_FOLDER: &str = "no home folder is known: specify a folder with --profiles";
+const NO_HOME_FOLDER: &str = "no home folder found: specify a profile folder with --profiles";
 
 /// Folder of profiles; `None` if the user has no home folder. Devices then have no profiles, and everything else works.
 #[derive(Debug, Clone, Default)]
@@ -113,7 +113,7 @@ mod tests {
         let nowhere = ProfileFolder::default();
         assert_eq!((nowhere.find(&device).unwrap(), nowhere.path(&device)), (None, None));
         for told in [nowhere.save(&profile(&device)).unwrap_err().to_string(), nowhere.missing(&device)] {
-            assert_eq!(told, "no home folder is known: specify a folder with --profiles");
+            assert_eq!(told, "no home folder found: specify a profile folder with --profiles");
         }
     }
 

@@ -40,7 +40,7 @@ impl RawTerminal {
         if !stdin().is_terminal() {
             return Err(AppError::failed("--keyboard needs a terminal, but standard input is not one"));
         }
-        let failed = |error: std::io::Error| AppError::failed(format!("cannot read single keys from the terminal: {error}"));
+        let failed = |error: std::io::Error| AppError::failed(format!("cannot read key presses from the terminal: {error}"));
         terminal::enable_raw_mode().map_err(failed)?;
         // The terminal's features are requested on standard error; if that is a file, there are no key releases.
         let features_enabled = stderr().is_terminal();

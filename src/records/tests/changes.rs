@@ -56,10 +56,14 @@ fn rebuild_deletes_only_the_given_sessions(target: &str) {
     there.put(&[record("gina", 3)]).unwrap();
     let mut changed = record("gina", 1);
     changed.scores.safety = 12.0;
-    assert_eq!(here.rebuild(&[changed.clone()], &["session-gina-002".into()]), Ok(1), "the same fingerprint is made again, too");
+    assert_eq!(
+        here.rebuild(&[changed.clone()], &["session-gina-002".into()]),
+        Ok(1),
+        "a session with the same fingerprint is also rebuilt"
+    );
     assert_eq!(here.record("session-gina-001").unwrap(), Some(changed));
     assert!(is_deleted(&here, "session-gina-002") && !is_deleted(&here, "session-gina-003"));
-    assert_eq!(here.rebuild(&[record("gina", 2)], &[]), Ok(1), "what was deleted so was not erased");
+    assert_eq!(here.rebuild(&[record("gina", 2)], &[]), Ok(1), "a session deleted by a rebuild can be added again");
 }
 
 fn concurrent_changes_of_a_person_are_kept(target: &str) {
@@ -75,7 +79,7 @@ fn concurrent_changes_of_a_person_are_kept(target: &str) {
     assert_eq!((person.drone_experience, person.gaming_experience.as_deref()), (None, Some("some")));
     // The second of two users who fill in the same form is rejected.
     assert_eq!(there.set_details("hans", none, ["35-44", "none", ""]), Ok(false));
-    assert_eq!(there.set_details("hans", ["25-34", "", "some"], none), Ok(true), "taking back what was said");
+    assert_eq!(there.set_details("hans", ["25-34", "", "some"], none), Ok(true), "details can be cleared");
     assert_eq!(here.account("hans").unwrap().unwrap().person.age_band, None);
     assert_eq!(here.set_details("nobody-of-this-name", none, none), Ok(false));
     // The command line sets only the details that were given.
@@ -94,7 +98,11 @@ fn concurrent_changes_of_a_person_are_kept(target: &str) {
     assert_eq!(after.hash.as_deref(), Some("third"));
     assert!(before.is_some() && after.credential().is_some() && before != after.credential());
     there.update_details("hans", Some(Role::Instructor), [None; 3]).unwrap();
-    assert_ne!(here.account("hans").unwrap().unwrap().credential(), after.credential(), "another role is another credential");
+    assert_ne!(
+        here.account("hans").unwrap().unwrap().credential(),
+        after.credential(),
+        "a change of role changes the credential"
+    );
     assert_eq!(here.erase("hans", &[]), Ok((true, 0)));
 }
 
@@ -118,6 +126,6 @@ fn list_pages_are_consecutive(target: &str) {
     expected.sort_by(|a, b| b.started_unix_us.cmp(&a.started_unix_us).then(a.id.cmp(&b.id)));
     let expected: Vec<&str> = expected.into_iter().map(|one| one.id.as_str()).collect();
     assert_eq!([page(Some("jana"), 0), page(Some("jana"), 3), page(Some("jana"), 6)].concat(), expected);
-    assert_eq!([page(None, 0), page(None, 3)].concat(), expected[..6], "of all they are the newest");
+    assert_eq!([page(None, 0), page(None, 3)].concat(), expected[..6], "these sessions are the newest of all trainees");
     database.erase("jana", &[]).unwrap();
 }

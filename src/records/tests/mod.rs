@@ -54,7 +54,7 @@ fn import_is_idempotent_and_round_trips(target: &str) {
     let ids = |trainee, most, skip| -> Vec<String> {
         database.list(trainee, most, skip).unwrap().into_iter().map(|one| one.id).collect()
     };
-    assert_eq!(ids(None, 10, 0), ["session-anna-002", "session-anna-001", "session-o'brien-001"], "the newest first");
+    assert_eq!(ids(None, 10, 0), ["session-anna-002", "session-anna-001", "session-o'brien-001"], "newest first");
     assert_eq!(ids(None, 1, 1), ["session-anna-001"]);
     assert_eq!(ids(Some("o'brien"), 10, 0), ["session-o'brien-001"]);
     assert_eq!(database.list(Some("anna"), 1, 0).unwrap()[0].overall, records[1].scores.overall);

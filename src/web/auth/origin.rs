@@ -44,7 +44,7 @@ impl AllowedOrigins {
         let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
         let authority = authority(headers);
         let host = authority.and_then(Host::parse);
-        let host = host.ok_or_else(|| WebError::Forbidden("The request needs exactly one valid Host header.".into()))?;
+        let host = host.ok_or_else(|| WebError::Forbidden("The request must have exactly one valid Host header.".into()))?;
         if open && !host.is_this_machine() {
             return Err(WebError::Forbidden("Without a password, the server responds only to localhost and 127.0.0.1.".into()));
         }

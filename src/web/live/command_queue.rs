@@ -193,8 +193,8 @@ fn result(result: MavResult) -> Option<Result<(), &'static str>> {
         MavResult::MAV_RESULT_IN_PROGRESS => None,
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err("not now")),
         MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("the vehicle does not support it")),
-        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denies it")),
-        _ => Some(Err("the vehicle reports a failure")),
+        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denied it")),
+        _ => Some(Err("the vehicle reported a failure")),
     }
 }
 
@@ -205,7 +205,7 @@ fn param_error_text(error: MavParamError) -> &'static str {
         MavParamError::MAV_PARAM_ERROR_READ_ONLY | MavParamError::MAV_PARAM_ERROR_PERMISSION_DENIED => {
             "the parameter is read-only"
         }
-        _ => "the vehicle does not accept the value",
+        _ => "the vehicle rejected the value",
     }
 }
 
@@ -290,7 +290,7 @@ mod tests {
         sent(&mut orders, 1);
         assert_eq!(
             orders.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
-            Some("instructor: satellite navigation fails: rejected, the vehicle denies it".into())
+            Some("instructor: satellite navigation fails: rejected, the vehicle denied it".into())
         );
         let (frames, words) = sent(&mut orders, 2);
         assert_eq!((instructor_note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
