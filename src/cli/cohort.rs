@@ -1,4 +1,4 @@
-//! `spandrel cohort`: statistics of a group of trainees.
+//! `spandrel cohort`: statistics for a group of trainees.
 
 use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
@@ -11,14 +11,15 @@ use spandrel_training::report::page::cohort as page;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Maximum number of contradictions printed as text; the tables list all of them.
+/// Maximum number of contradictions in the text output; the tables list all of them.
 const MAX_CONTRADICTIONS: usize = 12;
 
 /// Summarize the results of a group of trainees
 ///
-/// Reports distributions of the scores, people and tasks, box plots by repetition, crashes, answer counts, self-ratings against
-/// measurements, paired t tests with effect size, interval and Holm's correction, homogeneity, the causal model of demand, strain
-/// and performance, and each trainee's progress. Output is text, JSON, CSV tables or a page.
+/// Reports distributions of scores, trainees and tasks, box plots by repetition, crashes, answer counts, self-ratings
+/// versus measurements, paired t tests with effect sizes, confidence intervals and Holm correction, homogeneity, a
+/// causal model of demand, strain and performance, and each trainee's progress. Writes text, JSON, CSV tables or an
+/// HTML page.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -35,7 +36,7 @@ pub struct Args {
     /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
-    /// Scenario to include; may be repeated [default: the one flown most often]
+    /// Scenario to include; may be repeated [default: the scenario flown most often]
     #[arg(long, value_name = "NAME")]
     scenario: Vec<String>,
     /// Number of repetitions to compare, among trainees who flew at least that many (1 to 100)
@@ -47,10 +48,10 @@ pub struct Args {
     /// Write all results as JSON; '-' for standard output
     #[arg(long, value_name = "FILE")]
     json: Option<String>,
-    /// Write all figures as one page that opens offline; '-' for standard output
+    /// Write all figures as one HTML page that works offline; '-' for standard output
     #[arg(long, value_name = "FILE")]
     report: Option<String>,
-    /// Write every table as a CSV file into this folder
+    /// Write each table as a CSV file to this folder
     #[arg(long, value_name = "DIR")]
     csv: Option<PathBuf>,
 }
@@ -98,7 +99,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
 }
 
-/// Returns the number of sessions and the main statistics of the first sessions as text.
+/// Formats the number of sessions and the main statistics of the first sessions as text.
 fn summary_of_first_sessions(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
     if let Some(words) = omitted_summary(cohort.left_out) {

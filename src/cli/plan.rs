@@ -15,8 +15,8 @@ use std::path::PathBuf;
 
 /// Recommend a trainee's next exercises, with reasons
 ///
-/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, where they were speeding, what
-/// they hit, and why pictures missed defects. The rules come from a file; --rules selects another one.
+/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, the places of speeding,
+/// the crashes, and the reasons why pictures missed defects. The rules come from a file; --rules selects another one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -34,7 +34,7 @@ pub struct Args {
     /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
-    /// Rules file to use instead of the shipped rules
+    /// Rules file to use instead of the default rules
     #[arg(long, value_name = "FILE")]
     rules: Option<PathBuf>,
     /// Include incomplete sessions

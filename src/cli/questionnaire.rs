@@ -1,4 +1,4 @@
-//! `spandrel questionnaire`: asks the questions after a flight in a terminal.
+//! `spandrel questionnaire`: asks the post-flight questions in a terminal.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::answers::{languages, read_answers_of, task_ids};
@@ -15,8 +15,9 @@ use std::path::PathBuf;
 
 /// Answer the questionnaire after a flight
 ///
-/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the default scenario). Every answer is
-/// saved immediately in the session's answers.json. You can leave at any time and continue later with the same command.
+/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the default
+/// scenario). Every answer is saved immediately in the session's answers.json. You can quit at any time and continue
+/// later with the same command.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -51,7 +52,7 @@ enum PromptQuestion {
     Tlx(TlxScale),
 }
 
-/// Line typed at the terminal, parsed.
+/// Parsed line of terminal input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TypedInput {
     Answer(u8),
@@ -108,7 +109,7 @@ fn questions(args: &Args, scenario: &Scenario, answers: &Answers) -> Vec<PromptQ
     likert.map(PromptQuestion::Likert).chain(tlx.map(PromptQuestion::Tlx)).collect()
 }
 
-/// Asks the questions in order until all are answered or the trainee leaves.
+/// Asks the questions in order until all are answered or the trainee quits.
 fn ask_questions(
     questions: &[PromptQuestion],
     wording: &Wording,
@@ -196,7 +197,7 @@ mod tests {
     use crate::io::files;
     use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
 
-    /// Types lines into a questionnaire of the default scenario. Returns the output and the number of saves.
+    /// Enters lines into the questionnaire of the default scenario. Returns the output and the number of saves.
     fn run_with_input(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
         let scenario = files::scenario("two-bridges").unwrap().scenario;
         let (mut shown, mut saved) = (Vec::new(), 0);
@@ -236,7 +237,7 @@ mod tests {
         assert_eq!((answers.given.len(), saved), (2, 2));
         assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 4);
         assert_eq!(shown.matches("Please enter a whole number from 1 to 5").count(), 3);
-        // The end of the input also leaves the questionnaire.
+        // The end of the input also ends the questionnaire.
         assert_eq!(run_with_input(&all(), &mut answers, "").1, 0);
     }
 

@@ -1,4 +1,4 @@
-//! `spandrel rc`: runs the sans-IO bridge from sticks to MANUAL_CONTROL with a controller, a clock and a socket.
+//! `spandrel rc`: runs the sans-IO bridge from stick input to MANUAL_CONTROL with a controller, a clock and a socket.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::addresses;
@@ -19,11 +19,11 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// Longest wait for a datagram: a quarter of the interval between stick samples.
+/// Maximum wait for a datagram: a quarter of the interval between stick samples.
 const MAX_WAIT: Duration = Duration::from_millis(5);
 /// Wall time without a datagram after which a connected vehicle counts as lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
-/// Wall time without a first datagram after which a waiting message is shown.
+/// Wall time without a first datagram after which a message about waiting is shown.
 const WAITING_MESSAGE_DELAY: Duration = Duration::from_secs(3);
 /// Key that quits in the terminal.
 const QUIT_KEY: &str = "escape";
@@ -34,8 +34,8 @@ const STDIN_ENDED_MESSAGE: &str = "nothing was saved: the calibration needs the 
 /// Fly with a gamepad, an RC transmitter or the keyboard
 ///
 /// Sends the sticks to the vehicle as MANUAL_CONTROL at 50 Hz, and the buttons as commands. Calibrate each device once
-/// (--calibrate); it is recognized from then on. If the device is lost, the sticks are centered briefly and then no longer sent,
-/// so that the vehicle's own failsafe acts.
+/// (--calibrate); it is recognized from then on. If the device disconnects, the sticks are centered briefly and then no
+/// longer sent, which triggers the vehicle's own failsafe.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -56,7 +56,7 @@ pub struct Args {
     /// Print the connected devices, one per line, and exit
     #[arg(long)]
     list: bool,
-    /// Calibrate: ask which axis belongs to which stick, and save the profile
+    /// Calibrate a device: assign its axes to the sticks, and save the profile
     #[arg(long, conflicts_with_all = ["list", "keyboard", "replay"])]
     calibrate: bool,
     /// Device, by its ID or part of its name [default: the only one]
@@ -68,7 +68,7 @@ pub struct Args {
     /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR")]
     profiles: Option<PathBuf>,
-    /// Use this profile for any device
+    /// Profile to use for any device
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
     /// Fly with the keyboard in the terminal

@@ -22,9 +22,9 @@ const MAX_RETENTION_DAYS: i64 = 36_525;
 
 /// Keep sessions, trainees and answers in a database
 ///
-/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center where many stations write at the same time. The PostgreSQL
-/// password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The session folders remain the source of truth: `rebuild` recreates
-/// the database from them.
+/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center with many stations that write
+/// at the same time. The PostgreSQL password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The
+/// session folders remain the source of truth: `rebuild` recreates the database from them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -150,7 +150,7 @@ pub struct PersonArgs {
     gaming_experience: Option<String>,
 }
 
-/// Destination of the statements.
+/// Destination of the xAPI statements.
 #[derive(Debug, clap::Args)]
 pub struct PushArgs {
     /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from SPANDREL_LRS_USER and
@@ -215,7 +215,7 @@ fn rebuild(place: &RecordsLocation, yes: bool) -> Result<(), AppError> {
     let folders = session_folders(&place.sessions)?;
     let here = folders.iter().map(|folder| session_id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
     let database = place.open()?;
-    // Sessions that other stations add from now on are not affected.
+    // Sessions that other stations add after this point are not affected.
     let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
     if !gone.is_empty() && !yes {
         return Err(AppError::wrong(format!(

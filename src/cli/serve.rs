@@ -18,10 +18,11 @@ use std::path::PathBuf;
 
 /// Show sessions, trainees, cohorts and live flights in a browser
 ///
-/// Serves everything from this machine: no page loads anything from other sites. By default only this machine can connect, without a login and with
-/// full access; once the first password is set, everybody must log in. Trainees see only their own data, instructors see all data and can act in
-/// flights, and administrators manage people. To accept connections from other machines, the server needs a password and TLS, either with its own
-/// certificate or through a proxy.
+/// Serves everything from this machine: no page loads anything from other sites. By default only this machine can
+/// connect, without a login and with full access; once the first password is set, everybody must log in. Trainees see
+/// only their own data, instructors see all data and can intervene in flights, and administrators manage people. To
+/// accept connections from other machines, the server needs a password and TLS, either with its own certificate or
+/// through a proxy.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -42,10 +43,10 @@ pub struct Args {
     /// Folder for uploaded scenarios [default: scenarios in the first folder of sessions]
     #[arg(long, value_name = "DIR")]
     scenarios: Option<PathBuf>,
-    /// Questionnaire wording in another language, or one that replaces a shipped one; may be repeated
+    /// Questionnaire wording in another language, or a replacement for a shipped wording; may be repeated
     ///
-    /// Copy a shipped wording and change its texts. English, German and Spanish are shipped. The browser's language is selected
-    /// at first, and people can change it; the first file given is used if there is no wording in their language.
+    /// Copy a shipped wording and change its texts. English, German and Spanish are shipped. The browser's language is
+    /// the default, and users can change it; if there is no wording in that language, the first file given is used.
     #[arg(long, value_name = "FILE")]
     wording: Vec<PathBuf>,
     /// Vehicle on the live page: address of its payload port, or none; may be repeated
@@ -57,7 +58,7 @@ pub struct Args {
     /// Set this user's password (typed, or from standard input) and exit
     #[arg(long, value_name = "USER", requires = "role")]
     set_password: Option<TraineeId>,
-    /// Role of the user of --set-password
+    /// Role of the user given with --set-password
     #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word), requires = "set_password")]
     role: Option<String>,
     /// Print one JSON line {"address"} on standard output at startup

@@ -1,4 +1,4 @@
-//! Prints the assessment from its JSON; numbers are rounded only here.
+//! Prints the assessment from its JSON. Numbers are rounded only for this output.
 
 use crate::errors::AppError;
 use crate::io::report;

@@ -12,17 +12,18 @@ use crate::window::{self, CaptureRequest, WindowConfig, WindowSetup};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
-/// Longest delay of a screenshot, s.
+/// Maximum delay of a screenshot, s.
 #[cfg(feature = "view")]
 const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
-/// Uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another computer. Defects and traffic follow the
-/// seed that the simulator reports, also after a restart; --seed applies until then, or if the vehicle reports none. With --fly, the keyboard in the
-/// window (and a calibrated controller, if one is connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the wheel
-/// zooms, F follows the aircraft again, M hides the map. No graphics card is needed: a software Vulkan driver is enough (Debian and Ubuntu:
-/// mesa-vulkan-drivers).
+/// The view uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another
+/// computer. Defects and traffic follow the seed that the simulator reports, also after a restart; --seed applies until
+/// then, or if the vehicle reports none. With --fly, the keyboard in the window (and a calibrated controller, if one is
+/// connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the wheel zooms, F follows
+/// the aircraft again, M hides the map. No graphics card is needed: a software Vulkan driver is enough (Debian and
+/// Ubuntu: mesa-vulkan-drivers).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -65,7 +66,7 @@ pub struct Args {
     /// Disable sound; [sound] in the key bindings file sets propellers, warnings, speech and volume
     #[arg(long)]
     no_sound: bool,
-    /// Disable the map of the reference paths, for an assessment; M does not show it
+    /// Disable the map of the reference paths, for an assessment; M does not show it either
     #[arg(long)]
     no_map: bool,
     /// Send the camera's view to this address as H.264 over RTP; the vehicle then announces the stream, and ground stations show
@@ -76,13 +77,14 @@ pub struct Args {
     /// Save a picture of the window (PNG) and exit
     #[arg(long, value_name = "FILE", requires = "after")]
     screenshot: Option<PathBuf>,
-    /// Wall time from the first drawn frame to the picture, s
+    /// Wall time from the first rendered frame to the picture, s
     #[arg(long, value_name = "S", requires = "screenshot")]
     after: Option<f64>,
     /// Save the camera's view to this file (JPEG) about once a second, for the live page of `spandrel serve --picture FILE`
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
-    /// Print one JSON line {"device", "quality", "width", "height"} on standard output when both views are drawn
+    /// Print one JSON line {"device", "quality", "width", "height"} on standard output when both views have been
+    /// rendered
     #[arg(long)]
     announce: bool,
     /// Exit when standard input closes (for a parent process)

@@ -1,9 +1,9 @@
-//! Addresses and ports as users write them.
+//! Parses the addresses and ports that users specify.
 
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 use std::str::FromStr;
 
-/// A destination address, or none.
+/// Destination address, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
     /// Nothing is sent (`none` on the command line).
@@ -32,7 +32,7 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
         .ok_or_else(|| format!("'{text}' does not resolve to a usable address and port"))
 }
 
-/// A port number, or none.
+/// Port number, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PortChoice {
     /// The port stays closed (`none` on the command line).

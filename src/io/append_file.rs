@@ -5,16 +5,17 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Maximum data kept in memory while the disk cannot be written, bytes: about 20 minutes of telemetry (50 kB/s, estimate).
+/// Maximum amount of data kept in memory while the disk cannot be written, bytes: about 20 minutes of telemetry (50
+/// kB/s, estimate).
 const MAX_PENDING_BYTES: usize = 64 * 1024 * 1024;
 
-/// A write that failed.
+/// Error of a failed write.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot write: {error}", path.display())]
 pub struct WriteError {
     /// Path of the file.
     pub path: PathBuf,
-    /// Error of the operating system.
+    /// Error from the operating system.
     pub error: std::io::Error,
 }
 
@@ -98,7 +99,8 @@ impl AppendFile {
         Ok(())
     }
 
-    /// Adds complete records, which are written with the next [`Self::flush`]. Above a limit they are dropped and counted.
+    /// Adds complete records, which the next [`Self::flush`] writes. Records beyond a memory limit are dropped and
+    /// counted.
     pub fn push(&mut self, records: &[u8]) {
         if self.pending.len() > MAX_PENDING_BYTES {
             self.dropped += 1;
@@ -107,12 +109,12 @@ impl AppendFile {
         }
     }
 
-    /// Returns the number of calls of [`Self::push`] whose records were dropped.
+    /// Returns the number of [`Self::push`] calls whose records were dropped.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
 
-    /// Returns the size of the data that has not been written, bytes.
+    /// Returns the size of the data that has not been written yet, bytes.
     pub fn pending(&self) -> usize {
         self.pending.len()
     }
@@ -136,13 +138,13 @@ impl AppendFile {
         let Err(error) = result else { return Ok(()) };
         self.has_partial_record = written > kept;
         if self.has_partial_record {
-            // If this fails, too, the next flush repeats it.
+            // If this fails too, the next flush tries again.
             let _ = self.cut(self.len);
         }
         Err(self.refused(error))
     }
 
-    /// Waits until the written data is on the physical disk.
+    /// Waits until all written data is on the physical disk.
     ///
     /// # Errors
     /// If the disk cannot be written.
@@ -155,7 +157,7 @@ impl AppendFile {
     }
 }
 
-/// Writes until the end or an error, and returns the number of bytes written.
+/// Writes until all data is written or an error occurs. Returns the number of bytes written.
 fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Result<()>) {
     let mut written = 0;
     while written < bytes.len() {

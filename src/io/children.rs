@@ -1,5 +1,6 @@
-//! Child processes of `train` and `demo`: the same program with another subcommand. The parent holds the write end of each child's standard input;
-//! when the parent exits for any reason, the pipe closes and the child finishes (`--leash`).
+//! Child processes of `train` and `demo`: the same program with another subcommand. The parent owns the write end of
+//! each child's standard input; when the parent exits for any reason, the pipe closes and the child shuts down
+//! (`--leash`).
 
 use super::clock::Stopwatch;
 use crate::errors::AppError;
@@ -11,9 +12,9 @@ use std::time::Duration;
 
 /// Time limit for a child to open its sockets and load its site on a busy machine.
 const START_TIMEOUT: Duration = Duration::from_secs(60);
-/// Time limit for a child to finish cleanly.
+/// Time limit for a child to shut down cleanly.
 const FINISH_TIMEOUT: Duration = Duration::from_secs(10);
-/// Interval at which a finishing child is checked.
+/// Interval at which a child that is shutting down is checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 
 /// A running child process.
@@ -55,7 +56,7 @@ impl Child {
         if let Some(stdout) = process.stdout.take() {
             std::thread::spawn(move || {
                 for line in BufReader::new(stdout).lines().map_while(Result::ok) {
-                    // Drains the pipe even after the parent has stopped listening, so that the child does not block.
+                    // Drains the pipe even after the parent has stopped reading, so that the child does not block.
                     let _ = sender.send(line);
                 }
             });
@@ -79,7 +80,7 @@ impl Child {
         serde_json::from_str(&line).map_err(|error| AppError::failed(format!("the {name} announced '{line}': {error}")))
     }
 
-    /// Returns the exit status of a child that has announced nothing, if it has exited.
+    /// Returns the exit status of a child that exited without an announcement.
     fn exit_status_after(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
         match error {
             RecvTimeoutError::Timeout => self.ended(),
@@ -93,7 +94,8 @@ impl Child {
         self.lines.try_recv().ok()
     }
 
-    /// Sends a line to the child. A child that has exited or is finishing ignores it; the exit is reported elsewhere.
+    /// Sends a line to the child. A child that has exited or is shutting down ignores it; the exit is reported
+    /// elsewhere.
     pub fn send_line(&mut self, line: &str) {
         let told = self.stdin.as_mut().map(|leash| writeln!(leash, "{line}").and_then(|()| leash.flush()));
         if let Some(Err(error)) = told {
@@ -106,12 +108,12 @@ impl Child {
         self.process.try_wait().ok().flatten()
     }
 
-    /// Closes the child's standard input, which asks it to finish.
+    /// Closes the child's standard input, which makes the child shut down.
     pub fn close_stdin(&mut self) {
         self.stdin = None;
     }
 
-    /// Asks the child to finish and waits; kills it after the time limit.
+    /// Requests that the child shut down and waits; kills it after the time limit.
     pub fn finish(&mut self) -> Option<ExitStatus> {
         self.close_stdin();
         let watch = Stopwatch::start();

@@ -13,7 +13,7 @@ use std::path::{Component, Path, PathBuf};
 pub struct ScenarioFile {
     /// Source text of the scenario (TOML).
     pub text: String,
-    /// Files that the scenario refers to (height fields), by the name that it uses.
+    /// Files that the scenario refers to (height fields), by their names in the scenario.
     pub siblings: BTreeMap<String, String>,
     /// Scenario parsed from the text.
     pub scenario: Scenario,
@@ -28,7 +28,7 @@ pub struct VehicleFile {
     pub vehicle: Vehicle,
 }
 
-/// Text of a file with its location.
+/// Text of a file and its location.
 pub struct SourceFile {
     /// Name of the file in messages.
     pub file: String,
@@ -77,7 +77,7 @@ pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     Ok(VehicleFile { text, vehicle })
 }
 
-/// Validates a scenario's text; files that it refers to are looked up in its folder.
+/// Validates a scenario's text; files that the scenario refers to are read from its folder.
 ///
 /// # Errors
 /// If it is invalid; all problems are listed.
@@ -138,7 +138,7 @@ pub fn read(path: &Path) -> Result<String, AppError> {
 pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     use std::io::Write;
     let path = Path::new(target);
-    // Symbolic links are followed; pipes and devices cannot be replaced.
+    // Symbolic links are resolved first; pipes and devices cannot be replaced.
     let real = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
     let done = match target {
         "-" => std::io::stdout().lock().write_all(bytes),
@@ -149,7 +149,7 @@ pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
 }
 
 impl SourceFile {
-    /// Reads a file that this one refers to. Only files in the same folder or below are allowed.
+    /// Reads a file that another file refers to. Only files in the same folder or below are allowed.
     pub fn sibling(&self, name: &str) -> Result<String, String> {
         let Some(folder) = &self.folder else { return Err("a shipped scenario cannot refer to other files".into()) };
         if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {

@@ -7,7 +7,7 @@ use std::path::Path;
 /// Minimum length of a passphrase, characters.
 const MIN_PASSPHRASE_CHARS: usize = 8;
 
-/// Reads a signing key from a file with one line: 64 hexadecimal digits are the key, anything else is a passphrase.
+/// Reads a signing key from a file with one line: either the key as 64 hexadecimal digits, or a passphrase.
 ///
 /// # Errors
 /// If the file cannot be read, is readable by other users, or contains no key. The message never shows the file's contents.

@@ -15,7 +15,7 @@ const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
 /// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor blocks the peers of another port.
 const MAX_LEARNED_PEERS: usize = 64;
 
-/// A change of the links, or received data.
+/// A change in the links, or received data.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinkChange {
     /// A link was opened.
@@ -71,7 +71,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Opens all ports and the links to the configured destinations. Their numbers are the same in every run.
+    /// Opens all ports and the links to the configured destinations. The link numbers are the same in every run.
     ///
     /// # Errors
     /// If a port cannot be opened, or a lockstep peer is not a configured destination.
@@ -133,7 +133,7 @@ impl Links {
         }
     }
 
-    /// Returns the next change, if there is one.
+    /// Returns the next event, if there is one.
     pub fn poll(&mut self) -> Option<LinkChange> {
         if self.changes.is_empty() {
             self.wait(Duration::ZERO);
@@ -177,7 +177,7 @@ impl Links {
         self.bad_bytes
     }
 
-    /// Returns the number of arrivals and frames dropped because a queue was full.
+    /// Returns the number of events and frames dropped because a queue was full.
     pub fn take_dropped(&self) -> u64 {
         self.hub.dropped()
     }
@@ -237,7 +237,7 @@ impl Links {
         self.changes.push_back(LinkChange::Opened { link, kind, lockstep: false, learned: false, limit });
     }
 
-    /// Adds a new peer if it sends MAVLink and its port has room for another one.
+    /// Adds a new peer if it sends MAVLink and its port has not reached the maximum number of peers.
     fn add_peer(&mut self, socket: SocketId, from: SocketAddr, bytes: &[u8], wall: Duration) -> Option<u32> {
         if !is_mavlink(bytes) {
             tracing::debug!("ignored a datagram without a MAVLink message from unknown address {from}");
@@ -285,7 +285,7 @@ mod tests {
         Encoder::new(255, 190).encode(&station::heartbeat())
     }
 
-    /// Any free ports, and these ground stations.
+    /// Returns settings with any free ports and these ground stations.
     fn ephemeral(stations: &[SocketAddr]) -> VehiclePorts {
         VehiclePorts {
             system_id: 1,

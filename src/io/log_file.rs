@@ -11,10 +11,11 @@ use std::path::{Path, PathBuf};
 
 /// Size of a chunk, bytes.
 const CHUNK_BYTES: usize = 256 * 1024;
-/// Number of bytes at the start of the file that contain the first record.
+/// Number of bytes at the start of the file that certainly contain the first record.
 const HEAD_BYTES: u64 = 64 * 1024;
 
-/// A telemetry log. Reads end where the file ended when it was opened, because the session may still be recording.
+/// A telemetry log. Reads stop at the length that the file had when it was opened, because the session may still be
+/// recording.
 #[derive(Debug, Clone)]
 pub struct LogFile {
     path: PathBuf,

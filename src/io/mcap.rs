@@ -1,7 +1,7 @@
 //! MCAP recordings, and the recovery of truncated ones.
 //!
-//! A chunk is written as a whole after 16 KiB or one second of flight, so that a killed program loses no more than that. A file without an end can be
-//! read up to its last complete chunk.
+//! A complete chunk is written after every 16 KiB or one second of flight, so a killed program loses no more than that.
+//! A file without a footer can be read up to its last complete chunk.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -17,7 +17,7 @@ const CHUNK_BYTES: u64 = 16 * 1024;
 const FLUSH_AFTER_NS: u64 = 1_000_000_000;
 
 fn options() -> WriteOptions {
-    // Without seeking, chunks are never on disk before their length is known.
+    // Without seeking, a chunk is never written before its length is known.
     WriteOptions::new().compression(None).library("spandrel").chunk_size(Some(CHUNK_BYTES)).disable_seeking(true)
 }
 
@@ -36,7 +36,7 @@ impl<W: Write + Seek> std::fmt::Debug for McapRecording<W> {
 }
 
 impl<W: Write + Seek> McapRecording<W> {
-    /// Starts a file with all schemas and channels.
+    /// Starts a file and writes all schemas and channels.
     ///
     /// # Errors
     /// If the disk cannot be written.
@@ -68,7 +68,7 @@ impl<W: Write + Seek> McapRecording<W> {
         Ok(())
     }
 
-    /// Writes the index and the end of the file.
+    /// Writes the index and the footer of the file.
     ///
     /// # Errors
     /// If the disk cannot be written.
@@ -95,7 +95,7 @@ pub struct RecoveryResult {
     pub broken: Option<String>,
 }
 
-/// Reads as much of a file as possible and writes it again, with index and end.
+/// Reads as much of a file as possible and rewrites it with an index and a footer.
 ///
 /// # Errors
 /// If it is not an MCAP file.

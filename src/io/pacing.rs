@@ -4,7 +4,8 @@ use spandrel_model::time::SimTime;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// Longest step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md, "One simulation step").
+/// Maximum step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md,
+/// "One simulation step").
 pub const LOCKSTEP_STEP: SimTime = SimTime::from_ms(20);
 /// Wall time after which a lockstep peer that does not answer ends the run.
 pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
@@ -24,8 +25,8 @@ pub enum SimulationSpeed {
 const MAX_SPEED: f64 = 100.0;
 
 impl SimulationSpeed {
-    /// Returns the simulation seconds per second of a client outside lockstep, at least 1. At `max` the speed is unknown; the highest multiple is
-    /// returned.
+    /// Returns the simulation seconds per wall-clock second for a client that is not in lockstep, at least 1. At `max`
+    /// the speed is unknown; the highest multiple is returned.
     pub fn client_speed_factor(self) -> f64 {
         match self {
             Self::Times(times) => times.max(1.0),
@@ -55,10 +56,10 @@ impl std::fmt::Display for SimulationSpeed {
     }
 }
 
-/// Delay of the simulation behind its clock, in wall time.
+/// Delay of the simulation relative to its clock, in wall time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Lateness {
-    /// Longest delay. It includes the length of a sleep, because one wake-up runs several ticks.
+    /// Longest delay. It includes the sleep time, because each wake-up runs several ticks.
     pub latest: Duration,
     /// Number of delays beyond the limit, at which the clock slipped.
     pub slips: u32,
@@ -66,7 +67,7 @@ pub struct Lateness {
     pub slipped: Duration,
 }
 
-/// Computes the simulation time that the wall clock asks for.
+/// Computes the simulation time to reach at a given wall time.
 #[derive(Debug, Clone)]
 pub struct WallPacer {
     speed: SimulationSpeed,
@@ -97,7 +98,7 @@ impl WallPacer {
         due.min(reached + LOCKSTEP_STEP)
     }
 
-    /// Changes the speed from now on.
+    /// Changes the speed, starting now.
     pub fn set_speed(&mut self, speed: SimulationSpeed, wall: Duration, reached: SimTime) {
         if self.speed != speed {
             self.speed = speed;
@@ -139,7 +140,7 @@ pub struct FirstAnswerWait {
     last_announced: Option<Duration>,
 }
 
-/// Action while the peer's first answer is outstanding.
+/// Action while waiting for the peer's first answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FirstAnswerAction {
     /// Keep waiting for the peer.

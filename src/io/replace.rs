@@ -1,4 +1,4 @@
-//! Replaces a file as a whole.
+//! Replaces whole files atomically.
 
 use super::append_file::WriteError;
 use crate::errors::AppError;
@@ -24,7 +24,7 @@ pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 }
 
 fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteError> {
-    // The temporary name is unique: two writers of the same file must not rename each other's partial file.
+    // The temporary name is unique, because two writers of the same file must not rename each other's partial file.
     static TEMP_FILE_COUNTER: AtomicU64 = AtomicU64::new(0);
     let mut beside = path.to_path_buf().into_os_string();
     beside.push(format!(".{}-{}.new", std::process::id(), TEMP_FILE_COUNTER.fetch_add(1, Ordering::Relaxed)));
@@ -36,7 +36,7 @@ fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>)
         std::fs::rename(&beside, path)
     };
     write().map_err(|error| {
-        // No later write reuses this name, so the file would remain.
+        // Later writes do not reuse this name, so the file would remain.
         let _ = std::fs::remove_file(&beside);
         WriteError { path: path.to_path_buf(), error }
     })

@@ -1,4 +1,4 @@
-//! The report of a session, from what its folder holds.
+//! Builds the report of a session from the contents of its folder.
 
 use super::clock;
 use super::replace::replace;
@@ -45,7 +45,7 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
 /// If files are invalid, the session has no data to report, or the page cannot be written.
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
-    // The caller is about to draw the photographs.
+    // No photographs are passed, because the caller is about to render them.
     Ok(review_with_pictures(session, Vec::new())?.pictures)
 }
 
@@ -70,7 +70,7 @@ pub fn address(path: &Path) -> String {
     address
 }
 
-/// Returns everything that the page of a session shows.
+/// Returns the complete contents of a session's page.
 ///
 /// # Errors
 /// If files are invalid, or the session has no data to report.
@@ -105,8 +105,8 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetada
     })
 }
 
-/// Returns the photographs that fit into the page, keyed by the number at the end of their file names. Uses the small copy of a photograph if there
-/// is one.
+/// Returns the photographs that fit on the page, keyed by the number at the end of their file names. Uses the small
+/// copy of a photograph if one exists.
 fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
     let files = numbered_photographs(folder);
     let (mut left, mut found) = (MAX_PICTURES_BYTES, Vec::new());

@@ -1,4 +1,4 @@
-//! Scores of logs and stored sessions.
+//! Scores logs and stored sessions.
 
 use super::session_folder::StoredSession;
 use crate::errors::AppError;

@@ -12,7 +12,7 @@ use std::time::Duration;
 const BITS_PER_BYTE: f64 = 10.0;
 /// Interval between attempts to reopen a disconnected port.
 const REOPEN_INTERVAL: Duration = Duration::from_secs(1);
-/// Baud rates in use by radios and cables. The system rejects rates that its hardware does not support.
+/// Range of baud rates that radios and cables use. The system rejects rates that its hardware does not support.
 const BAUD_RANGE: std::ops::RangeInclusive<u32> = 1_200..=4_000_000;
 
 /// A serial port and its speed.
@@ -59,8 +59,8 @@ impl FromStr for SerialDevice {
     }
 }
 
-/// Reads a port until its bytes are no longer needed. `begin` returns the frames to write, `give` receives the bytes read, and `end` is called when
-/// the port disconnects; the port is then reopened as soon as possible.
+/// Reads a port until its data is no longer needed. `begin` returns the frames to write, `give` receives the data read,
+/// and `end` is called when the port disconnects; the port is then reopened as soon as possible.
 pub fn run_with_reconnect(
     device: &SerialDevice,
     mut port: SerialPort,
@@ -83,7 +83,8 @@ pub fn run_with_reconnect(
     }
 }
 
-/// Reads the port while a thread writes `frames` to it. Returns false if the bytes are no longer needed, true if the port disconnected.
+/// Reads the port while a thread writes `frames` to it. Returns false if the data is no longer needed, true if the port
+/// disconnected.
 fn read_until_disconnect(port: SerialPort, frames: Receiver<Vec<u8>>, give: &impl Fn(&[u8]) -> bool) -> bool {
     let port = Arc::new(port);
     let to_write = Arc::clone(&port);

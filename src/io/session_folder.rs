@@ -1,4 +1,5 @@
-//! Session folder on disk: created once, appended to and flushed. A monitor that was killed can resume in it.
+//! Session folder on disk. Its logs are only appended to and are flushed regularly, so that a restarted monitor can
+//! resume the session.
 
 use super::append_file::{AppendFile, WriteError, complete_lines_len, sync_folder};
 use super::clock;
@@ -40,7 +41,7 @@ pub struct StoredSession {
     pub purpose: Option<String>,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Number of monitor starts so far.
+    /// Number of times that a monitor has been started for this session.
     pub starts: u32,
     /// Version of the program that recorded the session; empty if unknown.
     pub spandrel_version: String,
@@ -74,7 +75,8 @@ impl SessionFolder {
         Self::open(path, scenario.text.clone(), vehicle.text.clone(), readable, 1)
     }
 
-    /// Opens a folder in which a monitor was killed; truncates telemetry and events to complete records and lines.
+    /// Opens the folder of a session whose monitor was killed, and truncates telemetry and events to complete records
+    /// and lines.
     ///
     /// # Errors
     /// If this is not a session folder, another monitor is recording to it, or it cannot be written.
@@ -111,7 +113,7 @@ impl SessionFolder {
         &self.path
     }
 
-    /// Adds a record, which is written with the next [`Self::flush`].
+    /// Adds a record, which the next [`Self::flush`] writes.
     pub fn record(&mut self, record: SessionOutput) {
         match record {
             SessionOutput::Telemetry(bytes) => self.telemetry.push(&bytes),
@@ -254,10 +256,10 @@ pub struct OngoingSession {
     pub seed: u64,
 }
 
-/// Returns a session that has not ended and whose telemetry has grown within this time; `None` for any other.
+/// Returns the session if it has not ended and its telemetry has grown within this time; `None` otherwise.
 pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> {
     let grown = path.join(TELEMETRY).metadata().and_then(|about| about.modified()).ok()?;
-    // If the clock was set back, the file counts as new.
+    // If the clock was set back, the file counts as recent.
     if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
         return None;
     }
@@ -266,7 +268,7 @@ pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> 
     Some(OngoingSession { trainee: session["trainee"].as_str()?.to_owned(), crc, seed: session["seed"].as_u64()? })
 }
 
-/// Returns true for a folder that contains a session's telemetry.
+/// Returns true if the folder contains a session's telemetry.
 pub fn is_session(path: &Path) -> bool {
     path.join(TELEMETRY).is_file()
 }
@@ -292,7 +294,7 @@ fn trainee_from_folder_name(path: &Path, scenario: &str) -> Option<String> {
     Some(rest.strip_suffix(scenario)?.strip_suffix('-')?.to_owned())
 }
 
-/// Creates a new folder, even if two sessions start in the same second.
+/// Creates a new folder; the name is unique even if two sessions start in the same second.
 fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathBuf, AppError> {
     for attempt in 0..1000u32 {
         let key = format!("{started_unix_us} {} {attempt}", std::process::id());

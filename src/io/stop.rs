@@ -15,7 +15,7 @@ impl StopRequest {
     /// child outlives its parent.
     ///
     /// # Errors
-    /// If the system rejects the listener.
+    /// If the signal handler cannot be installed.
     pub fn install(leash: bool) -> Result<Self, AppError> {
         let stop = Self::default();
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -36,14 +36,15 @@ impl StopRequest {
         Ok(stop)
     }
 
-    /// Returns the lines that the parent process writes to standard input. When standard input closes, the process is asked to stop.
+    /// Returns the lines that the parent process writes to standard input. When standard input closes, requests that
+    /// the process stop.
     pub fn lines(&self) -> Receiver<String> {
         let (sender, lines) = channel();
         let on_end = self.clone();
         std::thread::spawn(move || {
             let mut stdin = std::io::stdin().lock();
             let mut line = Vec::new();
-            // Bytes that are not UTF-8 make an invalid line, but do not end the input.
+            // Bytes that are not UTF-8 make the line invalid, but do not end the input.
             while matches!(stdin.read_until(b'\n', &mut line), Ok(1..)) {
                 let text = String::from_utf8_lossy(&line).trim_end().to_owned();
                 line.clear();

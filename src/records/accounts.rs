@@ -1,4 +1,4 @@
-//! Accounts that can log in to `spandrel serve`.
+//! Login accounts of `spandrel serve`.
 
 use super::database::Database;
 use super::trainees::{trainee, update_details};
@@ -23,7 +23,8 @@ pub struct Account {
 }
 
 impl Account {
-    /// Returns a hash of the password and the role. Browser sessions end when it changes. `None` for a person who cannot log in.
+    /// Returns a hash of the password and the role. When it changes, browser sessions end. `None` for a person who
+    /// cannot log in.
     #[must_use]
     pub fn credential(&self) -> Option<CredentialHash> {
         let hash = self.hash.as_ref()?;

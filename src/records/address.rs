@@ -1,5 +1,5 @@
-//! Addresses of databases: a file, or a PostgreSQL URL. The TLS options of a URL are checked here, because the driver's error messages are unclear
-//! and some options do less than their names suggest.
+//! Database addresses: a file, or a PostgreSQL URL. The TLS options of a URL are checked here, because the driver's
+//! error messages are unclear and some options do less than their names suggest.
 
 use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};
@@ -19,7 +19,7 @@ pub fn is_url(target: &str) -> bool {
 /// Checks the TLS options of a URL.
 ///
 /// # Errors
-/// If an option is invalid: its name, its value and the allowed values.
+/// If an option is invalid. The error contains its name, its value and the allowed values.
 pub fn check_tls_options(target: &str) -> Result<(), String> {
     let Some((_, query)) = target.split_once('?').filter(|_| is_url(target)) else { return Ok(()) };
     let said: Vec<(String, String)> = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
@@ -50,7 +50,7 @@ pub fn check_tls_options(target: &str) -> Result<(), String> {
     }
 }
 
-/// Returns true if an option concerns TLS, in upper or lower case: the driver ignores `SSLMODE`.
+/// Returns true if an option concerns TLS, in upper or lower case, because the driver ignores `SSLMODE`.
 fn is_tls_option(key: &str) -> bool {
     key.to_ascii_lowercase().starts_with("ssl")
 }
@@ -65,7 +65,7 @@ fn check_certificate_file(key: &str, file: &str) -> Result<(), String> {
     }
 }
 
-/// Describes a connection error, with advice where the driver's message is unclear.
+/// Describes a connection error, and adds advice where the driver's message is unclear.
 pub fn connection_error(error: &sqlx::Error) -> String {
     let said = error.to_string();
     let advice = [

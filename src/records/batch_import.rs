@@ -1,4 +1,4 @@
-//! Import of many session folders.
+//! Imports many session folders.
 
 use super::database::Database;
 use super::erasure_marks::ErasureMarks;
@@ -25,7 +25,7 @@ pub struct ImportCounts {
 
 impl ImportCounts {
     /// Returns the record of a folder, or `None` if the session was erased, is unchanged in `known`, or cannot be read.
-    /// `otherwise` is logged as the consequence in the last case.
+    /// If it cannot be read, logs the error with `otherwise` as the consequence.
     pub fn read(
         &mut self,
         folder: &Path,

@@ -1,6 +1,6 @@
-//! Database of records: SQLite in a file, or PostgreSQL by URL, with the same statements and migrations. All calls block. Every change is one
-//! transaction that takes the write lock first, so that stations that write at the same time wait for one another, and an interrupted program leaves
-//! either all of a session or nothing.
+//! Database of records: SQLite in a file, or PostgreSQL by URL, with the same statements and migrations. All calls
+//! block. Every change is one transaction that takes the write lock first, so concurrent writers wait for each other,
+//! and an interrupted program leaves either all of a session or nothing.
 
 use super::address::{self, sqlite_url, without_password};
 use crate::errors::AppError;
@@ -10,7 +10,7 @@ use std::future::Future;
 use std::path::Path;
 use std::time::Duration;
 
-/// Time that SQLite waits for other writers, ms.
+/// Maximum time that SQLite waits for other writers, ms.
 const BUSY_TIMEOUT: &str = "PRAGMA busy_timeout = 60000";
 /// SQLite overwrites deleted data with zeros.
 const SECURE_DELETE: &str = "PRAGMA secure_delete = ON";
@@ -120,7 +120,8 @@ impl Database {
                     let version: i64 = sqlx::query("PRAGMA data_version").fetch_one(&self.pool).await?.try_get(0)?;
                     Ok(version.to_string())
                 }
-                // Every write transaction on the server changes this value: results are recomputed too often rather than too rarely.
+                // Every write transaction on the server changes this value, so results may be recomputed too often, but
+                // never too rarely.
                 SqlDialect::Postgres => {
                     sqlx::query("SELECT txid_current_snapshot()::text").fetch_one(&self.pool).await?.try_get(0)
                 }
@@ -161,8 +162,8 @@ async fn prepare(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
     for pragma in [BUSY_TIMEOUT, SECURE_DELETE] {
         connection.execute(pragma).await?;
     }
-    // The write-ahead log lets readers work while another process writes. SQLite may reject the switch while another station has the file open; that
-    // station then requests it too, and until then the busy timeout is sufficient.
+    // The write-ahead log allows reads while another process writes. SQLite may reject the mode change while another
+    // station has the file open; that station requests it as well, and until then the busy timeout is sufficient.
     let _ = connection.execute("PRAGMA journal_mode = WAL").await;
     Ok(())
 }

@@ -1,5 +1,6 @@
-//! Removes session folders so that an interrupted program leaves nothing half done. The transaction that erases the records also marks their folders;
-//! each folder is then renamed, so that nothing reads it anymore, and deleted. The next start finishes interrupted removals.
+//! Removes session folders in a crash-safe way. The transaction that erases the records also marks their folders; each
+//! folder is then renamed, so that nothing reads it anymore, and deleted. At the next start, interrupted removals are
+//! completed.
 
 use super::database::Database;
 use super::erasure_marks::{self, ErasedKind, folder_name};
@@ -125,7 +126,7 @@ mod tests {
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(place.path()), ["b-ben"]);
         assert_eq!(database.erasing(), Ok(BTreeSet::new()));
-        // A folder that is copied back later is not removed without a request.
+        // A folder that is copied back later is not removed automatically.
         session(place.path(), "a-anna");
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(place.path()), ["a-anna", "b-ben"]);

@@ -13,7 +13,7 @@ use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, recor
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Returns the session folders directly inside these folders, ordered by name (that is, by time).
+/// Returns the session folders directly inside these folders, sorted by name (that is, by time).
 ///
 /// # Errors
 /// If a folder cannot be read.
@@ -57,7 +57,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     let scenario = &stored.scenario.scenario;
     let graded = scoring::grade(&stored.log, scenario, &stored.vehicle.vehicle)
         .map_err(|error| AppError::failed(format!("{}: {error}", session.display())))?;
-    // A monitor that was killed early has not saved the positions of the defects; the seed gives the same ones.
+    // If the monitor was killed early, the positions of the defects were not saved; the seed reproduces them.
     let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
     let answers = answers::read_answers_of(session, scenario)?;

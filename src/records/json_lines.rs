@@ -1,4 +1,4 @@
-//! Records as JSON lines, to exchange them between databases.
+//! Records as JSON lines, for exchange between databases.
 
 use crate::errors::AppError;
 use crate::io::files;

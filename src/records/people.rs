@@ -1,4 +1,4 @@
-//! Details of trainees, and the export and erasure of all data of a trainee.
+//! Trainee details, and export and erasure of all data of a trainee.
 
 use super::database::Database;
 use super::location::RecordsLocation;
@@ -66,7 +66,7 @@ pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppEr
     Ok(database.account(trainee)?.map(|account| account.person))
 }
 
-/// Returns the session folders of a trainee.
+/// Returns a trainee's session folders.
 ///
 /// # Errors
 /// If the folder of sessions cannot be read.

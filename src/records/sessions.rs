@@ -1,4 +1,4 @@
-//! Sessions in the database: import, list, delete.
+//! Imports, lists and deletes sessions in the database.
 
 use super::database::{Database, signed};
 use super::erasure_marks::{self, ErasedKind, folder_name};
@@ -25,7 +25,7 @@ const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     fingerprint = excluded.fingerprint, record = excluded.record, purpose = excluded.purpose \
     WHERE sessions.fingerprint <> excluded.fingerprint";
 const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
-// The subquery needs only an index; complete rows are read only for the sessions that are shown.
+// The subquery uses only an index; complete rows are read only for the sessions to show.
 const LIST_ALL: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 const LIST_OF_TRAINEE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
@@ -84,7 +84,7 @@ impl Database {
         })
     }
 
-    /// Returns the records of all trainees, or of one, in the order of their start.
+    /// Returns the records of all trainees, or of one, in order of start time.
     ///
     /// # Errors
     /// If the database fails or contains an invalid record.
@@ -133,7 +133,7 @@ impl Database {
         Ok(u64::try_from(counted).unwrap_or_default())
     }
 
-    /// Returns up to `most` list entries of all trainees, or of one, newest first; skips the first `skip`.
+    /// Returns up to `most` list entries of all trainees, or of one, newest first, after skipping the first `skip`.
     ///
     /// # Errors
     /// If the database fails.
@@ -177,8 +177,9 @@ impl Database {
         })
     }
 
-    /// Erases a trainee with all data, so that the sessions so far cannot be imported again from folders on other stations. Marks `folders` for
-    /// [`super::erasure::remove_folders`]. Returns whether the trainee existed, and the number of sessions deleted.
+    /// Erases a trainee with all data, so that the existing sessions cannot be imported again from folders on other
+    /// stations. Marks `folders` for [`super::erasure::remove_folders`]. Returns whether the trainee existed, and the
+    /// number of sessions deleted.
     ///
     /// # Errors
     /// If the database fails; nothing is changed in that case.

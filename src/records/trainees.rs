@@ -6,7 +6,7 @@ use spandrel_training::trainee::{Role, Trainee};
 use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
-/// Empty values keep the stored ones, so that no concurrent change is lost.
+/// Empty values leave the stored values unchanged, so that no concurrent change is lost.
 const UPSERT_DETAILS: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
     VALUES ($1, CASE WHEN $2 = '' THEN 'trainee' ELSE $2 END, NULLIF($3, ''), NULLIF($4, ''), NULLIF($5, '')) \
     ON CONFLICT (pseudonym) DO UPDATE SET role = CASE WHEN $2 = '' THEN trainees.role ELSE excluded.role END, \
@@ -43,8 +43,8 @@ impl Database {
         })
     }
 
-    /// Sets a person's details (age, drones, games; empty for no answer) if they are still as in `before`. Returns false if they are not, or if there
-    /// is no such person; nothing is changed in that case.
+    /// Sets a person's details (age, drones, games; empty for no answer) if they still match `before`. Returns false
+    /// and changes nothing if they do not match or if there is no such person.
     ///
     /// # Errors
     /// If the database fails.

@@ -20,16 +20,16 @@ use std::net::IpAddr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Lifetime of the cookie that identifies a browser; the server forgets the browser after the same time.
+/// Lifetime of the cookie that identifies a browser. The server forgets the browser after the same period.
 const BROWSER_COOKIE_LIFETIME: cookie::time::Duration = cookie::time::Duration::days(90);
 
-/// Keeps the browser sessions, the known browsers and the failed logins.
+/// Stores the browser sessions, the known browsers and the failed logins.
 #[derive(Debug)]
 pub struct Authenticator {
     visits: Mutex<BrowserSessions>,
     throttle: Mutex<LoginThrottle>,
     devices: Mutex<KnownBrowsers>,
-    /// Queue for password hashing.
+    /// Queue of password hash requests.
     pub hashing: HashingQueue,
     login_required: AtomicBool,
     secure: bool,
@@ -48,7 +48,7 @@ pub struct LoginClient<'a> {
 /// A visitor with their session cookie.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identified {
-    /// Visitor with name and role.
+    /// Name and role of the visitor.
     pub visitor: Visitor,
     /// Value of the session cookie.
     pub cookie: String,
@@ -70,18 +70,18 @@ impl Authenticator {
         }
     }
 
-    /// Checks where a request comes from, as [`AllowedOrigins::check_origin`].
+    /// Checks the origin of a request.
     ///
     /// # Errors
-    /// As [`AllowedOrigins::check_origin`].
+    /// See [`AllowedOrigins::check_origin`].
     pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
         self.reach.check_origin(headers, changes, open)
     }
 
-    /// Returns the client's address, as [`AllowedOrigins::address`].
+    /// Returns the client's address.
     ///
     /// # Errors
-    /// As [`AllowedOrigins::address`].
+    /// See [`AllowedOrigins::address`].
     pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
         self.reach.address(socket, headers)
     }
@@ -112,7 +112,7 @@ impl Authenticator {
         Ok(true)
     }
 
-    /// Identifies the visitor by this cookie. Without a valid one, a new anonymous browser session starts.
+    /// Identifies the visitor by this cookie. Without a valid cookie, a new anonymous browser session starts.
     ///
     /// # Errors
     /// If the database or the system's random number generator fails.
@@ -120,8 +120,8 @@ impl Authenticator {
         let open = self.is_open(database)?;
         let now_us = clock::unix_us();
         let found = cookie.and_then(|cookie| lock(&self.visits).find(&cookie, now_us).map(|visit| (cookie, visit)));
-        // Checked with every request, so that a change of role, an erasure or a new password ends the browser session immediately, even if another
-        // server or the command line made the change.
+        // Checked with every request, so a change of role, an erasure or a new password ends the browser session
+        // immediately, even if another server or the command line made the change.
         let account = found.as_ref().and_then(|(_, visit)| visit.name.as_deref());
         let account = account.map(|name| database.account(name)).transpose()?.flatten();
         let over =
@@ -145,7 +145,8 @@ impl Authenticator {
     /// the browser, which is known for this name from now on.
     ///
     /// # Errors
-    /// If there were too many failures, or name and password do not match; the message does not tell which of the two is wrong.
+    /// If there were too many failures, or name and password do not match; the message does not reveal which of them is
+    /// wrong.
     pub fn log_in(
         &self,
         database: &Database,
@@ -165,7 +166,8 @@ impl Authenticator {
         Ok((cookie, device))
     }
 
-    /// Checks a password within the limits on failed logins. Returns the account as it was when the password matched.
+    /// Checks a password within the limits on failed logins. Returns the account in the state in which the password
+    /// matched.
     ///
     /// # Errors
     /// Like [`Self::log_in`].
@@ -178,7 +180,7 @@ impl Authenticator {
         }
         // If the queue is full, the request is rejected before it counts as a failure: a flood from elsewhere must not lock out other users.
         let turn = self.hashing.acquire()?;
-        // Counted before the slow hashing, so that simultaneous attempts count, too.
+        // Counted before the slow hashing, so that simultaneous attempts count as well.
         lock(&self.throttle).record_failure(from, name, now_us);
         let account = database.account(name)?;
         let hash = account.as_ref().and_then(|account| account.hash.as_deref());
@@ -200,17 +202,17 @@ impl Authenticator {
         lock(&self.visits).end_all_of(name, but);
     }
 
-    /// Continues a browser session after a change of its account's password or role.
+    /// Keeps a browser session valid after a change of its account's password or role.
     pub fn renew(&self, cookie: Option<&str>, account: &Account) {
         if let (Some(cookie), Some(credential)) = (cookie, account.credential()) {
             lock(&self.visits).renew(cookie, credential);
         }
     }
 
-    /// Checks that the form token is the visitor's.
+    /// Checks that the form token belongs to the visitor.
     ///
     /// # Errors
-    /// If it is not: the form belongs to another site, or was loaded before a login.
+    /// If it does not: the form belongs to another site, or was loaded before a login.
     pub fn check_token(visitor: &Visitor, given: Option<&str>) -> Result<(), WebError> {
         if given.is_some_and(|given| constant_time_eq(given, &visitor.token)) {
             return Ok(());

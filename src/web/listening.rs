@@ -1,4 +1,4 @@
-//! Where and how the server listens.
+//! Listening settings of the server.
 
 use ipnet::IpNet;
 use std::net::{Ipv4Addr, SocketAddr};

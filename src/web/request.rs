@@ -37,7 +37,7 @@ pub struct WebRequest {
     pub upload: Option<UploadedFile>,
     /// Preferred languages of the browser (Accept-Language).
     pub languages: String,
-    /// True for requests of the pages' scripts, which expect JSON.
+    /// True for requests from the pages' scripts, which expect JSON.
     pub expects_json: bool,
 }
 
@@ -70,8 +70,8 @@ impl WebRequest {
         self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::BadRequest(format!("{name}: missing")))
     }
 
-    /// Checks that the visitor may see this trainee's data: the trainee, instructors and administrators may. To others it looks as if it did not
-    /// exist.
+    /// Checks that the visitor may see this trainee's data: the trainee, instructors and administrators may. For anyone
+    /// else, the data appears not to exist.
     ///
     /// # Errors
     /// If the visitor has no access.

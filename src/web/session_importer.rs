@@ -33,7 +33,8 @@ impl SessionImporter {
                 looked.scan(&database, &sessions);
                 match changed.recv_timeout(SCAN_INTERVAL) {
                     Ok(folder) => {
-                        // Answers are saved in quick succession; the session is imported once for all pending requests.
+                        // Answers are saved in quick succession, so the session is imported once for all pending
+                        // requests.
                         let mut folders = BTreeSet::from([folder]);
                         folders.extend(changed.try_iter());
                         folders.iter().for_each(|folder| looked.import(&database, folder, &BTreeMap::new()));
@@ -57,19 +58,19 @@ impl SessionImporter {
 /// State of the importer thread.
 #[derive(Debug, Default)]
 struct ImportProgress {
-    /// True once changed answers from before the start have been looked for.
+    /// True once answers that changed before startup have been checked.
     answers_checked: bool,
     /// Unreadable folders, each logged once.
     unreadable: BTreeSet<PathBuf>,
-    /// Sessions that the database did not accept; retried at every scan.
+    /// Sessions that the database rejected; retried at every scan.
     rejected: BTreeSet<PathBuf>,
     /// Folders of erased sessions, each logged once.
     erased: BTreeSet<PathBuf>,
 }
 
 impl ImportProgress {
-    /// Imports ended sessions that are missing in the database, those that it did not accept before, and, on the first scan, those with changed
-    /// answers.
+    /// Imports ended sessions that are missing from the database, sessions that it rejected before, and, on the first
+    /// scan, sessions with changed answers.
     fn scan(&mut self, database: &Database, sessions: &[PathBuf]) {
         let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
         let (known, erased, folders) = match (database.fingerprints(), database.erased(), session_folders(&here)) {
@@ -111,7 +112,7 @@ impl ImportProgress {
                 self.unreadable.remove(folder);
                 self.save_record(database, folder, record);
             }
-            // The folder was erased meanwhile, or is unreadable.
+            // The folder has been erased meanwhile, or is unreadable.
             Err(error) => {
                 self.rejected.remove(folder);
                 if self.unreadable.insert(folder.to_path_buf()) && folder.is_dir() {

@@ -1,4 +1,4 @@
-//! Session pages: list, one session with its report and files, and the comparison of two sessions.
+//! Session pages: the list, one session with its report and files, and the comparison of two sessions.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -32,7 +32,7 @@ pub fn session_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let last = u32::try_from(count.div_ceil(u64::from(SESSIONS_PER_PAGE))).unwrap_or(u32::MAX).max(1);
     let page = asked.query_value("page").and_then(|page| page.parse().ok()).unwrap_or(1).clamp(1, last);
     let lines = state.database.list(trainee, SESSIONS_PER_PAGE, (page - 1).saturating_mul(SESSIONS_PER_PAGE))?;
-    // Links contain the name, so an invalid one is shown as empty.
+    // Links contain the name, so an invalid name is shown as empty.
     let trainee = wanted.filter(|name| asked.visitor.restricted_to().is_none() && name.parse::<TraineeId>().is_ok());
     let listing = pages::SessionList { lines: &lines, trainee, page, last, count };
     Ok(WebResponse::page(pages::list(&asked.visitor, &listing)))
@@ -82,7 +82,7 @@ pub fn report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::sandboxed_page(page, &policy))
 }
 
-/// Returns true if the page's head contains the policy of this version.
+/// Returns true if the page's head contains this version's policy.
 fn has_current_policy(page: &[u8], policy: &str) -> bool {
     let head = &page[..page.len().min(2_000)];
     let escaped = maud::html! { (policy) }.into_string();

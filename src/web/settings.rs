@@ -1,4 +1,4 @@
-//! Pages for login, account and server settings.
+//! Pages for the login, the account and the server settings.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};

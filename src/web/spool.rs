@@ -1,5 +1,5 @@
-//! Uploaded files. A small file stays in memory; a large one is written to disk while it arrives, so that slow clients occupy neither memory nor a
-//! slot in a queue. Clients that are too slow are disconnected.
+//! Uploaded files. A small file stays in memory; a large one is written to disk as it arrives, so that slow clients
+//! occupy neither memory nor a slot in a queue. Clients that are too slow are disconnected.
 
 use super::response::WebError;
 use crate::errors::AppError;
@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// Maximum size of a file that stays in memory, bytes.
 const MAX_IN_MEMORY: usize = 512 * 1024;
-/// Time before the minimum rate applies to an upload.
+/// Time after which the minimum rate applies to an upload.
 const GRACE_PERIOD: Duration = Duration::from_secs(30);
 /// Minimum rate after that, bytes/s. Estimate: one sixteenth of a 1 Mbit/s line.
 const MIN_RATE: u64 = 8 * 1024;

@@ -45,7 +45,7 @@ pub struct ServerState {
     pub live: Vec<LiveVehicle>,
     /// Imports new sessions into the database.
     pub importer: SessionImporter,
-    /// Locked while an answers file is read, changed and written.
+    /// Locked while an answers file is read, modified and written.
     pub answers: Mutex<()>,
     /// Locked while a recording is scored, because scoring is expensive.
     pub scoring: Mutex<()>,

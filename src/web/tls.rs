@@ -9,10 +9,10 @@ use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Checks that a server that other machines can reach has a password and TLS.
+/// Checks that the server has a password and TLS if other machines can reach it.
 ///
 /// # Errors
-/// If one of them is missing.
+/// If either is missing.
 pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), AppError> {
     let beyond = !args.listen.ip().is_loopback();
     if (beyond || args.behind_proxy) && !somebody_has_a_password {

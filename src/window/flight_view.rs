@@ -18,7 +18,7 @@ use std::time::Duration;
 pub enum SceneLoading {
     /// Waiting for the seed of the session.
     Waiting,
-    /// Building site and light.
+    /// Building the site and its lighting.
     Building(Receiver<RenderJob>),
     /// Ready to be rendered.
     Ready(Box<ViewPanes>),
@@ -36,17 +36,18 @@ struct SceneKey {
 }
 
 impl SceneKey {
-    /// Returns the seed to build with: the simulator's, else the requested one, else `otherwise`.
+    /// Returns the seed to build with: the simulator's seed, the requested seed, or `otherwise`, in this order of
+    /// preference.
     fn seed(&self, said: Option<u64>, otherwise: Option<u64>) -> Option<u64> {
         said.or(self.requested_seed).or(otherwise)
     }
 
-    /// Returns the seed of the scene and that of the simulator if they differ.
+    /// Returns the seeds of the scene and of the simulator if they differ.
     fn built_seed_mismatch(&self, said: Option<u64>) -> Option<(u64, u64)> {
         self.built_seed.zip(said).filter(|(built, said)| built != said)
     }
 
-    /// Returns the requested seed and that of the simulator the first time they differ.
+    /// Returns the requested seed and the simulator's seed the first time that they differ.
     fn requested_seed_mismatch(&mut self, said: Option<u64>) -> Option<(u64, u64)> {
         let differ = self.requested_seed.zip(said).filter(|(given, said)| !self.mismatch_reported && given != said);
         self.mismatch_reported |= differ.is_some();
@@ -72,7 +73,7 @@ pub struct FlightView {
 }
 
 impl FlightView {
-    /// Connects to a vehicle. `seed` is the session's, if it is known before the simulator reports it.
+    /// Connects to a vehicle. `seed` is the session's seed, if it is known before the simulator reports it.
     ///
     /// # Errors
     /// If the socket cannot be opened.
@@ -90,7 +91,7 @@ impl FlightView {
     /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts another session.
     ///
     /// # Errors
-    /// If the simulator flies another scenario.
+    /// If the simulator uses a different scenario.
     pub fn prepare(&mut self, screen: &WindowSurface, quality: Quality, now: Option<&LiveMoment>) -> Result<(), AppError> {
         let (said, crc, real) = {
             let (wall, live) = (self.listener.wall(), self.listener.live());
@@ -129,7 +130,8 @@ impl FlightView {
         Ok(())
     }
 
-    /// Follows the simulator's seed, which takes precedence over the requested one and over that of an earlier session.
+    /// Switches to the simulator's seed, which takes precedence over the requested seed and the seed of an earlier
+    /// session.
     fn follow_seed(&mut self, said: Option<u64>) {
         if let Some((given, said)) = self.session.requested_seed_mismatch(said) {
             tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the simulator's");

@@ -1,4 +1,4 @@
-//! Process priority of rendering: the simulator and the monitor take precedence.
+//! Scheduling priority of rendering, below that of the simulator and the monitor.
 
 /// Lowers the priority of this thread and of all threads that it starts, so that rendering does not delay the simulator.
 pub fn lower_priority() {

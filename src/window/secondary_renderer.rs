@@ -1,7 +1,7 @@
 //! Renders a second view on a second software device.
 //!
-//! A software device processes the vertices of an image in one thread and then its pixels in all others, so one core is idle during the vertex phase.
-//! A second device uses that time to render another image.
+//! A software device processes the vertices of an image in one thread and then its pixels in all other threads, so
+//! cores are idle during the vertex phase. A second device uses that time to render another image.
 
 use spandrel_view::gpu::{DrawCounts, Gpu, GpuError, Renderer, picture_texture, read};
 use spandrel_view::picture::Picture;
@@ -15,7 +15,7 @@ use std::thread::{self, JoinHandle};
 /// A rendered image and its draw counts.
 pub type RenderedShot = (Picture, DrawCounts);
 
-/// Draws shots in a separate thread, on a separate software device. The thread ends when this is dropped.
+/// Renders shots in a separate thread, on a separate software device. The thread ends when this is dropped.
 pub struct SecondaryRenderer {
     /// Set to `None` to end the thread.
     shots: Option<Sender<Shot>>,
@@ -44,7 +44,7 @@ impl SecondaryRenderer {
         self.shots.as_ref().and_then(|shots| shots.send(shot).ok()).ok_or_else(ended)
     }
 
-    /// Waits for the oldest image that has not been returned yet.
+    /// Waits for the oldest image that has not been returned yet, and returns it.
     ///
     /// # Errors
     /// If the device fails.

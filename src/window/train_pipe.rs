@@ -1,4 +1,4 @@
-//! Pipe to `train`, which starts and ends flights.
+//! Pipe to the `train` process, which starts and ends flights.
 
 use crate::io::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
@@ -13,7 +13,7 @@ pub struct TrainPipe {
 }
 
 impl TrainPipe {
-    /// Reads messages from standard input. When it closes, the window closes, too.
+    /// Reads messages from standard input. When it closes, the window closes as well.
     pub fn listen(stop: &StopRequest) -> Self {
         Self { lines: stop.lines(), error_reported: false }
     }

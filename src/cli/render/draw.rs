@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     files::write(&args.out, &png(&picture)?)
 }
 
-/// Rejects options that a session determines itself.
+/// Rejects options whose values come from the session.
 fn reject_scenario_options(args: &Args) -> Result<(), AppError> {
     let given = [
         ("--from", args.from.is_some()),
@@ -133,7 +133,7 @@ fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)
     Ok(side_by_side(&pictures))
 }
 
-/// Places images side by side; lower ones are centered vertically on black.
+/// Places images side by side; shorter images are centered vertically on black.
 fn side_by_side(pictures: &[Picture]) -> Picture {
     const BLACK: [u8; 4] = [0, 0, 0, 255];
     let height = pictures.iter().map(|p| p.height).max().unwrap_or(0);

@@ -32,13 +32,13 @@ pub struct RecordedFlight {
     zero_unix_us: u64,
     /// Complete telemetry log in memory, because images can need its records in any order.
     log: Vec<u8>,
-    /// The scored flight of the session, which is rendered.
+    /// Scored flight of the session, the one to render.
     pub flight: Flight,
-    /// Number of flights before it in the log, because the simulator was restarted.
+    /// Number of earlier flights in the log, from before the simulator was restarted.
     before: usize,
-    /// Total duration of these earlier flights.
+    /// Total duration of the earlier flights.
     earlier_duration: SimTime,
-    /// Number of records of these earlier flights.
+    /// Number of records of the earlier flights.
     earlier_records: usize,
 }
 
@@ -116,7 +116,7 @@ impl RecordedFlight {
         })
     }
 
-    /// Returns a feed of the other display values, from the start of the flight.
+    /// Returns a feed of the other display values that starts with the flight.
     pub fn heard(&self) -> RecordedFeed<'_> {
         // A session without an event log is rendered without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
@@ -134,7 +134,7 @@ impl RecordedFlight {
     }
 }
 
-/// Flight mode, satellites, cues and messages as they were received, up to a time that only increases.
+/// Flight mode, satellite count, cues and messages, replayed forward in time.
 pub struct RecordedFeed<'a> {
     feed: Feed,
     now: SimTime,

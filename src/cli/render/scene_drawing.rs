@@ -1,4 +1,4 @@
-//! A site on a graphics device, drawn one picture after the other.
+//! A site on a graphics device, rendered one image at a time.
 
 use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
@@ -30,7 +30,7 @@ pub fn instant(name: &str, seconds: f64) -> Result<SimTime, AppError> {
     }
 }
 
-/// A site with its scene and the device to render it.
+/// A site with its scene and the device that renders it.
 pub struct SceneDrawing {
     /// Graphics device or software renderer.
     pub gpu: Gpu,

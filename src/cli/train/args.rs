@@ -9,15 +9,16 @@ use crate::io::trainee_id::TraineeId;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-/// Default scenario: the one of the TASBID paper.
+/// Default scenario, from the TASBID paper.
 pub const DEFAULT_SCENARIO: &str = "two-bridges";
 
 /// Fly a session yourself
 ///
-/// Starts simulator and monitor, prints how to connect a ground station or a script, waits for the flight, and prints the scores and the
-/// session folder. With a display it opens a window: choose trainee and job (unless a scenario is given), check the controller, take a
-/// tutorial on the first flight, fly with the keyboard or a calibrated controller in the inspector's and the camera's view, and see the
-/// scores. You can pause or restart a practice. Without a display, fly with your ground station or a script.
+/// Starts the simulator and the monitor, prints how to connect a ground station or a script, waits for the flight, and
+/// prints the scores and the session folder. With a display it opens a window: choose trainee and job (unless a
+/// scenario is given), check the controller, take a tutorial on the first flight, fly with the keyboard or a calibrated
+/// controller in the inspector's and the camera's view, and see the scores. You can pause or restart a practice flight.
+/// Without a display, fly with your ground station or a script.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -29,13 +30,14 @@ Examples:
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Scenario: a file, or the name of a shipped one [default: chosen in the window; without a window, two-bridges]
+    /// Scenario file, or the name of a shipped scenario [default: chosen in the window; without a window, two-bridges]
     #[arg(long, value_name = "FILE|NAME")]
     pub scenario: Option<String>,
-    /// Aircraft: a file, or the name of a shipped one
+    /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
-    /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
+    /// Random seed for defects, traffic, gusts and sensor noise, 0 to 2147483647 [default: the scenario's seed, or a
+    /// new one]
     #[arg(long, value_name = "N", value_parser = args::parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Trainee: letters, digits, '-' and '_', at most 32 characters
@@ -44,19 +46,19 @@ pub struct Args {
     /// Purpose of the flight
     #[arg(long, value_name = "PURPOSE", default_value = "practice")]
     pub purpose: args::Purpose,
-    /// Choose in the window even though a scenario is given
+    /// Choose in the window even if a scenario is given
     #[arg(long, conflicts_with = "no_view")]
     pub choose: bool,
-    /// Folder for session folders
+    /// Folder in which to create session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     pub sessions: PathBuf,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max; use 1 to fly by hand
     #[arg(long, value_name = "X|max", default_value = "1")]
     pub speed: SimulationSpeed,
-    /// Autopilot protocol; the flight dynamics are the same in all of them
+    /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, value_name = "NAME", default_value = "px4")]
     pub flavour: args::Flavour,
-    /// Local port for web pages of the sessions and the live flight, 0 for any free one, or none
+    /// Local port for the web pages of the sessions and the live flight, 0 for any free port, or none
     #[arg(long, value_name = "PORT|none", default_value = "0")]
     pub web: addresses::PortChoice,
     /// Don't open the window
@@ -71,7 +73,7 @@ pub struct Args {
     /// Graphics quality of the window: low, medium, high, ultra, or auto
     #[arg(long, value_name = "PRESET", default_value = "auto")]
     pub quality: String,
-    /// Key bindings of the window (as `spandrel view --keys`)
+    /// Key bindings of the window (same format as `spandrel view --keys`)
     #[arg(long, value_name = "FILE")]
     pub keys: Option<PathBuf>,
     /// Controller to fly with from the window, by part of its name or ID [default: the only one connected]
@@ -95,13 +97,13 @@ impl Args {
     }
 }
 
-/// Returns the file to which the window saves the camera's view for the live page: in the folder of sessions, one per process, so that no one else
-/// can write to it.
+/// Returns the file to which the window saves the camera's view for the live page. Each process has its own file in the
+/// folder of sessions, where nobody else can write.
 pub fn camera_file(args: &Args) -> PathBuf {
     args.sessions.join(format!(".camera-{}.jpg", std::process::id()))
 }
 
-/// Returns the arguments of a command line.
+/// Parses a command line.
 #[cfg(test)]
 pub fn parsed(words: &[&str]) -> Args {
     use clap::Parser;

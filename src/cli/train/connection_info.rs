@@ -1,9 +1,10 @@
-//! Text that tells how to connect a ground station or a script.
+//! Instructions for connecting a ground station or a script.
 
 use crate::cli::ports::PortArgs;
 use std::path::Path;
 
-/// Returns the text for one flight; `web` is the address of the pages, and `window` is true if a window shows the flight.
+/// Returns the instructions for one flight. `web` is the address of the web pages, and `window` is true if a window
+/// shows the flight.
 pub fn connection_instructions(
     title: &str,
     args: &PortArgs,

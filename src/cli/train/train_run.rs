@@ -36,7 +36,7 @@ pub struct TrainRun<'a> {
     stop: StopRequest,
     /// The window, while it is open.
     window: Option<WindowProcess>,
-    /// True if the user closed the window; photographs can then still be drawn on this computer.
+    /// True if the user closed the window; photographs can still be rendered on this computer.
     closed: bool,
     web: Option<ServedPages>,
     web_announced: bool,
@@ -49,9 +49,9 @@ pub struct TrainRun<'a> {
 /// Decision after a flight.
 enum NextFlight {
     Fly(FlightChoice),
-    /// The user wants no further flight.
+    /// The user is done flying.
     Leave,
-    /// There is no window to choose in.
+    /// There is no window in which to choose.
     Nobody,
 }
 
@@ -72,7 +72,7 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Runs flights until the user leaves.
+    /// Runs flights until the user quits.
     ///
     /// # Errors
     /// If a flight cannot be started or scored; returns the last error.
@@ -107,7 +107,7 @@ impl<'a> TrainRun<'a> {
             last = Some(session);
             next = self.next_choice(&choice);
         }
-        // A user who leaves through the window has seen the results; open questions are answered on the web pages.
+        // A user who quits in the window has seen the results; unanswered questions can be answered on the web pages.
         let seen = matches!(next, NextFlight::Leave) && !last.as_deref().is_some_and(questionnaire_state::has_unanswered);
         self.end_vehicle();
         if let Some(window) = self.window.take() {
@@ -168,7 +168,7 @@ impl<'a> TrainRun<'a> {
                 NextFlight::Nobody => {}
                 next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
             }
-            // Closing the window means that no flight is wanted; if it crashes, the run continues without it.
+            // If the user closes the window, no flight follows; if the window crashes, the run continues without it.
             if self.closed {
                 return NextFlight::Leave;
             }
@@ -202,7 +202,7 @@ impl<'a> TrainRun<'a> {
                         Ok(()) => return NextFlight::Fly(choice),
                         Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
                     },
-                    // Late messages about a flight that has just ended.
+                    // Ignores late messages about a flight that has just ended.
                     FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
                 }
             }
@@ -269,7 +269,7 @@ impl<'a> TrainRun<'a> {
             print!("{}", flight.connection_info(self.args, web, shown));
             let outcome = flight.wait(&mut self.window, &self.stop);
             if matches!(outcome, FlightOutcome::Over) && self.stop.is_requested() {
-                // After a stop request, there is no further choice.
+                // After a stop request, no further flight can be chosen.
                 self.window.take().into_iter().for_each(WindowProcess::close);
             }
             flight.end_session();
@@ -297,7 +297,8 @@ impl<'a> TrainRun<'a> {
             FlightOutcome::Over | FlightOutcome::Restart => told,
         };
         let open = self.is_open();
-        // If the window has crashed, drawing is not possible; after a stop request, the user does not wait for photographs.
+        // If the window has crashed, rendering is impossible; after a stop request, the user does not wait for
+        // photographs.
         if (open || self.closed) && result.is_ok() && !self.stop.is_requested() {
             self.photographs.draw(session);
         }
@@ -341,7 +342,7 @@ impl<'a> TrainRun<'a> {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
         let address = offers::flight_summary(session, Some(web.server.address()), None).questionnaire;
         println!("questionnaire {address}   (available until you press Enter)");
-        // Enter ends only the pages; the run still waits for the photographs.
+        // Enter only ends the web pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {
             std::thread::sleep(CHECK_INTERVAL);
         }

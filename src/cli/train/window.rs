@@ -99,7 +99,7 @@ impl WindowProcess {
         !self.has_exited
     }
 
-    /// Ends the process; the user has asked to close the window.
+    /// Ends the process after the user has closed the window.
     pub fn close(mut self) {
         self.has_exited = true;
         self.child.finish();

@@ -9,12 +9,13 @@ use std::path::{Path, PathBuf};
 
 const NO_HOME_FOLDER: &str = "no home folder found: specify a profile folder with --profiles";
 
-/// Folder of profiles; `None` if the user has no home folder. Devices then have no profiles, and everything else works.
+/// Folder of profiles; `None` if the user has no home folder. Without a folder, devices have no profiles, but
+/// everything else works.
 #[derive(Debug, Clone, Default)]
 pub struct ProfileFolder(Option<PathBuf>);
 
 impl ProfileFolder {
-    /// Uses this folder, or the user's (`spandrel/controllers` in `$XDG_CONFIG_HOME` or `~/.config`).
+    /// Uses this folder, or the user's default folder (`spandrel/controllers` in `$XDG_CONFIG_HOME` or `~/.config`).
     pub fn at(folder: Option<PathBuf>) -> Self {
         Self(folder.or_else(|| usual(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
     }
@@ -45,7 +46,7 @@ impl ProfileFolder {
         self.path(device).filter(|path| path.exists()).map(|path| read(&path)).transpose()
     }
 
-    /// Saves a profile. The old one remains until the new one is complete.
+    /// Saves a profile. The old profile remains until the new one is complete.
     ///
     /// # Errors
     /// If there is no folder, or it cannot be written.
@@ -58,7 +59,7 @@ impl ProfileFolder {
     }
 }
 
-/// Returns the user's default folder, from these two environment variables.
+/// Returns the user's default folder, based on these two environment variables.
 fn usual(config: Option<OsString>, home: Option<OsString>) -> Option<PathBuf> {
     let known = |place: Option<OsString>| place.filter(|place| !place.is_empty()).map(PathBuf::from);
     let config = known(config).or_else(|| known(home).map(|home| home.join(".config")));

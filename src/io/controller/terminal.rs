@@ -1,5 +1,5 @@
-//! The terminal's keyboard as a controller. Terminals that report key releases (kitty's protocol) fly best; in others, a key is released after a
-//! delay.
+//! The terminal's keyboard as a controller. Terminals that report key releases (kitty keyboard protocol) work best; in
+//! others, keys are released after a delay.
 
 use crate::errors::AppError;
 use crossterm::event::{
@@ -13,17 +13,17 @@ use std::time::Duration;
 /// A key event of the terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TerminalKey {
-    /// Key pressed. Repeated while the key is held if the terminal cannot tell presses from repetitions.
+    /// Key pressed. Repeated while the key is held if the terminal does not distinguish presses from repetitions.
     Down(String),
     /// Key released, with its name.
     Up(String),
-    /// The terminal lost the focus, so it no longer receives key releases.
+    /// The terminal lost focus, so it no longer receives key releases.
     FocusLost,
     /// Ctrl-C or Escape: the user wants to quit.
     Quit,
 }
 
-/// A terminal in raw mode, restored when this is dropped.
+/// A terminal in raw mode. Dropping this restores the previous mode.
 #[derive(Debug)]
 pub struct RawTerminal {
     features_enabled: bool,
@@ -42,7 +42,8 @@ impl RawTerminal {
         }
         let failed = |error: std::io::Error| AppError::failed(format!("cannot read key presses from the terminal: {error}"));
         terminal::enable_raw_mode().map_err(failed)?;
-        // The terminal's features are requested on standard error; if that is a file, there are no key releases.
+        // The terminal's features are requested on standard error; if standard error is a file, there are no key
+        // releases.
         let features_enabled = stderr().is_terminal();
         let reports_releases = features_enabled && terminal::supports_keyboard_enhancement().unwrap_or(false);
         let taken = Self { features_enabled, reports_releases };

@@ -59,7 +59,7 @@ enum Slot {
     Short(i16),
     Int(i32),
     Long(i64),
-    /// Placeholder of an offset that is set later.
+    /// Placeholder for an offset that is set later.
     Offset,
 }
 
@@ -135,7 +135,7 @@ impl FlatBufferWriter {
     fn field(&mut self, from: usize, field: &Field<'_>) {
         let kind = Slot::Byte(field.kind.number());
         let nullable = Slot::Byte(u8::from(field.nullable));
-        // Slots: name, nullable, type's number, type, dictionary, children, metadata.
+        // Slots: name, nullable, type number, type, dictionary, children, metadata.
         let slots = [Slot::Offset, nullable, kind, Slot::Offset, Slot::Absent, Slot::Offset, Slot::Offset];
         let (start, at) = self.table(&slots);
         self.set_offset(from, start);

@@ -5,7 +5,7 @@ use std::os::unix::fs::{PermissionsExt, chown};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-/// Debian's `nobody` and `nogroup`. PostgreSQL does not run as root.
+/// Debian's `nobody` and `nogroup`, because PostgreSQL does not run as root.
 const NOBODY: u32 = 65_534;
 
 /// PostgreSQL's default port, which is also part of the name of its socket.
@@ -110,7 +110,8 @@ fn unprivileged(program: &Path) -> Command {
     command
 }
 
-/// Gives a file to the user that PostgreSQL runs as, readable only by that user: PostgreSQL rejects any other private key.
+/// Transfers a file to the user that runs PostgreSQL and makes it readable only by that user; PostgreSQL rejects
+/// private keys with other permissions.
 pub fn give_to_postgres(file: &Path) {
     std::fs::set_permissions(file, std::fs::Permissions::from_mode(0o600)).unwrap();
     if is_root() {

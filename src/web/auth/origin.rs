@@ -15,7 +15,7 @@ pub struct AllowedOrigins {
 }
 
 impl AllowedOrigins {
-    /// Returns the setting for a server behind these proxies, or behind a proxy on this machine if none are given.
+    /// Returns the settings for a server behind these proxies, or behind a proxy on this machine if none are given.
     pub fn behind_proxies(named: &[IpNet], hosts: &[String]) -> Self {
         let local = || vec![IpNet::from(IpAddr::from(Ipv4Addr::LOCALHOST)), IpNet::from(IpAddr::from(Ipv6Addr::LOCALHOST))];
         Self { proxies: if named.is_empty() { local() } else { named.to_vec() }, hosts: hosts.to_vec() }
@@ -35,8 +35,9 @@ impl AllowedOrigins {
         }
     }
 
-    /// Checks that a request names this server and, if it changes anything, that it comes from one of the server's pages, as reported by the browser.
-    /// A server without passwords accepts only requests to this machine's own names, which no other site can take over (DNS rebinding).
+    /// Checks that a request names this server and, if it changes anything, that it comes from one of the server's
+    /// pages, as reported by the browser. A server without passwords accepts only requests to this machine's own names,
+    /// which other sites cannot use (DNS rebinding).
     ///
     /// # Errors
     /// If one of these checks fails.
@@ -75,7 +76,8 @@ impl AllowedOrigins {
             return Err(WebError::Forbidden("This server accepts requests only from its proxy (--trusted-proxy).".into()));
         }
         let lines = headers.get_all("x-forwarded-for").iter().rev().map(|line| line.to_str().unwrap_or_default());
-        // Each proxy appends the address that it received the request from; everything before the last untrusted address can be forged by the client.
+        // Each proxy appends the address from which it received the request; the client can forge everything before the
+        // last untrusted address.
         for entry in lines.flat_map(|line| line.rsplit(',')) {
             match entry.trim().parse::<IpAddr>() {
                 Ok(address) if self.trusts(address) => {}

@@ -1,5 +1,5 @@
-//! Queue of the instructor's commands to the vehicle. Datagrams can be lost, so each step is repeated until it is answered; a step without an answer
-//! is reported.
+//! Queue of instructor commands to the vehicle. Datagrams can be lost, so each step is repeated until it is answered; a
+//! step without an answer is reported.
 
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
@@ -64,7 +64,8 @@ enum ParamNumber {
 }
 
 impl ParamNumber {
-    /// Returns the value as sent. `cast` is true for vehicles that expect integers converted to float, false for those that expect their bits.
+    /// Returns the value as sent. `cast` is true for vehicles that expect integers converted to float, false for
+    /// vehicles that expect their bit pattern.
     fn to_wire(self, cast: bool) -> f32 {
         match self {
             Self::Real(value) => value,
@@ -119,7 +120,7 @@ impl CommandQueue {
         self.0.push_back(QueuedCommand { steps: steps.into(), description: words, last_sent: None, tries: 0 });
     }
 
-    /// Returns the frames to send now, and messages about finished commands. `cast` is explained at [`ParamNumber::to_wire`].
+    /// Returns the frames to send now, and messages about finished commands. For `cast`, see [`ParamNumber::to_wire`].
     pub fn poll_frames(&mut self, now: Duration, encoder: &mut Encoder, system: u8, cast: bool) -> (Vec<Vec<u8>>, Vec<String>) {
         let (mut frames, mut words) = (Vec::new(), Vec::new());
         while let Some(task) = self.0.front_mut() {
@@ -138,7 +139,7 @@ impl CommandQueue {
             }
             frames.push(frame(step, encoder, system, cast));
             (task.last_sent, task.tries) = (Some(now), task.tries + 1);
-            // Notes have no answer; telemetry to a monitor on the same machine is hardly ever lost.
+            // Notes are not answered; datagrams to a monitor on the same machine are hardly ever lost.
             if matches!(step, CommandStep::Note(_)) {
                 task.steps.pop_front();
             }
@@ -164,7 +165,7 @@ impl CommandQueue {
     }
 }
 
-/// Returns the answer to a step: success, or rejection with a reason. Ignores answers to other systems.
+/// Returns the answer to a step: success, or rejection with a reason. Ignores answers addressed to other systems.
 fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'static str>> {
     let ours = |system: u8, component: u8| (system, component) == (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT);
     match (step, message) {
