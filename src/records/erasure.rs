@@ -126,7 +126,7 @@ mod tests {
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(place.path()), ["b-ben"]);
         assert_eq!(database.erasing(), Ok(BTreeSet::new()));
-        // A folder that is copied back later is not removed automatically.
+        // A folder that is copied back later is not deleted automatically.
         session(place.path(), "a-anna");
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(place.path()), ["a-anna", "b-ben"]);

@@ -16,7 +16,7 @@ const FORM_TIMEOUT: Duration = Duration::from_secs(30);
 /// Time limit for uploading a file, even over a slow connection.
 const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 
-/// Reads the body and checks the form token. Large files are written to `spool` as they arrive.
+/// Reads the body and checks the form token. Large files are written to `spool` during the upload.
 ///
 /// # Errors
 /// If the body is too large, too slow, not a form, or its token is wrong.

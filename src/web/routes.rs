@@ -45,7 +45,7 @@ pub struct Route {
     pub path: &'static str,
     /// Kind of the route.
     pub how: RouteKind,
-    /// Access level that the visitor needs.
+    /// Access level required for the route.
     pub needs: AccessLevel,
     /// Handler of the request.
     pub handler: Handler,

@@ -18,7 +18,8 @@ use spandrel_view::photo::{self, PhotoInfo};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::SceneMoment;
 
-/// Maximum number of pixels without a graphics card, unless a size is specified: about a second per image instead of a minute.
+/// Maximum number of pixels without a graphics card, unless a size is specified: roughly a second per image instead of
+/// a minute.
 const MAX_SOFTWARE_PX: f64 = 1280.0 * 960.0;
 
 /// Renders all photographs of a session to its folder, and rewrites its report.

@@ -86,7 +86,7 @@ impl Drop for PostgresServer {
     }
 }
 
-/// Returns the folder of PostgreSQL's programs, from Debian's location or the PATH.
+/// Returns the folder of the PostgreSQL executables, from Debian's location or the PATH.
 fn programs() -> PathBuf {
     let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
     let mut found: Vec<PathBuf> =
