@@ -15,7 +15,7 @@ use crate::io::trainee_id::TraineeId;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Interval at which the child processes are checked.
+/// Interval between checks of the child processes.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 /// Wall time allowed for the monitor to detect the end of the session after the pilot has finished. Detection takes 3 s
 /// of simulation time with the aircraft at rest.
@@ -39,7 +39,8 @@ pub struct Args {
     job: JobArgs,
     #[command(flatten)]
     skill: SkillArgs,
-    /// Trainee to record the session for: letters, digits, '-' and '_', at most 32 characters [default: synthetic-SKILL]
+    /// ID of the trainee for the session: letters, digits, '-' and '_', at most 32 characters [default:
+    /// synthetic-SKILL]
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max

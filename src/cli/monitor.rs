@@ -56,7 +56,7 @@ pub struct Args {
     /// Folder in which to create session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
-    /// Trainee: letters, digits, '-' and '_', at most 32 characters
+    /// Trainee ID: letters, digits, '-' and '_', at most 32 characters
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     trainee: TraineeId,
     /// Purpose of the flight, for session.json [default: not recorded]
@@ -80,7 +80,7 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Print one line of JSON {"port", "session"} on standard output at startup, and no table at the end
+    /// Print one line of JSON {"port", "session"} on standard output at startup, and omit the table at the end
     #[arg(long)]
     announce: bool,
     /// Stop when standard input closes (for a parent process)
@@ -241,7 +241,7 @@ impl MonitorProcess {
         }
     }
 
-    /// Adds the core's records to the folder.
+    /// Adds the core's records to the session folder.
     fn write_records(&mut self) {
         while let Some(record) = self.monitor.poll_record() {
             self.folder.record(record);
@@ -326,7 +326,7 @@ impl MonitorProcess {
         let json = self.outcome().ok().map(|graded| export::json_text(&graded.assessment));
         self.send();
         self.complete(json.as_deref(), stop)?;
-        // The report reads the telemetry again; a second copy of the flight would double the memory.
+        // The report reads the telemetry again, so keeping the flight in memory would double the memory use.
         self.monitor.release_flight();
         // The scores are saved; the report can be written again later.
         if json.is_some()

@@ -18,13 +18,13 @@ use std::time::Duration;
 
 /// Maximum wait for a datagram.
 const MAX_WAIT: Duration = Duration::from_millis(50);
-/// Wall time without a datagram after which a connected vehicle counts as lost.
+/// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// Skill level of the synthetic trainee.
 #[derive(Debug, Clone, clap::Args)]
 pub struct SkillArgs {
-    /// Skill of the synthetic trainee: novice, trained or expert
+    /// Skill level of the synthetic trainee: novice, trained or expert
     #[arg(long, value_name = "SKILL", default_value = "trained", value_parser = ["novice", "trained", "expert"])]
     pub skill: String,
     /// Parameters to take from the expert instead, to measure their individual effects: delay, gain, noise, preview,

@@ -37,10 +37,10 @@ pub struct Args {
     /// Ask all questions again, including those already answered
     #[arg(long)]
     again: bool,
-    /// Custom wording (a copy of a shipped wording with changed texts)
+    /// Custom wording file (a copy of a shipped wording with modified texts)
     #[arg(long, value_name = "FILE", conflicts_with = "language")]
     wording: Option<PathBuf>,
-    /// Language: en, de or es [default: that of the saved answers, else the terminal's, else en]
+    /// Language: en, de or es [default: the language of the saved answers, the terminal's language, or en]
     #[arg(long, value_name = "TAG")]
     language: Option<String>,
 }
@@ -83,7 +83,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Returns the wording to use: the requested language, the custom wording, the language of the saved answers, or that of the terminal.
+/// Selects the wording by the requested language, the custom wording file, the language of the saved answers, or the
+/// terminal's language.
 fn select_wording<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
     if let Some(tag) = &args.language {
         let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();

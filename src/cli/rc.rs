@@ -21,11 +21,11 @@ use std::time::Duration;
 
 /// Maximum wait for a datagram: a quarter of the interval between stick samples.
 const MAX_WAIT: Duration = Duration::from_millis(5);
-/// Wall time without a datagram after which a connected vehicle counts as lost.
+/// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall time without a first datagram after which a message about waiting is shown.
 const WAITING_MESSAGE_DELAY: Duration = Duration::from_secs(3);
-/// Key that quits in the terminal.
+/// Key that quits the program in the terminal.
 const QUIT_KEY: &str = "escape";
 /// Interval at which the calibration wizard polls the device.
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
@@ -53,19 +53,19 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Print the connected devices, one per line, and exit
+    /// List the connected devices, one per line, and exit
     #[arg(long)]
     list: bool,
     /// Calibrate a device: assign its axes to the sticks, and save the profile
     #[arg(long, conflicts_with_all = ["list", "keyboard", "replay"])]
     calibrate: bool,
-    /// Device, by its ID or part of its name [default: the only one]
+    /// Device ID or part of the device name [default: the only connected device]
     #[arg(long, value_name = "NAME")]
     device: Option<String>,
     /// Stick mode for the calibration, 1 to 4; mode 2 has throttle and yaw on the left
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(i64).range(1..=4))]
     stick_mode: i64,
-    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
+    /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR")]
     profiles: Option<PathBuf>,
     /// Profile to use for any device
@@ -80,7 +80,7 @@ pub struct Args {
     /// Record the device's input, or the input of --replay, to this file
     #[arg(long, value_name = "FILE", conflicts_with = "keyboard")]
     record: Option<PathBuf>,
-    /// Replay recorded input instead of a device, and exit at its end
+    /// Replay recorded input instead of using a device, and exit at the end
     #[arg(long, value_name = "FILE", conflicts_with = "device")]
     replay: Option<PathBuf>,
 }

@@ -73,7 +73,7 @@ impl RecordsArgs {
 
 #[derive(Debug, clap::Subcommand)]
 enum RecordsCommand {
-    /// Import new and changed sessions (reads all folders; faster if you name the sessions)
+    /// Import new and changed sessions (reads all folders; naming the sessions is faster)
     Import {
         /// Session folders [default: all of --sessions]
         #[arg(value_name = "SESSION")]

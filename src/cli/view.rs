@@ -1,4 +1,4 @@
-//! `spandrel view`: a window with the inspector's view and the camera's, live from telemetry.
+//! `spandrel view`: opens a window with the inspector's view and the camera's view, live from telemetry.
 
 use super::args::JobArgs;
 #[cfg(feature = "view")]
@@ -44,17 +44,17 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Fly from the window: send sticks and commands to the vehicle's ground station port
+    /// Fly from the window: send stick input and commands to the vehicle's ground station port
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, group = "pilot")]
     fly: Option<SocketAddr>,
     /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window], [sound]); the same file as for `spandrel rc
     /// --keyboard`
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
-    /// Controller, by its ID or part of its name [default: the only one]
+    /// Controller ID or part of the controller name [default: the only connected controller]
     #[arg(long, value_name = "NAME", requires = "pilot")]
     device: Option<String>,
-    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
+    /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", requires = "pilot")]
     profiles: Option<PathBuf>,
     /// Rendering quality: low, medium, high, ultra, or auto (high with a graphics card, low without)

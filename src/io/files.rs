@@ -130,8 +130,8 @@ pub fn read(path: &Path) -> Result<String, AppError> {
     })
 }
 
-/// Writes a result to a file, or to standard output for `-`. The file is replaced as a whole: if the disk is full or the process is killed, the old
-/// file remains.
+/// Writes a result to a file, or to standard output for `-`. The file is replaced atomically: if the disk is full or
+/// the process is killed, the old file remains.
 ///
 /// # Errors
 /// If it cannot be written.

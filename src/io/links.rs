@@ -1,4 +1,5 @@
-//! Links of the vehicle: configured destinations that it sends to unprompted, peers that connect to its UDP ports, TCP clients and serial ports.
+//! Links of the vehicle: configured destinations that it sends to from the start, peers that connect to its UDP ports,
+//! TCP clients and serial ports.
 
 use super::clock::Stopwatch;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};

@@ -21,11 +21,11 @@ const ERROR_DELAY: Duration = Duration::from_millis(50);
 /// Buffer size, larger than any UDP payload.
 const MAX_DATAGRAM: usize = 65_536;
 
-/// Number of a UDP socket.
+/// Identifies a UDP socket.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SocketId(usize);
 
-/// Number of a TCP connection or a serial port.
+/// Identifies a TCP connection or a serial port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StreamId(u32);
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 /// Maximum step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md,
 /// "One simulation step").
 pub const LOCKSTEP_STEP: SimTime = SimTime::from_ms(20);
-/// Wall time after which a lockstep peer that does not answer ends the run.
+/// Wall time without an answer from a lockstep peer after which the run ends.
 pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall-clock delay above which the simulation does not catch up: the clock slips, and the slip is reported.
 const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
@@ -21,7 +21,7 @@ pub enum SimulationSpeed {
     Max,
 }
 
-/// Highest speed, as a multiple of real time.
+/// Maximum speed, as a multiple of real time.
 const MAX_SPEED: f64 = 100.0;
 
 impl SimulationSpeed {
@@ -61,7 +61,7 @@ impl std::fmt::Display for SimulationSpeed {
 pub struct Lateness {
     /// Longest delay. It includes the sleep time, because each wake-up runs several ticks.
     pub latest: Duration,
-    /// Number of delays beyond the limit, at which the clock slipped.
+    /// Number of times that the clock slipped because a delay exceeded the limit.
     pub slips: u32,
     /// Total wall time that the clock has slipped.
     pub slipped: Duration,

@@ -9,9 +9,9 @@ use spandrel_monitor::folder::{REPORT, SMALL, SNAPSHOTS, sha256_hex};
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
 use std::path::{Path, PathBuf};
 
-/// Maximum size of a photograph in the page, bytes; larger ones are replaced by a sketch.
+/// Maximum size of a photograph on the page, bytes; larger photographs are replaced by sketches.
 const MAX_PICTURE_BYTES: u64 = 400_000;
-/// Maximum total size of photographs in a page, bytes; keeps the page below 10 MB.
+/// Maximum total size of the photographs on a page, bytes; keeps the page below 10 MB.
 const MAX_PICTURES_BYTES: u64 = 4_000_000;
 
 /// Writes the report into a session folder.

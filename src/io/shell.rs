@@ -304,7 +304,7 @@ impl VehicleShell {
         self.pacer.lateness()
     }
 
-    /// Closes the flight log, saves the signing state and logs all losses.
+    /// Closes the flight log, saves the signing state and logs how much data was lost.
     pub fn finish(&mut self) {
         self.core.close_flight_log();
         self.serve_file_jobs();

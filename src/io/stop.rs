@@ -1,4 +1,5 @@
-//! Stop requests: on SIGINT or SIGTERM, or when the parent process exits. Long runs check the flag and finish cleanly.
+//! Stop requests: on SIGINT or SIGTERM, or when the parent process exits. Long-running loops check the flag and shut
+//! down cleanly.
 
 use crate::errors::AppError;
 use std::io::{BufRead, Read};

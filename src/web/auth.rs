@@ -36,7 +36,7 @@ pub struct Authenticator {
     reach: AllowedOrigins,
 }
 
-/// Origin of a login.
+/// Client that sent a login.
 #[derive(Debug, Clone, Copy)]
 pub struct LoginClient<'a> {
     /// IP address of the client.

@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex};
 /// Maximum number of cached selections; the oldest is removed first. Estimate: more than an instructor would compare.
 const MAX_SELECTIONS: usize = 8;
 
-/// Figures of one selection.
+/// Figures for one selection.
 #[derive(Debug)]
 pub struct CohortFigures {
     /// Cohort; it may contain no sessions.
@@ -45,7 +45,7 @@ impl FigureCache {
         Ok(Self { database: place.open()?, cache: Mutex::default() })
     }
 
-    /// Returns the figures of a selection.
+    /// Returns the figures for a selection.
     ///
     /// # Errors
     /// If the database fails or contains an invalid record.

@@ -9,7 +9,7 @@ const DUMMY_HASH: &str = "$argon2id$v=19$m=19456,t=2,p=1$c3BhbmRyZWxzcGFuZHJlbA$
 /// Maximum memory cost of a stored hash, KiB, so that an untrusted database cannot exhaust the memory. Estimate: about
 /// three times the default.
 const MAX_MEMORY_KIB: u32 = 65_536;
-/// Maximum number of passes of a stored hash, for the same reason. Estimate.
+/// Maximum number of passes of a stored hash, for the same reason (estimate).
 const MAX_PASSES: u32 = 10;
 
 /// Working memory for hashing, allocated once and reused.

@@ -27,7 +27,7 @@ pub struct WebRequest {
     pub from: IpAddr,
     /// Cookie of a browser that has logged in before.
     pub device: Option<String>,
-    /// Path parameters, by their names in the table of routes.
+    /// Path parameters, keyed by their names in the route table.
     pub path: BTreeMap<String, String>,
     /// Query parameters as name and value.
     pub query: Vec<(String, String)>,
@@ -42,7 +42,7 @@ pub struct WebRequest {
 }
 
 impl WebRequest {
-    /// Returns the origin of a login.
+    /// Returns the client that sent a login.
     pub fn client(&self) -> LoginClient<'_> {
         LoginClient { from: self.from, device: self.device.as_deref() }
     }

@@ -37,7 +37,7 @@ pub struct RenderJob {
 }
 
 impl RenderJob {
-    /// Builds site and scene, which takes seconds.
+    /// Builds the site and the scene, which takes several seconds.
     pub fn build(scenario: Scenario, vehicle: Vehicle, seed: u64, quality: &Quality, at: SimTime) -> Self {
         let site = Site::build(&scenario, seed);
         let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, quality, at));

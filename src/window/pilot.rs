@@ -1,4 +1,4 @@
-//! Flies from the window in a separate thread: stick positions are sent fifty times a second, independent of the frame rate.
+//! Flies from the window in a separate thread: stick positions are sent at 50 Hz, regardless of the frame rate.
 
 use super::controller_slot::ControllerSlot;
 use crate::errors::AppError;

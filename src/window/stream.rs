@@ -45,7 +45,8 @@ struct StreamStatistics {
 }
 
 impl StreamSender {
-    /// Opens a stream to a receiver. Its random RTP numbers come from `seed`, which should differ between streams.
+    /// Opens a stream to a receiver. Its random initial RTP values are derived from `seed`, which should differ between
+    /// streams.
     ///
     /// # Errors
     /// If the socket cannot be opened, or there is no route to the receiver.

@@ -18,7 +18,7 @@ impl TrainPipe {
         Self { lines: stop.lines(), error_reported: false }
     }
 
-    /// Returns the next message from `train`. The first invalid line is logged, further ones are ignored.
+    /// Returns the next message from `train`. Only the first invalid line is logged; later ones are ignored.
     pub fn poll(&mut self) -> Option<ToWindow> {
         while let Ok(line) = self.lines.try_recv() {
             match pipe::read(&line) {

@@ -53,9 +53,9 @@ pub struct WindowSetup {
     pub connect: SocketAddr,
     /// Ground station port of the vehicle to fly.
     pub fly: Option<SocketAddr>,
-    /// Controller, by its ID or part of its name; `None` for the only one.
+    /// Controller ID or part of the controller name; `None` for the only connected controller.
     pub device: Option<String>,
-    /// Folder of calibration profiles; `None` for the user's.
+    /// Folder for calibration profiles; `None` for the user's default folder.
     pub profiles: Option<PathBuf>,
     /// Destination of the camera's view as H.264 over RTP.
     pub stream: Option<SocketAddr>,

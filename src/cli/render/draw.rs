@@ -123,7 +123,8 @@ fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pic
     draw(&drawing, args, &views)
 }
 
-/// Renders shots side by side, each with its overlay. Also writes the label masks if there is a single shot and they are requested.
+/// Renders shots side by side, each with its overlay. Also writes the label masks if they are requested and there is a
+/// single shot.
 fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
     let mut brush = drawing.brush();
     if let (true, [(shot, _)]) = (args.masks, views) {

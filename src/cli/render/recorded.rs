@@ -30,7 +30,7 @@ pub struct RecordedFlight {
     pub stored: StoredSession,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     zero_unix_us: u64,
-    /// Complete telemetry log in memory, because images can need its records in any order.
+    /// Complete telemetry log in memory, because images may need its records in any order.
     log: Vec<u8>,
     /// Scored flight of the session, the one to render.
     pub flight: Flight,
@@ -104,7 +104,7 @@ impl RecordedFlight {
         attention::bridge_closures(&self.flight)
     }
 
-    /// Returns the poses at a time of the flight.
+    /// Returns the poses at a given time of the flight.
     ///
     /// # Errors
     /// If there is no telemetry for this time.
@@ -144,7 +144,7 @@ pub struct RecordedFeed<'a> {
 }
 
 impl RecordedFeed<'_> {
-    /// Advances to a time, from the telemetry and the monitor's recorded cues and messages.
+    /// Advances to a time, using the telemetry and the monitor's recorded cues and messages.
     pub fn advance_to(&mut self, at: SimTime) -> &Feed {
         while let Some(frame) = self.next.take().or_else(|| self.records.next().map(|record| record.frame)) {
             let now = truth_time(frame).unwrap_or(self.now);

@@ -40,7 +40,7 @@ pub struct Args {
     /// new one]
     #[arg(long, value_name = "N", value_parser = args::parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
-    /// Trainee: letters, digits, '-' and '_', at most 32 characters
+    /// Trainee ID: letters, digits, '-' and '_', at most 32 characters
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     pub trainee: TraineeId,
     /// Purpose of the flight
@@ -67,7 +67,7 @@ pub struct Args {
     /// Quit when the session is scored instead of keeping the vehicle connected
     #[arg(long, conflicts_with = "choose")]
     pub once: bool,
-    /// No sound in the window
+    /// Disable sound in the window
     #[arg(long)]
     pub no_sound: bool,
     /// Graphics quality of the window: low, medium, high, ultra, or auto
@@ -76,10 +76,10 @@ pub struct Args {
     /// Key bindings of the window (same format as `spandrel view --keys`)
     #[arg(long, value_name = "FILE")]
     pub keys: Option<PathBuf>,
-    /// Controller to fly with from the window, by part of its name or ID [default: the only one connected]
+    /// Controller for flying in the window: its ID or part of its name [default: the only connected controller]
     #[arg(long, value_name = "NAME", conflicts_with = "no_view")]
     pub device: Option<String>,
-    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
+    /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_view")]
     pub profiles: Option<PathBuf>,
     /// Stream the camera view to this address during the flight, as H.264 over RTP (as `spandrel view --stream`; QGroundControl listens on

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::Duration;
 
-/// Interval at which the child processes are checked.
+/// Interval between checks of the child processes.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 /// Folder for the vehicle's files and flight logs inside the session folder, so that they are erased with the session.
 const VEHICLE_FILES: &str = "vehicle";

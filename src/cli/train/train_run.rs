@@ -20,7 +20,7 @@ use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
 
-/// Interval at which the window is checked.
+/// Interval between checks of the window.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Web server with the vehicle that its live page shows.
@@ -93,7 +93,7 @@ impl<'a> TrainRun<'a> {
         while let NextFlight::Fly(choice) = next {
             let (flown, session) = match self.fly(&choice) {
                 Ok(done) => done,
-                // An error of the first flight ends the run, as without a window; later errors are shown in the window.
+                // An error in the first flight ends the run, as without a window; later errors are shown in the window.
                 Err(error) if last.is_none() && !self.is_window_in_use() => return Err(error),
                 Err(error) => {
                     tracing::warn!("cannot start the flight: {error}");
@@ -255,7 +255,7 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Flies a choice to its end, including restarts. Returns the result and the session folder.
+    /// Runs the chosen flight to its end, including restarts. Returns the result and the session folder.
     fn fly(&mut self, choice: &FlightChoice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
         loop {
             self.end_vehicle();

@@ -8,7 +8,7 @@ use crate::io::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
 
-/// Interval at which the window is checked.
+/// Interval between checks of the window.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 /// Time limit for the window to open on a busy machine.
 const OPEN_TIMEOUT: Duration = Duration::from_secs(60);
@@ -70,7 +70,7 @@ impl WindowProcess {
         self.child.send_line(&pipe::line(message));
     }
 
-    /// Returns the next message of the window. The first invalid line is logged, further ones are ignored.
+    /// Returns the next message of the window. Only the first invalid line is logged; later ones are ignored.
     pub fn receive(&mut self) -> Option<FromWindow> {
         while let Some(line) = self.child.try_read_line() {
             match pipe::read(&line) {

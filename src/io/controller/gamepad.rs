@@ -53,7 +53,7 @@ pub fn connected() -> Result<Vec<Device>, AppError> {
 }
 
 impl Gamepad {
-    /// Opens the device with this ID or name, or the only one.
+    /// Opens the device with this ID or name, or the only device.
     pub fn open(wanted: Option<&str>) -> Result<Self, AppError> {
         let system = system()?;
         let all: Vec<(GamepadId, Device)> = system.gamepads().map(|(id, gamepad)| (id, describe(gamepad))).collect();

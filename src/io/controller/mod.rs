@@ -24,12 +24,12 @@ pub enum EventSource {
     /// A device connected to this computer.
     #[cfg(feature = "gamepad")]
     Gamepad(Box<gamepad::Gamepad>),
-    /// A recording of such a device.
+    /// A recording of a device's input.
     Record(InputRecording),
 }
 
 impl EventSource {
-    /// Opens the device with this name or ID, or the only one.
+    /// Opens the device with this name or ID, or the only device.
     ///
     /// # Errors
     /// If there is none, several match, or this build does not support gamepads.

@@ -20,7 +20,7 @@ pub const INSTRUCTOR_COMPONENT: u8 = 192;
 const FAILURE_TYPE_OK: f32 = 0.0;
 const FAILURE_TYPE_OFF: f32 = 1.0;
 
-/// A command of an instructor.
+/// An instructor's command.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InstructorCommand {
     /// Adds a note to the monitor's event log.

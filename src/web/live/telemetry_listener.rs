@@ -23,7 +23,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::sync::watch;
 
-/// Interval of updates to the pages.
+/// Interval between updates of the pages.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
 /// Maximum wait for a datagram.
 const MAX_WAIT: Duration = Duration::from_millis(50);
@@ -122,7 +122,7 @@ impl LiveListener {
         moment
     }
 
-    /// Processes received datagrams. Returns true if there were any from the vehicle.
+    /// Processes received datagrams. Returns true if any of them came from the vehicle.
     fn receive(&mut self) -> bool {
         let (mut wait, mut spoke) = (MAX_WAIT, false);
         for _ in 0..BATCH {
