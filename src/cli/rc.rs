@@ -29,7 +29,7 @@ const WAITING_MESSAGE_DELAY: Duration = Duration::from_secs(3);
 const QUIT_KEY: &str = "escape";
 /// Interval at which the calibration wizard polls the device.
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
-const STDIN_ENDED_MESSAGE: &str = "nothing was saved: the calibration needs the Enter key, but standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
+const STDIN_ENDED_MESSAGE: &str = "nothing was saved: calibration requires the Enter key, but standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
 
 /// Fly with a gamepad, an RC transmitter or the keyboard
 ///

@@ -29,7 +29,7 @@ const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel view                                          watch the simulator on this machine
-  spandrel view --fly 127.0.0.1:18570                    fly it with the keyboard: W S A D, arrows, 1 arms, T takes off
+  spandrel view --fly 127.0.0.1:18570                    fly it with the keyboard: W S A D, arrows, 1 to arm, T to take off
   spandrel view --stream 127.0.0.1:5600                  also show the camera's view in QGroundControl
   spandrel view --listen 0.0.0.0 --connect 192.168.1.20:14280 --quality low
   spandrel view --screenshot moment.png --after 10       save a picture of the window after 10 s and exit

@@ -254,7 +254,7 @@ impl VehicleShell {
         if self.core.waiting() {
             if self.lockstep_timeout.is_over(self.core.now(), wall) {
                 return Err(AppError::failed(format!(
-                    "a lockstep peer has not answered TIMESYNC for {} s (simulation time {}) and seems to be gone",
+                    "a lockstep peer has not answered TIMESYNC for {} s (simulation time {}); it may have exited",
                     LOCKSTEP_PEER_TIMEOUT.as_secs(),
                     self.core.now()
                 )));

@@ -221,7 +221,7 @@ impl FileStore {
                 let (date, time) = readable.split_at(10);
                 let deleted = flight_logs::delete_oldest(&self.root, LOG_FOLDER, self.max_log_bytes)?;
                 if deleted > 0 {
-                    tracing::info!("deleted the logs of {deleted} old flights to make space for a new one");
+                    tracing::info!("deleted the logs of {deleted} old flights to make room for a new one");
                 }
                 let folder = format!("{LOG_FOLDER}/{date}");
                 self.root.create_dir_all(&folder)?;

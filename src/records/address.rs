@@ -71,13 +71,10 @@ pub fn connection_error(error: &sqlx::Error) -> String {
     let advice = [
         (
             "UnknownIssuer",
-            "the server's certificate was issued by an unknown authority: specify the authority's certificate with sslrootcert=FILE",
+            "the server's certificate was issued by an unknown certificate authority: specify the CA certificate with sslrootcert=FILE",
         ),
         ("not valid for name", "the server's certificate is for another host name: use that name in the URL"),
-        (
-            "CaUsedAsEndEntity",
-            "the server uses an authority's certificate as its own: issue a server certificate for its host name",
-        ),
+        ("CaUsedAsEndEntity", "the server uses a CA certificate as its own: issue a server certificate for its host name"),
         ("certificate expired", "the server's certificate has expired, or a clock is wrong"),
         ("server does not support TLS", "enable TLS on the server (ssl = on), or use sslmode=disable on a trusted network"),
     ];

@@ -31,7 +31,7 @@ impl Database {
             let newest = MIGRATIONS.len();
             return Err(sqlx::Error::Configuration(
                 format!(
-                    "the database has version {version}, but this program supports only {newest}: use a newer version of spandrel"
+                    "the database has version {version}, but this program supports versions up to {newest}: use a newer version of spandrel"
                 )
                 .into(),
             ));

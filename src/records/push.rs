@@ -102,7 +102,7 @@ impl LearningRecordStore {
             }
             (Err(_), Err(_)) => None,
             (Ok(_), Err(_)) | (Err(_), Ok(_)) => {
-                return Err(AppError::wrong(format!("{USER} and {PASSWORD} must both be set, or neither")));
+                return Err(AppError::wrong(format!("{USER} and {PASSWORD} must be set together")));
             }
         };
         Ok(Self { agent: config.into(), url: url.to_owned(), authorization })
@@ -131,7 +131,7 @@ impl LearningRecordStore {
                 Ok(PushOutcome::Retry(words)) | Err(words) => words,
             };
             let Some(wait) = waits.next() else {
-                return Err(AppError::failed(format!("{address}: {why}, after {} tries", RETRY_DELAYS.len() + 1)));
+                return Err(AppError::failed(format!("{address}: {why}, after {} attempts", RETRY_DELAYS.len() + 1)));
             };
             tracing::info!("{address}: {why}; retrying in {:.1} s", wait.as_secs_f64());
             std::thread::sleep(*wait);

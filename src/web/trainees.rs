@@ -70,9 +70,7 @@ pub fn details(state: &ServerState, asked: &WebRequest) -> HandlerResult {
         after[k] = given;
     }
     if !state.database.set_details(&person.pseudonym, before, after)? {
-        return Err(WebError::BadRequest(
-            "these details were changed elsewhere meanwhile: reload the page and check them".into(),
-        ));
+        return Err(WebError::BadRequest("these details have been changed elsewhere: reload the page and check them".into()));
     }
     Ok(WebResponse::redirect(&format!("/trainees/{}", asked.path_part("name"))))
 }

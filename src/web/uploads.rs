@@ -82,7 +82,8 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
     let graded = scoring::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
     if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
-        let words = format!("trainee = {}: erased after this flight, so it cannot be imported again", trainee.as_str());
+        let words =
+            format!("trainee = {}: this trainee was erased after the flight, so the flight cannot be imported", trainee.as_str());
         return Err(WebError::BadRequest(words));
     }
     let first = state.default_folder();

@@ -258,7 +258,7 @@ impl PilotLoop {
                 // If the controller is disconnected, no stick positions are sent, even if keys were used before, so
                 // that the vehicle's failsafe is active until a key is used again.
                 self.keyboard_in_use = false;
-                Some(format!("'{name}' disconnected: sticks centered, then no longer sent. Press a key to take over."))
+                Some(format!("'{name}' disconnected: stick input centered, then stopped. Press a key to fly with the keyboard."))
             }
             (true, false) if self.controller.flies() => Some(format!("'{name}' reconnected.")),
             _ => None,

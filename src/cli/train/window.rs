@@ -32,7 +32,7 @@ impl WindowProcess {
             return None;
         }
         if args.ports.payload_port == Some(PortChoice::None) {
-            tracing::warn!("no window: it needs the payload port, but --payload-port is none");
+            tracing::warn!("no window: it requires the payload port, but --payload-port is none");
             return None;
         }
         let opened = Child::start_with_env("view", &window_args(args, log), &[software_renderer_threads()]);
@@ -80,7 +80,7 @@ impl WindowProcess {
                 }
                 Err(error) if !self.bad_line_reported => {
                     self.bad_line_reported = true;
-                    tracing::warn!("invalid message from the window: {error}; further ones are ignored");
+                    tracing::warn!("invalid message from the window: {error}; further invalid messages are ignored");
                 }
                 Err(_) => {}
             }

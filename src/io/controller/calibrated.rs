@@ -105,7 +105,7 @@ impl CalibratedController {
                     self.profile.buttons.get(&button).into_iter().for_each(|action| link.request_action(*action, now));
                 }
                 DeviceEvent::Lost => {
-                    tracing::warn!("'{}' disconnected: sticks centered, then no longer sent", self.profile.device.name)
+                    tracing::warn!("'{}' disconnected: stick input centered, then stopped", self.profile.device.name)
                 }
                 DeviceEvent::Found => tracing::info!("'{}' connected", self.profile.device.name),
                 DeviceEvent::Axis { .. } | DeviceEvent::Button { .. } => {}
