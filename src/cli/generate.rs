@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use clap_mangen::{Man, roff::Roff};
 use std::path::PathBuf;
 
-/// Name of the subcommand.
+/// Subcommand name.
 pub const NAME: &str = "generate";
 
 /// Kind of output: manual pages or shell completions.

@@ -15,7 +15,7 @@ use spandrel_training::xapi::HOME;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// Microseconds in one day.
+/// Microseconds per day.
 const DAY_US: u64 = 86_400_000_000;
 /// Maximum retention time, days (100 years).
 const MAX_RETENTION_DAYS: i64 = 36_525;

@@ -57,9 +57,8 @@ pub struct Args {
     /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
-    /// Heartbeats of the camera component (100). Turn them off for simple clients that take every heartbeat for the
-    /// vehicle's (DroneKit, mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in
-    /// flight
+    /// Heartbeats of the camera component (100). Turn them off for simple clients that attribute every heartbeat to the
+    /// vehicle (DroneKit, mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
     camera: AnnouncedComponents,
     /// Action after a crash. Use `scenario` when a monitor scores the flight, as train and demo do

@@ -32,7 +32,7 @@ pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Returns the scores, tasks, crashes, pictures and the end of a session as text.
+/// Formats the scores, tasks, crashes, pictures and end of a session as text.
 pub fn scores_text(assessment: &Value) -> String {
     let mut out = String::new();
     let scores = &assessment["scores"];

@@ -13,7 +13,7 @@ const MAX_PENDING_BYTES: usize = 64 * 1024 * 1024;
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot write: {error}", path.display())]
 pub struct WriteError {
-    /// Path of the file.
+    /// File path.
     pub path: PathBuf,
     /// Error from the operating system.
     pub error: std::io::Error,

@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 /// A scenario with its source text.
 #[derive(Debug, Clone)]
 pub struct ScenarioFile {
-    /// Source text of the scenario (TOML).
+    /// Scenario source text (TOML).
     pub text: String,
     /// Files that the scenario refers to (height fields), by their names in the scenario.
     pub siblings: BTreeMap<String, String>,
@@ -22,7 +22,7 @@ pub struct ScenarioFile {
 /// A vehicle with its source text.
 #[derive(Debug, Clone)]
 pub struct VehicleFile {
-    /// Source text of the vehicle (TOML).
+    /// Vehicle source text (TOML).
     pub text: String,
     /// Vehicle parsed from the text.
     pub vehicle: Vehicle,
@@ -30,11 +30,11 @@ pub struct VehicleFile {
 
 /// Text of a file and its location.
 pub struct SourceFile {
-    /// Name of the file in messages.
+    /// File name to use in messages.
     pub file: String,
-    /// Contents of the file.
+    /// File contents.
     pub text: String,
-    /// Folder of the file; `None` for a shipped file.
+    /// Folder that contains the file; `None` for a shipped file.
     folder: Option<PathBuf>,
 }
 

@@ -21,27 +21,27 @@ const MAX_LEARNED_PEERS: usize = 64;
 pub enum LinkChange {
     /// A link was opened.
     Opened {
-        /// Number of the link.
+        /// Link number.
         link: u32,
-        /// Kind of the link.
+        /// Link kind.
         kind: LinkKind,
         /// True if the peer runs in lockstep.
         lockstep: bool,
         /// True if the peer contacted the vehicle first; its source address may be forged.
         learned: bool,
-        /// Capacity of the link, bytes/s, if limited.
+        /// Link capacity, bytes/s, if limited.
         limit: Option<f64>,
     },
     /// A datagram, or one complete frame of a stream.
     Bytes {
-        /// Link that the data arrived on.
+        /// Link on which the data arrived.
         link: u32,
         /// Received MAVLink bytes.
         bytes: Vec<u8>,
     },
     /// A link was closed.
     Closed {
-        /// Number of the link.
+        /// Link number.
         link: u32,
     },
 }

@@ -9,7 +9,7 @@ use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// Size of a chunk, bytes.
+/// Chunk size, bytes.
 const CHUNK_BYTES: usize = 256 * 1024;
 /// Number of bytes at the start of the file that certainly contain the first record.
 const HEAD_BYTES: u64 = 64 * 1024;

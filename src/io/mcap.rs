@@ -11,9 +11,9 @@ use spandrel_model::foxglove::{CHANNELS, ChannelMessage};
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
-/// Size of a chunk, bytes.
+/// Chunk size, bytes.
 const CHUNK_BYTES: u64 = 16 * 1024;
-/// Maximum flight time in a chunk, ns.
+/// Maximum flight time per chunk, ns.
 const FLUSH_AFTER_NS: u64 = 1_000_000_000;
 
 fn options() -> WriteOptions {
@@ -84,7 +84,7 @@ pub fn base64(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Result of a recovery.
+/// Recovery result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RecoveryResult {
     /// The complete recovered file.

@@ -47,16 +47,16 @@ impl std::fmt::Display for StreamOrigin {
     }
 }
 
-/// An event of a socket.
+/// A socket event.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NetEvent {
     /// A datagram was received.
     Datagram {
         /// Socket that received it.
         socket: SocketId,
-        /// Address of the sender.
+        /// Sender's address.
         from: SocketAddr,
-        /// Payload of the datagram.
+        /// Datagram payload.
         bytes: Vec<u8>,
     },
     /// A client connected, or a serial port was opened.

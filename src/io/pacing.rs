@@ -12,7 +12,7 @@ pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall-clock delay above which the simulation does not catch up: the clock slips, and the slip is reported.
 const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
 
-/// Speed of the simulation.
+/// Simulation speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SimulationSpeed {
     /// Multiple of real time.

@@ -31,11 +31,11 @@ pub struct SessionFolder {
 pub struct StoredSession {
     /// Scenario with the seed and the placed defects.
     pub scenario: ScenarioFile,
-    /// Aircraft of the session.
+    /// Aircraft flown in the session.
     pub vehicle: VehicleFile,
-    /// Telemetry log of the session.
+    /// Telemetry log.
     pub log: LogFile,
-    /// ID of the trainee.
+    /// Trainee ID.
     pub trainee: String,
     /// Purpose of the flight, if one was chosen.
     pub purpose: Option<String>,
@@ -108,7 +108,7 @@ impl SessionFolder {
         Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, starts })
     }
 
-    /// Returns the path of the folder.
+    /// Returns the folder's path.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -240,7 +240,8 @@ pub fn trainee_and_start(path: &Path) -> Result<(String, u64), AppError> {
     }
 }
 
-/// Returns the purpose of a session, if one was chosen and `session.json` is readable. Faster than reading the whole session.
+/// Returns a session's purpose, if one was chosen and `session.json` is readable. Faster than reading the whole
+/// session.
 pub fn purpose(path: &Path) -> Option<String> {
     read_session_json(&path.join(SESSION)).ok()?["purpose"].as_str().map(str::to_owned)
 }
@@ -248,11 +249,11 @@ pub fn purpose(path: &Path) -> Option<String> {
 /// A session that is being recorded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OngoingSession {
-    /// ID of the trainee.
+    /// Trainee ID.
     pub trainee: String,
-    /// CRC of the scenario.
+    /// Scenario CRC.
     pub crc: u32,
-    /// Seed of the session.
+    /// Session seed.
     pub seed: u64,
 }
 

@@ -18,7 +18,7 @@ const SECURE_DELETE: &str = "PRAGMA secure_delete = ON";
 /// orders would deadlock, and one transaction would be aborted.
 const WRITE_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
 
-/// SQL dialect of a database.
+/// SQL dialect of the database.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SqlDialect {
     Sqlite,

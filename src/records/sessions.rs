@@ -32,8 +32,8 @@ const LIST_OF_TRAINEE: &str = "SELECT id, trainee, started_unix_us, scenario, ov
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
-    /// Adds records with their trainees. Unchanged sessions stay untouched, and erased sessions are not added again. Returns the number of new or
-    /// changed sessions.
+    /// Adds records with their trainees. Unchanged sessions are left alone, and erased sessions are not added again.
+    /// Returns the number of new or changed sessions.
     ///
     /// # Errors
     /// If the database fails; nothing is imported in that case.

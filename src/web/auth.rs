@@ -50,7 +50,7 @@ pub struct LoginClient<'a> {
 pub struct Identified {
     /// Name and role of the visitor.
     pub visitor: Visitor,
-    /// Value of the session cookie.
+    /// Session cookie value.
     pub cookie: String,
     /// True if the cookie is new and must be set.
     pub is_new: bool,

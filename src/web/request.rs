@@ -12,7 +12,7 @@ use std::net::IpAddr;
 pub struct UploadedFile {
     /// File name as sent by the browser; never used as a path.
     pub name: String,
-    /// Contents of the file.
+    /// File contents.
     pub file: SpooledUpload,
 }
 
@@ -21,9 +21,9 @@ pub struct UploadedFile {
 pub struct WebRequest {
     /// Visitor who sent the request.
     pub visitor: Visitor,
-    /// Value of the session cookie.
+    /// Session cookie value.
     pub cookie: Option<String>,
-    /// Address of the client.
+    /// Client address.
     pub from: IpAddr,
     /// Cookie of a browser that has logged in before.
     pub device: Option<String>,

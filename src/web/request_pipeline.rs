@@ -25,7 +25,7 @@ const RETRY_AFTER_S: u64 = 5;
 /// State shared by the tasks that handle requests.
 #[derive(Debug, Clone)]
 pub struct PipelineState {
-    /// State of the server.
+    /// Server state.
     pub state: Arc<ServerState>,
     /// Limits the number of concurrent uploads.
     pub uploads: Arc<Semaphore>,

@@ -38,16 +38,16 @@ impl RouteKind {
     }
 }
 
-/// A row of the table.
+/// A row of the route table.
 #[derive(Debug, Clone, Copy)]
 pub struct Route {
     /// Path, with parameters in braces.
     pub path: &'static str,
-    /// Kind of the route.
+    /// Route kind.
     pub how: RouteKind,
     /// Access level required for the route.
     pub needs: AccessLevel,
-    /// Handler of the request.
+    /// Request handler.
     pub handler: Handler,
 }
 

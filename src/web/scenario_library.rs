@@ -14,7 +14,7 @@ pub struct StoredScenario {
     pub named: ScenarioEntry,
     /// Scenario parsed from the text.
     pub scenario: Scenario,
-    /// Source text of the scenario (TOML).
+    /// Scenario source text (TOML).
     pub text: String,
 }
 

@@ -81,7 +81,7 @@ impl WebServer {
         Ok(Self { address, handle, thread: Some(thread) })
     }
 
-    /// Returns the URL of the server.
+    /// Returns the server's URL.
     pub fn address(&self) -> &str {
         &self.address
     }

@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-/// Interval between scans of the folders.
+/// Interval between folder scans.
 const SCAN_INTERVAL: Duration = Duration::from_secs(2);
 
-/// Handle of the importer thread.
+/// Handle to the importer thread.
 #[derive(Debug)]
 pub struct SessionImporter(Sender<PathBuf>);
 

@@ -9,7 +9,7 @@ use crate::records::{Account, erase_older_than};
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::{login, settings as pages};
 
-/// Microseconds in one day.
+/// Microseconds per day.
 const US_PER_DAY: u64 = 86_400_000_000;
 
 /// Shows the login form.

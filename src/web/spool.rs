@@ -39,7 +39,7 @@ impl Drop for SpoolFile {
 }
 
 impl SpooledUpload {
-    /// Returns the contents of the file.
+    /// Returns the file's contents.
     ///
     /// # Errors
     /// If the file cannot be read.

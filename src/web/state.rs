@@ -13,7 +13,7 @@ use spandrel_training::questionnaire::Languages;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-/// Settings of a server.
+/// Server settings.
 #[derive(Debug, Clone)]
 pub struct ServerSetup {
     /// Location of the database and the session folders.
@@ -31,7 +31,7 @@ pub struct ServerSetup {
 pub struct ServerState {
     /// Database of sessions, trainees and answers.
     pub database: Database,
-    /// Cache of the cohort figures.
+    /// Cohort figure cache.
     pub figures: FigureCache,
     /// Location of the database and the session folders.
     pub place: RecordsLocation,
@@ -39,7 +39,7 @@ pub struct ServerState {
     pub scenarios: PathBuf,
     /// Logins, browser sessions and cookies.
     pub auth: Authenticator,
-    /// Languages of the questionnaire.
+    /// Questionnaire languages.
     pub languages: Languages,
     /// Vehicles on the live page.
     pub live: Vec<LiveVehicle>,

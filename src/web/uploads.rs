@@ -31,9 +31,9 @@ fn render_form(state: &ServerState, asked: &WebRequest, told: Option<pages::Uplo
     Ok(WebResponse::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
 }
 
-/// Result of an upload.
+/// Upload result.
 enum UploadOutcome {
-    /// Folder of the new session.
+    /// Folder of the imported session.
     Session(PathBuf),
     /// ID and trainee of the existing session with the same recording.
     There(String, String),

@@ -8,7 +8,7 @@ use spandrel_clients::rc::{ControllerProfile, RawInput, StickMode, Sticks};
 use spandrel_model::time::SimTime;
 use spandrel_view::flow::{ControllerStatus, ProfileChange};
 
-/// State of the controller.
+/// Controller state.
 enum DeviceState {
     /// No controller; the watcher detects a new one.
     Nothing(DeviceWatcher),
@@ -120,7 +120,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Returns the name of the controller, if there is one.
+    /// Returns the controller's name, if there is one.
     pub fn name(&self) -> Option<&str> {
         match &self.held {
             DeviceState::Nothing(_) => None,

@@ -4,7 +4,7 @@ use crate::errors::AppError;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-/// Returns the event loop of the display.
+/// Returns the display's event loop.
 pub fn open() -> Result<EventLoop<()>, AppError> {
     // The keyboard library is loaded on first use, and the loader panics if it is missing. The panic is converted to an
     // error here.

@@ -14,9 +14,9 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
-/// State of the scene of a flight.
+/// Scene state of a flight.
 pub enum SceneLoading {
-    /// Waiting for the seed of the session.
+    /// Waiting for the session's seed.
     Waiting,
     /// Building the site and its lighting.
     Building(Receiver<RenderJob>),
@@ -59,9 +59,9 @@ impl SceneKey {
 pub struct FlightView {
     /// Scenario and aircraft of the flight.
     pub job: (Scenario, Vehicle),
-    /// Receiver of its telemetry.
+    /// Telemetry listener.
     pub listener: TelemetryListener,
-    /// State of its scene.
+    /// Scene state.
     pub scene: SceneLoading,
     session: SceneKey,
     /// Views of an earlier session, kept until their textures can be freed.
@@ -112,7 +112,7 @@ impl FlightView {
                 tracing::info!("rendering with {}, {}, seed {seed}", screen.gpu.name, quality.name);
                 let (sender, receiver) = channel();
                 std::thread::spawn(move || {
-                    // Fails if the window has been closed meanwhile.
+                    // Fails only if the window has been closed meanwhile.
                     let _ = sender.send(RenderJob::build(scenario, vehicle, seed, &quality, at));
                 });
                 self.session.built_seed = Some(seed);

@@ -53,7 +53,7 @@ impl TelemetryListener {
         Ok(listener)
     }
 
-    /// Returns the address of the vehicle.
+    /// Returns the vehicle's address.
     pub fn vehicle(&self) -> SocketAddr {
         self.vehicle
     }

@@ -10,7 +10,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Interval between two images.
+/// Interval between images.
 const SAVE_INTERVAL: Duration = Duration::from_secs(1);
 /// Maximum file size, bytes; a phone connection transfers it in a second.
 const MAX_BYTES: usize = 150_000;

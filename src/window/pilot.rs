@@ -107,7 +107,7 @@ impl PilotThread {
         self.messages.try_recv().ok()
     }
 
-    /// Returns the status of the controller.
+    /// Returns the controller's status.
     pub fn controls(&self) -> ControllerStatus {
         self.controls.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -10,7 +10,7 @@ use winit::window::Window;
 
 /// The window and its graphics device.
 pub struct WindowSurface {
-    /// Window of the operating system.
+    /// Operating system window.
     pub window: Arc<Window>,
     /// Graphics device that renders to the window.
     pub gpu: Gpu,

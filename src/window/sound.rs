@@ -16,7 +16,7 @@ const PLAYERS: [(&str, &[&str]); 2] = [
 ];
 /// Programs that speak their last argument.
 const VOICES: [&str; 2] = ["spd-say", "espeak-ng"];
-/// Number of samples in a chunk: 10 ms.
+/// Number of samples per chunk (10 ms).
 const CHUNK_SAMPLES: usize = SAMPLE_RATE_HZ as usize / 100;
 /// Playback lead time: longer delays the sound, shorter causes dropouts on a busy machine (estimate).
 const PLAYBACK_LEAD: Duration = Duration::from_millis(80);

@@ -36,11 +36,11 @@ pub struct StreamSender {
     last: Option<Stopwatch>,
 }
 
-/// Statistics of the stream.
+/// Stream statistics.
 #[derive(Debug, Clone, Copy, Default)]
 struct StreamStatistics {
     pictures: u64,
-    /// Total wall time of encoding.
+    /// Total encoding time (wall time).
     encoding: Duration,
 }
 

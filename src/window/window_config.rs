@@ -15,7 +15,7 @@ pub struct WindowConfig {
     pub listen: IpAddr,
     /// Quality preset; `None` to choose one that suits the device.
     pub quality: Option<Quality>,
-    /// Size of the window, px: width, height.
+    /// Window size, px: width, height.
     pub size_px: (u32, u32),
     /// True if the map may be shown.
     pub map: bool,

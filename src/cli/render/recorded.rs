@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 
 /// A recorded flight with its session folder.
 pub struct RecordedFlight {
-    /// Folder of the recorded session.
+    /// Session folder.
     pub folder: PathBuf,
     /// Contents of the session folder.
     pub stored: StoredSession,
@@ -43,7 +43,7 @@ pub struct RecordedFlight {
 }
 
 impl RecordedFlight {
-    /// Reads the flight of a session folder.
+    /// Reads the flight from a session folder.
     ///
     /// # Errors
     /// If it is not a session folder, a file is invalid, or it contains no flight.
@@ -78,12 +78,12 @@ impl RecordedFlight {
         self.zero_unix_us + u64::try_from((self.earlier_duration + at).us()).unwrap_or(0)
     }
 
-    /// Returns the scenario of the session.
+    /// Returns the session's scenario.
     pub fn scenario(&self) -> &Scenario {
         &self.stored.scenario.scenario
     }
 
-    /// Returns the aircraft of the session.
+    /// Returns the session's aircraft.
     pub fn vehicle(&self) -> &Vehicle {
         &self.stored.vehicle.vehicle
     }
@@ -94,7 +94,7 @@ impl RecordedFlight {
         (time(self.flight.truths.first()), time(self.flight.truths.last()))
     }
 
-    /// Returns the seed of defects and traffic.
+    /// Returns the seed for defects and traffic.
     pub fn seed(&self) -> u64 {
         self.scenario().seed.or(self.flight.seeds.all().first().map(|said| said.2)).unwrap_or_default()
     }

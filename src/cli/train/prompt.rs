@@ -15,7 +15,7 @@ pub enum PromptAnswer {
     Quit,
 }
 
-/// The terminal. Without one, only a signal ends the run.
+/// The terminal prompt. Without a terminal, only a signal ends the run.
 #[derive(Debug, Default)]
 pub struct TerminalPrompt {
     lines: Option<Receiver<String>>,

@@ -1,4 +1,4 @@
-//! The window as a separate process, and the pipe to it. A session continues without the window.
+//! The window as a separate process, and the pipe to it. The session continues if the window exits.
 
 use super::args::{Args, camera_file};
 use crate::io::addresses::PortChoice;
@@ -13,7 +13,7 @@ const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 /// Time limit for the window to open on a busy machine.
 const OPEN_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// Process of the window.
+/// The window process.
 pub struct WindowProcess {
     child: Child,
     has_exited: bool,
@@ -106,7 +106,7 @@ impl WindowProcess {
     }
 }
 
-/// Returns the arguments of the window's process.
+/// Returns the command-line arguments for the window process.
 fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
     let mut words = ["--led", "--log", &log.to_string().to_lowercase(), "--quality", &args.quality].map(str::to_owned).to_vec();
     let given = [

@@ -75,7 +75,7 @@ impl Gamepad {
         &self.device
     }
 
-    /// Returns the next event of the device.
+    /// Returns the device's next event.
     pub fn next(&mut self) -> Option<DeviceEvent> {
         while let Some(event) = self.system.next_event() {
             if event.id != self.id {

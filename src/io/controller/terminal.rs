@@ -10,7 +10,7 @@ use crossterm::{execute, terminal};
 use std::io::{IsTerminal, stderr, stdin};
 use std::time::Duration;
 
-/// A key event of the terminal.
+/// A terminal key event.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TerminalKey {
     /// Key pressed. Repeated while the key is held if the terminal does not distinguish presses from repetitions.
@@ -19,7 +19,7 @@ pub enum TerminalKey {
     Up(String),
     /// The terminal lost focus, so it no longer receives key releases.
     FocusLost,
-    /// Ctrl-C or Escape: the user wants to quit.
+    /// Ctrl-C or Escape: quit.
     Quit,
 }
 

@@ -2,7 +2,7 @@
 //! store units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of `Schema.fbs` and `Message.fbs`; encoding:
 //! <https://flatbuffers.dev/internals/>. Parents are written before their children, so that all offsets are positive.
 
-/// Type of a field.
+/// Field type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Signed 64-bit integer.
@@ -18,11 +18,11 @@ pub enum Kind {
 /// A field of the schema.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field<'a> {
-    /// Name of the column.
+    /// Column name.
     pub name: &'a str,
     /// True if values may be null.
     pub nullable: bool,
-    /// Type of the values.
+    /// Value type.
     pub kind: Kind,
     /// Metadata as key-value pairs.
     pub metadata: Vec<(&'a str, &'a str)>,

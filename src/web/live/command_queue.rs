@@ -41,7 +41,7 @@ pub enum InstructorCommand {
     Failure {
         /// FAILURE_UNIT of the component.
         unit: f32,
-        /// Name of the component.
+        /// Component name.
         words: &'static str,
         /// True to inject the failure, false to clear it.
         fails: bool,
