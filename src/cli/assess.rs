@@ -42,7 +42,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid or there is nothing to score.
+/// Returns an error if files are invalid or there is nothing to score.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let (scenario, vehicle, log) = inputs(args)?;
     let graded = grade(&log, &scenario, &vehicle)?;

@@ -51,7 +51,7 @@ struct Findings {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If any file is invalid.
+/// Returns an error if any file is invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let aircraft = files::vehicle(&args.vehicle)?.vehicle;
     let mut findings = Findings::default();

@@ -59,7 +59,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or the database are invalid, or output cannot be written.
+/// Returns an error if files or the database are invalid, or output cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let records = match &args.records {
         Some(file) => read_json_lines(file)?,

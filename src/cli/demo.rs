@@ -60,7 +60,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, a process fails, or the flight cannot be scored.
+/// Returns an error if files are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     files::vehicle(&args.job.vehicle)?;

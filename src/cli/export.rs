@@ -88,7 +88,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, there is no data to export, or the output cannot be written.
+/// Returns an error if files are invalid, there is no data to export, or the output cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let path = Path::new(&args.from);
     if let Some(target) = &args.mcap

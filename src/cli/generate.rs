@@ -35,7 +35,7 @@ pub fn subcommand() -> Command {
 /// Runs the subcommand. `documented` is the program's command line without this subcommand.
 ///
 /// # Errors
-/// If a file or standard output cannot be written.
+/// Returns an error if a file or standard output cannot be written.
 pub fn run(what: &GeneratorCommand, mut documented: Command) -> Result<(), AppError> {
     match what {
         GeneratorCommand::Man { folder } => {

@@ -91,7 +91,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or ports are invalid, or the session cannot be scored.
+/// Returns an error if files or ports are invalid, or the session cannot be scored.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
     // Reads the files, then opens the port, then creates the folder, so that an error leaves nothing behind.
@@ -192,7 +192,7 @@ struct MonitorProcess {
     /// True if `session.json` is up to date.
     session_json_saved: bool,
     last_flush: Duration,
-    /// Time of the last warning about the disk; `None` while it can be written.
+    /// Time of the last disk warning; `None` while the disk can be written.
     warned: Option<Duration>,
     stopwatch: Stopwatch,
 }

@@ -37,7 +37,7 @@ impl SkillArgs {
     /// Returns the parameters of the synthetic trainee.
     ///
     /// # Errors
-    /// If there is no such skill level.
+    /// Returns an error if there is no such skill level.
     pub fn skill(&self) -> Result<Skill, AppError> {
         let base = self.skill.parse::<Skill>().map_err(AppError::wrong)?;
         Ok(self.expert_in.iter().fold(base, |pilot, factor| pilot.with(*factor, Skill::EXPERT)))
@@ -94,7 +94,8 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or ports are invalid, the vehicle does not respond or is lost, or the flight could not start.
+/// Returns an error if files or ports are invalid, the vehicle does not respond or is lost, or the flight could not
+/// start.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
     let scenario = files::scenario(&args.job.scenario)?.scenario;

@@ -48,7 +48,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or the database are invalid, or the trainee has no session.
+/// Returns an error if files or the database are invalid, or the trainee has no session.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let trainee = args.trainee.as_str();
     let mut records = match &args.records {

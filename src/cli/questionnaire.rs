@@ -65,7 +65,7 @@ enum TypedInput {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If the session or a file is invalid, or answers cannot be written.
+/// Returns an error if the session or a file is invalid, or answers cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = StoredSession::read_scenario(&args.session)?.scenario;
     let mut answers = read_answers_of(&args.session, &scenario)?.unwrap_or_default();

@@ -88,7 +88,8 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If there is no device or terminal, the device is not calibrated, files are invalid, or the vehicle is lost.
+/// Returns an error if there is no device or terminal, the device is not calibrated, files are invalid, or the vehicle
+/// is lost.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let profiles = ProfileFolder::at(args.profiles.clone());
     if args.list {

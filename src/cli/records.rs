@@ -168,7 +168,7 @@ pub struct PushArgs {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If arguments, folders or the database are invalid.
+/// Returns an error if arguments, folders or the database are invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let place = &args.place.location();
     match &args.what {
@@ -277,7 +277,7 @@ fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppErr
 /// Sets the given details of a person, then prints them.
 ///
 /// # Errors
-/// If the database fails, or the person does not exist and no details were given.
+/// Returns an error if the database fails, or the person does not exist and no details were given.
 fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
     let name = args.id.as_str();
     let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
@@ -292,7 +292,7 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
 /// Writes all stored data of a trainee.
 ///
 /// # Errors
-/// If there is no data, or the database or the output fails.
+/// Returns an error if there is no data, or the database or the output fails.
 fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = place.open()?;
     let kept = stored_data(&database, place, trainee)?;
@@ -303,7 +303,7 @@ fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppEr
 /// Erases a trainee, or lists what would be erased.
 ///
 /// # Errors
-/// If a folder or the database cannot be changed.
+/// Returns an error if a folder or the database cannot be changed.
 fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
     let database = place.open()?;
     let folders = folders_of_trainee(place, trainee)?;

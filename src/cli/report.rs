@@ -37,7 +37,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
     let text = match &args.other {

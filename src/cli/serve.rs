@@ -123,7 +123,7 @@ fn listen(text: &str) -> Result<SocketAddr, String> {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If arguments, files, the port or the database are invalid.
+/// Returns an error if arguments, files, the port or the database are invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     if let (Some(name), Some(role)) = (&args.set_password, args.role.as_deref().and_then(Role::from_word)) {
         return set_password(&args.place.location(), name.as_str(), role);
@@ -162,7 +162,7 @@ fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<Watched
 /// Prompts for a password and stores its hash.
 ///
 /// # Errors
-/// If the password is not acceptable, or the database fails.
+/// Returns an error if the password is not acceptable, or the database fails.
 fn set_password(place: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
     let password = prompt_password(name)?;
     login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;

@@ -183,7 +183,7 @@ impl TrustedLink {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or ports are invalid, or a lockstep peer disappears.
+/// Returns an error if files or ports are invalid, or a lockstep peer disappears.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(false)?;
     let still = if args.leash { PauseSwitch::listen(&stop) } else { PauseSwitch::default() };

@@ -21,7 +21,7 @@ pub fn print_locations(session: &Path) {
 /// Prints the scores of a session and the location of its files.
 ///
 /// # Errors
-/// If the session has no assessment.
+/// Returns an error if the session has no assessment.
 pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     let path = session.join(spandrel_monitor::folder::ASSESSMENT);
     let text = std::fs::read_to_string(&path)

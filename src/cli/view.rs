@@ -99,7 +99,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, or there is no display or no graphics adapter.
+/// Returns an error if files are invalid, or there is no display or no graphics adapter.
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
@@ -144,7 +144,7 @@ fn picture(args: &Args) -> Result<Option<CaptureRequest>, AppError> {
 /// Reports that the program was built without the view.
 ///
 /// # Errors
-/// Always.
+/// Always returns an error.
 #[cfg(not(feature = "view"))]
 pub fn run(_: &Args) -> Result<(), AppError> {
     Err(AppError::failed("this program was built without the view: rebuild it with `cargo build --release --features view`"))

@@ -50,7 +50,7 @@ impl AppendFile {
     /// Opens or creates the file. `complete_len` returns the length of the complete records at the start of a buffer.
     ///
     /// # Errors
-    /// If the file cannot be opened.
+    /// Returns an error if the file cannot be opened.
     pub fn open(path: PathBuf, complete_len: fn(&[u8]) -> usize) -> Result<Self, WriteError> {
         let open = || {
             let file = OpenOptions::new().create(true).append(true).open(&path)?;
@@ -68,7 +68,7 @@ impl AppendFile {
     /// Locks the file against other processes until it is closed.
     ///
     /// # Errors
-    /// If another process has locked it. A file system without locks is not an error.
+    /// Returns an error if another process has locked it. A file system without locks is not an error.
     pub fn lock(&self) -> Result<(), AppError> {
         match self.file.try_lock() {
             Ok(()) => Ok(()),
@@ -91,7 +91,7 @@ impl AppendFile {
     /// Truncates the file.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn cut(&mut self, len: u64) -> Result<(), WriteError> {
         self.file.set_len(len).map_err(|error| self.refused(error))?;
         self.len = len;
@@ -122,7 +122,7 @@ impl AppendFile {
     /// Writes the pending data. After an error, the file contains complete records only, and the rest stays pending.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         if self.has_partial_record {
             self.cut(self.len)?;
@@ -147,7 +147,7 @@ impl AppendFile {
     /// Waits until all written data is on the physical disk.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn sync(&self) -> Result<(), WriteError> {
         self.file.sync_all().map_err(|error| self.refused(error))
     }
@@ -174,7 +174,7 @@ fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Resu
 /// Syncs closed files and their folder.
 ///
 /// # Errors
-/// If the disk cannot be written. Missing files are skipped.
+/// Returns an error if the disk cannot be written. Missing files are skipped.
 pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteError> {
     let sync = |path: PathBuf| match File::open(&path).and_then(|file| file.sync_all()) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(WriteError { path, error }),

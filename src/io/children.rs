@@ -30,7 +30,7 @@ impl Child {
     /// Starts `spandrel NAME ARGS`.
     ///
     /// # Errors
-    /// If the process cannot be started.
+    /// Returns an error if the process cannot be started.
     pub fn start(name: &'static str, args: &[String]) -> Result<Self, AppError> {
         Self::start_with_env(name, args, &[])
     }
@@ -38,7 +38,7 @@ impl Child {
     /// Starts `spandrel NAME ARGS` with additional environment variables.
     ///
     /// # Errors
-    /// If the process cannot be started.
+    /// Returns an error if the process cannot be started.
     pub fn start_with_env(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("cannot start the {name}: {error}"));
         let program = std::env::current_exe().map_err(failed)?;
@@ -67,7 +67,7 @@ impl Child {
     /// Waits for the JSON line in which the child announces its ports and paths.
     ///
     /// # Errors
-    /// If the child exits first, or prints anything else.
+    /// Returns an error if the child exits first, or prints anything else.
     pub fn read_announcement(&mut self) -> Result<Value, AppError> {
         let name = self.name;
         let line = self.lines.recv_timeout(START_TIMEOUT).map_err(|error| match self.exit_status_after(error) {

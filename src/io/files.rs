@@ -51,7 +51,7 @@ pub fn vehicle_names() -> Vec<&'static str> {
 /// Loads and validates a scenario.
 ///
 /// # Errors
-/// If it cannot be read or is invalid; all problems are listed.
+/// Returns an error if it cannot be read or is invalid; all problems are listed.
 pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
     scenario_from(find_source(argument, "scenario", shipped::SCENARIOS)?)
 }
@@ -59,7 +59,7 @@ pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
 /// Loads and validates a vehicle.
 ///
 /// # Errors
-/// If it cannot be read or is invalid; all problems are listed.
+/// Returns an error if it cannot be read or is invalid; all problems are listed.
 pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
     let source = find_source(argument, "vehicle", shipped::VEHICLES)?;
     let vehicle = vehicle::read(&source.file, &source.text)?;
@@ -69,7 +69,7 @@ pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
 /// Loads a vehicle whose ID differs from its file name (a session's `vehicle.toml`).
 ///
 /// # Errors
-/// Like [`vehicle`].
+/// See [`vehicle`].
 pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     let text = read(path)?;
     let mut vehicle = vehicle::read(&path.display().to_string(), &text)?;
@@ -80,7 +80,7 @@ pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
 /// Validates a scenario's text; files that the scenario refers to are read from its folder.
 ///
 /// # Errors
-/// If it is invalid; all problems are listed.
+/// Returns an error if it is invalid; all problems are listed.
 pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     let seen = RefCell::new(BTreeMap::new());
     let sibling = |name: &str| {
@@ -95,7 +95,7 @@ pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
 /// Finds the file for an argument: a path, or a name in `library`.
 ///
 /// # Errors
-/// If there is no such file or name.
+/// Returns an error if there is no such file or name.
 pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
     let path = Path::new(argument);
     let looks_like_a_path = argument.contains(['/', '\\']) || path.extension().is_some_and(|end| end == "toml");
@@ -113,7 +113,7 @@ pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'stati
 /// Finds any file for `check`: a path, or the name of a shipped scenario or vehicle.
 ///
 /// # Errors
-/// If there is no such file or name.
+/// Returns an error if there is no such file or name.
 pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
     let library: Vec<_> = shipped::SCENARIOS.iter().chain(shipped::VEHICLES).copied().collect();
     find_source(argument, "scenario or vehicle", &library)
@@ -122,7 +122,7 @@ pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
 /// Reads a text file (UTF-8).
 ///
 /// # Errors
-/// If it cannot be read.
+/// Returns an error if it cannot be read.
 pub fn read(path: &Path) -> Result<String, AppError> {
     let bytes = std::fs::read(path).map_err(|error| AppError::wrong(format!("{}: cannot read: {error}", path.display())))?;
     String::from_utf8(bytes).map_err(|error| {
@@ -134,7 +134,7 @@ pub fn read(path: &Path) -> Result<String, AppError> {
 /// the process is killed, the old file remains.
 ///
 /// # Errors
-/// If it cannot be written.
+/// Returns an error if it cannot be written.
 pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     use std::io::Write;
     let path = Path::new(target);

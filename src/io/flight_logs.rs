@@ -11,7 +11,7 @@ const EXTENSIONS: [&str; 2] = [".ulg", ".mcap"];
 /// Returns the number of flights deleted.
 ///
 /// # Errors
-/// If a folder cannot be read or a file cannot be deleted.
+/// Returns an error if a folder cannot be read or a file cannot be deleted.
 pub fn delete_oldest(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
     let flights = flights(root, folder)?;
     let mut total: u64 = flights.values().map(|flight| flight.bytes).sum();

@@ -10,7 +10,8 @@ const MIN_PASSPHRASE_CHARS: usize = 8;
 /// Reads a signing key from a file with one line: either the key as 64 hexadecimal digits, or a passphrase.
 ///
 /// # Errors
-/// If the file cannot be read, is readable by other users, or contains no key. The message never shows the file's contents.
+/// Returns an error if the file cannot be read, is readable by other users, or contains no key. The message never shows
+/// the file's contents.
 pub fn read(path: &Path) -> Result<SigningKey, AppError> {
     let wrong = |what: &str| AppError::wrong(format!("--signing-key {}: {what}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;

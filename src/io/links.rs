@@ -75,7 +75,7 @@ impl Links {
     /// Opens all ports and the links to the configured destinations. The link numbers are the same in every run.
     ///
     /// # Errors
-    /// If a port cannot be opened, or a lockstep peer is not a configured destination.
+    /// Returns an error if a port cannot be opened, or a lockstep peer is not a configured destination.
     pub fn open(ports: &VehiclePorts, lockstep: &[SocketAddr]) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let bind = |hub: &mut SocketHub, port: Option<u16>, flag| port.map(|port| hub.bind(ports.listen, port, flag)).transpose();

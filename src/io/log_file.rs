@@ -26,7 +26,7 @@ impl LogFile {
     /// Opens the log and notes its length.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, AppError> {
         let len = File::open(path).and_then(|file| file.metadata()).map_err(|error| unreadable(path, &error))?.len();
         Ok(Self { path: path.to_path_buf(), len })
@@ -40,7 +40,7 @@ impl LogFile {
     /// Returns the length of all complete records, bytes.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn complete_len(&self) -> Result<u64, AppError> {
         let mut splitter = RecordSplitter::default();
         let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
@@ -53,7 +53,7 @@ impl LogFile {
     /// Returns the Unix time of simulation time zero, µs; `None` for an empty log.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn session_start_us(&self) -> Result<Option<u64>, AppError> {
         Ok(tlog::session_start_us(&self.read(HEAD_BYTES)?))
     }
@@ -61,7 +61,7 @@ impl LogFile {
     /// Returns the SHA-256 of the log, hexadecimal.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn sha256(&self) -> Result<String, AppError> {
         let mut hash = Sha256::new();
         let mut update = |piece: &[u8]| {
@@ -75,7 +75,7 @@ impl LogFile {
     /// Returns the whole log.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     #[cfg(feature = "view")]
     pub fn bytes(&self) -> Result<Vec<u8>, AppError> {
         self.read(self.len)

@@ -39,7 +39,7 @@ impl<W: Write + Seek> McapRecording<W> {
     /// Starts a file and writes all schemas and channels.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn begin(to: W) -> McapResult<Self> {
         let mut writer = options().create(to)?;
         let mut channels = Vec::new();
@@ -53,7 +53,7 @@ impl<W: Write + Seek> McapRecording<W> {
     /// Adds a message.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn write(&mut self, message: &ChannelMessage) -> McapResult<()> {
         let topic = message.topic as usize;
         let at = message.unix_ns;
@@ -71,7 +71,7 @@ impl<W: Write + Seek> McapRecording<W> {
     /// Writes the index and the footer of the file.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn end(mut self) -> McapResult<W> {
         self.writer.finish()?;
         Ok(self.writer.into_inner())
@@ -98,7 +98,7 @@ pub struct RecoveryResult {
 /// Reads as much of a file as possible and rewrites it with an index and a footer.
 ///
 /// # Errors
-/// If it is not an MCAP file.
+/// Returns an error if it is not an MCAP file.
 pub fn recover(file: &[u8]) -> McapResult<RecoveryResult> {
     if !file.starts_with(MAGIC) {
         return Err(McapError::BadMagic);

@@ -139,7 +139,7 @@ impl SocketHub {
     /// Binds a UDP port (0 for any free one). If the port is in use, the error message mentions the option `flag`.
     ///
     /// # Errors
-    /// If the port cannot be bound.
+    /// Returns an error if the port cannot be bound.
     pub fn bind(&mut self, ip: IpAddr, port: u16, flag: &str) -> Result<SocketId, AppError> {
         let socket = UdpSocket::bind((ip, port)).map_err(|error| port_in_use("UDP", ip, port, flag, &error))?;
         let reader = socket.try_clone().map_err(|error| AppError::failed(format!("UDP port {port}: {error}")))?;
@@ -153,7 +153,7 @@ impl SocketHub {
     /// Listens for TCP clients and returns the port number.
     ///
     /// # Errors
-    /// If the port cannot be bound.
+    /// Returns an error if the port cannot be bound.
     pub fn serve(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
         let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
         let bound = listener.local_addr().map_or(port, |address| address.port());
@@ -165,7 +165,7 @@ impl SocketHub {
     /// Opens a serial port and reopens it after it has been disconnected.
     ///
     /// # Errors
-    /// If the port cannot be opened.
+    /// Returns an error if the port cannot be opened.
     pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
         let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
         // Numbered downward from the maximum to stay clear of the numbers of TCP clients.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct ParamFile {
     path: PathBuf,
-    /// Change counter of the parameters when the file was last saved.
+    /// Parameter change counter at the time of the last save.
     pub saved_changes: u64,
 }
 
@@ -22,7 +22,7 @@ impl ParamFile {
     /// Returns the contents; `None` if the file does not exist.
     ///
     /// # Errors
-    /// If the file exists and cannot be read.
+    /// Returns an error if the file exists and cannot be read.
     pub fn text(&self) -> Result<Option<String>, AppError> {
         match std::fs::read_to_string(&self.path) {
             Ok(text) => Ok(Some(text)),
@@ -42,7 +42,7 @@ impl ParamFile {
     /// version.
     ///
     /// # Errors
-    /// If the file cannot be written; the old version remains.
+    /// Returns an error if the file cannot be written; the old version remains.
     pub fn write(&self, text: &str) -> Result<(), AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--params {}: {error}", self.path.display()));
         let beside = beside(&self.path);

@@ -8,7 +8,7 @@ use std::path::Path;
 /// Returns the rules from a file, or the built-in rules if there is none.
 ///
 /// # Errors
-/// If the file cannot be read or is invalid.
+/// Returns an error if the file cannot be read or is invalid.
 pub fn rules(file: Option<&Path>) -> Result<PlanRules, AppError> {
     match file {
         Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),

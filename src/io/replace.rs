@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Writes a temporary file next to the target and renames it, so that neither a reader nor a killed process leaves a partial file.
 ///
 /// # Errors
-/// If the disk cannot be written.
+/// Returns an error if the disk cannot be written.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
     Ok(replaced(path, bytes, |_| Ok(()))?)
 }
@@ -18,7 +18,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
 /// Like [`replace`], but also safe against a power failure.
 ///
 /// # Errors
-/// If the disk cannot be written.
+/// Returns an error if the disk cannot be written.
 pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     replaced(path, bytes, File::sync_data)
 }

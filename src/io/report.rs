@@ -17,7 +17,7 @@ const MAX_PICTURES_BYTES: u64 = 4_000_000;
 /// Writes the report into a session folder.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn write(session: &Path) -> Result<(), AppError> {
     replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
 }
@@ -25,7 +25,7 @@ pub fn write(session: &Path) -> Result<(), AppError> {
 /// Returns names and contents of the files in a session's SCORM package.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> {
     let review = review(session)?;
     Ok(scorm::files(&review, &page::session(&review)))
@@ -34,7 +34,7 @@ pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> 
 /// Returns the page that compares two sessions.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
     Ok(page::comparison(&review(first)?, &review(second)?))
 }
@@ -42,7 +42,7 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
 /// Returns a session's pictures with their assessments.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
     // No photographs are passed, because the caller is about to render them.
@@ -73,7 +73,7 @@ pub fn address(path: &Path) -> String {
 /// Returns the complete contents of a session's page.
 ///
 /// # Errors
-/// If files are invalid, or the session has no data to report.
+/// Returns an error if files are invalid, or the session has no data to report.
 pub fn review(session: &Path) -> Result<Review, AppError> {
     review_with_pictures(session, photographs(&session.join(SNAPSHOTS)))
 }

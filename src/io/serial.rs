@@ -31,7 +31,7 @@ impl SerialDevice {
     /// Opens the port in raw mode, without flow control or parity.
     ///
     /// # Errors
-    /// If the port does not exist, is in use, or does not support the baud rate.
+    /// Returns an error if the port does not exist, is in use, or does not support the baud rate.
     pub fn open(&self) -> std::io::Result<SerialPort> {
         SerialPort::open(&self.path, self.baud)
     }

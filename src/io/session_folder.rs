@@ -51,7 +51,7 @@ impl SessionFolder {
     /// Creates `SESSIONS/<utc>-<trainee>-<scenario>-<short id>/`.
     ///
     /// # Errors
-    /// If the folder cannot be created or written.
+    /// Returns an error if the folder cannot be created or written.
     pub fn create(
         sessions: &Path,
         trainee: &str,
@@ -79,7 +79,7 @@ impl SessionFolder {
     /// and lines.
     ///
     /// # Errors
-    /// If this is not a session folder, another monitor is recording to it, or it cannot be written.
+    /// Returns an error if this is not a session folder, another monitor is recording to it, or it cannot be written.
     pub fn resume(path: &Path, stored: &StoredSession) -> Result<Self, AppError> {
         let (readable, _) = clock::utc(stored.started_unix_us);
         let (scenario, vehicle) = (stored.scenario.text.clone(), stored.vehicle.text.clone());
@@ -124,7 +124,8 @@ impl SessionFolder {
     /// Writes pending records.
     ///
     /// # Errors
-    /// If the disk cannot be written. The files then contain complete records only, and the next call retries.
+    /// Returns an error if the disk cannot be written. The files then contain complete records only, and the next call
+    /// retries.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         let telemetry = self.telemetry.flush();
         self.events.flush().and(telemetry)
@@ -143,7 +144,7 @@ impl SessionFolder {
     /// Waits until the session has been written to the physical disk.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn sync(&self) -> Result<(), WriteError> {
         self.telemetry.sync()?;
         self.events.sync()?;
@@ -154,7 +155,7 @@ impl SessionFolder {
     /// Saves the seed and the placed defects in `scenario.toml`.
     ///
     /// # Errors
-    /// If the disk cannot be written; the next call retries.
+    /// Returns an error if the disk cannot be written; the next call retries.
     pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), WriteError> {
         let resolved = scenario::resolve(&self.scenario_toml, seed, placed);
         replace_durably(&self.path.join(SCENARIO), resolved.as_bytes())?;
@@ -165,7 +166,7 @@ impl SessionFolder {
     /// Writes `session.json`.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn write_session_json(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), WriteError> {
         let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
         let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
@@ -175,7 +176,7 @@ impl SessionFolder {
     /// Writes `assessment.json`.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn write_assessment(&self, json: &str) -> Result<(), WriteError> {
         replace_durably(&self.path.join(ASSESSMENT), json.as_bytes())
     }
@@ -185,7 +186,7 @@ impl StoredSession {
     /// Reads only the scenario of a session folder.
     ///
     /// # Errors
-    /// If this is not a session folder, or the file is invalid.
+    /// Returns an error if this is not a session folder, or the file is invalid.
     pub fn read_scenario(path: &Path) -> Result<ScenarioFile, AppError> {
         if !is_session(path) {
             return Err(not_a_session_folder(path));
@@ -197,7 +198,7 @@ impl StoredSession {
     /// name.
     ///
     /// # Errors
-    /// If one of these files is missing or invalid.
+    /// Returns an error if one of these files is missing or invalid.
     pub fn read(path: &Path) -> Result<Self, AppError> {
         if !is_session(path) {
             return Err(not_a_session_folder(path));
@@ -231,7 +232,7 @@ impl StoredSession {
 /// Returns the trainee of a session and the wall time of its simulation time zero, µs since the Unix epoch. Faster than reading the whole session.
 ///
 /// # Errors
-/// If this is not a session folder, or a file is invalid.
+/// Returns an error if this is not a session folder, or a file is invalid.
 pub fn trainee_and_start(path: &Path) -> Result<(String, u64), AppError> {
     let session = read_session_json(&path.join(SESSION))?;
     match (session["trainee"].as_str(), session["started_unix_us"].as_u64()) {

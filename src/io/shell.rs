@@ -65,7 +65,7 @@ impl VehicleShell {
     /// Loads the vehicle's saved files and starts its clock.
     ///
     /// # Errors
-    /// If a saved file is invalid.
+    /// Returns an error if a saved file is invalid.
     pub fn new(
         mut core: Sim,
         links: Links,
@@ -140,7 +140,7 @@ impl VehicleShell {
     /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data and waits for the next tick.
     ///
     /// # Errors
-    /// If a lockstep peer has disappeared.
+    /// Returns an error if a lockstep peer has disappeared.
     pub fn run_until(&mut self, end: SimTime) -> Result<(), AppError> {
         if self.pause.is_paused() {
             self.run_paused();

@@ -31,7 +31,7 @@ impl SigningStore {
     /// Returns the contents; `None` if the file does not exist.
     ///
     /// # Errors
-    /// If the file exists and cannot be read.
+    /// Returns an error if the file exists and cannot be read.
     pub fn text(&self) -> Result<Option<String>, AppError> {
         match std::fs::read_to_string(&self.path) {
             Ok(text) => Ok(Some(text)),

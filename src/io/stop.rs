@@ -16,7 +16,7 @@ impl StopRequest {
     /// child outlives its parent.
     ///
     /// # Errors
-    /// If the signal handler cannot be installed.
+    /// Returns an error if the signal handler cannot be installed.
     pub fn install(leash: bool) -> Result<Self, AppError> {
         let stop = Self::default();
         let runtime = tokio::runtime::Builder::new_current_thread()

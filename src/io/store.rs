@@ -62,7 +62,7 @@ impl FileStore {
     /// Opens the folder and creates it if necessary.
     ///
     /// # Errors
-    /// If the folder can neither be opened nor created.
+    /// Returns an error if the folder can neither be opened nor created.
     pub fn open(path: &Path, max_log_bytes: u64) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--files {}: {error}", path.display()));
         std::fs::create_dir_all(path).map_err(failed)?;
@@ -80,7 +80,7 @@ impl FileStore {
     /// Executes a client's file request.
     ///
     /// # Errors
-    /// The reason, as a MAVLink FTP error.
+    /// Returns the reason as a MAVLink FTP error.
     pub fn run_action(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
         self.act(action).map_err(|error| match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => FileError::NotFound,
@@ -194,7 +194,8 @@ impl FileStore {
     /// `.mcap`.
     ///
     /// # Errors
-    /// If the disk cannot be written. The file then ends with the previous data; the next flight starts a new one.
+    /// Returns an error if the disk cannot be written. The file then ends with the previous data; the next flight
+    /// starts a new one.
     pub fn log(&mut self, piece: &LogOutput) -> Result<(), AppError> {
         match piece {
             LogOutput::Bytes(bytes) => {

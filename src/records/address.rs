@@ -19,7 +19,7 @@ pub fn is_url(target: &str) -> bool {
 /// Checks the TLS options of a URL.
 ///
 /// # Errors
-/// If an option is invalid. The error contains its name, its value and the allowed values.
+/// Returns an error if an option is invalid. The error contains its name, its value and the allowed values.
 pub fn check_tls_options(target: &str) -> Result<(), String> {
     let Some((_, query)) = target.split_once('?').filter(|_| is_url(target)) else { return Ok(()) };
     let said: Vec<(String, String)> = form_urlencoded::parse(query.as_bytes()).into_owned().collect();

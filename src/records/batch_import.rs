@@ -47,7 +47,7 @@ impl ImportCounts {
 /// Imports new and changed sessions. Logs and skips sessions that cannot be scored.
 ///
 /// # Errors
-/// If the database fails.
+/// Returns an error if the database fails.
 pub fn import_into(database: &Database, folders: &[PathBuf]) -> Result<ImportCounts, AppError> {
     let (known, erased) = (database.fingerprints()?, database.erased()?);
     let mut taken = ImportCounts::default();

@@ -39,7 +39,7 @@ impl Database {
     /// Opens `postgres://...` or a file, which is created if it does not exist, and brings its tables up to date.
     ///
     /// # Errors
-    /// If the URL is invalid, or the database cannot be opened or has a newer version.
+    /// Returns an error if the URL is invalid, or the database cannot be opened or has a newer version.
     pub fn open(target: &str) -> Result<Self, AppError> {
         sqlx::any::install_default_drivers();
         let kind = if address::is_url(target) { SqlDialect::Postgres } else { SqlDialect::Sqlite };
@@ -112,7 +112,7 @@ impl Database {
     /// Returns a version string, which changes whenever another connection has modified the database.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn version(&self) -> Result<String, AppError> {
         self.run(async {
             match self.kind {

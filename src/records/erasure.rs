@@ -35,7 +35,7 @@ impl Database {
 /// Removes folders that the database has marked (`Database::erase`, `Database::delete_sessions`).
 ///
 /// # Errors
-/// If the disk or the database fails; the next start tries again.
+/// Returns an error if the disk or the database fails; the next start tries again.
 pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result<(), AppError> {
     for folder in folders {
         let name = folder_name(folder);
@@ -56,7 +56,7 @@ pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result
 /// Finishes interrupted erasures.
 ///
 /// # Errors
-/// If the disk or the database fails.
+/// Returns an error if the disk or the database fails.
 pub(super) fn finish(database: &Database, sessions: &[PathBuf]) -> Result<(), AppError> {
     let marked = database.erasing()?;
     for entry in sessions.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().flatten() {

@@ -63,7 +63,7 @@ impl Database {
     /// Returns all erasure marks.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn erased(&self) -> Result<ErasureMarks, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT what, sha256, erased_unix_us FROM erased").fetch_all(&self.pool).await?;

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// Returns the session folders directly inside these folders, sorted by name (that is, by time).
 ///
 /// # Errors
-/// If a folder cannot be read.
+/// Returns an error if a folder cannot be read.
 pub fn session_folders(sessions: &[PathBuf]) -> Result<Vec<PathBuf>, AppError> {
     let mut found = Vec::new();
     for folder in sessions {
@@ -36,7 +36,7 @@ fn is_hidden(path: &Path) -> bool {
 /// Returns the ID of a session: the name of its folder.
 ///
 /// # Errors
-/// If the name of the folder is not valid UTF-8.
+/// Returns an error if the name of the folder is not valid UTF-8.
 pub fn id(session: &Path) -> Result<String, AppError> {
     let path = session.canonicalize().map_err(|error| AppError::wrong(format!("{}: {error}", session.display())))?;
     let name = path.file_name().and_then(|name| name.to_str());
@@ -46,7 +46,7 @@ pub fn id(session: &Path) -> Result<String, AppError> {
 /// Creates the record of a session folder. Returns `None` if `known` contains it unchanged.
 ///
 /// # Errors
-/// If the folder is invalid or contains nothing to score.
+/// Returns an error if the folder is invalid or contains nothing to score.
 pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<SessionRecord>, AppError> {
     let id = id(session)?;
     let hashes = hashes(session)?;

@@ -35,7 +35,7 @@ impl TraineeData {
 /// data.
 ///
 /// # Errors
-/// If the database or a folder cannot be read.
+/// Returns an error if the database or a folder cannot be read.
 pub fn stored_data(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<Option<TraineeData>, AppError> {
     let sessions = database.records(Some(trainee))?;
     let folders = folders_of_trainee(place, trainee)?;
@@ -50,7 +50,7 @@ pub fn stored_data(database: &Database, place: &RecordsLocation, trainee: &str) 
 /// Erases a trainee. Returns whether any data existed, and the number of sessions in the database.
 ///
 /// # Errors
-/// If a folder or the database cannot be changed.
+/// Returns an error if a folder or the database cannot be changed.
 pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
     let folders = folders_of_trainee(place, trainee)?;
     let (known, sessions) = database.erase(trainee, &folders)?;
@@ -61,7 +61,7 @@ pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str)
 /// Returns a person, or `None` if nobody has this name.
 ///
 /// # Errors
-/// If the database fails.
+/// Returns an error if the database fails.
 pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError> {
     Ok(database.account(trainee)?.map(|account| account.person))
 }
@@ -69,7 +69,7 @@ pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppEr
 /// Returns a trainee's session folders.
 ///
 /// # Errors
-/// If the folder of sessions cannot be read.
+/// Returns an error if the folder of sessions cannot be read.
 pub fn folders_of_trainee(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |owner, _| owner == trainee)
 }
@@ -78,7 +78,7 @@ pub fn folders_of_trainee(place: &RecordsLocation, trainee: &str) -> Result<Vec<
 /// because they may match.
 ///
 /// # Errors
-/// If the folder of sessions cannot be read.
+/// Returns an error if the folder of sessions cannot be read.
 fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
@@ -96,7 +96,7 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
 /// sessions and folders.
 ///
 /// # Errors
-/// If a folder or the database cannot be changed.
+/// Returns an error if a folder or the database cannot be changed.
 pub fn erase_older_than(database: &Database, place: &RecordsLocation, limit_us: u64) -> Result<(u64, usize), AppError> {
     let folders = folders_older_than(place, limit_us)?;
     let ids: Vec<String> = database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
@@ -108,7 +108,7 @@ pub fn erase_older_than(database: &Database, place: &RecordsLocation, limit_us: 
 /// Returns the session folders that started before this time, µs since the Unix epoch.
 ///
 /// # Errors
-/// If the folder of sessions cannot be read.
+/// Returns an error if the folder of sessions cannot be read.
 pub fn folders_older_than(place: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

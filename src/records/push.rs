@@ -41,7 +41,7 @@ pub struct PushCounts {
 /// Checks the URL of an endpoint and removes trailing slashes.
 ///
 /// # Errors
-/// If it has a different scheme, no host, or a user, query or fragment.
+/// Returns an error if it has a different scheme, no host, or a user, query or fragment.
 pub fn endpoint(text: &str) -> Result<String, String> {
     let rest = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://")).unwrap_or_default();
     if rest.is_empty() || rest.starts_with('/') || text.contains(['?', '#', ' ', '@']) {
@@ -55,7 +55,8 @@ pub fn endpoint(text: &str) -> Result<String, String> {
 /// Sends these sessions in the given order.
 ///
 /// # Errors
-/// If the store rejects statements or cannot be reached. Statements accepted before the error stay in the store.
+/// Returns an error if the store rejects statements or cannot be reached. Statements accepted before the error stay in
+/// the store.
 pub fn push(place: &RecordsLocation, records: &[SessionRecord], url: &str, home: &str) -> Result<PushCounts, AppError> {
     let store = LearningRecordStore::new(url)?;
     let mut progress = ProgressLog::start("sending statements");

@@ -36,7 +36,7 @@ impl Database {
     /// Returns the number of new or changed sessions.
     ///
     /// # Errors
-    /// If the database fails; nothing is imported in that case.
+    /// Returns an error if the database fails; nothing is imported in that case.
     pub fn put(&self, records: &[SessionRecord]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -49,7 +49,7 @@ impl Database {
     /// kept, and so are the trainees and their details. Returns the number of sessions added.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed in that case.
+    /// Returns an error if the database fails; nothing is changed in that case.
     pub fn rebuild(&self, records: &[SessionRecord], gone: &[String]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -64,7 +64,7 @@ impl Database {
     /// Returns the ID and the trainee of the session with this telemetry (SHA-256, hexadecimal).
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn find_by_telemetry(&self, sha256: &str) -> Result<Option<(String, String)>, AppError> {
         self.run(async {
             let query = sqlx::query("SELECT id, trainee FROM sessions WHERE telemetry_sha256 = $1 ORDER BY id LIMIT 1");
@@ -76,7 +76,7 @@ impl Database {
     /// Returns the fingerprints of all sessions by session ID.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn fingerprints(&self) -> Result<BTreeMap<String, String>, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT id, fingerprint FROM sessions").fetch_all(&self.pool).await?;
@@ -87,7 +87,7 @@ impl Database {
     /// Returns the records of all trainees, or of one, in order of start time.
     ///
     /// # Errors
-    /// If the database fails or contains an invalid record.
+    /// Returns an error if the database fails or contains an invalid record.
     pub fn records(&self, trainee: Option<&str>) -> Result<Vec<SessionRecord>, AppError> {
         let rows: Vec<(String, String)> = self.run(async {
             let rows = match trainee {
@@ -108,7 +108,7 @@ impl Database {
     /// Returns the record of one session.
     ///
     /// # Errors
-    /// If the database fails or contains an invalid record.
+    /// Returns an error if the database fails or contains an invalid record.
     pub fn record(&self, id: &str) -> Result<Option<SessionRecord>, AppError> {
         let text: Option<String> = self.run(async {
             let query = sqlx::query("SELECT record FROM sessions WHERE id = $1").bind(id.to_owned());
@@ -121,7 +121,7 @@ impl Database {
     /// Returns the number of sessions of all trainees, or of one.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn count(&self, trainee: Option<&str>) -> Result<u64, AppError> {
         let counted: i64 = self.run(async {
             let query = match trainee {
@@ -136,7 +136,7 @@ impl Database {
     /// Returns up to `most` list entries of all trainees, or of one, newest first, after skipping the first `skip`.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<SessionListEntry>, AppError> {
         let query = if trainee.is_some() { LIST_OF_TRAINEE } else { LIST_ALL };
         self.run(async {
@@ -149,7 +149,7 @@ impl Database {
     /// Returns the IDs and trainees of the sessions that started before this time, µs since the Unix epoch.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn older_than(&self, unix_us: u64) -> Result<Vec<(String, String)>, AppError> {
         self.run(async {
             let query = "SELECT id, trainee FROM sessions WHERE started_unix_us < $1 ORDER BY started_unix_us, id";
@@ -162,7 +162,7 @@ impl Database {
     /// Returns the number of sessions deleted.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed in that case.
+    /// Returns an error if the database fails; nothing is changed in that case.
     pub fn delete_sessions(&self, ids: &[String], folders: &[PathBuf]) -> Result<u64, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -182,7 +182,7 @@ impl Database {
     /// number of sessions deleted.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed in that case.
+    /// Returns an error if the database fails; nothing is changed in that case.
     pub fn erase(&self, trainee: &str, folders: &[PathBuf]) -> Result<(bool, u64), AppError> {
         self.run(async {
             let mut change = self.begin().await?;

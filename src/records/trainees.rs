@@ -23,7 +23,7 @@ impl Database {
     /// Returns all trainees, ordered by pseudonym.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn trainees(&self) -> Result<Vec<Trainee>, AppError> {
         self.run(async {
             let rows = sqlx::query(TRAINEES).fetch_all(&self.pool).await?;
@@ -34,7 +34,7 @@ impl Database {
     /// Adds a trainee, or sets the role and those details (age, drones, games) that are given.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn update_details(&self, name: &str, role: Option<Role>, details: [Option<&str>; 3]) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -47,7 +47,7 @@ impl Database {
     /// and changes nothing if they do not match or if there is no such person.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn set_details(&self, name: &str, before: [&str; 3], after: [&str; 3]) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;

@@ -99,7 +99,7 @@ impl Authenticator {
     /// Returns true if there is no password, so that every visitor has full access.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn is_open(&self, database: &Database) -> Result<bool, AppError> {
         if self.login_required.load(Ordering::SeqCst) {
             return Ok(false);
@@ -115,7 +115,7 @@ impl Authenticator {
     /// Identifies the visitor by this cookie. Without a valid cookie, a new anonymous browser session starts.
     ///
     /// # Errors
-    /// If the database or the system's random number generator fails.
+    /// Returns an error if the database or the system's random number generator fails.
     pub fn identify(&self, database: &Database, cookie: Option<String>) -> Result<Identified, WebError> {
         let open = self.is_open(database)?;
         let now_us = clock::unix_us();
@@ -145,8 +145,8 @@ impl Authenticator {
     /// the browser, which is known for this name from now on.
     ///
     /// # Errors
-    /// If there were too many failures, or name and password do not match; the message does not reveal which of them is
-    /// wrong.
+    /// Returns an error if there were too many failures, or name and password do not match; the message does not reveal
+    /// which of them is wrong.
     pub fn log_in(
         &self,
         database: &Database,
@@ -170,7 +170,7 @@ impl Authenticator {
     /// matched.
     ///
     /// # Errors
-    /// Like [`Self::log_in`].
+    /// See [`Self::log_in`].
     pub fn check(&self, database: &Database, name: &str, password: &str, client: &LoginClient<'_>) -> Result<Account, WebError> {
         let now_us = clock::unix_us();
         let known = client.device.and_then(|cookie| lock(&self.devices).find(cookie, name, now_us));
@@ -212,7 +212,7 @@ impl Authenticator {
     /// Checks that the form token belongs to the visitor.
     ///
     /// # Errors
-    /// If it does not: the form belongs to another site, or was loaded before a login.
+    /// Returns an error if it does not, because the form belongs to another site or was loaded before a login.
     pub fn check_token(visitor: &Visitor, given: Option<&str>) -> Result<(), WebError> {
         if given.is_some_and(|given| constant_time_eq(given, &visitor.token)) {
             return Ok(());

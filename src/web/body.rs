@@ -19,7 +19,7 @@ const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 /// Reads the body and checks the form token. Large files are written to `spool` during the upload.
 ///
 /// # Errors
-/// If the body is too large, too slow, not a form, or its token is wrong.
+/// Returns an error if the body is too large, too slow, not a form, or its token is wrong.
 pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
     let late = |_| WebError::BadRequest("the upload of the form timed out".into());
     match how {

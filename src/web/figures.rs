@@ -40,7 +40,7 @@ impl FigureCache {
     /// Opens a separate database connection.
     ///
     /// # Errors
-    /// If the database cannot be opened.
+    /// Returns an error if the database cannot be opened.
     pub fn open(place: &RecordsLocation) -> Result<Self, AppError> {
         Ok(Self { database: place.open()?, cache: Mutex::default() })
     }
@@ -48,7 +48,7 @@ impl FigureCache {
     /// Returns the figures for a selection.
     ///
     /// # Errors
-    /// If the database fails or contains an invalid record.
+    /// Returns an error if the database fails or contains an invalid record.
     pub fn get(&self, selection: &Selection) -> Result<Arc<CohortFigures>, AppError> {
         let mut kept = lock(&self.cache);
         let version = self.database.version()?;

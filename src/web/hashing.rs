@@ -39,7 +39,7 @@ impl HashingQueue {
     /// Reserves a slot in the queue.
     ///
     /// # Errors
-    /// [`WebError::Busy`] if the queue is full.
+    /// Returns [`WebError::Busy`] if the queue is full.
     pub fn acquire(&self) -> Result<HashingSlot<'_>, WebError> {
         let enter = |waiting| (waiting < MAX_WAITING).then_some(waiting + 1);
         let entered = self.waiting.fetch_update(Ordering::AcqRel, Ordering::Acquire, enter);
@@ -61,7 +61,7 @@ impl HashingSlot<'_> {
     /// Returns the password's hash.
     ///
     /// # Errors
-    /// If the system's random number generator fails.
+    /// Returns an error if the system's random number generator fails.
     pub fn hash(&self, password: &str) -> Result<String, WebError> {
         Ok(self.with_memory(|memory| passwords::hash(password, memory))?)
     }

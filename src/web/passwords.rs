@@ -29,7 +29,7 @@ impl HashingMemory {
 /// Returns the password's hash in PHC string format.
 ///
 /// # Errors
-/// If the system's random number generator fails.
+/// Returns an error if the system's random number generator fails.
 pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppError> {
     let failed = |error: &dyn std::fmt::Display| AppError::failed(format!("cannot hash the password: {error}"));
     let mut salt = [0; 16];

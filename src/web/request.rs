@@ -65,7 +65,7 @@ impl WebRequest {
     /// Returns a form field that must not be empty.
     ///
     /// # Errors
-    /// If the field is missing or empty.
+    /// Returns an error if the field is missing or empty.
     pub fn required_field(&self, name: &str) -> Result<&str, WebError> {
         self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::BadRequest(format!("{name}: missing")))
     }
@@ -74,7 +74,7 @@ impl WebRequest {
     /// else, the data appears not to exist.
     ///
     /// # Errors
-    /// If the visitor has no access.
+    /// Returns an error if the visitor has no access.
     pub fn require_access(&self, trainee: &str) -> Result<(), WebError> {
         if self.visitor.may_see(trainee) { Ok(()) } else { Err(WebError::NotFound) }
     }

@@ -41,7 +41,7 @@ impl WebServer {
     /// Opens the port and starts serving.
     ///
     /// # Errors
-    /// If arguments, files, the port or the database are invalid.
+    /// Returns an error if arguments, files, the port or the database are invalid.
     pub fn start(args: &ListenConfig, setup: ServerSetup) -> Result<Self, AppError> {
         let secure = args.tls_cert.is_some() || args.behind_proxy;
         let tls = tls::config(args)?;

@@ -22,7 +22,7 @@ impl SessionImporter {
     /// Starts the thread with a separate database connection, so that pages do not have to wait.
     ///
     /// # Errors
-    /// If the database cannot be opened.
+    /// Returns an error if the database cannot be opened.
     pub fn start(place: &RecordsLocation) -> Result<Self, AppError> {
         let (sender, changed) = channel::<PathBuf>();
         let database = place.open()?;

@@ -41,7 +41,7 @@ pub fn session_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 /// Returns a session's record, if the visitor may see it.
 ///
 /// # Errors
-/// If there is no such session, or the visitor has no access to it.
+/// Returns an error if there is no such session, or the visitor has no access to it.
 pub fn record(state: &ServerState, asked: &WebRequest, id: &str) -> Result<SessionRecord, WebError> {
     let record = state.database.record(id)?.ok_or(WebError::NotFound)?;
     asked.require_access(&record.trainee)?;
@@ -51,7 +51,7 @@ pub fn record(state: &ServerState, asked: &WebRequest, id: &str) -> Result<Sessi
 /// Returns a session's folder, if the visitor may see it.
 ///
 /// # Errors
-/// If the folder is not on this machine, or the visitor has no access to it.
+/// Returns an error if the folder is not on this machine, or the visitor has no access to it.
 pub fn folder(state: &ServerState, asked: &WebRequest, id: &str) -> Result<PathBuf, WebError> {
     record(state, asked, id)?;
     state.folder(id).ok_or(WebError::NotFound)

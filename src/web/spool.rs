@@ -42,7 +42,7 @@ impl SpooledUpload {
     /// Returns the file's contents.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn bytes(&self) -> Result<Cow<'_, [u8]>, AppError> {
         match self {
             Self::Memory(bytes) => Ok(Cow::Borrowed(bytes)),
@@ -62,7 +62,7 @@ pub struct UploadSpool<'a> {
 }
 
 impl<'a> UploadSpool<'a> {
-    /// Creates an empty upload of at most `most` bytes, which can be written to this folder.
+    /// Creates an empty upload of at most `most` bytes. Large uploads are written to this folder.
     pub fn new(folder: &'a Path, most: usize) -> Self {
         Self { folder, max_bytes: most, size: 0, head: Vec::new(), disk: None }
     }
@@ -75,7 +75,7 @@ impl<'a> UploadSpool<'a> {
     /// Appends a chunk that arrived `elapsed` after the start of the upload.
     ///
     /// # Errors
-    /// If the file is too large, the client is too slow, or the disk cannot be written.
+    /// Returns an error if the file is too large, the client is too slow, or the disk cannot be written.
     pub fn append(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), WebError> {
         self.size += bytes.len();
         if self.size > self.max_bytes {

@@ -55,7 +55,7 @@ impl ServerState {
     /// Opens the database and the links to the vehicles, and removes stale temporary files.
     ///
     /// # Errors
-    /// If a wording is invalid, or the database or a link to a vehicle cannot be opened.
+    /// Returns an error if a wording is invalid, or the database or a link to a vehicle cannot be opened.
     pub fn open(setup: ServerSetup, secure: bool, reach: AllowedOrigins) -> Result<Self, AppError> {
         let ServerSetup { place, scenarios, watched, wordings } = setup;
         let languages = answers::languages(&wordings)?;

@@ -30,7 +30,7 @@ pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
 /// Removes imports that a killed server has left incomplete.
 ///
 /// # Errors
-/// If the disk cannot be written.
+/// Returns an error if the disk cannot be written.
 pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
     let aside = sessions.join(IMPORT_FOLDER);
     match std::fs::remove_dir_all(&aside) {

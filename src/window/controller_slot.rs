@@ -202,7 +202,7 @@ impl ControllerSlot {
     /// Returns the current stick positions of a calibrated device. Its buttons trigger actions on the link.
     ///
     /// # Errors
-    /// If the device can no longer be used.
+    /// Returns an error if the device can no longer be used.
     pub fn sticks(&mut self, link: &mut ControllerLink, now: SimTime) -> Result<Option<Sticks>, AppError> {
         match &mut self.held {
             DeviceState::Nothing(_) => Ok(None),

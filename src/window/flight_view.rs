@@ -76,7 +76,7 @@ impl FlightView {
     /// Connects to a vehicle. `seed` is the session's seed, if it is known before the simulator reports it.
     ///
     /// # Errors
-    /// If the socket cannot be opened.
+    /// Returns an error if the socket cannot be opened.
     pub fn begin(listen: IpAddr, vehicle: SocketAddr, job: (Scenario, Vehicle), seed: Option<u64>) -> Result<Self, AppError> {
         let listener = TelemetryListener::dial(listen, vehicle, &job.0)?;
         let session = SceneKey { requested_seed: seed, ..SceneKey::default() };
@@ -91,7 +91,7 @@ impl FlightView {
     /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts another session.
     ///
     /// # Errors
-    /// If the simulator uses a different scenario.
+    /// Returns an error if the simulator uses a different scenario.
     pub fn prepare(&mut self, screen: &WindowSurface, quality: Quality, now: Option<&LiveMoment>) -> Result<(), AppError> {
         let (said, crc, real) = {
             let (wall, live) = (self.listener.wall(), self.listener.live());
@@ -148,7 +148,7 @@ impl FlightView {
     /// Renders the views, if the scene is ready.
     ///
     /// # Errors
-    /// If a device fails.
+    /// Returns an error if a device fails.
     pub fn draw(
         &mut self,
         screen: &mut WindowSurface,

@@ -25,7 +25,7 @@ impl TelemetryListener {
     /// Connects to the vehicle and starts the thread.
     ///
     /// # Errors
-    /// If the socket cannot be opened.
+    /// Returns an error if the socket cannot be opened.
     pub fn dial(listen: IpAddr, vehicle: SocketAddr, scenario: &Scenario) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;

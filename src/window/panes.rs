@@ -105,7 +105,7 @@ impl ViewPanes {
     /// Renders both views.
     ///
     /// # Errors
-    /// If a device fails.
+    /// Returns an error if a device fails.
     pub fn draw(
         &mut self,
         screen: &mut WindowSurface,

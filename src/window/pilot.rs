@@ -60,7 +60,7 @@ impl PilotThread {
     /// Starts the thread. Without a controller, logs the reason and uses the keyboard.
     ///
     /// # Errors
-    /// If the socket cannot be opened, or a file is invalid.
+    /// Returns an error if the socket cannot be opened, or a file is invalid.
     pub fn start(listen: IpAddr, device: Option<String>, profiles: Option<PathBuf>, keys: KeyBindings) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;

@@ -26,7 +26,7 @@ impl WindowSurface {
     /// Opens a window of this size, px, enlarged by the scale factor of the display.
     ///
     /// # Errors
-    /// If there is no display or no graphics device.
+    /// Returns an error if there is no display or no graphics device.
     pub fn open(events: &ActiveEventLoop, title: &str, (width, height): (u32, u32)) -> Result<Self, AppError> {
         // The window is never larger than the display, because its edges would be hidden.
         let display = events.primary_monitor().or_else(|| events.available_monitors().next());

@@ -27,7 +27,7 @@ impl SecondaryRenderer {
     /// Opens the device; the other thread uploads the scene.
     ///
     /// # Errors
-    /// If there is no software device, or it cannot be opened.
+    /// Returns an error if there is no software device, or it cannot be opened.
     pub fn open(quality: Quality, scene: Arc<Scene>) -> Result<Self, GpuError> {
         let gpu = Gpu::open_software()?;
         let (shots, ordered) = channel();
@@ -39,7 +39,7 @@ impl SecondaryRenderer {
     /// Starts rendering an image.
     ///
     /// # Errors
-    /// If the thread has ended.
+    /// Returns an error if the thread has ended.
     pub fn start(&self, shot: Shot) -> Result<(), GpuError> {
         self.shots.as_ref().and_then(|shots| shots.send(shot).ok()).ok_or_else(ended)
     }
@@ -47,7 +47,7 @@ impl SecondaryRenderer {
     /// Waits for the oldest image that has not been returned yet, and returns it.
     ///
     /// # Errors
-    /// If the device fails.
+    /// Returns an error if the device fails.
     pub fn picture(&self) -> Result<RenderedShot, GpuError> {
         self.pictures.recv().map_err(|_| ended())?
     }

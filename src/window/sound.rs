@@ -103,7 +103,7 @@ fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
 /// Plays until the window is closed.
 ///
 /// # Errors
-/// If this player does not work.
+/// Returns an error if this player does not work.
 fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) -> std::io::Result<()> {
     let mut command = Command::new(name);
     let mut player = command.args(args).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;

@@ -49,7 +49,7 @@ impl StreamSender {
     /// streams.
     ///
     /// # Errors
-    /// If the socket cannot be opened, or there is no route to the receiver.
+    /// Returns an error if the socket cannot be opened, or there is no route to the receiver.
     pub fn open(to: SocketAddr, seed: u64) -> Result<Self, AppError> {
         let socket = socket(to).map_err(|error| AppError::failed(format!("--stream {to}: {error}")))?;
         if to.port() != PORT {

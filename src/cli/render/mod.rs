@@ -21,7 +21,7 @@ pub use args::Args;
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, the time is outside the session, or there is no graphics adapter.
+/// Returns an error if files are invalid, the time is outside the session, or there is no graphics adapter.
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
     if args.nice {
@@ -33,7 +33,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// Reports that the program was built without the view.
 ///
 /// # Errors
-/// Always.
+/// Always returns an error.
 #[cfg(not(feature = "view"))]
 pub fn run(args: &Args) -> Result<(), AppError> {
     Err(AppError::failed(format!(

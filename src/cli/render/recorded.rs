@@ -46,7 +46,7 @@ impl RecordedFlight {
     /// Reads the flight from a session folder.
     ///
     /// # Errors
-    /// If it is not a session folder, a file is invalid, or it contains no flight.
+    /// Returns an error if it is not a session folder, a file is invalid, or it contains no flight.
     pub fn read(folder: &Path) -> Result<Self, AppError> {
         let stored = StoredSession::read(folder)?;
         let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
@@ -107,7 +107,7 @@ impl RecordedFlight {
     /// Returns the poses at a given time of the flight.
     ///
     /// # Errors
-    /// If there is no telemetry for this time.
+    /// Returns an error if there is no telemetry for this time.
     pub fn moment(&self, at: SimTime) -> Result<SceneMoment, AppError> {
         let (first, last) = self.span();
         moment(&self.flight, at, self.vehicle()).ok_or_else(|| {

@@ -54,7 +54,7 @@ impl FlightProcesses {
     /// Starts the processes.
     ///
     /// # Errors
-    /// If files or ports are invalid.
+    /// Returns an error if files or ports are invalid.
     pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level) -> Result<Self, AppError> {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;

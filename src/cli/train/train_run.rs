@@ -75,7 +75,7 @@ impl<'a> TrainRun<'a> {
     /// Runs flights until the user quits.
     ///
     /// # Errors
-    /// If a flight cannot be started or scored; returns the last error.
+    /// Returns an error if a flight cannot be started or scored; returns the last error.
     pub fn run(mut self) -> Result<(), AppError> {
         self.window = WindowProcess::open(self.args, self.log);
         let usual = FlightChoice {

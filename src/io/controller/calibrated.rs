@@ -64,7 +64,7 @@ impl CalibratedController {
     /// Opens a calibrated controller with the given profile, or with the saved profile of its device.
     ///
     /// # Errors
-    /// If the device is not calibrated, or a file is invalid.
+    /// Returns an error if the device is not calibrated, or a file is invalid.
     pub fn open(
         source: EventSource,
         profiles: &ProfileFolder,

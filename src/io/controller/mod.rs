@@ -32,7 +32,7 @@ impl EventSource {
     /// Opens the device with this name or ID, or the only device.
     ///
     /// # Errors
-    /// If there is none, several match, or this build does not support gamepads.
+    /// Returns an error if there is none, several match, or this build does not support gamepads.
     pub fn device(wanted: Option<&str>) -> Result<Self, AppError> {
         #[cfg(feature = "gamepad")]
         return gamepad::Gamepad::open(wanted).map(|gamepad| Self::Gamepad(Box::new(gamepad)));
@@ -102,7 +102,7 @@ impl DeviceWatcher {
 /// Returns the key bindings from a file, or the default key bindings.
 ///
 /// # Errors
-/// If the file cannot be read or is invalid.
+/// Returns an error if the file cannot be read or is invalid.
 pub fn keys(file: Option<&Path>) -> Result<KeyBindings, AppError> {
     match file {
         Some(path) => Ok(KeyBindings::read(&path.display().to_string(), &files::read(path)?)?),
@@ -113,7 +113,7 @@ pub fn keys(file: Option<&Path>) -> Result<KeyBindings, AppError> {
 /// Returns all connected devices.
 ///
 /// # Errors
-/// If the system cannot list them, or this build does not support gamepads.
+/// Returns an error if the system cannot list them, or this build does not support gamepads.
 pub fn connected() -> Result<Vec<Device>, AppError> {
     #[cfg(feature = "gamepad")]
     return gamepad::connected();

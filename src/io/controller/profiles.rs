@@ -23,7 +23,7 @@ impl ProfileFolder {
     /// Returns the folder of the profiles.
     ///
     /// # Errors
-    /// If no folder was specified and the user has no home folder.
+    /// Returns an error if no folder was specified and the user has no home folder.
     pub fn folder(&self) -> Result<&Path, AppError> {
         self.0.as_deref().ok_or_else(|| AppError::wrong(NO_HOME_FOLDER))
     }
@@ -41,7 +41,7 @@ impl ProfileFolder {
     /// Returns a device's profile, if it has one.
     ///
     /// # Errors
-    /// If the file cannot be read or is invalid.
+    /// Returns an error if the file cannot be read or is invalid.
     pub fn find(&self, device: &Device) -> Result<Option<ControllerProfile>, AppError> {
         self.path(device).filter(|path| path.exists()).map(|path| read(&path)).transpose()
     }
@@ -49,7 +49,7 @@ impl ProfileFolder {
     /// Saves a profile. The old profile remains until the new one is complete.
     ///
     /// # Errors
-    /// If there is no folder, or it cannot be written.
+    /// Returns an error if there is no folder, or it cannot be written.
     pub fn save(&self, profile: &ControllerProfile) -> Result<PathBuf, AppError> {
         let folder = self.folder()?;
         let path = folder.join(file_of(&profile.device));
@@ -75,7 +75,7 @@ fn file_of(device: &Device) -> String {
 /// Reads a profile from a file.
 ///
 /// # Errors
-/// If the file cannot be read or is invalid; all problems are listed.
+/// Returns an error if the file cannot be read or is invalid; all problems are listed.
 pub fn read(path: &Path) -> Result<ControllerProfile, AppError> {
     Ok(ControllerProfile::read(&path.display().to_string(), &files::read(path)?)?)
 }

@@ -35,7 +35,7 @@ impl RawTerminal {
     /// Switches the terminal to raw mode.
     ///
     /// # Errors
-    /// If standard input is not a terminal.
+    /// Returns an error if standard input is not a terminal.
     pub fn enter() -> Result<Self, AppError> {
         if !stdin().is_terminal() {
             return Err(AppError::failed("--keyboard needs a terminal, but standard input is not one"));

@@ -40,7 +40,7 @@ impl AllowedOrigins {
     /// which other sites cannot use (DNS rebinding).
     ///
     /// # Errors
-    /// If one of these checks fails.
+    /// Returns an error if one of these checks fails.
     pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
         let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
         let authority = authority(headers);
@@ -67,7 +67,7 @@ impl AllowedOrigins {
     /// Returns the client's address: that of the socket or, behind a proxy, the last address in X-Forwarded-For that is not a trusted proxy.
     ///
     /// # Errors
-    /// If a proxy is required and the socket is not one.
+    /// Returns an error if a proxy is required and the socket is not one.
     pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
         if self.proxies.is_empty() {
             return Ok(socket);

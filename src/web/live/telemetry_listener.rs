@@ -74,7 +74,7 @@ impl LiveListener {
     /// Opens a socket for a vehicle.
     ///
     /// # Errors
-    /// If the socket cannot be opened.
+    /// Returns an error if the socket cannot be opened.
     pub fn open(vehicle: SocketAddr, known: SharedFlightInfo, paths: ListenerPaths) -> Result<Self, AppError> {
         let ip: IpAddr = match vehicle.ip() {
             ip if ip.is_loopback() => ip,

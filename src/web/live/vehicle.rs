@@ -32,7 +32,7 @@ impl LiveVehicle {
     /// Starts the listener thread.
     ///
     /// # Errors
-    /// If the socket cannot be opened.
+    /// Returns an error if the socket cannot be opened.
     pub fn start(watched: &WatchedVehicle, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
         let WatchedVehicle { vehicle, picture } = watched.clone();
         let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());

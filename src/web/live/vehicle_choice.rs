@@ -7,7 +7,7 @@ use crate::web::state::ServerState;
 /// Returns the vehicle with this number (counted from 1) and the number; without a number, returns the first vehicle.
 ///
 /// # Errors
-/// If no vehicle is configured, or the number is too large.
+/// Returns an error if no vehicle is configured, or the number is too large.
 pub fn select_vehicle<'a>(state: &'a ServerState, word: Option<&str>) -> Result<(usize, &'a LiveVehicle), WebError> {
     if state.live.is_empty() {
         return Err(WebError::BadRequest("no vehicle is configured (--vehicle)".into()));
