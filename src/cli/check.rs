@@ -36,7 +36,8 @@ pub struct Args {
     /// Aircraft for the clearance check: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
-    /// Print {"problems": [{file, line, key, value, allowed, message}], "warnings": [...], "notes": [...]} on standard output
+    /// Print {"problems": [{file, line, key, value, allowed, message}], "warnings": [...], "notes": [...]} on standard
+    /// output
     #[arg(long)]
     json: bool,
 }

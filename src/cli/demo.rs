@@ -110,8 +110,8 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     out
 }
 
-/// Waits for the end of the session. Returns early if the monitor does not detect an end after the pilot has finished, or with an error if a process
-/// exits too soon.
+/// Waits for the end of the session. Returns early if the monitor does not detect an end after the pilot has finished,
+/// or with an error if a process exits too soon.
 fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
     let mut pilot_done: Option<Stopwatch> = None;
     loop {

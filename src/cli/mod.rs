@@ -1,5 +1,5 @@
-//! The command line: one file per subcommand, each of which parses its arguments and runs a sans-IO core. Results go to standard output,
-//! everything else to standard error.
+//! The command line: one file per subcommand, each of which parses its arguments and runs a sans-IO core. Results go to
+//! standard output, everything else to standard error.
 
 mod args;
 mod assess;

@@ -62,7 +62,8 @@ pub struct Args {
     /// Purpose of the flight, for session.json [default: not recorded]
     #[arg(long, value_name = "PURPOSE")]
     purpose: Option<args::Purpose>,
-    /// Accepted for compatibility with train and demo; has no effect, because the monitor takes its clock from the telemetry
+    /// Accepted for compatibility with train and demo; has no effect, because the monitor takes its clock from the
+    /// telemetry
     #[arg(long, value_name = "X|max")]
     speed: Option<SimulationSpeed>,
     /// Resume this session after its monitor was killed (scenario, vehicle and trainee come from the folder)

@@ -56,10 +56,11 @@ pub struct RecordsArgs {
     pub sessions: Vec<PathBuf>,
     /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first folder of sessions]
     ///
-    /// For PostgreSQL, sslmode in the URL's query selects the encryption: disable; prefer (the default: TLS if the server
-    /// supports it, without verifying its certificate); require (TLS, without verifying the certificate); or verify-full (a
-    /// certificate for this host name from a trusted authority; recommended on a network). Trusted authorities are those of this
-    /// machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE set a client certificate. All files are PEM.
+    /// For PostgreSQL, sslmode in the URL's query selects the encryption: disable; prefer (the default: TLS if the
+    /// server supports it, without verifying its certificate); require (TLS, without verifying the certificate); or
+    /// verify-full (a certificate for this host name from a trusted authority; recommended on a network). Trusted
+    /// authorities are those of this machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE set a client
+    /// certificate. All files are PEM.
     #[arg(long, global = true, value_name = "FILE|URL")]
     pub database: Option<String>,
 }
@@ -79,7 +80,8 @@ enum RecordsCommand {
         #[arg(value_name = "SESSION")]
         folders: Vec<PathBuf>,
     },
-    /// Rebuild the sessions whose folders are on this machine; trainee details are kept, and erased sessions stay erased
+    /// Rebuild the sessions whose folders are on this machine; trainee details are kept, and erased sessions stay
+    /// erased
     Rebuild {
         /// Also delete sessions whose folders are not on this machine (they may be on other stations)
         #[arg(long)]
@@ -153,8 +155,8 @@ pub struct PersonArgs {
 /// Destination of the xAPI statements.
 #[derive(Debug, clap::Args)]
 pub struct PushArgs {
-    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from SPANDREL_LRS_USER and
-    /// SPANDREL_LRS_PASSWORD
+    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from
+    /// SPANDREL_LRS_USER and SPANDREL_LRS_PASSWORD
     #[arg(value_name = "URL", value_parser = push::endpoint)]
     url: String,
     /// Only this trainee's sessions

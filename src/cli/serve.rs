@@ -52,7 +52,8 @@ pub struct Args {
     /// Vehicle on the live page: address of its payload port, or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "127.0.0.1:14280")]
     vehicle: Vec<Destination>,
-    /// Picture file that `spandrel view --picture FILE` writes, for the live page; may be repeated, in the order of --vehicle
+    /// Picture file that `spandrel view --picture FILE` writes, for the live page; may be repeated, in the order of
+    /// --vehicle
     #[arg(long, value_name = "FILE")]
     picture: Vec<PathBuf>,
     /// Set this user's password (typed, or from standard input) and exit
@@ -81,8 +82,8 @@ struct ListenArgs {
     /// Private key of the certificate, PEM
     #[arg(long, value_name = "FILE", requires = "tls_cert")]
     tls_key: Option<PathBuf>,
-    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be reachable in
-    /// any other way
+    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be
+    /// reachable in any other way
     #[arg(long, conflicts_with = "tls_cert")]
     behind_proxy: bool,
     /// Address or network of the proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]

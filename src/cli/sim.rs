@@ -70,21 +70,23 @@ pub struct Args {
     /// System IDs and ports increase by one per vehicle, starting with --instance and with each port that you specify
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
-    /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where clients can only read and
-    /// delete; files that clients upload may take up to 256 MiB. With several vehicles, each has a subfolder named by its system ID
-    /// [default: no files served, no logs written]
+    /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where
+    /// clients can only read and delete; files that clients upload may take up to 256 MiB. With several vehicles, each
+    /// has a subfolder named by its system ID [default: no files served, no logs written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
-    /// Space for flight logs in the folder of --files, MB; the oldest logs are deleted before a flight to stay within it
+    /// Space for flight logs in the folder of --files, MB; the oldest logs are deleted before a flight to stay within
+    /// it
     #[arg(long, value_name = "MB", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     log_space: u64,
-    /// File that stores parameters between runs: read at startup if it exists, written after every change, in QGroundControl's .params format. With
-    /// several vehicles, each has its own file, with the system ID appended [default: parameters are not saved]
+    /// File that stores parameters between runs: read at startup if it exists, written after every change, in
+    /// QGroundControl's .params format. With several vehicles, each has its own file, with the system ID appended
+    /// [default: parameters are not saved]
     #[arg(long, value_name = "FILE")]
     params: Option<PathBuf>,
-    /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in MAVProxy. Messages not signed with
-    /// it are ignored. Signature timestamps are stored in FILE.heard.N for system N, so that old messages cannot be replayed even after a restart
-    /// [default: no signing]
+    /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in
+    /// MAVProxy. Messages not signed with it are ignored. Signature timestamps are stored in FILE.heard.N for system N,
+    /// so that old messages cannot be replayed even after a restart [default: no signing]
     #[arg(long, value_name = "FILE")]
     signing_key: Option<PathBuf>,
     /// Kind of link that needs no signature; may be repeated. Use it only for links that nobody else can reach
@@ -104,8 +106,8 @@ pub struct Args {
     /// Print one line of JSON {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output at startup
     #[arg(long)]
     announce: bool,
-    /// Stop when standard input closes (for a parent process). Meanwhile, the lines `pause` and `resume` on standard input pause and resume the
-    /// simulation
+    /// Stop when standard input closes (for a parent process). Meanwhile, the lines `pause` and `resume` on standard
+    /// input pause and resume the simulation
     #[arg(long)]
     leash: bool,
 }

@@ -69,9 +69,9 @@ pub struct Args {
     /// Disable the map of the reference paths, for an assessment; M does not show it either
     #[arg(long)]
     no_map: bool,
-    /// Send the camera's view to this address as H.264 over RTP; the vehicle then announces the stream, and ground stations show
-    /// it (QGroundControl listens on UDP port 5600). The vehicle always announces port 5600: configure any other port in the
-    /// ground station
+    /// Send the camera's view to this address as H.264 over RTP; the vehicle then announces the stream, and ground
+    /// stations show it (QGroundControl listens on UDP port 5600). The vehicle always announces port 5600: configure
+    /// any other port in the ground station
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
     stream: Option<SocketAddr>,
     /// Save a picture of the window (PNG) and exit
@@ -80,7 +80,8 @@ pub struct Args {
     /// Wall time from the first rendered frame to the picture, s
     #[arg(long, value_name = "S", requires = "screenshot")]
     after: Option<f64>,
-    /// Save the camera's view to this file (JPEG) about once a second, for the live page of `spandrel serve --picture FILE`
+    /// Save the camera's view to this file (JPEG) about once a second, for the live page of `spandrel serve --picture
+    /// FILE`
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
     /// Print one JSON line {"device", "quality", "width", "height"} on standard output when both views have been
@@ -90,8 +91,8 @@ pub struct Args {
     /// Exit when standard input closes (for a parent process)
     #[arg(long)]
     leash: bool,
-    /// Receive pages and flights from the parent process as JSON lines on standard input; send the user's actions on standard
-    /// output
+    /// Receive pages and flights from the parent process as JSON lines on standard input; send the user's actions on
+    /// standard output
     #[arg(long, requires = "leash", hide = true, group = "pilot")]
     led: bool,
 }

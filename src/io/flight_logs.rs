@@ -37,7 +37,8 @@ struct LoggedFlight {
     bytes: u64,
 }
 
-/// Returns the flights ordered by day and time, oldest first. The names sort by time; a second flight in the same second has the suffix `-1`.
+/// Returns the flights ordered by day and time, oldest first. The names sort by time; a second flight in the same
+/// second has the suffix `-1`.
 fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String, u32), LoggedFlight>> {
     let mut flights: BTreeMap<(String, String, u32), LoggedFlight> = BTreeMap::new();
     for day in root.read_dir(folder)? {

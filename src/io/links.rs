@@ -13,7 +13,8 @@ use std::time::Duration;
 
 /// Time after which a silent learned peer is removed.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
-/// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor blocks the peers of another port.
+/// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor
+/// blocks the peers of another port.
 const MAX_LEARNED_PEERS: usize = 64;
 
 /// A change in the links, or received data.
@@ -173,7 +174,8 @@ impl Links {
         }
     }
 
-    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts those of datagrams.
+    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts those of
+    /// datagrams.
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
     }

@@ -1,4 +1,5 @@
-//! Maps wall time to simulation time: real time, N times real time, or as fast as possible. The wall clock is an argument.
+//! Maps wall time to simulation time: real time, N times real time, or as fast as possible. The wall clock is an
+//! argument.
 
 use spandrel_model::time::SimTime;
 use std::str::FromStr;
@@ -131,8 +132,8 @@ impl WallPacer {
 /// Time after which a peer that sends data but does not answer TIMESYNC is served in real time.
 const FIRST_ANSWER_TIMEOUT: Duration = Duration::from_secs(3);
 
-/// Pauses the simulation until a peer's first answer. No simulation time passes until then, so a peer that answers soon is in lockstep from the first
-/// tick.
+/// Pauses the simulation until a peer's first answer. No simulation time passes until then, so a peer that answers soon
+/// is in lockstep from the first tick.
 #[derive(Debug, Clone, Default)]
 pub struct FirstAnswerWait {
     since: Option<Duration>,
@@ -152,7 +153,8 @@ pub enum FirstAnswerAction {
 }
 
 impl FirstAnswerWait {
-    /// Returns the action at wall time `wall`; `heard` is true once data has arrived from the peer, `every` is the announcement interval.
+    /// Returns the action at wall time `wall`; `heard` is true once data has arrived from the peer, `every` is the
+    /// announcement interval.
     pub fn next_action(&mut self, heard: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
         let since = *self.since.get_or_insert(wall);
         let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
@@ -171,14 +173,16 @@ impl FirstAnswerWait {
     }
 }
 
-/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts, because at `max` speed every step waits.
+/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts, because at `max`
+/// speed every step waits.
 #[derive(Debug, Clone, Default)]
 pub struct LockstepTimeout {
     stalled_since: Option<(SimTime, Duration)>,
 }
 
 impl LockstepTimeout {
-    /// Returns true if simulation time, now `reached`, has not advanced for more than [`LOCKSTEP_PEER_TIMEOUT`] at wall time `wall`.
+    /// Returns true if simulation time, now `reached`, has not advanced for more than [`LOCKSTEP_PEER_TIMEOUT`] at wall
+    /// time `wall`.
     pub fn is_over(&mut self, reached: SimTime, wall: Duration) -> bool {
         match self.stalled_since {
             Some((at, since)) if at == reached => wall.saturating_sub(since) > LOCKSTEP_PEER_TIMEOUT,

@@ -7,7 +7,8 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Writes a temporary file next to the target and renames it, so that neither a reader nor a killed process leaves a partial file.
+/// Writes a temporary file next to the target and renames it, so that neither a reader nor a killed process leaves a
+/// partial file.
 ///
 /// # Errors
 /// Returns an error if the disk cannot be written.

@@ -194,8 +194,8 @@ impl StoredSession {
         files::scenario(&path.join(SCENARIO).display().to_string())
     }
 
-    /// Reads a session folder. The telemetry log and the two TOML files are required; without `session.json`, the trainee is taken from the folder
-    /// name.
+    /// Reads a session folder. The telemetry log and the two TOML files are required; without `session.json`, the
+    /// trainee is taken from the folder name.
     ///
     /// # Errors
     /// Returns an error if one of these files is missing or invalid.
@@ -229,7 +229,8 @@ impl StoredSession {
     }
 }
 
-/// Returns the trainee of a session and the wall time of its simulation time zero, µs since the Unix epoch. Faster than reading the whole session.
+/// Returns the trainee of a session and the wall time of its simulation time zero, µs since the Unix epoch. Faster than
+/// reading the whole session.
 ///
 /// # Errors
 /// Returns an error if this is not a session folder, or a file is invalid.

@@ -21,7 +21,8 @@ use std::time::Duration;
 const MAX_WAIT: Duration = Duration::from_millis(100);
 /// Minimum sleep. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
 const MIN_SLEEP: Duration = Duration::from_millis(2);
-/// Wall-clock interval of heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3 to 5 s without one.
+/// Wall-clock interval of heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3 to 5
+/// s without one.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Files that belong to one vehicle.
@@ -137,7 +138,8 @@ impl VehicleShell {
         self.links.wait(MAX_WAIT);
     }
 
-    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data and waits for the next tick.
+    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data
+    /// and waits for the next tick.
     ///
     /// # Errors
     /// Returns an error if a lockstep peer has disappeared.

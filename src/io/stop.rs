@@ -12,8 +12,8 @@ use std::sync::mpsc::{Receiver, channel};
 pub struct StopRequest(Arc<AtomicBool>);
 
 impl StopRequest {
-    /// Listens for SIGINT and SIGTERM, and with `leash` also for the end of standard input: it closes when the parent exits for any reason, so no
-    /// child outlives its parent.
+    /// Listens for SIGINT and SIGTERM, and with `leash` also for the end of standard input: it closes when the parent
+    /// exits for any reason, so no child outlives its parent.
     ///
     /// # Errors
     /// Returns an error if the signal handler cannot be installed.

@@ -14,8 +14,8 @@ use std::time::Duration;
 const BUSY_TIMEOUT: &str = "PRAGMA busy_timeout = 60000";
 /// SQLite overwrites deleted data with zeros.
 const SECURE_DELETE: &str = "PRAGMA secure_delete = ON";
-/// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without it, two stations that add the same new trainees in different
-/// orders would deadlock, and one transaction would be aborted.
+/// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without it, two stations that add the
+/// same new trainees in different orders would deadlock, and one transaction would be aborted.
 const WRITE_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
 
 /// SQL dialect of the database.
@@ -61,7 +61,8 @@ impl Database {
                 Box::pin(async move { if kind == SqlDialect::Sqlite { prepare(connection).await } else { Ok(()) } })
             },
         );
-        // The pool would retry a server that refuses connections; a separate first connection reports the error immediately.
+        // The pool would retry a server that refuses connections; a separate first connection reports the error
+        // immediately.
         let open = async {
             AnyConnection::connect(&url).await?.close().await?;
             options.connect(&url).await
@@ -151,7 +152,8 @@ impl Database {
 
 impl Drop for Database {
     fn drop(&mut self) {
-        // The last reference may be dropped in a task of the web server, which must not block; dropping the runtime normally would block.
+        // The last reference may be dropped in a task of the web server, which must not block; dropping the runtime
+        // normally would block.
         if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_background();
         }

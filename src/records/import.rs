@@ -76,8 +76,8 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     })))
 }
 
-/// Returns true if the session of a folder was erased, or its trainee was erased after it had started. Unreadable folders return false, because
-/// [`read`] reports them.
+/// Returns true if the session of a folder was erased, or its trainee was erased after it had started. Unreadable
+/// folders return false, because [`read`] reports them.
 pub fn is_erased(session: &Path, erased: &ErasureMarks) -> bool {
     let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), trainee_and_start(session)) else { return false };
     erased.contains(&id, &trainee, started_unix_us)

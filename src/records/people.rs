@@ -19,8 +19,8 @@ pub struct TraineeData {
 }
 
 impl TraineeData {
-    /// Returns the same data with folder names instead of full paths, so that web responses do not reveal the server's file
-    /// system.
+    /// Returns the same data with folder names instead of full paths, so that web responses do not reveal the server's
+    /// file system.
     #[must_use]
     pub fn with_folder_names(mut self) -> Self {
         for folder in &mut self.folders {
@@ -31,8 +31,8 @@ impl TraineeData {
     }
 }
 
-/// Returns all stored data of a trainee: details, sessions and answers from the database, and folder names. `None` if there is no
-/// data.
+/// Returns all stored data of a trainee: details, sessions and answers from the database, and folder names. `None` if
+/// there is no data.
 ///
 /// # Errors
 /// Returns an error if the database or a folder cannot be read.
@@ -74,8 +74,8 @@ pub fn folders_of_trainee(place: &RecordsLocation, trainee: &str) -> Result<Vec<
     folders_where(&place.sessions, |owner, _| owner == trainee)
 }
 
-/// Returns the session folders whose trainee and start (µs since the Unix epoch) satisfy the predicate. Logs unreadable folders,
-/// because they may match.
+/// Returns the session folders whose trainee and start (µs since the Unix epoch) satisfy the predicate. Logs unreadable
+/// folders, because they may match.
 ///
 /// # Errors
 /// Returns an error if the folder of sessions cannot be read.
@@ -92,8 +92,8 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
     Ok(found)
 }
 
-/// Erases all sessions and session folders that started before this time, µs since the Unix epoch. Returns the numbers of
-/// sessions and folders.
+/// Erases all sessions and session folders that started before this time, µs since the Unix epoch. Returns the numbers
+/// of sessions and folders.
 ///
 /// # Errors
 /// Returns an error if a folder or the database cannot be changed.

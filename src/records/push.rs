@@ -1,5 +1,5 @@
-//! `spandrel records push`: sends sessions as xAPI statements to a learning record store. The ID of a statement is derived from its contents, so
-//! statements that the store already has are not sent twice.
+//! `spandrel records push`: sends sessions as xAPI statements to a learning record store. The ID of a statement is
+//! derived from its contents, so statements that the store already has are not sent twice.
 
 use super::location::RecordsLocation;
 use crate::errors::AppError;

@@ -45,8 +45,8 @@ impl Database {
         })
     }
 
-    /// Replaces these sessions and deletes those with the IDs in `gone`. All other sessions, which another station may have added meanwhile, are
-    /// kept, and so are the trainees and their details. Returns the number of sessions added.
+    /// Replaces these sessions and deletes those with the IDs in `gone`. All other sessions, which another station may
+    /// have added meanwhile, are kept, and so are the trainees and their details. Returns the number of sessions added.
     ///
     /// # Errors
     /// Returns an error if the database fails; nothing is changed in that case.
@@ -158,8 +158,8 @@ impl Database {
         })
     }
 
-    /// Erases sessions, so that they cannot be imported again from folders on other stations. Marks `folders` for [`super::erasure::remove_folders`].
-    /// Returns the number of sessions deleted.
+    /// Erases sessions, so that they cannot be imported again from folders on other stations. Marks `folders` for
+    /// [`super::erasure::remove_folders`]. Returns the number of sessions deleted.
     ///
     /// # Errors
     /// Returns an error if the database fails; nothing is changed in that case.

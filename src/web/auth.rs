@@ -1,4 +1,5 @@
-//! Authentication: cookies and logins. The rules are in `spandrel_training::web`; this module adds the clock and random numbers.
+//! Authentication: cookies and logins. The rules are in `spandrel_training::web`; this module adds the clock and random
+//! numbers.
 
 mod origin;
 
@@ -104,7 +105,8 @@ impl Authenticator {
         if self.login_required.load(Ordering::SeqCst) {
             return Ok(false);
         }
-        // The command line may have set the first password meanwhile. Once logins are required, they stay required until a restart.
+        // The command line may have set the first password meanwhile. Once logins are required, they stay required
+        // until a restart.
         if !database.names_with_password()?.is_empty() {
             self.require_login();
             return Ok(false);
@@ -141,8 +143,8 @@ impl Authenticator {
         Ok(Identified { visitor: visitor(open, person, visit), cookie, is_new: false })
     }
 
-    /// Logs in: checks name and password, ends the previous browser session and starts a new one. Returns the new session cookie and the cookie of
-    /// the browser, which is known for this name from now on.
+    /// Logs in: checks name and password, ends the previous browser session and starts a new one. Returns the new
+    /// session cookie and the cookie of the browser, which is known for this name from now on.
     ///
     /// # Errors
     /// Returns an error if there were too many failures, or name and password do not match; the message does not reveal
@@ -178,7 +180,8 @@ impl Authenticator {
         if let Some(wait_us) = lock(&self.throttle).wait_us(from, name, now_us) {
             return Err(WebError::RateLimited(wait_us.div_ceil(1_000_000)));
         }
-        // If the queue is full, the request is rejected before it counts as a failure: a flood from elsewhere must not lock out other users.
+        // If the queue is full, the request is rejected before it counts as a failure: a flood from elsewhere must not
+        // lock out other users.
         let turn = self.hashing.acquire()?;
         // Counted before the slow hashing, so that simultaneous attempts count as well.
         lock(&self.throttle).record_failure(from, name, now_us);
@@ -240,14 +243,16 @@ impl Authenticator {
         cookie_value(headers, self.browser_cookie_name())
     }
 
-    /// Returns the Set-Cookie value for a known browser. It grants no access; failed logins of known browsers are only counted separately.
+    /// Returns the Set-Cookie value for a known browser. It grants no access; failed logins of known browsers are only
+    /// counted separately.
     pub fn browser_cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.browser_cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Strict).max_age(BROWSER_COOKIE_LIFETIME).build().to_string()
     }
 
-    /// Returns the Set-Cookie value of the session. The policy is Lax: with Strict, a link in an e-mail would arrive without the cookie, and the new
-    /// anonymous session would log the user out. Requests that change anything need a form token and are checked for their origin.
+    /// Returns the Set-Cookie value of the session. The policy is Lax: with Strict, a link in an e-mail would arrive
+    /// without the cookie, and the new anonymous session would log the user out. Requests that change anything need a
+    /// form token and are checked for their origin.
     pub fn cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Lax).build().to_string()

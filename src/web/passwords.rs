@@ -1,4 +1,5 @@
-//! Password hashing with argon2id and the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), which are the library's defaults.
+//! Password hashing with argon2id and the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), which are the
+//! library's defaults.
 
 use crate::errors::AppError;
 use argon2::password_hash::phc::{Output, PasswordHash, Salt};

@@ -1,5 +1,5 @@
-//! Request pipeline. Every request is identified, authorized and checked for its form token; then the route's handler runs on a thread that may block
-//! on disk and database access.
+//! Request pipeline. Every request is identified, authorized and checked for its form token; then the route's handler
+//! runs on a thread that may block on disk and database access.
 
 use super::auth::Identified;
 use super::body;

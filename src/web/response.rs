@@ -119,7 +119,8 @@ impl WebResponse {
         let mut response = Response::new(Body::from(self.body));
         *response.status_mut() = self.status;
         let mut set = |name: HeaderName, value: &str| {
-            // All values are generated or validated, so this cannot fail; an invalid value would be omitted rather than sent.
+            // All values are generated or validated, so this cannot fail; an invalid value would be omitted rather than
+            // sent.
             if let Ok(value) = HeaderValue::from_str(value) {
                 response.headers_mut().insert(name, value);
             }

@@ -20,7 +20,8 @@ use tokio::sync::Semaphore;
 
 /// Time limit for a client to send the header of a request.
 const HEADER_TIMEOUT: Duration = Duration::from_secs(30);
-/// Maximum number of simultaneous uploads; each takes up to `MAX_RECORDING_BYTES` of disk space. Estimate: a class of thirty.
+/// Maximum number of simultaneous uploads; each takes up to `MAX_RECORDING_BYTES` of disk space. Estimate: a class of
+/// thirty.
 const MAX_UPLOADS: usize = 32;
 /// Time limit for requests in progress when the server stops.
 const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(2);

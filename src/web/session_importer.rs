@@ -1,5 +1,6 @@
-//! Imports new sessions into the database. A thread scans the folders for sessions that have ended and imports changed ones again on request. The
-//! folders remain the source of truth: after a kill or a database failure, a later scan imports everything.
+//! Imports new sessions into the database. A thread scans the folders for sessions that have ended and imports changed
+//! ones again on request. The folders remain the source of truth: after a kill or a database failure, a later scan
+//! imports everything.
 
 use crate::errors::AppError;
 use crate::records::{Database, RecordsLocation, is_erased, read_session, session_folders, session_id};

@@ -66,7 +66,8 @@ pub fn session_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::session(&asked.visitor, &record, &pages::SessionPageData { folder, others: &others })))
 }
 
-/// Responds with a session's report under its own policy. Creates the report again if it is missing or was written by another version.
+/// Responds with a session's report under its own policy. Creates the report again if it is missing or was written by
+/// another version.
 pub fn report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let folder = folder(state, asked, asked.path_part("id"))?;
     let policy = assets::page_policy();

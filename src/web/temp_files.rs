@@ -7,8 +7,8 @@ use std::time::Duration;
 
 /// Folder of sessions that are being imported; no session can have this name.
 pub const IMPORT_FOLDER: &str = ".taking-in";
-/// Age above which a temporary file counts as abandoned. A process on another computer that shares the disk may have any process ID, so the age must
-/// be longer than any write takes.
+/// Age above which a temporary file counts as abandoned. A process on another computer that shares the disk may have
+/// any process ID, so the age must be longer than any write takes.
 const STALE_AGE: Duration = Duration::from_secs(600);
 
 /// Removes stale temporary files from the folders of sessions, from the session folders in them, and from the folder of

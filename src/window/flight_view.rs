@@ -88,7 +88,8 @@ impl FlightView {
         self.listener.live().moment(self.listener.wall(), &self.job.1)
     }
 
-    /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts another session.
+    /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts
+    /// another session.
     ///
     /// # Errors
     /// Returns an error if the simulator uses a different scenario.

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
 
-/// Converts a key press to its action on a page. Held keys repeat movement and typing, but not Enter and Escape, which would otherwise act on the
-/// next page.
+/// Converts a key press to its action on a page. Held keys repeat movement and typing, but not Enter and Escape, which
+/// would otherwise act on the next page.
 pub fn press(event: &KeyEvent) -> Option<KeyPress> {
     if event.state != ElementState::Pressed {
         return None;

@@ -1,5 +1,5 @@
-//! Saves the camera's view to a file about once a second, for the live page. A separate thread encodes the JPEG and waits for the disk, so that the
-//! window loses no frames.
+//! Saves the camera's view to a file about once a second, for the live page. A separate thread encodes the JPEG and
+//! waits for the disk, so that the window loses no frames.
 
 use crate::errors::AppError;
 use crate::io::replace::replace;

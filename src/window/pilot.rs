@@ -70,7 +70,8 @@ impl PilotThread {
         let controls = Arc::new(Mutex::new(ControllerStatus::default()));
         let shown = controls.clone();
         std::thread::spawn(move || {
-            // The device is opened in the thread that uses it, because some systems do not allow moving devices between threads.
+            // The device is opened in the thread that uses it, because some systems do not allow moving devices between
+            // threads.
             let desk = ControllerSlot::new(device, profiles);
             if let Some(why) = desk.keyboard_reason() {
                 tracing::info!("{why} Flying with the keyboard.");

@@ -56,7 +56,8 @@ impl SecondaryRenderer {
 impl Drop for SecondaryRenderer {
     fn drop(&mut self) {
         drop(self.shots.take());
-        // A driver that is still rendering when the program exits can crash. A panic in the thread has already been reported.
+        // A driver that is still rendering when the program exits can crash. A panic in the thread has already been
+        // reported.
         if let Some(render_thread) = self.render_thread.take() {
             let _ = render_thread.join();
         }

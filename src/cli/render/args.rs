@@ -37,15 +37,16 @@ pub struct Args {
     /// View of a session to render
     #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
     pub view: String,
-    /// Size of each view, px; the camera's view and photographs keep the sensor's aspect ratio within it [default: 1280x720; for
-    /// photographs the camera's, smaller without a graphics card]
+    /// Size of each view, px; the camera's view and photographs keep the sensor's aspect ratio within it [default:
+    /// 1280x720; for photographs the camera's, smaller without a graphics card]
     #[arg(long, value_name = "WxH")]
     pub size: Option<String>,
     /// Rendering quality: low, medium, high or ultra
     #[arg(long, value_name = "PRESET", default_value = "high")]
     pub quality: String,
-    /// Write label masks for each picture, to train detectors: NAME.elements.png (AASHTO element numbers), NAME.defects.png
-    /// (defect numbers), both 16-bit grayscale, and NAME.masks.json (kind, condition state and box of each defect)
+    /// Write label masks for each picture, to train detectors: NAME.elements.png (AASHTO element numbers),
+    /// NAME.defects.png (defect numbers), both 16-bit grayscale, and NAME.masks.json (kind, condition state and box of
+    /// each defect)
     #[arg(long, conflicts_with = "video")]
     pub masks: bool,
     /// Hide the head-up display

@@ -169,8 +169,8 @@ impl RecordedFeed<'_> {
     }
 }
 
-/// Returns the poses at a time; `None` without telemetry. Attitude, gimbal and zoom are interpolated, as in the live view; the other values are the
-/// last ones received.
+/// Returns the poses at a time; `None` without telemetry. Attitude, gimbal and zoom are interpolated, as in the live
+/// view; the other values are the last ones received.
 fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment> {
     let state = flight.between(at)?;
     let trace = trace(flight, at);

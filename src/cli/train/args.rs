@@ -82,8 +82,8 @@ pub struct Args {
     /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_view")]
     pub profiles: Option<PathBuf>,
-    /// Stream the camera view to this address during the flight, as H.264 over RTP (as `spandrel view --stream`; QGroundControl listens on
-    /// UDP 5600)
+    /// Stream the camera view to this address during the flight, as H.264 over RTP (as `spandrel view --stream`;
+    /// QGroundControl listens on UDP 5600)
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, conflicts_with = "no_view")]
     pub stream: Option<SocketAddr>,
     #[command(flatten)]

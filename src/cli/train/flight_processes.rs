@@ -120,7 +120,8 @@ impl FlightProcesses {
         connection_instructions(&self.title, &args.ports, &self.ports, &self.session, (web, window))
     }
 
-    /// Waits until the session ends, a stop is requested, or a process exits too early. Handles the window's requests meanwhile.
+    /// Waits until the session ends, a stop is requested, or a process exits too early. Handles the window's requests
+    /// meanwhile.
     pub fn wait(&mut self, window: &mut Option<WindowProcess>, stop: &StopRequest) -> FlightOutcome {
         loop {
             if let Some(window) = window {

@@ -41,7 +41,8 @@ pub struct TrainRun<'a> {
     web: Option<ServedPages>,
     web_announced: bool,
     photographs: PhotographJobs,
-    /// Vehicle of the last flight. It stays connected until the next flight or the end of the run, so that ground stations can download its logs.
+    /// Vehicle of the last flight. It stays connected until the next flight or the end of the run, so that ground
+    /// stations can download its logs.
     vehicle: Option<FlightProcesses>,
     prompt: TerminalPrompt,
 }
@@ -153,7 +154,8 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Returns the command line's choice once the window is shown or known to be missing, so that no flight starts without its views.
+    /// Returns the command line's choice once the window is shown or known to be missing, so that no flight starts
+    /// without its views.
     fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
         self.wait_for_window();
         if self.stop.is_requested() { NextFlight::Leave } else { NextFlight::Fly(usual.clone()) }
@@ -217,7 +219,8 @@ impl<'a> TrainRun<'a> {
         self.prompt_at_terminal(last)
     }
 
-    /// Keeps the vehicle connected if there is no window, until the user answers at the terminal or a stop is requested.
+    /// Keeps the vehicle connected if there is no window, until the user answers at the terminal or a stop is
+    /// requested.
     fn prompt_at_terminal(&mut self, last: &FlightChoice) -> NextFlight {
         if self.args.once || self.closed || self.vehicle.is_none() {
             return NextFlight::Nobody;
@@ -312,7 +315,8 @@ impl<'a> TrainRun<'a> {
         result
     }
 
-    /// Serves the web pages of the sessions and of this vehicle's flight, at the same address throughout. A failure does not prevent the flight.
+    /// Serves the web pages of the sessions and of this vehicle's flight, at the same address throughout. A failure
+    /// does not prevent the flight.
     fn serve(&mut self, vehicle: Option<SocketAddr>) {
         let addresses::PortChoice::Number(mut port) = self.args.web else { return };
         match self.web.take() {
@@ -337,7 +341,8 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Keeps the web pages available until the user answers at the terminal, because the questionnaire follows the flight.
+    /// Keeps the web pages available until the user answers at the terminal, because the questionnaire follows the
+    /// flight.
     fn keep_serving(&mut self, session: &Path) {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
         let address = offers::flight_summary(session, Some(web.server.address()), None).questionnaire;

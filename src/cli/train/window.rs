@@ -133,8 +133,8 @@ fn exit_message(closed: bool, is_flying: bool) -> &'static str {
     }
 }
 
-/// Returns the environment variable that limits Mesa's software renderer to half of the processors; the simulator and the monitor need the other
-/// half.
+/// Returns the environment variable that limits Mesa's software renderer to half of the processors; the simulator and
+/// the monitor need the other half.
 pub fn software_renderer_threads() -> (&'static str, String) {
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     ("LP_NUM_THREADS", (all / 2).max(1).to_string())

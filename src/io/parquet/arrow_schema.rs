@@ -1,6 +1,7 @@
-//! Encodes an Arrow schema as an encapsulated IPC message, which Parquet files contain for Arrow-based readers, because Parquet's own schema cannot
-//! store units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of `Schema.fbs` and `Message.fbs`; encoding:
-//! <https://flatbuffers.dev/internals/>. Parents are written before their children, so that all offsets are positive.
+//! Encodes an Arrow schema as an encapsulated IPC message, which Parquet files contain for Arrow-based readers, because
+//! Parquet's own schema cannot store units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of
+//! `Schema.fbs` and `Message.fbs`; encoding: <https://flatbuffers.dev/internals/>. Parents are written before their
+//! children, so that all offsets are positive.
 
 /// Field type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,5 +1,5 @@
-//! Concurrent changes by several stations: erased data stays erased, a rebuild deletes no sessions of other stations, and no change to a person is
-//! lost.
+//! Concurrent changes by several stations: erased data stays erased, a rebuild deletes no sessions of other stations,
+//! and no change to a person is lost.
 
 use super::record;
 use crate::records::database::Database;

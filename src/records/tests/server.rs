@@ -1,5 +1,5 @@
-//! Starts a real PostgreSQL server as an unprivileged user in a temporary folder. It listens on a Unix socket in that folder, and on a TCP port only
-//! if a test requests one.
+//! Starts a real PostgreSQL server as an unprivileged user in a temporary folder. It listens on a Unix socket in that
+//! folder, and on a TCP port only if a test requests one.
 
 use std::os::unix::fs::{PermissionsExt, chown};
 use std::path::{Path, PathBuf};

@@ -8,7 +8,8 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 /// Trusted proxies and the host names of the server.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct AllowedOrigins {
-    /// Proxies that terminate TLS; empty without a proxy. With proxies, all requests must come from them, and only their X-Forwarded-For is trusted.
+    /// Proxies that terminate TLS; empty without a proxy. With proxies, all requests must come from them, and only
+    /// their X-Forwarded-For is trusted.
     pub proxies: Vec<IpNet>,
     /// Host names of this server, in addition to localhost and IP addresses.
     pub hosts: Vec<String>,
@@ -25,7 +26,8 @@ impl AllowedOrigins {
         self.proxies.iter().any(|proxy| proxy.contains(&address.to_canonical()))
     }
 
-    /// Returns true for IP addresses, localhost and the configured names. Any other name may belong to another site (DNS rebinding).
+    /// Returns true for IP addresses, localhost and the configured names. Any other name may belong to another site
+    /// (DNS rebinding).
     fn is_allowed_host(&self, host: &Host<'_>) -> bool {
         match host {
             Host::Address(_) => true,
@@ -64,7 +66,8 @@ impl AllowedOrigins {
         Err(WebError::Forbidden("This request comes from another site.".into()))
     }
 
-    /// Returns the client's address: that of the socket or, behind a proxy, the last address in X-Forwarded-For that is not a trusted proxy.
+    /// Returns the client's address: that of the socket or, behind a proxy, the last address in X-Forwarded-For that is
+    /// not a trusted proxy.
     ///
     /// # Errors
     /// Returns an error if a proxy is required and the socket is not one.

@@ -12,8 +12,8 @@ use std::time::Duration;
 const RETRY_INTERVAL: Duration = Duration::from_millis(500);
 /// Maximum number of attempts per step.
 const MAX_TRIES: u32 = 20;
-/// MAVLink system ID of the live page. Its component is a companion computer, so that its loss does not trigger the vehicle's ground station
-/// failsafe.
+/// MAVLink system ID of the live page. Its component is a companion computer, so that its loss does not trigger the
+/// vehicle's ground station failsafe.
 pub const INSTRUCTOR_SYSTEM: u8 = 252;
 pub const INSTRUCTOR_COMPONENT: u8 = 192;
 /// FAILURE_TYPE_OK and FAILURE_TYPE_OFF of MAV_CMD_INJECT_FAILURE.
@@ -147,7 +147,8 @@ impl CommandQueue {
         (frames, words)
     }
 
-    /// Checks whether a frame answers the current step. Returns a message if the step was rejected, which ends the command.
+    /// Checks whether a frame answers the current step. Returns a message if the step was rejected, which ends the
+    /// command.
     pub fn handle_frame(&mut self, frame: &ReceivedFrame) -> Option<String> {
         let task = self.0.front_mut()?;
         match answer(task.steps.front()?, frame.message.as_ref()?)? {
