@@ -225,7 +225,7 @@ impl Links {
 
     fn add_stream(&mut self, stream: StreamId, origin: &StreamOrigin) {
         if self.by_stream.len() >= MAX_LEARNED_PEERS {
-            tracing::warn!("rejected {origin}: {MAX_LEARNED_PEERS} clients are connected");
+            tracing::warn!("rejected {origin}: {MAX_LEARNED_PEERS} clients are already connected");
             self.hub.drop_stream(stream);
             return;
         }
@@ -249,7 +249,7 @@ impl Links {
         }
         let on_socket = |route: &&LinkRoute| matches!(route, LinkRoute::Learned { socket: other, .. } if *other == socket);
         if self.routes.values().filter(on_socket).count() >= MAX_LEARNED_PEERS {
-            tracing::debug!("rejected {from}: {MAX_LEARNED_PEERS} peers are connected to this port");
+            tracing::debug!("rejected {from}: {MAX_LEARNED_PEERS} peers are already connected to this port");
             return None;
         }
         tracing::info!("{from} has connected");

@@ -137,7 +137,7 @@ pub fn cohort_table(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 /// Responds with the cohort report as a single page that works offline.
 pub fn cohort_report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let figured = state.figures.get(&selection_from_query(asked)?)?;
-    let nothing = || WebError::BadRequest("these scenarios have no sessions that count".into());
+    let nothing = || WebError::BadRequest("these scenarios have no sessions to include".into());
     let cohort = figured.non_empty().ok_or_else(nothing)?;
     Ok(WebResponse::sandboxed_page(report::cohort(cohort).into_bytes(), &assets::page_policy()))
 }

@@ -26,7 +26,7 @@ Examples:
   spandrel train --trainee anna --scenario drill-hover          start this flight; QGroundControl on this machine connects automatically
   spandrel train --scenario my-job.toml --choose  choose in the window, with this scenario in the list
   spandrel train --no-view                        don't open the window
-  spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     a ground station on another machine
+  spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     connect to a ground station on another machine
 
 {EXIT_CODES}"))]
 pub struct Args {
