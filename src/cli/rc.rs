@@ -307,7 +307,7 @@ mod tests {
     fn exact_calibration_needs_a_profile_folder() {
         let args = Line::parse_from(["rc", "--calibrate"]).args;
         let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
-        assert!(told.contains("specify a folder with --profiles"), "{told}");
+        assert!(told.contains("specify a profile folder with --profiles"), "{told}");
     }
 
     #[test]

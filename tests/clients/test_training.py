@@ -102,7 +102,7 @@ def test_errors_include_file_key_and_value(sessions, tmp_path):
     code, _, errors = run_with("", "cohort", "--records", str(broken))
     assert code == 2 and "broken.jsonl:1: not a valid record" in errors
     code, _, errors = run_with("", "plan", "nobody", "--sessions", str(sessions))
-    assert code == 2 and "no session of 'nobody'" in errors
+    assert code == 2 and "no sessions of 'nobody'" in errors
 
 
 def test_trainee_data_can_be_exported_and_erased(sessions):
