@@ -1,4 +1,4 @@
-//! Prints the assessment from its JSON; numbers are rounded only here.
+//! Prints the assessment from its JSON. Numbers are rounded only for this output.
 
 use crate::errors::AppError;
 use crate::io::report;
@@ -21,7 +21,7 @@ pub fn print_locations(session: &Path) {
 /// Prints the scores of a session and the location of its files.
 ///
 /// # Errors
-/// If the session has no assessment.
+/// Returns an error if the session has no assessment.
 pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     let path = session.join(spandrel_monitor::folder::ASSESSMENT);
     let text = std::fs::read_to_string(&path)
@@ -32,7 +32,7 @@ pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Returns the scores, tasks, crashes, pictures and the end of a session as text.
+/// Formats the scores, tasks, crashes, pictures and end of a session as text.
 pub fn scores_text(assessment: &Value) -> String {
     let mut out = String::new();
     let scores = &assessment["scores"];

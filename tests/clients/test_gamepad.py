@@ -145,7 +145,7 @@ def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
         pad.press(gamepad.EAST)
         asking.hear(link, "CAMERA_IMAGE_CAPTURED")
         pad.close()
-        bridge.hear("disconnected: sticks centered, then no longer sent")
+        bridge.hear("disconnected: stick input centered, then stopped")
         asking.hear(link, "STATUSTEXT", lambda text: "manual control lost" in text.text)
         beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
         assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold its position"

@@ -212,6 +212,6 @@ def test_regress_incomplete_sessions_are_excluded_and_counted(tmp_path):
     first = lambda cohort: next(one["session"] for one in cohort["individuals"] if one["trainee"] == "anna")
     assert (first(without), first(asked)) == ("anna-1", "anna-0")
     said = spandrel.run("cohort", "--records", str(path), "--repetitions", "1")
-    assert "1 incomplete session excluded (--include-incomplete counts them)" in said, said
+    assert "1 incomplete session excluded (use --include-incomplete to count them)" in said, said
     plan = lambda *more: json.loads(spandrel.run("plan", "anna", "--records", str(path), "--json", *more))
     assert (plan()["session"], plan()["left_out"]) == ("anna-1", 1) and plan("--include-incomplete")["left_out"] == 0
