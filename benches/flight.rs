@@ -1,5 +1,6 @@
-//! Measures the processor time that each component needs for one simulated second of flight: the sensors, the estimator, the autopilot, and all of
-//! them together with the physics. Also prints each as a multiple of real time on one core. (The `vehicle` benchmark adds the telemetry.)
+//! Measures the CPU time per simulated second of flight: for the sensors, the estimator and the autopilot separately,
+//! and for all of them together with the physics. Also prints the speed as a multiple of real time on one core. (The
+//! `vehicle` benchmark adds the telemetry.)
 
 #[path = "support/best.rs"]
 mod best;
@@ -21,7 +22,7 @@ fn print_cost(what: &str, taken: Duration) {
     println!("{what:<40} {per_second_us:>9.1} us per simulated second {:>9.0} x real time", 1e6 / per_second_us);
 }
 
-/// Returns sensor readings recorded while hovering, so that the autopilot can be timed without the physics and the sensors.
+/// Returns sensor readings recorded while hovering, for timing the autopilot without the physics and the sensors.
 fn recorded_readings(start: &Bench) -> Vec<(SimTime, Readings)> {
     let mut sensors = start.sensors.clone();
     let battery = BatteryReading { voltage_v: 11.5, current_a: 12.0, remaining_pct: 80.0 };

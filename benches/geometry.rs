@@ -1,5 +1,5 @@
-//! Measures the cost of queries to the site's static geometry at different locations: in the open, near the structure, in the interlayer, and over
-//! the ground.
+//! Measures the cost of queries to the site's static geometry at different locations: in the open, near the structure,
+//! in the interlayer, and above the ground.
 
 #[path = "support/best.rs"]
 mod best;
@@ -33,20 +33,22 @@ fn around(path: &[Vec3<Enu>], spread_m: f64, seed: u64) -> Vec<Vec3<Enu>> {
 
 fn main() {
     let text = include_str!("../scenarios/two-bridges.toml");
-    let scenario: Scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("no file".into())).expect("reads");
+    let scenario: Scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("no file".into()))
+        .expect("the shipped scenario must be valid");
     let built = best(ROUNDS, || {
         black_box(Geometry::new(&scenario));
     });
     let geometry = Geometry::new(&scenario);
     println!("{:<44} {:>8.1} ms, {} members", "built in", built.as_secs_f64() * 1e3, geometry.members().len());
-    let path = |kind: TaskKind| &scenario.tasks.iter().find(|t| t.kind == kind).expect("a task of each kind").path_m;
+    let path =
+        |kind: TaskKind| &scenario.tasks.iter().find(|t| t.kind == kind).expect("the job must have a task of each kind").path_m;
     let places = [
         ("in the open", around(&[Vec3::new(0.0, 75.0, 60.0)], 20.0, 1)),
         ("along the slab", around(path(TaskKind::SlabSide), 1.0, 2)),
         ("under the arch", around(path(TaskKind::ArchBottom), 1.0, 3)),
         ("in the interlayer", around(path(TaskKind::Interlayer), 0.7, 4)),
         ("around the pier", around(path(TaskKind::PierCircle), 1.0, 5)),
-        ("over the ground", around(&[scenario.ground_team.pad_m + Vec3::new(12.0, 0.0, 3.0)], 2.0, 6)),
+        ("above the ground", around(&[scenario.ground_team.pad_m + Vec3::new(12.0, 0.0, 3.0)], 2.0, 6)),
     ];
     let diagonal = Vec3::<Enu>::new(1.0, 2.0, -0.5).unit();
     for (place, points) in &places {
@@ -64,10 +66,10 @@ fn main() {
                 black_box(&found);
             }
         });
-        println!("{:<44} {:>8.0} ns", format!("contacts of a capsule, {place}"), taken.as_secs_f64() * 1e9 / points.len() as f64);
+        println!("{:<44} {:>8.0} ns", format!("capsule contacts, {place}"), taken.as_secs_f64() * 1e9 / points.len() as f64);
     }
     let deck = around(&[Vec3::new(10.0, 1.0, 34.0)], 0.005, 7);
-    print_cost("contacts of a capsule on the deck", &deck, |p| {
+    print_cost("capsule contacts on the deck", &deck, |p| {
         let mut found = Vec::new();
         let probe =
             HullProbe::Capsule { a_m: p + Vec3::new(0.0, 0.0, 0.03), b_m: p + Vec3::new(0.15, 0.1, 0.03), radius_m: 0.03 };

@@ -12,10 +12,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 const TICK_MS: f64 = 2.5;
-/// Target for the 99th percentile, as required by the issue: two control ticks.
+/// Target for the 99th percentile, two control ticks (requirement).
 const TARGET_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
-/// Pause between measurements. It is not a multiple of any period in the vehicle, so that the measurements sample all phases of each period.
+/// Pause between measurements. It is not a multiple of any period in the vehicle, so the measurements sample every
+/// phase of each period.
 const MEASUREMENT_PAUSE: Duration = Duration::from_micros(7_310);
 /// Message rate and duration of the flood.
 const FLOOD_HZ: u64 = 50_000;
@@ -23,12 +24,12 @@ const FLOOD_DURATION: Duration = Duration::from_secs(5);
 /// Minimum ratio of simulation time to wall time during the flood.
 const MIN_PACE: f64 = 0.99;
 
-/// Number of stick steps in flight, and the time for which the stick is centered before each step, so that the vehicle comes to rest.
+/// Number of stick steps in flight, and the time with a centered stick before each step, which lets the vehicle settle.
 const STEPS: usize = 150;
 const CENTERED_DURATION: Duration = Duration::from_millis(400);
 /// Interval between stick samples in flight.
 const STICK_INTERVAL: Duration = Duration::from_millis(20);
-/// Deviation of the roll rate from its mean at rest that counts as a response, in standard deviations.
+/// Minimum deviation of the roll rate from its mean at rest that counts as a response, in standard deviations.
 const NOISE_SIGMAS: f64 = 6.0;
 /// PX4's mode numbers: automatic takeoff, hold, and altitude mode.
 const TAKE_OFF: [f32; 3] = [1.0, 4.0, 2.0];
@@ -70,7 +71,7 @@ fn commands(client: &mut Client) -> (f64, f64) {
 }
 
 fn sticks(client: &mut Client) -> (f64, f64) {
-    // Requests RC_CHANNELS at the rate of the control loop.
+    // Requests RC_CHANNELS at the control loop rate.
     client.send(&command_long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0, 0.0]));
     let one = |k: usize| {
         std::thread::sleep(MEASUREMENT_PAUSE);
@@ -134,12 +135,12 @@ fn rates(client: &mut Client) -> (f64, f64) {
         ms(begin)
     };
     let spread = spread((0..STEPS).map(one).collect());
-    println!("roll rate at rest in flight: {deviation:.4} rad/s (1 sigma)");
+    println!("roll rate noise with a centered stick: {deviation:.4} rad/s (1 sigma)");
     spread
 }
 
-/// Returns the simulation time per second of wall time, as one peer observes it while another peer floods the simulator, and the message rate of the
-/// flood.
+/// Returns the ratio of simulation time to wall time that one peer observes while another floods the simulator, and the
+/// message rate of the flood.
 fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     let (stop, sent) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
     let flood = {
@@ -153,7 +154,7 @@ fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
                 let due = (begin.elapsed().as_secs_f64() * FLOOD_HZ as f64) as u64;
                 let before = sent.load(Ordering::Relaxed);
                 for _ in before..due {
-                    // A full system buffer drops the message, as a network would.
+                    // If the system buffer is full, it drops the message, as a network would.
                     let _ = rude.socket.send(&frame);
                 }
                 sent.store(due.max(before), Ordering::Relaxed);
@@ -163,7 +164,7 @@ fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     };
     let (pace, wall_s) = client.pace(FLOOD_DURATION);
     stop.store(true, Ordering::Relaxed);
-    flood.join().expect("the flood ends");
+    flood.join().expect("the flood thread must not panic");
     (pace, sent.load(Ordering::Relaxed) as f64 / wall_s)
 }
 
@@ -174,7 +175,7 @@ fn main() {
     client.wait(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(()));
     let mut good = true;
     for (what, (median, p99)) in
-        [("command to acknowledgment", commands(&mut client)), ("stick to its echo in telemetry", sticks(&mut client))]
+        [("command to acknowledgment", commands(&mut client)), ("stick movement to echo in telemetry", sticks(&mut client))]
     {
         println!(
             "{what}: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks; target 2)",
@@ -185,7 +186,7 @@ fn main() {
     }
     let (median, p99) = rates(&mut client);
     println!(
-        "stick to first change of the roll rate: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks)",
+        "stick movement to first change in roll rate: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks)",
         median / TICK_MS,
         p99 / TICK_MS
     );

@@ -1,6 +1,7 @@
-//! Measures the cost of a physics step in free flight, near a bridge, standing on a bridge, and scraping along it. Prints the medians in nanoseconds
-//! and as ratios to a baseline from the same run: a minimal Runge-Kutta quadrotor with rotor lag and drag that uses plain arrays. The ratios hardly
-//! depend on the speed and the load of the machine. The benchmark fails if a ratio exceeds its limit.
+//! Measures the cost of a physics step in free flight, near a bridge, standing on a bridge, and scraping along it.
+//! Prints the medians in nanoseconds and as ratios to a baseline from the same run: a minimal Runge-Kutta quadrotor
+//! with rotor lag and drag that uses plain arrays. The ratios barely depend on the machine's speed and load. The
+//! benchmark fails if a ratio exceeds its limit.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{BatteryModel, Scenario};
@@ -13,12 +14,12 @@ use std::path::Path;
 use std::process::ExitCode;
 
 const STEP: SimTime = SimTime::from_ms(1);
-/// Number of steps per sample. Every sample starts from the same state, so that all samples do the same work.
+/// Number of steps per sample. Every sample starts from the same state, so all samples do the same work.
 const STEPS: i64 = 500;
-/// Number of samples per median. The cases alternate, so that a period of high machine load affects all of them.
+/// Number of samples per median. The cases alternate, so a period of high machine load affects them all.
 const SAMPLES: usize = 61;
 
-/// Limits of the medians, as ratios to the baseline.
+/// Maximum medians, as ratios to the baseline.
 const MAX_FREE: f64 = 4.0;
 const MAX_NEAR: f64 = 8.0;
 const MAX_CLOSE: f64 = 20.0;
@@ -84,7 +85,7 @@ struct Case {
     /// Simulation time of the state.
     start_time: SimTime,
     actuators: Actuators,
-    /// True if the aircraft touches the deck in almost every step.
+    /// Whether the aircraft is in contact with the deck in almost every step.
     touches: bool,
     samples: Vec<f64>,
 }
@@ -109,13 +110,13 @@ impl Case {
             touched += i64::from(state.contact.touching());
         }
         let wanted = if self.touches { STEPS * 9 / 10..=STEPS } else { 0..=0 };
-        assert!(wanted.contains(&touched), "{}: touches in {touched} steps of {STEPS}", self.name);
+        assert!(wanted.contains(&touched), "{}: contact in {touched} of {STEPS} steps", self.name);
         state
     }
 }
 
 fn shipped(file: &str) -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("a shipped file")
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("the shipped file must be readable")
 }
 
 fn scenario() -> Scenario {
@@ -128,13 +129,13 @@ fn vehicle() -> Vehicle {
     spandrel_model::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Finds a point on a bridge deck that is surrounded only by road.
+/// Returns a point on a bridge deck with only road around it.
 fn deck(site: &Site) -> Vec3<Enu> {
-    let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("a road lane");
+    let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("the site must have a road lane");
     // The ends of a lane are on the approach road, so its middle is on the bridge.
     let (first, last) = (lane.points_m[0], lane.points_m[lane.points_m.len() - 1]);
     let above = (first + last) * 0.5 + Vec3::new(0.0, 0.0, 3.0);
-    let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck under its lane");
+    let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck must be below its lane");
     assert_eq!(hit.surface, Surface::Bridge);
     above - Vec3::new(0.0, 0.0, hit.distance_m)
 }
@@ -149,7 +150,7 @@ fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
     state
 }
 
-/// Simulation time by which an aircraft placed on the deck has settled.
+/// Simulation time that an aircraft placed on the deck needs to settle.
 const SETTLED_AT: SimTime = SimTime::from_ms(2000);
 
 /// Returns the state of an aircraft standing on the deck at [`SETTLED_AT`].
@@ -161,7 +162,7 @@ fn standing(model: &AirframeModel, site: &Site, vehicle: &Vehicle, deck: Vec3<En
         model.advance(&mut state, &Actuators::default(), &AirState::STILL, site, PowerLoad::default(), now, STEP);
         now += STEP;
     }
-    assert!(state.contact.touching(), "the aircraft stands");
+    assert!(state.contact.touching(), "the aircraft must stand on the deck");
     state
 }
 
@@ -173,15 +174,15 @@ fn cases(model: &AirframeModel, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
     let mut scrape = stand.clone();
     scrape.rigid.velocity_m_s = Vec3::new(4.0, 0.0, 0.0);
     vec![
-        Case::new("free, 60 m over the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
-        Case::new("near, 2 m over the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
-        Case::new("close, 0.5 m over the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
+        Case::new("free flight, 60 m above the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
+        Case::new("near, 2 m above the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
+        Case::new("close, 0.5 m above the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
         Case::on_deck("standing on the deck, motors off", MAX_STANDING, stand),
         Case::on_deck("scraping along the deck", MAX_SCRAPING, scrape),
     ]
 }
 
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+#[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 fn ns_per_step(work: impl FnOnce()) -> f64 {
     let start = std::time::Instant::now();
     work();

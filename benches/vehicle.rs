@@ -1,6 +1,7 @@
-//! Measures the speed of the whole vehicle as a multiple of real time on one core: physics, site, sensors, estimator, autopilot, and telemetry
-//! encoding for a ground station, an SDK and the monitor. The runs are complete demo flights at the two bridges, including contacts. The synthetic
-//! trainee flies each one once to record its inputs. The timed runs replay these inputs, so that the measurement does not include the trainee.
+//! Measures the speed of the whole vehicle as a multiple of real time on one core: physics, site, sensors, estimator,
+//! autopilot, and telemetry encoding for a ground station, an SDK and the monitor. The runs are complete demo flights
+//! at the two bridges, including contacts. The synthetic trainee flies each one once to record its inputs. The timed
+//! runs replay these inputs, so the measurement does not include the trainee.
 
 use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
 use spandrel_mavlink::codec::Decoder;
@@ -16,7 +17,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Minimum speed of the whole vehicle, as a multiple of real time, as required by the issue.
+/// Minimum speed of the whole vehicle, as a multiple of real time (requirement).
 const MIN_SPEED: f64 = 300.0;
 const STEP: SimTime = SimTime::from_ms(20);
 /// Time limit of a flight. The battery runs out earlier.
@@ -36,9 +37,10 @@ struct Job {
 impl Job {
     fn two_bridges(seed: u64) -> Self {
         let scenario = include_str!("../scenarios/two-bridges.toml");
-        let scenario = spandrel_model::scenario::read("two-bridges.toml", scenario, &|_| Err("none".into())).expect("shipped");
-        let vehicle =
-            spandrel_model::vehicle::read("phantom2.toml", include_str!("../vehicle-params/phantom2.toml")).expect("shipped");
+        let scenario = spandrel_model::scenario::read("two-bridges.toml", scenario, &|_| Err("none".into()))
+            .expect("the shipped file must be valid");
+        let vehicle = spandrel_model::vehicle::read("phantom2.toml", include_str!("../vehicle-params/phantom2.toml"))
+            .expect("the shipped file must be valid");
         let site = Arc::new(Site::build(&scenario, seed));
         Self { scenario: Arc::new(scenario), vehicle: Arc::new(vehicle), site, seed }
     }
@@ -55,8 +57,8 @@ impl Job {
         sim
     }
 
-    /// Runs a flight with the synthetic trainee. Returns the trainee's inputs with their times, the end time, the number of contacts, and the reason
-    /// for the end.
+    /// Runs a flight with the synthetic trainee. Returns the trainee's timestamped inputs, the end time, the number of
+    /// contacts, and the reason for the end.
     fn fly(&self, skill: Skill) -> (Inputs, SimTime, usize, String) {
         let (scenario, vehicle) = (Arc::clone(&self.scenario), Arc::clone(&self.vehicle));
         let mut pilot = Pilot::new(PilotConfig { scenario, vehicle, skill, seed: self.seed });
@@ -80,7 +82,7 @@ impl Job {
     }
 
     /// Replays a flight without the trainee. Returns the wall time and the number of bytes sent.
-    #[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+    #[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
     fn replay(&self, inputs: &Inputs, end: SimTime) -> (Duration, usize) {
         let mut sim = self.sim(false);
         let (mut next, mut sent) = (inputs.iter().peekable(), 0);
@@ -139,13 +141,13 @@ fn main() -> ExitCode {
         misses |= times < MIN_SPEED;
         let verdict = if times >= MIN_SPEED { "reaches" } else { "MISSES" };
         println!(
-            "{name}: {end} of flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the minimum of {MIN_SPEED:.0}",
+            "{name}: {end} flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the minimum of {MIN_SPEED:.0}",
             wall.as_secs_f64(),
             sent as f64 / 1e3 / end.s()
         );
     }
     if let Some((now, most)) = memory() {
-        println!("resident memory {now:.0} MB, maximum {most:.0} MB");
+        println!("resident memory: {now:.0} MB, peak {most:.0} MB");
     }
     ExitCode::from(u8::from(misses))
 }

@@ -1,6 +1,6 @@
-//! Measures the cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup time. Renders in software, as
-//! on a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best available device and higher presets, and fails if a graphics card
-//! does not reach the target frame rate.
+//! Measures the cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup
+//! time. Uses software rendering, as on a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best
+//! available device and higher presets, and fails if a graphics card does not reach the target frame rate.
 
 #[path = "support/running.rs"]
 mod running;
@@ -18,17 +18,18 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Target frame rate of both views at 640 x 360 with the preset `low` on two cores, 1/s, as required by the issue.
+/// Target frame rate of both views at 640 x 360 with the preset `low` on two cores, 1/s (requirement).
 const TARGET_HZ: f64 = 15.0;
-/// Maximum processor time per frame, s: twice the value that the slowest viewpoints needed when the limit was set. Processor time is used because it
-/// hardly depends on other load on the machine.
+/// Maximum CPU time per frame, s: twice the time of the slowest viewpoints when the limit was set. CPU time barely
+/// depends on other load on the machine.
 const MAX_FRAME_CPU_S: f64 = 0.25;
-/// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s, as required by the issue.
+/// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s
+/// (requirement).
 const MIN_CARD_HZ: f64 = 144.0;
 /// Number of measured frames per viewpoint, after one frame that warms up the caches.
 const FRAMES: usize = 4;
 
-/// Returns viewpoints along a flight, each with the point that the camera looks at.
+/// Returns viewpoints along a flight, each with the camera's target point.
 fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
     vec![
         ("take-off", at(-112.0, 78.0, 12.0), at(-40.0, 20.0, 25.0)),
@@ -40,12 +41,13 @@ fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
     ]
 }
 
-/// Minimum ratio of simulation time to wall time for a simulator that runs while views are rendered continuously.
+/// Minimum ratio of simulation time to wall time for a simulator that runs during continuous rendering.
 const MIN_PACE: f64 = 0.99;
-/// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip makes the flight shorter. Pilots notice
-/// control delays above 0.1 s. Such delays are printed but not limited, because other load on the machine can cause them.
+/// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip shortens the
+/// flight. Pilots notice control delays above 0.1 s. Such delays are printed but not limited, because other load on the
+/// machine can cause them.
 const MAX_SLIPS: u64 = 0;
-/// Duration of this measurement.
+/// Duration of the measurement with a simulator.
 const PACE_DURATION: Duration = Duration::from_secs(10);
 
 struct Cost {
@@ -53,7 +55,8 @@ struct Cost {
     counts: DrawCounts,
 }
 
-/// Renders both views in the same way as the window: without a graphics card, a second device renders the camera's view.
+/// Renders both views the same way as the window does: without a graphics card, a second device renders the camera's
+/// view.
 struct Views {
     studio: Studio,
     secondary: Option<SecondaryRenderer>,
@@ -65,8 +68,9 @@ impl Views {
     fn on(gpu: Gpu, preset: &str) -> Self {
         let software = gpu.software;
         let studio = Studio::on(gpu, two_bridges(), 7, preset, SimTime::ZERO);
-        let quality = Quality::by_name(preset).expect("a preset");
-        let secondary = software.then(|| SecondaryRenderer::open(quality, Arc::clone(&studio.scene)).expect("a second device"));
+        let quality = Quality::by_name(preset).expect("the preset must exist");
+        let secondary = software
+            .then(|| SecondaryRenderer::open(quality, Arc::clone(&studio.scene)).expect("a second device must be available"));
         let textures = [(); 2].map(|()| picture_texture(&studio.gpu, (1, 1)));
         Self { studio, secondary, textures }
     }
@@ -77,7 +81,7 @@ impl Views {
         let moment = self.studio.moment(from, look, false, at(1.0, 0.5, 0.0));
         let camera = self.studio.stage().camera(&moment, size_px);
         if let Some(secondary) = &self.secondary {
-            secondary.start(camera.clone()).expect("the second device works");
+            secondary.start(camera.clone()).expect("the second device must not fail");
         }
         let inspector = self.studio.stage().inspector(&moment, size_px);
         let (gpu, renderer) = self.studio.renderer();
@@ -91,18 +95,19 @@ impl Views {
         };
         let counts = draw(&inspector, left).and(match &self.secondary {
             Some(secondary) => {
-                let (picture, cost) = secondary.picture().expect("the second device works");
+                let (picture, cost) = secondary.picture().expect("the second device must not fail");
                 fill(gpu, right, &picture);
                 cost
             }
             None => draw(&camera, right),
         });
-        gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device must not fail");
         Cost { frame: start.elapsed(), counts }
     }
 }
 
-/// Returns the processor time of this process so far, s; `None` except on Linux, which reports it in hundredths of a second.
+/// Returns the CPU time of this process so far, s. Linux reports it in hundredths of a second; other systems return
+/// `None`.
 fn cpu_s() -> Option<f64> {
     const TICKS_PER_S: f64 = 100.0;
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
@@ -117,7 +122,7 @@ fn median(mut times: Vec<Duration>) -> Duration {
     times[times.len() / 2]
 }
 
-/// Renders all locations. Returns the processor time per frame, s, if available, and the frame rate, 1/s.
+/// Renders all viewpoints. Returns the CPU time per frame, s, if available, and the frame rate, 1/s.
 fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>, f64) {
     let (mut medians, mut cpu) = (Vec::new(), Some(0.0));
     for (name, from, look) in viewpoints() {
@@ -128,7 +133,7 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
         cpu = cpu.zip(spent).map(|(sum, spent)| sum + spent / viewpoints().len() as f64);
         let (counts, time) = (costs[0].counts, median(costs.into_iter().map(|cost| cost.frame).collect()));
         println!(
-            "  {name}: {:.0} ms, {:.0} ms of processor time, {} triangles, {} draw calls",
+            "  {name}: {:.0} ms, {:.0} ms CPU time, {} triangles, {} draw calls",
             1e3 * time.as_secs_f64(),
             1e3 * spent.unwrap_or(f64::NAN),
             counts.triangles,
@@ -138,7 +143,7 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
     }
     let whole = median(medians).as_secs_f64();
     println!(
-        "2 x {} x {}, {preset}: {:.0} ms ({:.1} frames/s), {:.0} ms of processor time",
+        "2 x {} x {}, {preset}: {:.0} ms ({:.1} frames/s), {:.0} ms CPU time",
         size_px.0,
         size_px.1,
         1e3 * whole,
@@ -169,7 +174,7 @@ fn beside(views: &mut Views) -> (f64, f64, Lateness) {
         views.frame((from, look), (640, 360));
         frames += 1.0;
     }
-    let (pace, wall_s) = watch.join().expect("the simulator sends");
+    let (pace, wall_s) = watch.join().expect("the client thread must not panic");
     (pace, frames / wall_s, running.end())
 }
 
@@ -177,21 +182,21 @@ fn main() {
     let best = std::env::var("SPANDREL_BENCH_DEVICE").is_ok_and(|device| device == "best");
     let presets = if best { ["low", "high"] } else { ["low", "low"] };
     let start = now();
-    let gpu = if best { Gpu::open() } else { Gpu::open_software() }.expect("a device");
+    let gpu = if best { Gpu::open() } else { Gpu::open_software() }.expect("a device must be available");
     println!("device: {}", gpu.name);
     let mut views = Views::on(gpu, presets[0]);
     let built = start.elapsed();
     let (_, from, look) = viewpoints()[1];
     let first = views.frame((from, look), (640, 360));
     println!(
-        "startup: {:.1} s for loading the scene, {:.1} s more for the first frame (including shader compilation)",
+        "startup: {:.1} s to load the scene, then {:.1} s for the first frame (including shader compilation)",
         built.as_secs_f64(),
         first.frame.as_secs_f64()
     );
     let (small, _) = measure(&mut views, (640, 360), presets[0]);
     let (pace, rate_hz, late) = beside(&mut views);
     println!(
-        "a simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_PACE}), ticks at \
+        "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_PACE}), ticks at \
          most {:.1} ms late, {} clock slips (maximum {MAX_SLIPS})",
         late.latest_ms, late.slips
     );
@@ -205,7 +210,7 @@ fn main() {
     if card {
         println!("2 x 1920 x 1080, {}: minimum {MIN_CARD_HZ:.0} frames/s: {verdict}", presets[1]);
     } else {
-        println!("2 x 640 x 360: target {TARGET_HZ:.0} frames/s; limit {MAX_FRAME_CPU_S} s of processor time: {verdict}");
+        println!("2 x 640 x 360: target {TARGET_HZ:.0} frames/s; limit {MAX_FRAME_CPU_S} s CPU time per frame: {verdict}");
     }
     if !kept || pace < MIN_PACE || late.slips > MAX_SLIPS {
         std::process::exit(1);

@@ -1,5 +1,6 @@
-//! Measures the response times of `spandrel serve` with a database of 10,000 sessions, which are copies of the example study under new names. The
-//! requests are for the session list, its last page, one session, one trainee, and the cohort. Also checks that the cohort page stays small.
+//! Measures the response times of `spandrel serve` with a database of 10,000 sessions, which are renamed copies of the
+//! example study. Requests the session list, its last page, one session, one trainee, and the cohort. Also checks that
+//! the cohort page stays small.
 
 use spandrel_training::record::SessionRecord;
 use sqlx::{Connection, Row, SqliteConnection};
@@ -12,7 +13,7 @@ use std::time::{Duration, Instant};
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
 const SESSIONS: usize = 10_000;
 const ROUNDS: usize = 31;
-/// Limits, as required by the issue: the median response time of a page, and the time for a cohort report.
+/// Limits (requirements): the median response time of a page, and the time for a cohort report.
 const MAX_PAGE_TIME: Duration = Duration::from_millis(100);
 const MAX_COHORT_TIME: Duration = Duration::from_secs(2);
 
@@ -32,24 +33,27 @@ impl Server {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
-            .expect("the program starts");
+            .expect("the server must start");
         let mut line = String::new();
-        BufReader::new(process.stdout.take().expect("a pipe")).read_line(&mut line).expect("it announces itself");
-        let announced: serde_json::Value = serde_json::from_str(&line).expect("as JSON");
+        BufReader::new(process.stdout.take().expect("standard output must be piped"))
+            .read_line(&mut line)
+            .expect("the server must announce its address");
+        let announced: serde_json::Value = serde_json::from_str(&line).expect("the announcement must be JSON");
         let address = announced["address"].as_str().unwrap_or_default().trim_start_matches("http://").to_owned();
         Self { process, address }
     }
 
     fn get(&self, path: &str) -> usize {
-        let mut socket = TcpStream::connect(&self.address).expect("it listens");
-        write!(socket, "GET {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", self.address).expect("it hears");
+        let mut socket = TcpStream::connect(&self.address).expect("the server must listen");
+        write!(socket, "GET {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", self.address)
+            .expect("the request must be sent");
         let mut answer = Vec::new();
-        socket.read_to_end(&mut answer).expect("it answers");
+        socket.read_to_end(&mut answer).expect("the server must respond");
         assert!(answer.starts_with(b"HTTP/1.1 200"), "{path}: {}", String::from_utf8_lossy(&answer[..answer.len().min(300)]));
         answer.len()
     }
 
-    #[expect(clippy::disallowed_methods, reason = "a bench measures time")]
+    #[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
     fn median(&self, path: &str, rounds: usize) -> (Duration, usize) {
         let mut size = 0;
         let mut times: Vec<Duration> = (0..rounds)
@@ -76,7 +80,7 @@ const INSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     telemetry_sha256, spandrel_version, scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, overall_max, \
     fingerprint, record) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
 
-/// Adds copies of the study's records to the existing tables.
+/// Inserts copies of the study's records into the existing tables.
 async fn insert_sessions(file: &Path) -> Result<String, sqlx::Error> {
     let originals: Vec<SessionRecord> = RECORDS.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     let mut database = SqliteConnection::connect(&format!("sqlite://{}", file.display())).await?;
@@ -105,11 +109,11 @@ async fn insert_sessions(file: &Path) -> Result<String, sqlx::Error> {
 }
 
 fn main() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = tempfile::tempdir().expect("a temporary folder must be available");
     let server = Server::start(folder.path());
     let empty = server.median("/sessions", ROUNDS).0;
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
-    let last = runtime.block_on(insert_sessions(&folder.path().join("records.sqlite"))).expect("the records go in");
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("the runtime must start");
+    let last = runtime.block_on(insert_sessions(&folder.path().join("records.sqlite"))).expect("the records must be inserted");
     let trainee = RECORDS
         .lines()
         .next()
@@ -117,11 +121,11 @@ fn main() {
         .map(|r| r.trainee)
         .unwrap_or_default();
     let pages = [
-        ("list of sessions", "/sessions".to_owned(), ROUNDS, MAX_PAGE_TIME),
-        ("last page of the list", "/sessions?page=1000000".to_owned(), ROUNDS, MAX_PAGE_TIME),
+        ("session list", "/sessions".to_owned(), ROUNDS, MAX_PAGE_TIME),
+        ("last page of the session list", "/sessions?page=1000000".to_owned(), ROUNDS, MAX_PAGE_TIME),
         ("one session", format!("/sessions/{last}"), ROUNDS, MAX_PAGE_TIME),
         ("one trainee", format!("/trainees/{trainee}-0"), ROUNDS, MAX_PAGE_TIME),
-        ("cohort of all", "/cohort".to_owned(), 5, MAX_COHORT_TIME),
+        ("cohort of all trainees", "/cohort".to_owned(), 5, MAX_COHORT_TIME),
         ("cohort report", "/cohort/report.html".to_owned(), 5, MAX_COHORT_TIME),
         ("largest cohort table", "/cohort/tables/progress.csv".to_owned(), 5, MAX_COHORT_TIME),
     ];
@@ -130,7 +134,7 @@ fn main() {
         let (took, size) = server.median(&path, rounds);
         let times = took.as_secs_f64() / empty.as_secs_f64();
         println!(
-            "{name}: median {:.1} ms, {times:.1} times an empty list, {} kB (limit {} ms)",
+            "{name}: median {:.1} ms, {times:.1} x an empty list, {} kB (limit {} ms)",
             took.as_secs_f64() * 1e3,
             size / 1000,
             ceiling.as_millis()

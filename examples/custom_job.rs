@@ -6,9 +6,10 @@ use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::{scenario, shipped};
 
-/// Builds the site of the job and prints facts about it.
+/// Builds the site of the job and prints information about it.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A job is a TOML file. scenarios/README.md documents its keys. This job has another name and no cars or trucks.
+    // A job is a TOML file. scenarios/README.md documents its keys. This job has a different name and no cars or
+    // trucks.
     let text = shipped::TWO_BRIDGES.replace("name = \"two-bridges\"", "name = \"quiet-bridges\"");
     let mut job = scenario::read("quiet-bridges.toml", &text, &|file| Err(format!("{file} does not exist")))?;
     job.traffic.cars = 0;
@@ -23,7 +24,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let above_pad_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 10.0);
     if let Some(nearest) = site.nearest(above_pad_m, 200.0, SimTime::ZERO) {
         println!(
-            "10 m above the pad, the nearest object is {}, {:.1} m away",
+            "the object nearest to a point 10 m above the pad is {}, {:.1} m away",
             site.object_name(nearest.object),
             nearest.distance_m
         );

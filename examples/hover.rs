@@ -7,7 +7,7 @@ use spandrel_sitl::testing::Vehicle;
 const HEIGHT_M: f64 = 5.0;
 const LIMIT: SimTime = SimTime::from_ms(30_000);
 
-/// Flies one flight and prints the results.
+/// Runs one flight and prints the results.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut vehicle = Vehicle::builder().scenario(shipped::DRILL_HOVER).vehicle(shipped::M30).seed(7).build()?;
     vehicle.arm(LIMIT)?;

@@ -20,7 +20,7 @@ pub fn score(arguments: &[String]) -> Result<(), Box<dyn Error>> {
         println!("usage: score_tlog TLOG SCENARIO VEHICLE");
         return Ok(());
     };
-    // If the scenario uses a height field, the file is in the same folder as the scenario.
+    // If the scenario uses a height field, its file must be in the same folder.
     let beside = Path::new(job).parent().unwrap_or(Path::new(".")).to_owned();
     let sibling = |name: &str| fs::read_to_string(beside.join(name)).map_err(|error| error.to_string());
     let scenario = scenario::read(job, &fs::read_to_string(job)?, &sibling)?;

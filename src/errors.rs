@@ -1,11 +1,11 @@
-//! Errors of a subcommand, with exit codes that scripts can rely on. Each error is reported once.
+//! Subcommand errors, with exit codes that scripts can rely on. Each error is reported once.
 
 use spandrel_model::toml::Problems;
 #[cfg(feature = "view")]
 use spandrel_view::{gpu::GpuError, photo::PhotoError, video::VideoError};
 use std::process::ExitCode;
 
-/// Exit codes, shown below every help text.
+/// Exit codes, shown at the end of every help text.
 pub const EXIT_CODES: &str = "Exit codes: 0 success; 1 failure; 2 invalid arguments or files.";
 
 /// Error of a subcommand.

@@ -1,4 +1,4 @@
-//! Entry point; the subcommands are in the library `spandrel`.
+//! Entry point. The subcommands are in the `spandrel` library.
 #![forbid(unsafe_code)]
 
 fn main() -> std::process::ExitCode {

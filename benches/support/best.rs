@@ -1,10 +1,10 @@
-//! Measures the fastest of several runs, which is least affected by other load on the machine.
+//! Times several runs and keeps the fastest, which is least affected by other load on the machine.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 /// Returns the shortest wall time of `rounds` runs.
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+#[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 pub fn best<T>(rounds: usize, mut work: impl FnMut() -> T) -> Duration {
     let once = |_| {
         let start = std::time::Instant::now();

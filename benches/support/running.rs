@@ -1,5 +1,5 @@
 //! Starts a simulator process that runs in real time, and a client for it.
-#![allow(dead_code, reason = "each bench uses its part")]
+#![allow(dead_code, reason = "each benchmark uses only some of it")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::MavMessage;
@@ -8,21 +8,21 @@ use std::net::UdpSocket;
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Time without data after which the simulator is considered to have exited.
+/// Maximum time without data before the simulator counts as exited.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(5);
 
-#[expect(clippy::disallowed_methods, reason = "a bench measures wall time")]
+#[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 pub fn now() -> Instant {
     Instant::now()
 }
 
-/// A simulator process, stopped when this is dropped.
+/// A simulator process. Dropping this stops it.
 pub struct SimulatorProcess {
     child: Child,
     told: BufReader<ChildStdout>,
 }
 
-/// Delays of a simulator behind real time, in wall time.
+/// Delays of a simulator relative to real time.
 pub struct Lateness {
     /// Longest delay of a tick, ms.
     pub latest_ms: f64,
@@ -31,18 +31,18 @@ pub struct Lateness {
 }
 
 impl SimulatorProcess {
-    /// Stops the simulator and returns the delays that it reports.
+    /// Stops the simulator and returns its reported delays.
     pub fn end(mut self) -> Lateness {
         drop(self.child.stdin.take());
         let told = self.line();
-        let number = |key: &str| told[key].as_f64().expect("a number");
+        let number = |key: &str| told[key].as_f64().expect("the value must be a number");
         Lateness { latest_ms: number("latest_ms"), slips: number("slips") as u64 }
     }
 
     fn line(&mut self) -> serde_json::Value {
         let mut line = String::new();
-        self.told.read_line(&mut line).expect("one line");
-        serde_json::from_str(&line).expect("JSON")
+        self.told.read_line(&mut line).expect("the simulator must print a line");
+        serde_json::from_str(&line).expect("the line must be JSON")
     }
 }
 
@@ -64,18 +64,19 @@ pub struct Client {
 
 impl Client {
     pub fn new(port: u16, system: u8) -> Self {
-        let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
-        socket.connect(("127.0.0.1", port)).expect("loopback");
-        socket.set_read_timeout(Some(SILENCE_TIMEOUT)).expect("a timeout");
+        let socket = UdpSocket::bind("127.0.0.1:0").expect("a port must be free");
+        socket.connect(("127.0.0.1", port)).expect("loopback must be available");
+        socket.set_read_timeout(Some(SILENCE_TIMEOUT)).expect("the timeout must be valid");
         Self { socket, encoder: Encoder::new(system, 190), decoder: Decoder::new(), buffer: vec![0; 65_536] }
     }
 
     pub fn send(&mut self, message: &MavMessage) {
         let frame = self.encoder.encode(message);
-        self.socket.send(&frame).expect("loopback takes it");
+        self.socket.send(&frame).expect("sending over loopback must work");
     }
 
-    /// Measures for at least this duration. Returns the ratio of simulation time to wall time, and the wall time of the measurement, s.
+    /// Returns the ratio of simulation time to wall time, measured over at least this duration, and the wall time of
+    /// the measurement, s.
     pub fn pace(&mut self, over: Duration) -> (f64, f64) {
         let (sim_begin, wall_begin) = self.clock();
         let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);
@@ -92,7 +93,7 @@ impl Client {
 
     pub fn wait<T>(&mut self, mut pick: impl FnMut(&MavMessage) -> Option<T>) -> T {
         loop {
-            let len = self.socket.recv(&mut self.buffer).expect("the simulator sends");
+            let len = self.socket.recv(&mut self.buffer).expect("the simulator must keep sending");
             let frames = self.decoder.datagram(&self.buffer[..len]);
             if let Some(found) = frames.iter().filter_map(|frame| frame.message.as_ref()).find_map(&mut pick) {
                 return found;
@@ -110,9 +111,9 @@ pub fn start() -> (SimulatorProcess, u16) {
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
-        .expect("the program runs");
-    let told = BufReader::new(child.stdout.take().expect("piped"));
+        .expect("the program must start");
+    let told = BufReader::new(child.stdout.take().expect("standard output must be piped"));
     let mut running = SimulatorProcess { child, told };
-    let port = running.line()["gcs_port"].as_u64().expect("a port");
+    let port = running.line()["gcs_port"].as_u64().expect("the port must be a number");
     (running, port as u16)
 }

@@ -1,6 +1,6 @@
-//! Feeds arbitrary bytes to the codec and the monitor. The input is split into datagrams by length bytes. The first byte of a datagram selects
-//! whether the rest is passed on unchanged, or as the payload of a message with a valid checksum. Neither part may panic, and no decoded frame may be
-//! longer than its datagram.
+//! Feeds arbitrary bytes to the codec and the monitor. The input is split into datagrams by length bytes. The first
+//! byte of a datagram selects whether the rest is fed in unchanged or as the payload of a message with a valid
+//! checksum. Neither the codec nor the monitor may panic, and no decoded frame may be longer than its datagram.
 #![no_main]
 
 use mavlink::Message;
@@ -14,8 +14,9 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
     let scenario = include_str!("../../scenarios/drill-hover.toml");
     let vehicle = include_str!("../../vehicle-params/phantom2.toml");
     Monitor::new(MonitorConfig {
-        scenario: spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"),
-        vehicle: spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"),
+        scenario: spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into()))
+            .expect("the shipped file must be valid"),
+        vehicle: spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("the shipped file must be valid"),
         trainee: "fuzz".into(),
         purpose: None,
         started_unix_us: 0,
@@ -25,7 +26,7 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
     })
 });
 
-/// Creates a frame that the vehicle could have sent, with these payload bytes.
+/// Creates a frame that the vehicle could send, with these payload bytes.
 fn framed(choice: u16, payload: &[u8]) -> Vec<u8> {
     let ids = MavMessage::all_ids();
     let id = ids[usize::from(choice) % ids.len()];

@@ -1,6 +1,6 @@
-//! Feeds arbitrary bytes to the vehicle in flight. The input is split into chunks by length bytes. The first byte of a chunk selects whether the rest
-//! is sent as a raw datagram, or as the payload of a message that the vehicle handles, with a valid checksum. The vehicle must not panic, and its
-//! state must stay finite.
+//! Feeds arbitrary bytes to the vehicle in flight. The input is split into chunks by length bytes. The first byte of a
+//! chunk selects whether the rest is sent as a raw datagram or, with a valid checksum, as the payload of a message that
+//! the vehicle handles. The vehicle must not panic, and its state must stay finite.
 #![no_main]
 
 use mavlink::Message;
@@ -19,9 +19,11 @@ const LINK: LinkId = LinkId(1);
 static FLYING: LazyLock<Sim> = LazyLock::new(|| {
     let scenario = include_str!("../../scenarios/drill-hover.toml");
     let vehicle = include_str!("../../vehicle-params/phantom2.toml");
-    let scenario =
-        Arc::new(spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into())).expect("shipped"));
-    let vehicle = Arc::new(spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
+    let scenario = Arc::new(
+        spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into()))
+            .expect("the shipped file must be valid"),
+    );
+    let vehicle = Arc::new(spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("the shipped file must be valid"));
     let site = Arc::new(Site::build(&scenario, 1));
     let mut sim =
         Sim::new(SimConfig { scenario, vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR, after_crash: None }, site);

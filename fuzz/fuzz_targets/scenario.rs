@@ -1,4 +1,4 @@
-//! Feeds arbitrary text to the scenario parser, which must return a scenario or a list of problems without a panic.
+//! Feeds arbitrary text to the scenario parser, which must return a scenario or a list of problems and never panic.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| {

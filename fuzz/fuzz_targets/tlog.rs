@@ -1,4 +1,4 @@
-//! Feeds arbitrary bytes to the scorer as a telemetry log; it must return a score or an error without a panic.
+//! Feeds arbitrary bytes to the scorer as a telemetry log. It must return a score or an error and never panic.
 #![no_main]
 
 use spandrel_model::{scenario::Scenario, vehicle::Vehicle};
@@ -9,7 +9,7 @@ static JOB: LazyLock<(Scenario, Vehicle)> = LazyLock::new(|| {
     let scenario = include_str!("../../scenarios/drill-hover.toml");
     let vehicle = include_str!("../../vehicle-params/phantom2.toml");
     let read = spandrel_model::scenario::read("drill-hover.toml", scenario, &|_| Err("none".into()));
-    (read.expect("shipped"), spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"))
+    (read.expect("the shipped file must be valid"), spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"))
 });
 
 libfuzzer_sys::fuzz_target!(|log: &[u8]| {

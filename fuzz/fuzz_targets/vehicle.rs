@@ -1,4 +1,4 @@
-//! Feeds arbitrary text to the vehicle parser, which must return an aircraft or a list of problems without a panic.
+//! Feeds arbitrary text to the vehicle parser, which must return an aircraft or a list of problems and never panic.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| {

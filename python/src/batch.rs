@@ -15,7 +15,7 @@ use std::thread;
 struct Slot {
     episode: Option<Episode>,
     /// Seed and initial state of the latest reset. Resetting with the same seed restores a bit-identical copy.
-    started: Option<(u64, Episode)>,
+    initial_episode: Option<(u64, Episode)>,
     /// Seed of a pending reset.
     reset: Option<u64>,
     result: SlotResult,
@@ -38,7 +38,7 @@ impl Slot {
         self.result.failure = None;
         if let Some(seed) = self.reset.take() {
             self.result.measures = [0.0; 2];
-            match self.begin(world, seed) {
+            match self.initial_state(world, seed) {
                 Ok(episode) => self.episode = Some(episode),
                 Err(failure) => self.result.failure = Some(failure),
             }
@@ -54,12 +54,12 @@ impl Slot {
         }
     }
 
-    fn begin(&mut self, world: &Arc<World>, seed: u64) -> Result<Episode, MissedExpectation> {
-        match &self.started {
+    fn initial_state(&mut self, world: &Arc<World>, seed: u64) -> Result<Episode, MissedExpectation> {
+        match &self.initial_episode {
             Some((before, episode)) if *before == seed => Ok(episode.clone()),
             _ => {
                 let episode = Episode::start(world, seed)?;
-                self.started = Some((seed, episode.clone()));
+                self.initial_episode = Some((seed, episode.clone()));
                 Ok(episode)
             }
         }
@@ -67,7 +67,7 @@ impl Slot {
 }
 
 /// Observations (float32), rewards (float64), terminations (bool) and measures (float64, two per environment), all as bytes.
-type Turn = (Py<PyBytes>, Py<PyBytes>, Py<PyBytes>, Py<PyBytes>);
+type StepBytes = (Py<PyBytes>, Py<PyBytes>, Py<PyBytes>, Py<PyBytes>);
 
 /// Several environments of one kind, wrapped by the Gymnasium environments.
 #[pyclass(frozen, module = "spandrel._spandrel")]
@@ -114,13 +114,13 @@ impl Batch {
     }
 
     /// Resets the environments that have a seed, and leaves the rest unchanged.
-    fn reset(&self, py: Python<'_>, seeds: Vec<Option<u64>>) -> PyResult<Turn> {
+    fn reset(&self, py: Python<'_>, seeds: Vec<Option<u64>>) -> PyResult<StepBytes> {
         self.turn(py, seeds, None)
     }
 
     /// Steps the environments without a seed with their actions (float32, one row each), and resets the environments
     /// with a seed.
-    fn step(&self, py: Python<'_>, actions: &[u8], seeds: Vec<Option<u64>>) -> PyResult<Turn> {
+    fn step(&self, py: Python<'_>, actions: &[u8], seeds: Vec<Option<u64>>) -> PyResult<StepBytes> {
         let (floats, _) = actions.as_chunks::<4>();
         let actions: Vec<f32> = floats.iter().map(|bytes| f32::from_ne_bytes(*bytes)).collect();
         if actions.iter().any(|value| !value.is_finite()) {
@@ -156,7 +156,7 @@ impl Batch {
         episode.map(read).ok_or_else(|| PyIndexError::new_err(format!("environment {index} does not exist or was never reset")))
     }
 
-    fn turn(&self, py: Python<'_>, seeds: Vec<Option<u64>>, actions: Option<Vec<f32>>) -> PyResult<Turn> {
+    fn turn(&self, py: Python<'_>, seeds: Vec<Option<u64>>, actions: Option<Vec<f32>>) -> PyResult<StepBytes> {
         let width = self.world.kind.actions();
         let mut guard = self.lock()?;
         let slots = &mut *guard;
@@ -201,7 +201,7 @@ impl Batch {
     }
 }
 
-fn collect(py: Python<'_>, slots: &[Slot]) -> Turn {
+fn collect(py: Python<'_>, slots: &[Slot]) -> StepBytes {
     let results = || slots.iter().map(|slot| &slot.result);
     let observations: Vec<u8> = results().flat_map(|one| &one.observation).flat_map(|value| value.to_ne_bytes()).collect();
     let rewards: Vec<u8> = results().flat_map(|one| one.reward.to_ne_bytes()).collect();

@@ -21,15 +21,15 @@ use std::sync::Arc;
 /// Link for setpoints. It receives replies but no telemetry streams, which would be unused.
 const LINK: LinkId = LinkId(9);
 /// MAVLink system and component ID of a companion computer, which controls the vehicle by setpoints.
-const COMPANION: (u8, u8) = (1, 191);
+const COMPANION_ID: (u8, u8) = (1, 191);
 /// PX4's mode number for Offboard.
 const OFFBOARD: f32 = 6.0;
 /// Timeout for the aircraft to become ready; exceeding it indicates a fault.
-const READY: SimTime = SimTime::from_ms(60_000);
+const READY_TIMEOUT: SimTime = SimTime::from_ms(60_000);
 /// Height tolerance at the start of an episode, m (estimate: accuracy of a takeoff in light wind).
-const AT_HEIGHT_M: f64 = 0.3;
+const HEIGHT_TOLERANCE_M: f64 = 0.3;
 /// Number of observation values common to all tasks; see [`Episode::motion`].
-pub const MOTION: usize = 10;
+pub const MOTION_LEN: usize = 10;
 
 /// Kind of task.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,8 +60,8 @@ impl Kind {
     /// Returns the length of an observation.
     pub fn observations(self) -> usize {
         match self {
-            Self::Hover => Hover::OBSERVATIONS,
-            Self::Inspect => Inspect::OBSERVATIONS,
+            Self::Hover => Hover::OBSERVATION_LEN,
+            Self::Inspect => Inspect::OBSERVATION_LEN,
         }
     }
 }
@@ -145,11 +145,11 @@ impl Episode {
         };
         // Subscribes only to replies, because unused telemetry streams would take half of the reset time.
         vehicle.sim.await_heartbeat(STATION);
-        vehicle.arm(READY)?;
+        vehicle.arm(READY_TIMEOUT)?;
         vehicle.take_off(height_m)?;
-        vehicle.run_until(|v| (v.height_m() - height_m).abs() < AT_HEIGHT_M, READY)?;
+        vehicle.run_until(|v| (v.height_m() - height_m).abs() < HEIGHT_TOLERANCE_M, READY_TIMEOUT)?;
         // Offboard is rejected unless a setpoint was received before.
-        let mut encoder = Encoder::new(COMPANION.0, COMPANION.1);
+        let mut encoder = Encoder::new(COMPANION_ID.0, COMPANION_ID.1);
         let hold = encoder.encode(&message(Setpoint { forward_m_s: 0.0, left_m_s: 0.0, up_m_s: 0.0, yaw_rate_rad_s: 0.0 }));
         vehicle.sim.open_link(LINK, LinkKind::Sdk, false);
         vehicle.sim.await_heartbeat(LINK);
@@ -169,7 +169,7 @@ impl Episode {
         let setpoint = Setpoint { forward_m_s: held(0), left_m_s: held(1), up_m_s: held(2), yaw_rate_rad_s: held(3) };
         self.send(&message(setpoint));
         if self.world.kind == Kind::Inspect {
-            self.work(held(4), held(5) > 0.5, held(6) > 0.5);
+            self.command_payload(held(4), held(5) > 0.5, held(6) > 0.5);
         }
         let until = self.sim.now() + self.world.kind.step();
         self.sim.handle_timeout(until);
@@ -177,13 +177,13 @@ impl Episode {
         while self.sim.poll_event().is_some() {}
         let over = self.sim.hits() > 0 || self.sim.ended().is_some();
         match &mut self.task {
-            Task::Hover(hover) => hover.judge(&self.sim, over),
-            Task::Inspect(inspect) => inspect.judge(&self.sim, over),
+            Task::Hover(hover) => hover.evaluate(&self.sim, over),
+            Task::Inspect(inspect) => inspect.evaluate(&self.sim, over),
         }
     }
 
     /// Commands gimbal, lamp and shutter.
-    fn work(&mut self, gimbal_rad: f64, lamp_on: bool, snapshot: bool) {
+    fn command_payload(&mut self, gimbal_rad: f64, lamp_on: bool, snapshot: bool) {
         let skip = f32::NAN;
         let pitch_deg = gimbal_rad.to_degrees() as f32;
         self.send(&commands::long(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, &[pitch_deg, skip, skip, skip, 0.0, 0.0, 0.0]));
@@ -198,7 +198,7 @@ impl Episode {
             if self.pictures() > before
                 && let Task::Inspect(inspect) = &mut self.task
             {
-                inspect.judge_picture(&self.sim, &self.world.aircraft);
+                inspect.evaluate_photo(&self.sim, &self.world.aircraft);
             }
         }
     }
@@ -232,17 +232,17 @@ impl Episode {
 }
 
 /// Transforms a vector to heading axes.
-pub fn in_heading(vector: Vec3<Enu>, attitude: Rotation<Frd, Ned>) -> [f64; 3] {
+pub fn to_heading_axes(vector: Vec3<Enu>, attitude: Rotation<Frd, Ned>) -> [f64; 3] {
     let (sin, cos) = math::sin_cos(attitude.yaw_rad());
     [vector.east() * sin + vector.north() * cos, vector.north() * sin - vector.east() * cos, vector.up()]
 }
 
 /// Returns velocity in heading axes (3, m/s), the up direction in body axes (3), angular velocity in body axes (3, rad/s) and
 /// battery (0 to 1).
-pub fn motion(sim: &Sim) -> [f64; MOTION] {
+pub fn motion(sim: &Sim) -> [f64; MOTION_LEN] {
     let truth = sim.truth();
     let rigid = &truth.rigid;
-    let v = in_heading(rigid.velocity_m_s.enu(), rigid.attitude);
+    let v = to_heading_axes(rigid.velocity_m_s.enu(), rigid.attitude);
     let up = rigid.attitude.inverse() * Vec3::<Ned>::new(0.0, 0.0, -1.0);
     let w = rigid.rates_rad_s;
     let battery = truth.battery.remaining_pct() / 100.0;

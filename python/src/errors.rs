@@ -29,7 +29,7 @@ pub fn problems(problems: &Problems) -> PyErr {
 /// Converts an unmet expectation to an exception.
 pub fn failure(failure: &MissedExpectation) -> PyErr {
     match failure {
-        MissedExpectation::Refused { .. } | MissedExpectation::Silent(_) => RefusedError::new_err(failure.to_string()),
-        MissedExpectation::Late { .. } => LateError::new_err(failure.to_string()),
+        MissedExpectation::Refused { .. } | MissedExpectation::NoResponse(_) => RefusedError::new_err(failure.to_string()),
+        MissedExpectation::TimedOut { .. } => LateError::new_err(failure.to_string()),
     }
 }

@@ -83,7 +83,7 @@ impl Flight {
         let start_unix_s = job.light.start_unix_s;
         let vehicle = py.detach(|| builder.build_from(job, aircraft));
         let inner = Inner { vehicle, links: Links::new(), asked: None, start_unix_s };
-        Ok(Self { inner: Mutex::new(inner), guided_mode: flavour.errands })
+        Ok(Self { inner: Mutex::new(inner), guided_mode: flavour.goto_mode })
     }
 
     /// Returns the simulation time, ns.

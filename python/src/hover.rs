@@ -1,6 +1,6 @@
 //! Hover task: hold the first point of the job's first path.
 
-use crate::environment::{self, MOTION, Outcome};
+use crate::environment::{self, MOTION_LEN, Outcome};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 use spandrel_sitl::sim::Sim;
@@ -13,7 +13,7 @@ pub struct Hover {
 
 impl Hover {
     /// Length of an observation: vector to the point in heading axes (3, m), then the motion.
-    pub const OBSERVATIONS: usize = 3 + MOTION;
+    pub const OBSERVATION_LEN: usize = 3 + MOTION_LEN;
 
     /// Uses the first point of the first task, or a point above the pad for a job without tasks.
     pub fn new(job: &Scenario) -> Self {
@@ -32,13 +32,13 @@ impl Hover {
 
     /// Appends the observation.
     pub fn observe(&self, sim: &Sim, out: &mut Vec<f32>) {
-        environment::append(out, &environment::in_heading(self.offset_m(sim), sim.truth().rigid.attitude));
+        environment::append(out, &environment::to_heading_axes(self.offset_m(sim), sim.truth().rigid.attitude));
         environment::append(out, &environment::motion(sim));
     }
 
     /// Evaluates a step. The reward is the negative distance to the point, m. Measures: that distance, m, and the number of
     /// contacts.
-    pub fn judge(&self, sim: &Sim, over: bool) -> Outcome {
+    pub fn evaluate(&self, sim: &Sim, over: bool) -> Outcome {
         let distance_m = self.offset_m(sim).norm();
         Outcome { reward: -distance_m, terminated: over, measures: [distance_m, f64::from(sim.hits())] }
     }

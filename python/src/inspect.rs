@@ -1,6 +1,6 @@
 //! Inspect task: fly the job's reference paths and photograph its defects, evaluated with the monitor's measures.
 
-use crate::environment::{self, MOTION, Outcome};
+use crate::environment::{self, MOTION_LEN, Outcome};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
@@ -13,7 +13,7 @@ use spandrel_sitl::sim::Sim;
 use std::collections::BTreeSet;
 
 /// Maximum clearance measured, m (the vehicle's own limit for the clearance used in scoring).
-const REACH_M: f64 = 30.0;
+const MAX_CLEARANCE_M: f64 = 30.0;
 
 /// Progress of an inspection.
 #[derive(Debug, Clone)]
@@ -32,7 +32,7 @@ impl Inspect {
     /// Length of an observation: vector to the next point (3, m) and the camera's target direction from there (3), both in
     /// heading axes; the motion; gimbal pitch, rad; lamp; clearance, m; fraction of the paths' length flown; fraction of the
     /// defects found.
-    pub const OBSERVATIONS: usize = 6 + MOTION + 5;
+    pub const OBSERVATION_LEN: usize = 6 + MOTION_LEN + 5;
 
     /// Creates an inspection without any progress.
     pub fn new(job: &Scenario) -> Self {
@@ -79,17 +79,18 @@ impl Inspect {
         let rigid = &sim.truth().rigid;
         let position_m = rigid.position_m.enu();
         let (to_point_m, look) = self.next(position_m).unwrap_or((Vec3::zero(), Vec3::zero()));
-        environment::append(out, &environment::in_heading(to_point_m, rigid.attitude));
-        environment::append(out, &environment::in_heading(look, rigid.attitude));
+        environment::append(out, &environment::to_heading_axes(to_point_m, rigid.attitude));
+        environment::append(out, &environment::to_heading_axes(look, rigid.attitude));
         environment::append(out, &environment::motion(sim));
         let payload = sim.payload();
         let lamp = f64::from(u8::from(payload.lamp.on));
-        let clearance_m = sim.site().nearest(position_m, REACH_M, sim.now()).map_or(REACH_M, |nearest| nearest.distance_m);
+        let clearance_m =
+            sim.site().nearest(position_m, MAX_CLEARANCE_M, sim.now()).map_or(MAX_CLEARANCE_M, |nearest| nearest.distance_m);
         environment::append(out, &[payload.gimbal.pitch_rad, lamp, clearance_m, self.flown_share(), self.found_share(sim)]);
     }
 
     /// Evaluates a photo from the vehicle's current pose; the defects that it shows count as found.
-    pub fn judge_picture(&mut self, sim: &Sim, aircraft: &Aircraft) {
+    pub fn evaluate_photo(&mut self, sim: &Sim, aircraft: &Aircraft) {
         let rigid = &sim.truth().rigid;
         let payload = sim.payload();
         let here = Pose { position_m: rigid.position_m.enu(), ned_from_frd: rigid.attitude };
@@ -100,7 +101,7 @@ impl Inspect {
 
     /// Evaluates a step. The reward is the increase of two fractions, of paths flown and defects found: a complete episode earns
     /// 2, or 1 for a job without defects. Measures: the two fractions.
-    pub fn judge(&mut self, sim: &Sim, over: bool) -> Outcome {
+    pub fn evaluate(&mut self, sim: &Sim, over: bool) -> Outcome {
         let on = self.paths.on(sim.truth().rigid.position_m.enu(), self.on);
         if let Some((task, _)) = on {
             self.on = Some(task);

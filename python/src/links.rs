@@ -11,15 +11,15 @@ use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::path::Path;
 
 /// First link ID for Python; link 1 belongs to the test harness.
-const FIRST: u32 = 2;
+const FIRST_LINK_ID: u32 = 2;
 /// Maximum size of a UDP datagram, bytes.
-const DATAGRAM: usize = 65_535;
+const MAX_DATAGRAM_BYTES: usize = 65_535;
 /// Maximum number of datagrams in a mailbox, a few minutes of all streams; the oldest are dropped.
-const MAILBOX: usize = 50_000;
+const MAX_MAILBOX_DATAGRAMS: usize = 50_000;
 
 /// Transport of a link.
 #[derive(Debug)]
-enum Way {
+enum Transport {
     Udp { socket: UdpSocket, peer: SocketAddr },
     Mailbox(VecDeque<Vec<u8>>),
     Log(Log),
@@ -35,7 +35,7 @@ struct Log {
 
 impl Log {
     /// Writes each frame of a datagram as a record; stops after a write error.
-    fn write(&mut self, stamp_us: u64, datagram: &[u8]) {
+    fn write(&mut self, timestamp_us: u64, datagram: &[u8]) {
         for frame in self.decoder.datagram(datagram) {
             if self.failure.is_none() {
                 self.failure = self.file.write_all(&tlog::record(stamp_us, &frame.bytes)).err();
@@ -51,7 +51,7 @@ impl Log {
 /// All transports, by link ID.
 #[derive(Debug)]
 pub struct Links {
-    ways: BTreeMap<LinkId, Way>,
+    transports: BTreeMap<LinkId, Transport>,
     next: u32,
     buffer: Vec<u8>,
 }
@@ -59,13 +59,13 @@ pub struct Links {
 impl Links {
     /// Creates an empty set of links.
     pub fn new() -> Self {
-        Self { ways: BTreeMap::new(), next: FIRST, buffer: vec![0; DATAGRAM] }
+        Self { transports: BTreeMap::new(), next: FIRST_LINK_ID, buffer: vec![0; MAX_DATAGRAM_BYTES] }
     }
 
-    fn add(&mut self, way: Way) -> LinkId {
+    fn add(&mut self, way: Transport) -> LinkId {
         let link = LinkId(self.next);
         self.next += 1;
-        self.ways.insert(link, way);
+        self.transports.insert(link, way);
         link
     }
 
@@ -74,14 +74,14 @@ impl Links {
         let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0))?;
         socket.set_nonblocking(true)?;
         let port = socket.local_addr()?.port();
-        let link = self.add(Way::Udp { socket, peer });
+        let link = self.add(Transport::Udp { socket, peer });
         sim.open_link(link, kind, lockstep);
         Ok((link, port))
     }
 
     /// Opens a mailbox.
     pub fn open_mailbox(&mut self, sim: &mut Sim, kind: LinkKind) -> LinkId {
-        let link = self.add(Way::Mailbox(VecDeque::new()));
+        let link = self.add(Transport::Mailbox(VecDeque::new()));
         sim.open_link(link, kind, false);
         link
     }
@@ -89,7 +89,7 @@ impl Links {
     /// Opens a link that writes the monitor's telemetry to a new file.
     pub fn open_log(&mut self, sim: &mut Sim, path: &Path) -> io::Result<LinkId> {
         let log = Log { file: BufWriter::new(File::create(path)?), decoder: Decoder::new(), failure: None };
-        let link = self.add(Way::Log(log));
+        let link = self.add(Transport::Log(log));
         sim.open_link(link, LinkKind::Payload, false);
         Ok(link)
     }
@@ -97,48 +97,48 @@ impl Links {
     /// Closes a link. Errors if it does not exist, or if its log could not be written.
     pub fn close(&mut self, sim: &mut Sim, link: LinkId) -> io::Result<()> {
         sim.close_link(link);
-        match self.ways.remove(&link) {
-            Some(Way::Log(log)) => log.finish(),
-            Some(Way::Udp { .. } | Way::Mailbox(_)) => Ok(()),
+        match self.transports.remove(&link) {
+            Some(Transport::Log(log)) => log.finish(),
+            Some(Transport::Udp { .. } | Transport::Mailbox(_)) => Ok(()),
             None => Err(io::Error::new(io::ErrorKind::NotConnected, format!("link {} is closed", link.0))),
         }
     }
 
     /// Returns whether the link is a mailbox.
     pub fn is_mailbox(&self, link: LinkId) -> bool {
-        matches!(self.ways.get(&link), Some(Way::Mailbox(_)))
+        matches!(self.transports.get(&link), Some(Transport::Mailbox(_)))
     }
 
     /// Returns and removes the datagrams in a mailbox, oldest first; `None` if the link is not a mailbox.
     pub fn take(&mut self, link: LinkId) -> Option<Vec<Vec<u8>>> {
-        match self.ways.get_mut(&link)? {
-            Way::Mailbox(mail) => Some(mail.drain(..).collect()),
-            Way::Udp { .. } | Way::Log(_) => None,
+        match self.transports.get_mut(&link)? {
+            Transport::Mailbox(mail) => Some(mail.drain(..).collect()),
+            Transport::Udp { .. } | Transport::Log(_) => None,
         }
     }
 
-    /// Delivers a datagram from the vehicle. Logs use `stamp_us`, µs since the Unix epoch, as its timestamp. UDP send
+    /// Delivers a datagram from the vehicle. Logs use `timestamp_us`, µs since the Unix epoch, as its timestamp. UDP send
     /// errors are ignored, because peers come and go.
-    pub fn deliver(&mut self, link: LinkId, bytes: Vec<u8>, stamp_us: u64) {
-        match self.ways.get_mut(&link) {
-            Some(Way::Udp { socket, peer }) => {
+    pub fn deliver(&mut self, link: LinkId, bytes: Vec<u8>, timestamp_us: u64) {
+        match self.transports.get_mut(&link) {
+            Some(Transport::Udp { socket, peer }) => {
                 let _ = socket.send_to(&bytes, *peer);
             }
-            Some(Way::Mailbox(mail)) => {
-                if mail.len() == MAILBOX {
+            Some(Transport::Mailbox(mail)) => {
+                if mail.len() == MAX_MAILBOX_DATAGRAMS {
                     mail.pop_front();
                 }
                 mail.push_back(bytes);
             }
-            Some(Way::Log(log)) => log.write(stamp_us, &bytes),
+            Some(Transport::Log(log)) => log.write(stamp_us, &bytes),
             None => {}
         }
     }
 
     /// Passes all received datagrams to the vehicle. Datagrams from addresses other than the link's peer are ignored.
     pub fn receive(&mut self, sim: &mut Sim) {
-        for (link, way) in &self.ways {
-            let Way::Udp { socket, peer } = way else { continue };
+        for (link, way) in &self.transports {
+            let Transport::Udp { socket, peer } = way else { continue };
             while let Some((len, from)) = next(socket, &mut self.buffer) {
                 if *peer == from {
                     sim.handle_datagram(*link, &self.buffer[..len]);

@@ -5,25 +5,26 @@ use spandrel_model::scenario::Scenario;
 use spandrel_sitl::endpoint::flavour as endpoint;
 use spandrel_view::flow::pipe;
 
-/// Maximum seed: MAVLink messages carry it as a signed 32-bit integer.
+/// Maximum seed, because MAVLink messages encode the seed as a signed 32-bit integer.
 const MAX_SEED: u64 = i32::MAX as u64;
 
 /// Scenario, aircraft and seed of a flight.
 #[derive(Debug, Clone, clap::Args)]
 pub struct JobArgs {
-    /// Scenario: a file, or the name of a shipped one
+    /// Scenario file, or the name of a shipped scenario
     #[arg(long, value_name = "FILE|NAME", default_value = "two-bridges")]
     pub scenario: String,
-    /// Aircraft: a file, or the name of a shipped one
+    /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
-    /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
+    /// Random seed for defects, traffic, gusts and sensor noise, 0 to 2147483647 [default: the scenario's seed, or a
+    /// new one]
     #[arg(long, value_name = "N", value_parser = parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
 }
 
 impl JobArgs {
-    /// Returns the requested seed, else the scenario's, else a new one.
+    /// Returns the requested seed if there is one, otherwise the scenario's seed or a new one.
     pub fn seed_for(&self, scenario: &Scenario) -> u64 {
         self.seed.or(scenario.seed).unwrap_or_else(random_seed)
     }
@@ -39,14 +40,14 @@ pub fn random_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & MAX_SEED
 }
 
-/// Autopilot protocol that the vehicle uses toward its clients.
+/// Autopilot protocol of the vehicle's MAVLink interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Flavour {
     /// PX4; best supported by ground stations and SDKs
     Px4,
-    /// ArduCopter: its modes, parameter names, missions that begin with home, streams on request
+    /// ArduCopter: its flight modes and parameter names, home as the first mission item, telemetry streams on request
     Ardupilot,
-    /// The MAVLink standard only: QGroundControl shows the vehicle, but offers no flight modes and no guided flight
+    /// Standard MAVLink only: QGroundControl shows the vehicle, but offers no flight modes or guided flight
     Generic,
 }
 
@@ -60,7 +61,7 @@ impl Flavour {
         }
     }
 
-    /// Returns the option as arguments for a child process.
+    /// Returns the option as command-line arguments for a child process.
     pub fn to_args(self) -> Vec<String> {
         vec!["--flavour".to_owned(), self.display_name().name.to_owned()]
     }
@@ -84,13 +85,13 @@ impl Purpose {
         }
     }
 
-    /// Returns the purpose as one word.
+    /// Returns the purpose as a single word.
     pub fn word(self) -> &'static str {
         self.display_name().word()
     }
 }
 
-/// Returns the arguments that all child processes share.
+/// Returns the command-line arguments that all child processes share.
 pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
     let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
     args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));

@@ -14,8 +14,8 @@ use std::path::PathBuf;
 
 /// Score a recorded flight again
 ///
-/// Scores a session folder, or a telemetry log with its scenario and vehicle, using only the telemetry. The result is byte for byte that of the live
-/// session.
+/// Scores a session folder, or a telemetry log with its scenario and vehicle, using only the telemetry. The result is
+/// byte-identical to that of the live session.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -28,13 +28,13 @@ pub struct Args {
     /// Session folder, or a telemetry log (.tlog)
     #[arg(value_name = "SESSION|TLOG")]
     flight: PathBuf,
-    /// Scenario of a telemetry log: a file, or the name of a shipped one
+    /// Scenario of a telemetry log: a file, or the name of a shipped scenario
     #[arg(long, value_name = "FILE|NAME")]
     scenario: Option<String>,
-    /// Aircraft of a telemetry log: a file, or the name of a shipped one
+    /// Aircraft of a telemetry log: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<String>,
-    /// Write the assessment as JSON to this file, '-' for standard output [default: print a table]
+    /// Write the assessment as JSON to this file; '-' for standard output [default: print a table]
     #[arg(long, value_name = "FILE")]
     json: Option<String>,
 }
@@ -42,7 +42,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid or there is nothing to score.
+/// Returns an error if files are invalid or there is nothing to score.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let (scenario, vehicle, log) = inputs(args)?;
     let graded = grade(&log, &scenario, &vehicle)?;

@@ -9,18 +9,18 @@ use spandrel_model::site::{NearestPoint, Site, defects};
 use spandrel_model::toml::{Problem, split_displayed};
 use spandrel_model::vehicle::{self, Vehicle};
 
-/// Minimum clearance between path and obstacles, in addition to half the aircraft's width, m (issue 2, section 2).
+/// Minimum clearance between the path and obstacles, in addition to half the aircraft's width, m (issue 2, section 2).
 const MIN_CLEARANCE_M: f64 = 0.5;
 
-/// Seeds tried for a scenario without its own seed. One seed shows whether a task reaches a bridge, three whether there is enough room for the
-/// defects (estimate).
+/// Seeds tried for a scenario without its own seed. One seed is enough to find a task out of reach of the bridges;
+/// three also show whether the defects fit (estimate).
 const TRIAL_SEEDS: [u64; 3] = [1, 2, 3];
 
 /// Check scenario and vehicle files
 ///
-/// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the site and
-/// reports every task whose reference path has less clearance than half the aircraft's tip-to-tip width plus 0.5 m, with the
-/// location. It warns if fewer defects can be placed than the scenario requests.
+/// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the
+/// site and reports every task whose reference path has less clearance than half the aircraft's tip-to-tip width plus
+/// 0.5 m, with the location. It warns if it cannot place as many defects as the scenario requests.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -30,13 +30,14 @@ Examples:
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Scenario and vehicle files, or names of shipped ones
+    /// Scenario and vehicle files, or names of shipped scenarios and aircraft
     #[arg(value_name = "FILE", required = true)]
     files: Vec<String>,
-    /// Aircraft for the clearance check: a file, or the name of a shipped one
+    /// Aircraft for the clearance check: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
-    /// Print {"problems": [{file, line, key, value, allowed, message}], "warnings": [...], "notes": [...]} on standard output
+    /// Print {"problems": [{file, line, key, value, allowed, message}], "warnings": [...], "notes": [...]} on standard
+    /// output
     #[arg(long)]
     json: bool,
 }
@@ -51,7 +52,7 @@ struct Findings {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If any file is invalid.
+/// Returns an error if any file is invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let aircraft = files::vehicle(&args.vehicle)?.vehicle;
     let mut findings = Findings::default();
@@ -80,7 +81,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             let files = count(args.files.len(), "file");
             match warnings.len() {
                 0 => println!("{files} valid"),
-                many => println!("{files} without errors, {}", count(many, "warning")),
+                many => println!("{files} valid, with {}", count(many, "warning")),
             }
             Ok(())
         }
@@ -117,7 +118,8 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
     }
 }
 
-/// Top-level keys that occur only in vehicle files or only in scenarios. They identify the kind of a file even if some keys are missing.
+/// Top-level keys that occur only in vehicle files or only in scenarios. They identify the file type even if some keys
+/// are missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
 const SCENARIO_KEYS: [&str; 13] = [
@@ -163,7 +165,7 @@ fn clearance_problems(source: &SourceFile, scenario: &Scenario, aircraft: &Vehic
             key: format!("tasks.{k}"),
             value: format!("{clearance_m:.2} m"),
             allowed: format!(
-                "at least {needed_m:.2} m for {}: half its {:.2} m tip to tip plus {MIN_CLEARANCE_M} m",
+                "at least {needed_m:.2} m for {}: half its {:.2} m tip-to-tip width plus {MIN_CLEARANCE_M} m",
                 aircraft.id, aircraft.hull.tip_to_tip_m
             ),
             message: format!(
@@ -175,7 +177,7 @@ fn clearance_problems(source: &SourceFile, scenario: &Scenario, aircraft: &Vehic
     scenario.tasks.iter().enumerate().filter_map(tight).collect()
 }
 
-/// Warns if fewer defects can be placed than requested: tries the scenario's own seed, or the first few seeds.
+/// Returns a warning if not all requested defects can be placed. Tries the scenario's own seed, or the first few seeds.
 fn missing_defects_warning(source: &SourceFile, scenario: &Scenario) -> Option<String> {
     let wanted = scenario.defects.count;
     if wanted == 0 || scenario.defects.placed.is_some() {
@@ -187,7 +189,7 @@ fn missing_defects_warning(source: &SourceFile, scenario: &Scenario) -> Option<S
     let line = source.text.lines().position(|line| line.trim_start().starts_with("[defects]")).map_or(1, |k| k + 1);
     (least < wanted).then(|| {
         format!(
-            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other place on a bridge can be \
+            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other spot on a bridge can be \
              photographed from within a task's threshold; move the tasks closer to the structure, extend defects.elements or \
              defects.kinds, or set the count to {least}",
             source.file
@@ -199,7 +201,7 @@ fn without_defects(scenario: &Scenario) -> scenario::DefectSpec {
     scenario::DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
 }
 
-/// Returns the point with the least clearance along the path, if it is below the minimum.
+/// Returns the point with the smallest clearance along the path, if that clearance is below the minimum.
 fn min_clearance(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
     let points = &task.path_m;
     let wrap = if task.closed { points.first() } else { points.last() };

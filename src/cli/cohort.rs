@@ -1,4 +1,4 @@
-//! `spandrel cohort`: statistics of a group of trainees.
+//! `spandrel cohort`: statistics for a group of trainees.
 
 use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
@@ -11,20 +11,21 @@ use spandrel_training::report::page::cohort as page;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Maximum number of contradictions printed as text; the tables list all of them.
+/// Maximum number of contradictions in the text output; the tables list all of them.
 const MAX_CONTRADICTIONS: usize = 12;
 
 /// Summarize the results of a group of trainees
 ///
-/// Reports distributions of the scores, people and tasks, box plots by repetition, crashes, answer counts, self-ratings against
-/// measurements, paired t tests with effect size, interval and Holm's correction, homogeneity, the causal model of demand, strain
-/// and performance, and each trainee's progress. Output is text, JSON, CSV tables or a page.
+/// Reports distributions of scores, trainees and tasks, box plots by repetition, crashes, answer counts, self-ratings
+/// versus measurements, paired t tests with effect sizes, confidence intervals and Holm correction, homogeneity, a
+/// causal model of demand, strain and performance, and each trainee's progress. Writes text, JSON, CSV tables or an
+/// HTML page.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel cohort                                       print a summary
   spandrel cohort --json cohort.json --csv tables       write all results
-  spandrel cohort --report cohort.html                  write all figures as one page that opens offline
+  spandrel cohort --report cohort.html                  write all figures as one page that works offline
   spandrel cohort --scenario two-bridges --scenario two-bridges-small --repetitions 2
   spandrel cohort --records all.jsonl --json -
 
@@ -35,7 +36,7 @@ pub struct Args {
     /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
-    /// Scenario to include; may be repeated [default: the one flown most often]
+    /// Scenario to include; may be repeated [default: the scenario flown most often]
     #[arg(long, value_name = "NAME")]
     scenario: Vec<String>,
     /// Number of repetitions to compare, among trainees who flew at least that many (1 to 100)
@@ -47,10 +48,10 @@ pub struct Args {
     /// Write all results as JSON; '-' for standard output
     #[arg(long, value_name = "FILE")]
     json: Option<String>,
-    /// Write all figures as one page that opens offline; '-' for standard output
+    /// Write all figures as one HTML page that works offline; '-' for standard output
     #[arg(long, value_name = "FILE")]
     report: Option<String>,
-    /// Write every table as a CSV file into this folder
+    /// Write each table as a CSV file to this folder
     #[arg(long, value_name = "DIR")]
     csv: Option<PathBuf>,
 }
@@ -58,7 +59,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or the database are invalid, or output cannot be written.
+/// Returns an error if files or the database are invalid, or output cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let records = match &args.records {
         Some(file) => read_json_lines(file)?,
@@ -74,12 +75,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         && let Some(words) = omitted_summary(cohort.left_out)
     {
         return Err(AppError::wrong(format!(
-            "there is no complete session of this scenario: {words} (--include-incomplete counts them)"
+            "this scenario has no complete sessions: {words} (use --include-incomplete to count them)"
         )));
     }
     if cohort.sessions == 0 {
         return Err(AppError::wrong(
-            "there is no session of this scenario in the records; use spandrel records import to add sessions",
+            "the records contain no sessions of this scenario; use spandrel records import to add sessions",
         ));
     }
     if let Some(folder) = &args.csv {
@@ -98,11 +99,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
 }
 
-/// Returns the number of sessions and the main statistics of the first sessions as text.
+/// Formats the number of sessions and the main statistics of the first sessions as text.
 fn summary_of_first_sessions(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
     if let Some(words) = omitted_summary(cohort.left_out) {
-        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
+        let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
     out.push('\n');
     let _ = writeln!(out, "{:<12}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}", "first", "n", "mean", "sd", "min", "median", "max");
@@ -153,7 +154,7 @@ fn words(cohort: &Cohort) -> String {
         let (score, test) = (&one.score, &one.test);
         let _ = writeln!(
             out,
-            "{score}: this group compared with the others, chi-squared {:.2}, df {}, p {:.3}",
+            "{score}: this group vs. the other trainees, chi-squared {:.2}, df {}, p {:.3}",
             test.chi_squared, test.df, test.p
         );
     }
@@ -161,14 +162,14 @@ fn words(cohort: &Cohort) -> String {
         let _ = writeln!(out, "\ndemand -> strain -> performance, {} people", model.n);
         for one in &model.indirect {
             let ends = one.interval_95.map_or(String::new(), |[low, high]| format!(" [{low:.2}, {high:.2}]"));
-            let _ = writeln!(out, "at feedback {:.1}: {:.2} % per step of demand{ends}", one.feedback, one.effect);
+            let _ = writeln!(out, "at feedback {:.1}: {:.2} % per demand step{ends}", one.feedback, one.effect);
         }
     }
     for one in &cohort.learning {
         let (first, last) = (one.means.first().copied().unwrap_or_default(), one.means.last().copied().unwrap_or_default());
         let _ = writeln!(
             out,
-            "{}: from {first:.1} to {last:.1} over {} repetitions of {} people, learning exponent {:.3}",
+            "{}: from {first:.1} to {last:.1} over {} repetitions by {} people, learning exponent {:.3}",
             one.score,
             one.means.len(),
             one.people,
@@ -180,7 +181,8 @@ fn words(cohort: &Cohort) -> String {
         let _ = writeln!(out, "{}: {}", one.trainee, one.words);
     }
     if contradictions.len() > MAX_CONTRADICTIONS {
-        let _ = writeln!(out, "and {} more contradictions (--json, --csv)", contradictions.len() - MAX_CONTRADICTIONS);
+        let _ =
+            writeln!(out, "and {} more contradictions (listed by --json and --csv)", contradictions.len() - MAX_CONTRADICTIONS);
     }
     for warning in &cohort.warnings {
         let _ = writeln!(out, "note: {warning}");

@@ -1,4 +1,5 @@
-//! `spandrel demo`: runs the simulator, the monitor and a synthetic trainee as three processes over UDP, in lockstep, on free ports.
+//! `spandrel demo`: runs the simulator, the monitor and a synthetic trainee as three processes in lockstep, over UDP on
+//! free ports.
 
 use super::args::{self, JobArgs};
 use super::pilot::SkillArgs;
@@ -14,17 +15,17 @@ use crate::io::trainee_id::TraineeId;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Interval at which the child processes are checked.
+/// Interval between checks of the child processes.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
-/// Wall time that the monitor gets to detect the end of the session after the pilot has finished (it needs 3 s of simulation time with the aircraft
-/// at rest).
+/// Wall time allowed for the monitor to detect the end of the session after the pilot has finished. Detection takes 3 s
+/// of simulation time with the aircraft at rest.
 const MONITOR_GRACE_PERIOD: Duration = Duration::from_secs(15);
 
-/// Fly a whole session automatically
+/// Fly a complete session automatically
 ///
-/// Runs simulator, monitor and a synthetic trainee as three processes over UDP on free ports, in lockstep: no data is lost at any speed, and
-/// the same seed gives the same frames. Prints the four scores, their sum, crashes, snapshots and the session folder at the end. Several
-/// demos can run at the same time.
+/// Runs the simulator, the monitor and a synthetic trainee as three processes that communicate over UDP on free ports,
+/// in lockstep: no data is lost at any speed, and the same seed produces the same frames. At the end, prints the four
+/// scores, their sum, crashes, snapshots and the session folder. Several demos can run at the same time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -38,16 +39,17 @@ pub struct Args {
     job: JobArgs,
     #[command(flatten)]
     skill: SkillArgs,
-    /// Trainee to record the session for: letters, digits, '-' and '_', at most 32 characters [default: synthetic-SKILL]
+    /// ID of the trainee for the session: letters, digits, '-' and '_', at most 32 characters [default:
+    /// synthetic-SKILL]
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max
     #[arg(long, value_name = "X|max", default_value = "5")]
     speed: SimulationSpeed,
-    /// Autopilot protocol; the flight dynamics are the same in all of them
+    /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
-    /// Folder for session folders
+    /// Folder in which to create session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
     /// Ground station to send telemetry to, or none; may be repeated
@@ -58,7 +60,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, a process fails, or the flight cannot be scored.
+/// Returns an error if files are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
     files::vehicle(&args.job.vehicle)?;
@@ -108,8 +110,8 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     out
 }
 
-/// Waits for the end of the session. Returns early if the monitor does not detect an end after the pilot has finished, or with an error if a process
-/// exits too soon.
+/// Waits for the end of the session. Returns early if the monitor does not detect an end after the pilot has finished,
+/// or with an error if a process exits too soon.
 fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
     let mut pilot_done: Option<Stopwatch> = None;
     loop {
@@ -128,7 +130,7 @@ fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &
             if let Some(status) = child.ended()
                 && monitor.ended().is_none()
             {
-                return Some(AppError::failed(format!("the {name} ended early ({status})")));
+                return Some(AppError::failed(format!("the {name} exited early ({status})")));
             }
         }
         std::thread::sleep(CHECK_INTERVAL);

@@ -27,17 +27,18 @@ use std::path::Path;
 
 /// Export frames, scenario, flight plan, geometry or a recording for other programs
 ///
-/// Frames (CSV, one line per scored frame) need a session. The scored part of the scenario (JSON: paths, defects, limits) and the
-/// collision geometry (binary glTF, each member named with its element number) are available for a session or a scenario. A
-/// recording (MCAP, for Foxglove) needs a session, or a truncated recording, which is recovered up to its last complete chunk.
+/// Frames (CSV, one line per scored frame) require a session. The scored part of the scenario (JSON: paths, defects,
+/// limits) and the collision geometry (binary glTF, each member named with its element number) are available for a
+/// session or a scenario. A recording (MCAP, for Foxglove) requires a session, or a truncated recording to recover up
+/// to its last complete chunk.
 #[derive(Debug, clap::Args)]
 #[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan", "mcap", "parquet", "xapi", "scorm"])))]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel export sessions/20260801T... --frames frames.csv
-  spandrel export two-bridges --seed 7 --scenario -          paths, and defects as placed by seed 7
-  spandrel export two-bridges --plan tasks.plan              open in QGroundControl, upload, start
-  spandrel export two-bridges --glb bridges.glb              for any 3D viewer
+  spandrel export two-bridges --seed 7 --scenario -          reference paths, and the defects of seed 7
+  spandrel export two-bridges --plan tasks.plan              a plan to open, upload and fly in QGroundControl
+  spandrel export two-bridges --glb bridges.glb              for 3D viewers
   spandrel export sessions/20260801T... --mcap flight.mcap   for Foxglove
   spandrel export sessions/20260801T... --parquet frames.parquet --xapi statements.jsonl --scorm result.zip
   spandrel export broken.mcap --mcap whole.mcap              recover a truncated recording
@@ -53,23 +54,24 @@ pub struct Args {
     /// The scored part of the scenario as JSON; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scenario: Option<String>,
-    /// The tasks' reference paths as a QGroundControl plan: takeoff, transits clear of the bridges, each task with gimbal, lamp
-    /// and pictures, and return; '-' for standard output
+    /// The tasks' reference paths as a QGroundControl plan with takeoff, transits clear of the bridges, the gimbal,
+    /// lamp and camera commands of each task, and the return flight; '-' for standard output
     #[arg(long, value_name = "FILE")]
     plan: Option<String>,
-    /// Aircraft for the plan's clearance: a file, or the name of a shipped one; a session uses its own
+    /// Aircraft that sets the plan's clearance: a file, or the name of a shipped aircraft; ignored for a session
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2", requires = "plan")]
     vehicle: String,
     /// Autopilot for the plan's firmwareType, which ground stations compare with the vehicle's
     #[arg(long, value_name = "NAME", default_value = "px4", requires = "plan")]
     flavour: args::Flavour,
-    /// Geometry as binary glTF 2.0, m, y up; '-' for standard output
+    /// Geometry as binary glTF 2.0, in m, y up; '-' for standard output
     #[arg(long, value_name = "FILE")]
     glb: Option<String>,
-    /// The flight as MCAP: drone, camera and site, battery, clearance, contacts; '-' for standard output
+    /// The flight as MCAP with the drone, camera, site, battery, clearance and contacts; '-' for standard output
     #[arg(long, value_name = "FILE")]
     mcap: Option<String>,
-    /// Frames as Parquet, with the columns of --frames, each with its unit, frame and definition in the metadata; '-' for standard output
+    /// Frames as Parquet, with the same columns as --frames and with their units, reference frames and definitions as
+    /// metadata; '-' for standard output
     #[arg(long, value_name = "FILE")]
     parquet: Option<String>,
     /// The session as xAPI statements, one JSON object per line; '-' for standard output
@@ -78,7 +80,7 @@ pub struct Args {
     /// The result as a SCORM 1.2 package for a learning management system; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scorm: Option<String>,
-    /// Seed that places the defects, for a scenario that sets none
+    /// Seed for placing the defects of a scenario without its own seed
     #[arg(long, value_name = "N", value_parser = args::parse_seed)]
     seed: Option<u64>,
 }
@@ -86,7 +88,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, there is no data to export, or the output cannot be written.
+/// Returns an error if files are invalid, there is no data to export, or the output cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let path = Path::new(&args.from);
     if let Some(target) = &args.mcap
@@ -121,7 +123,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let seed = args.seed.or(scenario.seed);
     if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
         return Err(AppError::wrong(format!(
-            "'{}' places its defects differently in every session: choose a seed with --seed N",
+            "the defects of '{}' differ in every session: choose a seed with --seed N",
             args.from
         )));
     }
@@ -169,7 +171,7 @@ fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> R
     Ok(())
 }
 
-/// Packs files into a ZIP archive; the same files give the same bytes.
+/// Packs files into a ZIP archive; identical files produce identical bytes.
 fn zip_files(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
     let write = || {
         let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));

@@ -1,4 +1,5 @@
-//! `spandrel generate`: writes manual pages and shell completions, for packages. Hidden from help, manual and completions.
+//! `spandrel generate`: writes manual pages and shell completions for packaging. Hidden from help, manual and
+//! completions.
 
 use crate::errors::AppError;
 use crate::io::files;
@@ -7,7 +8,7 @@ use clap_complete::Shell;
 use clap_mangen::{Man, roff::Roff};
 use std::path::PathBuf;
 
-/// Name of the subcommand.
+/// Subcommand name.
 pub const NAME: &str = "generate";
 
 /// Kind of output: manual pages or shell completions.
@@ -34,7 +35,7 @@ pub fn subcommand() -> Command {
 /// Runs the subcommand. `documented` is the program's command line without this subcommand.
 ///
 /// # Errors
-/// If a file or standard output cannot be written.
+/// Returns an error if a file or standard output cannot be written.
 pub fn run(what: &GeneratorCommand, mut documented: Command) -> Result<(), AppError> {
     match what {
         GeneratorCommand::Man { folder } => {
@@ -71,7 +72,7 @@ fn page(command: Command) -> std::io::Result<(String, Vec<u8>)> {
     let man = Man::new(plain).manual("Spandrel manual").source(concat!("Spandrel ", env!("CARGO_PKG_VERSION")));
     let mut text = Vec::new();
     man.render(&mut text)?;
-    // Each section is a heading and its lines, which are not reflowed.
+    // Each section consists of a heading and lines, which are not reflowed.
     let mut sections = Roff::new();
     for part in after.split("\n\n").filter(|part| !part.is_empty()) {
         let (heading, body) = part.split_once(':').unwrap_or(("Notes", part));

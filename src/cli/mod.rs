@@ -1,5 +1,5 @@
-//! The command line: one file per subcommand, each of which parses its arguments and runs a sans-IO core. Results go to standard output,
-//! everything else to standard error.
+//! The command line: one file per subcommand, each of which parses its arguments and runs a sans-IO core. Results go to
+//! standard output, everything else to standard error.
 
 mod args;
 mod assess;
@@ -30,15 +30,15 @@ use crate::io::logging;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Open trainer for bridge inspectors who fly a drone: a simulated MAVLink vehicle, a monitor that scores the flight from its telemetry, and a
-/// synthetic trainee.
+/// Open-source trainer for bridge inspectors who fly drones: a simulated MAVLink vehicle, a monitor that scores the
+/// flight from its telemetry, and a synthetic trainee.
 ///
-/// First steps: `spandrel demo` flies a whole session automatically; `spandrel train` waits for your ground station (QGroundControl
-/// connects automatically) and scores your flight.
+/// First steps: `spandrel demo` flies a complete session automatically; `spandrel train` waits for your ground station
+/// (QGroundControl connects automatically) and scores your flight.
 #[derive(Debug, Parser)]
 #[command(name = "spandrel", version, max_term_width = 110, after_help = errors::EXIT_CODES)]
 pub struct Cli {
-    /// Level of messages on standard error: error, warn, info, debug or trace
+    /// Log level on standard error: error, warn, info, debug or trace
     #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
     log: tracing::Level,
     #[command(subcommand)]

@@ -24,7 +24,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Longest wait for a datagram, because the core needs the wall clock every 100 ms.
+/// Maximum wait for a datagram, because the core must be updated every 100 ms.
 const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Interval at which received data is written to disk.
 const FLUSH_INTERVAL: Duration = Duration::from_millis(250);
@@ -32,45 +32,47 @@ const FLUSH_INTERVAL: Duration = Duration::from_millis(250);
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Interval at which the pilot is warned while the disk cannot be written.
 const WARNING_INTERVAL: Duration = Duration::from_secs(30);
-/// Maximum number of datagrams processed before answers are sent.
+/// Maximum number of datagrams processed before replies are sent.
 const BATCH: usize = 256;
 
 /// Monitor a flight and score it
 ///
-/// Receives the vehicle's MAVLink telemetry, warns the pilot by status texts (off path, too close, speeding, crash, battery), and writes the session
-/// folder. When the session ends (landing near the ground team, empty battery, time limit, or a person or vehicle hit), it writes the assessment. It
-/// uses only the telemetry. To continue after a monitor was killed, use --session DIR. While the disk is full, it keeps telemetry in memory, warns
-/// the pilot, and retries.
+/// Receives the vehicle's MAVLink telemetry, warns the pilot with status texts (off path, too close, speeding, crash,
+/// battery), and writes the session folder. When the session ends (landing near the ground team, empty battery, time
+/// limit, or collision with a person or vehicle), it writes the assessment. It uses only the telemetry. To resume after
+/// the monitor was killed, use --session DIR. While the disk is full, it keeps telemetry in memory, warns the pilot,
+/// and retries.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel monitor --trainee anna                      score instance 0 of the simulator (UDP 14030)
   spandrel monitor --connect 127.0.0.1:14280 --port 0  connect as an additional monitor, to the vehicle's payload port
-  spandrel monitor --session sessions/20260801T...     continue in mid-flight after a kill
+  spandrel monitor --session sessions/20260801T...     resume in flight after the monitor was killed
 
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
     job: JobArgs,
-    /// Folder for session folders
+    /// Folder in which to create session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
-    /// Trainee: letters, digits, '-' and '_', at most 32 characters
+    /// Trainee ID: letters, digits, '-' and '_', at most 32 characters
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     trainee: TraineeId,
     /// Purpose of the flight, for session.json [default: not recorded]
     #[arg(long, value_name = "PURPOSE")]
     purpose: Option<args::Purpose>,
-    /// Accepted for compatibility with train and demo; has no effect, because the monitor takes its clock from the telemetry
+    /// Accepted for compatibility with train and demo; has no effect, because the monitor takes its clock from the
+    /// telemetry
     #[arg(long, value_name = "X|max")]
     speed: Option<SimulationSpeed>,
-    /// Continue this session after its monitor was killed (scenario, vehicle and trainee come from the folder)
+    /// Resume this session after its monitor was killed (scenario, vehicle and trainee come from the folder)
     #[arg(long, value_name = "DIR")]
     session: Option<PathBuf>,
     /// Vehicle instance: sets the default port
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
     instance: u8,
-    /// UDP port to listen on, 0 for any free one [default: 14030 + instance]
+    /// UDP port to listen on, 0 for any free port [default: 14030 + instance]
     #[arg(long, value_name = "PORT")]
     port: Option<u16>,
     /// Send to the vehicle at this address instead of waiting for its first datagram
@@ -79,7 +81,7 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Print one line of JSON {"port", "session"} on standard output at startup, and no table at the end
+    /// Print one line of JSON {"port", "session"} on standard output at startup, and omit the table at the end
     #[arg(long)]
     announce: bool,
     /// Stop when standard input closes (for a parent process)
@@ -90,10 +92,10 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or ports are invalid, or the session cannot be scored.
+/// Returns an error if files or ports are invalid, or the session cannot be scored.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
-    // First the files, then the port, then the folder, so that an error leaves nothing behind.
+    // Reads the files, then opens the port, then creates the folder, so that an error leaves nothing behind.
     let start = SessionStart::read(args)?;
     let mut hub = SocketHub::new();
     let port = args.port.unwrap_or(MONITOR_PORT + u16::from(args.instance));
@@ -186,18 +188,18 @@ struct MonitorProcess {
     last_heard: Duration,
     monitor: Monitor,
     folder: SessionFolder,
-    /// True once `scenario.toml` contains the seed and the placed defects.
+    /// True after the seed and the placed defects have been saved in `scenario.toml`.
     resolved: bool,
     /// True if `session.json` is up to date.
     session_json_saved: bool,
     last_flush: Duration,
-    /// Time of the last warning about the disk; `None` while it can be written.
+    /// Time of the last disk warning; `None` while the disk can be written.
     warned: Option<Duration>,
     stopwatch: Stopwatch,
 }
 
 impl MonitorProcess {
-    /// Processes received data, sends the core's answers and saves its records.
+    /// Processes received data, sends the core's replies and saves its records.
     fn step(&mut self) {
         let mut wait = MAX_WAIT;
         for _ in 0..BATCH {
@@ -218,11 +220,11 @@ impl MonitorProcess {
         if self.peer != Some(*from) {
             let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_heard) < SILENCE_TIMEOUT;
             if current_is_alive {
-                tracing::debug!("ignored a datagram from another address {from}");
+                tracing::debug!("ignored a datagram from another address: {from}");
                 return;
             }
             if !self.monitor.is_from_vehicle(bytes) {
-                tracing::debug!("ignored a datagram from {from} that is not the vehicle's");
+                tracing::debug!("ignored a datagram from {from}: not from the vehicle");
                 return;
             }
             tracing::info!("receiving from {from}");
@@ -240,7 +242,7 @@ impl MonitorProcess {
         }
     }
 
-    /// Adds the core's records to the folder.
+    /// Adds the core's records to the session folder.
     fn write_records(&mut self) {
         while let Some(record) = self.monitor.poll_record() {
             self.folder.record(record);
@@ -277,7 +279,7 @@ impl MonitorProcess {
         Ok(())
     }
 
-    /// Warns in the log and tells the pilot when the disk fails, repeatedly while it does, and when it works again.
+    /// Logs disk errors, repeatedly while they last, and the recovery. Also notifies the pilot of both.
     fn report_disk(&mut self, refused: Option<WriteError>) {
         let wall = self.stopwatch.elapsed();
         match refused {
@@ -296,7 +298,7 @@ impl MonitorProcess {
         }
     }
 
-    /// Writes the complete session. While the disk fails, retries until a stop is requested.
+    /// Writes the complete session. On disk errors, retries until a stop is requested.
     fn complete(&mut self, json: Option<&str>, stop: &StopRequest) -> Result<(), AppError> {
         loop {
             self.write_records();
@@ -313,7 +315,7 @@ impl MonitorProcess {
                     }
                 }
             }
-            // The vehicle keeps sending: empties its queue and sends heartbeats.
+            // The vehicle keeps sending, so this drains the receive queue and sends heartbeats.
             self.step();
         }
     }
@@ -325,7 +327,7 @@ impl MonitorProcess {
         let json = self.outcome().ok().map(|graded| export::json_text(&graded.assessment));
         self.send();
         self.complete(json.as_deref(), stop)?;
-        // The report reads the telemetry again; a second copy of the flight would double the memory.
+        // The report reads the telemetry again, so keeping the flight in memory would double the memory use.
         self.monitor.release_flight();
         // The scores are saved; the report can be written again later.
         if json.is_some()
@@ -348,9 +350,11 @@ impl MonitorProcess {
         let place = self.folder.path().display();
         match self.monitor.finished() {
             Some(Ok(graded)) => Ok(graded),
-            Some(Err(error @ (AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. }))) => Err(AppError::wrong(
-                format!("{error}: use the same --scenario and --seed for simulator and monitor (telemetry is in {place})"),
-            )),
+            Some(Err(error @ (AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. }))) => {
+                Err(AppError::wrong(format!(
+                    "{error}: use the same --scenario and --seed for the simulator and the monitor (telemetry is in {place})"
+                )))
+            }
             Some(Err(error)) => Err(AppError::failed(format!("{error} (telemetry is in {place})"))),
             None => Err(AppError::failed(format!("the session has not ended (telemetry is in {place})"))),
         }

@@ -1,4 +1,4 @@
-//! Options for pictures that several subcommands share.
+//! Image options that several subcommands share.
 
 use crate::errors::AppError;
 use spandrel_view::quality::{PRESETS, Quality};

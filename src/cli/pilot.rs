@@ -16,18 +16,19 @@ use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Longest wait for a datagram.
+/// Maximum wait for a datagram.
 const MAX_WAIT: Duration = Duration::from_millis(50);
-/// Wall time without a datagram after which a connected vehicle counts as lost.
+/// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// Skill level of the synthetic trainee.
 #[derive(Debug, Clone, clap::Args)]
 pub struct SkillArgs {
-    /// Skill of the synthetic trainee: novice, trained or expert
+    /// Skill level of the synthetic trainee: novice, trained or expert
     #[arg(long, value_name = "SKILL", default_value = "trained", value_parser = ["novice", "trained", "expert"])]
     pub skill: String,
-    /// Take these parameters from the expert instead, to measure the effect of each: delay, gain, noise, preview, lapses
+    /// Parameters to take from the expert instead, to measure their individual effects: delay, gain, noise, preview,
+    /// lapses
     #[arg(long, value_name = "FACTOR,...", value_delimiter = ',', value_parser = SkillFactor::from_str)]
     pub expert_in: Vec<SkillFactor>,
 }
@@ -36,13 +37,13 @@ impl SkillArgs {
     /// Returns the parameters of the synthetic trainee.
     ///
     /// # Errors
-    /// If there is no such skill level.
+    /// Returns an error if there is no such skill level.
     pub fn skill(&self) -> Result<Skill, AppError> {
         let base = self.skill.parse::<Skill>().map_err(AppError::wrong)?;
         Ok(self.expert_in.iter().fold(base, |pilot, factor| pilot.with(*factor, Skill::EXPERT)))
     }
 
-    /// Returns the options as arguments for a child process.
+    /// Returns the options as command-line arguments for a child process.
     pub fn to_args(&self) -> Vec<String> {
         let mut args = vec!["--skill".to_owned(), self.skill.clone()];
         if !self.expert_in.is_empty() {
@@ -55,9 +56,9 @@ impl SkillArgs {
 
 /// Fly the job as a synthetic trainee
 ///
-/// Connects to the vehicle over UDP as a ground station does, and uses only manual control, lamp, gimbal and snapshot commands:
-/// takes off, flies the tasks in order, photographs the defects it notices, and lands. Its errors result from reaction delay,
-/// gain, noise, preview and lapses of attention.
+/// Connects to the vehicle over UDP as a ground station does, and uses only manual control, lamp, gimbal and snapshot
+/// commands: takes off, flies the tasks in order, photographs the defects it notices, and lands. Its errors result from
+/// its reaction delay, gain, noise, preview and attention lapses.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -85,7 +86,7 @@ pub struct Args {
     /// Print one JSON line {"port"} on standard output at startup
     #[arg(long)]
     announce: bool,
-    /// Exit when standard input closes (for a parent process); until then keep the link alive after the flight
+    /// Keep the link alive after the flight, and exit when standard input closes (for a parent process)
     #[arg(long)]
     leash: bool,
 }
@@ -93,7 +94,8 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or ports are invalid, the vehicle does not respond or is lost, or the flight could not start.
+/// Returns an error if files or ports are invalid, the vehicle does not respond or is lost, or the flight could not
+/// start.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
     let scenario = files::scenario(&args.job.scenario)?.scenario;
@@ -120,7 +122,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             heard = Some(watch.elapsed());
             pilot.handle_datagram(&bytes);
         }
-        // If the vehicle connects first, the pilot sends nothing before; messages timed by the wall clock would differ between runs.
+        // If the vehicle is to connect first, the pilot sends nothing until then: messages timed by the wall clock
+        // would differ between runs.
         if args.port.is_none() {
             pilot.handle_timeout(SimTime::from_s(watch.elapsed().as_secs_f64()));
         }
@@ -157,7 +160,7 @@ fn flight_result(pilot: &Pilot) -> Result<(), AppError> {
     match pilot.finished() {
         Some(report) if report.reason == "landed" => Ok(()),
         Some(report) => Err(AppError::failed(report.reason.clone())),
-        None => Err(AppError::failed(format!("stopped in mid-flight ({})", pilot.status_text()))),
+        None => Err(AppError::failed(format!("stopped in flight ({})", pilot.status_text()))),
     }
 }
 

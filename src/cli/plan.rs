@@ -15,8 +15,8 @@ use std::path::PathBuf;
 
 /// Recommend a trainee's next exercises, with reasons
 ///
-/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, where they were speeding, what
-/// they hit, and why pictures missed defects. The rules come from a file; --rules selects another one.
+/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, the places of speeding,
+/// the crashes, and the reasons why pictures missed defects. The rules come from a file; --rules selects another one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -34,7 +34,7 @@ pub struct Args {
     /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
-    /// Rules file to use instead of the shipped rules
+    /// Rules file to use instead of the default rules
     #[arg(long, value_name = "FILE")]
     rules: Option<PathBuf>,
     /// Include incomplete sessions
@@ -48,7 +48,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or the database are invalid, or the trainee has no session.
+/// Returns an error if files or the database are invalid, or the trainee has no session.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let trainee = args.trainee.as_str();
     let mut records = match &args.records {
@@ -61,7 +61,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let incomplete = IncompletePolicy::included(args.include_incomplete);
     let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us()) else {
         return Err(AppError::wrong(format!(
-            "there is no session of '{trainee}' in the records; use spandrel records import to add sessions"
+            "the records contain no sessions of '{trainee}'; use spandrel records import to add sessions"
         )));
     };
     files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())
@@ -69,7 +69,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 
 fn words(plan: &TrainingPlan) -> String {
     let day = |unix_us: u64| clock::utc(unix_us).0.chars().take(10).collect::<String>();
-    let mut out = format!("After {}, fly between {} and {}:\n", plan.session, day(plan.from_unix_us), day(plan.until_unix_us));
+    let mut out =
+        format!("Exercises to fly after {}, between {} and {}:\n", plan.session, day(plan.from_unix_us), day(plan.until_unix_us));
     for (k, step) in plan.steps.iter().enumerate() {
         let _ = writeln!(out, "{}. {}", k + 1, step.scenario);
         for reason in &step.reasons {
@@ -77,7 +78,7 @@ fn words(plan: &TrainingPlan) -> String {
         }
     }
     if let Some(words) = omitted_summary(plan.left_out) {
-        let _ = writeln!(out, "{words} (--include-incomplete counts them)");
+        let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
     if let Some(changes) = &plan.changes {
         let _ = writeln!(out, "Since {}:", changes.since);

@@ -19,10 +19,10 @@ pub struct PortArgs {
     /// Vehicle instance, 0 to 200: sets the system ID to 1 + N and shifts every default port
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
     pub instance: u8,
-    /// Ground station to send to unprompted, or none; may be repeated [default: 127.0.0.1:14550]
+    /// Ground station to send telemetry to from the start, or none; may be repeated [default: 127.0.0.1:14550]
     #[arg(long, value_name = "HOST:PORT|none")]
     pub gcs: Vec<Destination>,
-    /// SDK to send to unprompted, or none [default: 127.0.0.1:14540 + instance]
+    /// SDK to send telemetry to from the start, or none [default: 127.0.0.1:14540 + instance]
     #[arg(long, value_name = "HOST:PORT|none")]
     pub sdk: Option<Destination>,
     /// UDP port for incoming ground stations, or none [default: 18570 + instance]
@@ -37,17 +37,18 @@ pub struct PortArgs {
     /// TCP port for ground stations, or none [default: 5760 + 10 x instance]
     #[arg(long, value_name = "PORT|none")]
     pub tcp_port: Option<PortChoice>,
-    /// Serial port with a radio or cable, such as /dev/ttyUSB0:57600; may be repeated. Its capacity is its baud rate / 10 bytes/s
+    /// Serial port with a radio or cable, such as /dev/ttyUSB0:57600; may be repeated. Its capacity in bytes/s is a
+    /// tenth of its baud rate
     #[arg(long, value_name = "DEVICE:BAUD")]
     pub serial: Vec<SerialDevice>,
-    /// Data rate limit of each UDP or TCP link to a ground station, bytes/s: streams slow down, parameter lists take longer [default: no
-    /// limit]
+    /// Data rate limit of each UDP or TCP link to a ground station, bytes/s; streams and parameter downloads slow down
+    /// accordingly [default: no limit]
     #[arg(long, value_name = "BYTES_S", value_parser = clap::value_parser!(u32).range(500..=100_000_000))]
     pub gcs_limit: Option<u32>,
     /// Local address to bind: 127.0.0.1 for this machine only, 0.0.0.0 for all network interfaces
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     pub listen: IpAddr,
-    /// Default ports: the fixed numbers above, or any free ports and no --gcs or --sdk
+    /// Default ports: the fixed numbers above, or any free ports without default values of --gcs and --sdk
     #[arg(long, value_name = "fixed|ephemeral", default_value = "fixed", value_parser = ["fixed", "ephemeral"])]
     pub ports: String,
 }
@@ -61,8 +62,8 @@ impl PortArgs {
         first + u16::from(self.instance)
     }
 
-    /// Returns the ports of the vehicle number `more` after this one in the same process. All port numbers shift, except those that the system
-    /// chooses. Only the first vehicle has serial ports.
+    /// Returns the ports of the vehicle `more` places after this one in the same process. All port numbers shift,
+    /// except those chosen by the system. Only the first vehicle has serial ports.
     pub fn for_vehicle(&self, more: u8) -> Self {
         let port = |port: PortChoice, step: u16| match port {
             PortChoice::Number(number @ 1..) => PortChoice::Number(number.saturating_add(step * u16::from(more))),
@@ -96,7 +97,7 @@ impl PortArgs {
         }
     }
 
-    /// Returns the addresses of the ground stations to send to unprompted.
+    /// Returns the addresses of the ground stations to send telemetry to from the start.
     pub fn ground_stations(&self) -> Vec<SocketAddr> {
         let given = self.gcs.iter().filter_map(|target| match target {
             Destination::None => None,
@@ -105,7 +106,7 @@ impl PortArgs {
         if self.gcs.is_empty() && !self.ephemeral() { vec![local(GCS_TARGET)] } else { given.collect() }
     }
 
-    /// Returns the address of the SDK to send to unprompted.
+    /// Returns the address of the SDK to send telemetry to from the start.
     pub fn sdk(&self) -> Option<SocketAddr> {
         match self.sdk {
             Some(Destination::Address(address)) => Some(address),
@@ -151,7 +152,7 @@ impl PortArgs {
         }
     }
 
-    /// Returns the options as arguments for a child process, without the monitor's port.
+    /// Returns the options as command-line arguments for a child process, without the monitor's port.
     pub fn to_args(&self) -> Vec<String> {
         let mut out = vec!["--instance".to_owned(), self.instance.to_string(), "--listen".to_owned(), self.listen.to_string()];
         out.extend(["--ports".to_owned(), self.ports.clone()]);

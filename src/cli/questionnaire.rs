@@ -1,4 +1,4 @@
-//! `spandrel questionnaire`: asks the questions after a flight in a terminal.
+//! `spandrel questionnaire`: asks the post-flight questions in a terminal.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::answers::{languages, read_answers_of, task_ids};
@@ -15,15 +15,16 @@ use std::path::PathBuf;
 
 /// Answer the questionnaire after a flight
 ///
-/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the default scenario). Every answer is
-/// saved immediately in the session's answers.json. You can leave at any time and continue later with the same command.
+/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the default
+/// scenario). Every answer is saved immediately in the session's answers.json. You can quit at any time and continue
+/// later with the same command.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel questionnaire sessions/20260801T...             ask the questions that are still open
+  spandrel questionnaire sessions/20260801T...             ask the unanswered questions
   spandrel questionnaire sessions/20260801T... --tlx       also ask the six NASA-TLX scales
-  spandrel questionnaire sessions/20260801T... --again     ask everything again; Enter keeps an answer
-  spandrel questionnaire sessions/20260801T... --language de    in German (en, de, es)
+  spandrel questionnaire sessions/20260801T... --again     ask all questions again; Enter keeps an answer
+  spandrel questionnaire sessions/20260801T... --language de    ask in German (available: en, de, es)
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -36,10 +37,10 @@ pub struct Args {
     /// Ask all questions again, including those already answered
     #[arg(long)]
     again: bool,
-    /// Custom wording (a copy of a shipped wording with changed texts)
+    /// Custom wording file (a copy of a shipped wording with modified texts)
     #[arg(long, value_name = "FILE", conflicts_with = "language")]
     wording: Option<PathBuf>,
-    /// Language: en, de or es [default: that of the saved answers, else the terminal's, else en]
+    /// Language: en, de or es [default: the language of the saved answers, the terminal's language, or en]
     #[arg(long, value_name = "TAG")]
     language: Option<String>,
 }
@@ -51,7 +52,7 @@ enum PromptQuestion {
     Tlx(TlxScale),
 }
 
-/// Line typed at the terminal, parsed.
+/// Parsed line of terminal input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TypedInput {
     Answer(u8),
@@ -64,7 +65,7 @@ enum TypedInput {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If the session or a file is invalid, or answers cannot be written.
+/// Returns an error if the session or a file is invalid, or answers cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = StoredSession::read_scenario(&args.session)?.scenario;
     let mut answers = read_answers_of(&args.session, &scenario)?.unwrap_or_default();
@@ -82,7 +83,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Returns the wording to use: the requested language, the custom wording, the language of the saved answers, or that of the terminal.
+/// Selects the wording by the requested language, the custom wording file, the language of the saved answers, or the
+/// terminal's language.
 fn select_wording<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
     if let Some(tag) = &args.language {
         let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();
@@ -108,7 +110,7 @@ fn questions(args: &Args, scenario: &Scenario, answers: &Answers) -> Vec<PromptQ
     likert.map(PromptQuestion::Likert).chain(tlx.map(PromptQuestion::Tlx)).collect()
 }
 
-/// Asks the questions in order until all are answered or the trainee leaves.
+/// Asks the questions in order until all are answered or the trainee quits.
 fn ask_questions(
     questions: &[PromptQuestion],
     wording: &Wording,
@@ -196,7 +198,7 @@ mod tests {
     use crate::io::files;
     use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
 
-    /// Types lines into a questionnaire of the default scenario. Returns the output and the number of saves.
+    /// Enters lines into the questionnaire of the default scenario. Returns the output and the number of saves.
     fn run_with_input(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
         let scenario = files::scenario("two-bridges").unwrap().scenario;
         let (mut shown, mut saved) = (Vec::new(), 0);
@@ -236,7 +238,7 @@ mod tests {
         assert_eq!((answers.given.len(), saved), (2, 2));
         assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 4);
         assert_eq!(shown.matches("Please enter a whole number from 1 to 5").count(), 3);
-        // The end of the input also leaves the questionnaire.
+        // The end of the input also ends the questionnaire.
         assert_eq!(run_with_input(&all(), &mut answers, "").1, 0);
     }
 

@@ -1,4 +1,4 @@
-//! `spandrel rc`: runs the sans-IO bridge from sticks to MANUAL_CONTROL with a controller, a clock and a socket.
+//! `spandrel rc`: runs the sans-IO bridge from stick input to MANUAL_CONTROL with a controller, a clock and a socket.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::addresses;
@@ -19,30 +19,30 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// Longest wait for a datagram: a quarter of the interval between stick samples.
+/// Maximum wait for a datagram: a quarter of the interval between stick samples.
 const MAX_WAIT: Duration = Duration::from_millis(5);
-/// Wall time without a datagram after which a connected vehicle counts as lost.
+/// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
-/// Wall time without a first datagram after which a waiting message is shown.
+/// Wall time without a first datagram after which a message about waiting is shown.
 const WAITING_MESSAGE_DELAY: Duration = Duration::from_secs(3);
-/// Key that quits in the terminal.
+/// Key that quits the program in the terminal.
 const QUIT_KEY: &str = "escape";
 /// Interval at which the calibration wizard polls the device.
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
-const STDIN_ENDED_MESSAGE: &str = "nothing was saved: the calibration needs the Enter key, but standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
+const STDIN_ENDED_MESSAGE: &str = "nothing was saved: calibration requires the Enter key, but standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
 
 /// Fly with a gamepad, an RC transmitter or the keyboard
 ///
 /// Sends the sticks to the vehicle as MANUAL_CONTROL at 50 Hz, and the buttons as commands. Calibrate each device once
-/// (--calibrate); it is recognized from then on. If the device is lost, the sticks are centered briefly and then no longer sent,
-/// so that the vehicle's own failsafe acts.
+/// (--calibrate); it is recognized from then on. If the device disconnects, the sticks are centered briefly and then no
+/// longer sent, which triggers the vehicle's own failsafe.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel rc --list                       list connected devices, and whether they are calibrated
+  spandrel rc --list                       list connected devices and show which are calibrated
   spandrel rc --calibrate                  calibrate a device in the terminal
   spandrel rc                              fly the simulator on this machine
-  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take-off, L land, Escape exits
+  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take off, L land, Escape quit
   spandrel rc --record flight.jsonl        record the device's input; --replay replays it
 
 {EXIT_CODES}"))]
@@ -53,22 +53,22 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Print the connected devices, one per line, and exit
+    /// List the connected devices, one per line, and exit
     #[arg(long)]
     list: bool,
-    /// Calibrate: ask which axis belongs to which stick, and save the profile
+    /// Calibrate a device: assign its axes to the sticks, and save the profile
     #[arg(long, conflicts_with_all = ["list", "keyboard", "replay"])]
     calibrate: bool,
-    /// Device, by its ID or part of its name [default: the only one]
+    /// Device ID or part of the device name [default: the only connected device]
     #[arg(long, value_name = "NAME")]
     device: Option<String>,
     /// Stick mode for the calibration, 1 to 4; mode 2 has throttle and yaw on the left
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(i64).range(1..=4))]
     stick_mode: i64,
-    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
+    /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR")]
     profiles: Option<PathBuf>,
-    /// Use this profile for any device
+    /// Profile to use for any device
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
     /// Fly with the keyboard in the terminal
@@ -80,7 +80,7 @@ pub struct Args {
     /// Record the device's input, or the input of --replay, to this file
     #[arg(long, value_name = "FILE", conflicts_with = "keyboard")]
     record: Option<PathBuf>,
-    /// Replay recorded input instead of a device, and exit at its end
+    /// Replay recorded input instead of using a device, and exit at the end
     #[arg(long, value_name = "FILE", conflicts_with = "device")]
     replay: Option<PathBuf>,
 }
@@ -88,7 +88,8 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If there is no device or terminal, the device is not calibrated, files are invalid, or the vehicle is lost.
+/// Returns an error if there is no device or terminal, the device is not calibrated, files are invalid, or the vehicle
+/// is lost.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let profiles = ProfileFolder::at(args.profiles.clone());
     if args.list {
@@ -130,7 +131,7 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
         if let Some(duty) = keys.binding_name(QUIT_KEY) {
             let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
             return Err(AppError::wrong(format!(
-                "{file}{duty} = \"{QUIT_KEY}\": this key quits in the terminal; choose another one"
+                "{file}{duty} = \"{QUIT_KEY}\": this key quits the program in the terminal; choose another one"
             )));
         }
         let words = keys.help_text();
@@ -306,7 +307,7 @@ mod tests {
     fn exact_calibration_needs_a_profile_folder() {
         let args = Line::parse_from(["rc", "--calibrate"]).args;
         let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
-        assert!(told.contains("specify a folder with --profiles"), "{told}");
+        assert!(told.contains("specify a profile folder with --profiles"), "{told}");
     }
 
     #[test]

@@ -15,20 +15,20 @@ use spandrel_training::xapi::HOME;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// Microseconds in one day.
+/// Microseconds per day.
 const DAY_US: u64 = 86_400_000_000;
 /// Maximum retention time, days (100 years).
 const MAX_RETENTION_DAYS: i64 = 36_525;
 
 /// Keep sessions, trainees and answers in a database
 ///
-/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center where many stations write at the same time. The PostgreSQL
-/// password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The session folders remain the source of truth: `rebuild` recreates
-/// the database from them.
+/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center with many stations that write
+/// at the same time. The PostgreSQL password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The
+/// session folders remain the source of truth: `rebuild` recreates the database from them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel records import                                   import all new or changed sessions of ./sessions
+  spandrel records import                                   import all new or changed sessions from ./sessions
   spandrel records import --database postgres://spandrel@db/training
   spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
   spandrel records list
@@ -36,7 +36,7 @@ Examples:
   spandrel records export --trainee anna --out anna.json    write all stored data of this trainee
   spandrel records export --out all.jsonl                   write all records, one per line, for spandrel cohort --records
   spandrel records push https://lrs.example/xapi            send xAPI statements to a learning record store
-  spandrel records erase --trainee anna                     list what would be erased; --yes erases it, including folders
+  spandrel records erase --trainee anna                     list what would be erased; --yes also erases it, including folders
   spandrel records retention --days 730                     the same for everything older than two years
   spandrel records rebuild                                  rebuild the database from the folders
 
@@ -56,10 +56,11 @@ pub struct RecordsArgs {
     pub sessions: Vec<PathBuf>,
     /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first folder of sessions]
     ///
-    /// For PostgreSQL, sslmode in the URL's query selects the encryption: disable; prefer (the default: TLS if the server
-    /// supports it, without verifying its certificate); require (TLS, without verifying the certificate); or verify-full (a
-    /// certificate for this host name from a trusted authority; recommended on a network). Trusted authorities are those of this
-    /// machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE set a client certificate. All files are PEM.
+    /// For PostgreSQL, sslmode in the URL's query selects the encryption: disable; prefer (the default: TLS if the
+    /// server supports it, without verifying its certificate); require (TLS, without verifying the certificate); or
+    /// verify-full (a certificate for this host name from a trusted authority; recommended on a network). Trusted
+    /// authorities are those of this machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE set a client
+    /// certificate. All files are PEM.
     #[arg(long, global = true, value_name = "FILE|URL")]
     pub database: Option<String>,
 }
@@ -73,13 +74,14 @@ impl RecordsArgs {
 
 #[derive(Debug, clap::Subcommand)]
 enum RecordsCommand {
-    /// Import new and changed sessions (reads all folders; faster if you name the sessions)
+    /// Import new and changed sessions (reads all folders; naming the sessions is faster)
     Import {
         /// Session folders [default: all of --sessions]
         #[arg(value_name = "SESSION")]
         folders: Vec<PathBuf>,
     },
-    /// Rebuild the sessions whose folders are on this machine; trainee details are kept, and erased sessions stay erased
+    /// Rebuild the sessions whose folders are on this machine; trainee details are kept, and erased sessions stay
+    /// erased
     Rebuild {
         /// Also delete sessions whose folders are not on this machine (they may be on other stations)
         #[arg(long)]
@@ -150,11 +152,11 @@ pub struct PersonArgs {
     gaming_experience: Option<String>,
 }
 
-/// Destination of the statements.
+/// Destination of the xAPI statements.
 #[derive(Debug, clap::Args)]
 pub struct PushArgs {
-    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from SPANDREL_LRS_USER and
-    /// SPANDREL_LRS_PASSWORD
+    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from
+    /// SPANDREL_LRS_USER and SPANDREL_LRS_PASSWORD
     #[arg(value_name = "URL", value_parser = push::endpoint)]
     url: String,
     /// Only this trainee's sessions
@@ -168,7 +170,7 @@ pub struct PushArgs {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If arguments, folders or the database are invalid.
+/// Returns an error if arguments, folders or the database are invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let place = &args.place.location();
     match &args.what {
@@ -215,7 +217,7 @@ fn rebuild(place: &RecordsLocation, yes: bool) -> Result<(), AppError> {
     let folders = session_folders(&place.sessions)?;
     let here = folders.iter().map(|folder| session_id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
     let database = place.open()?;
-    // Sessions that other stations add from now on are not affected.
+    // Sessions that other stations add after this point are not affected.
     let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
     if !gone.is_empty() && !yes {
         return Err(AppError::wrong(format!(
@@ -266,18 +268,18 @@ fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppErr
     let before = clock::utc(limit_us).0;
     if !yes {
         let (old, folders) = (database.older_than(limit_us)?, folders_older_than(place, limit_us)?);
-        println!("{} sessions and {} folders are from before {before}; --yes erases them", old.len(), folders.len());
+        println!("{} sessions and {} folders are older than {before}; use --yes to erase them", old.len(), folders.len());
         return Ok(());
     }
     let (deleted, folders) = erase_older_than(&database, place, limit_us)?;
-    println!("erased {deleted} sessions and {folders} folders from before {before}");
+    println!("erased {deleted} sessions and {folders} folders older than {before}");
     Ok(())
 }
 
 /// Sets the given details of a person, then prints them.
 ///
 /// # Errors
-/// If the database fails, or the person does not exist and no details were given.
+/// Returns an error if the database fails, or the person does not exist and no details were given.
 fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
     let name = args.id.as_str();
     let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
@@ -292,7 +294,7 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
 /// Writes all stored data of a trainee.
 ///
 /// # Errors
-/// If there is no data, or the database or the output fails.
+/// Returns an error if there is no data, or the database or the output fails.
 fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = place.open()?;
     let kept = stored_data(&database, place, trainee)?;
@@ -303,7 +305,7 @@ fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppEr
 /// Erases a trainee, or lists what would be erased.
 ///
 /// # Errors
-/// If a folder or the database cannot be changed.
+/// Returns an error if a folder or the database cannot be changed.
 fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
     let database = place.open()?;
     let folders = folders_of_trainee(place, trainee)?;
@@ -311,7 +313,7 @@ fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppErr
         let sessions = database.records(Some(trainee))?.len();
         let known = if find(&database, trainee)?.is_some() { "in the database" } else { "not in the database" };
         println!(
-            "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; --yes erases them",
+            "'{trainee}' is {known}: {sessions} sessions in {} and {} folders; use --yes to erase them",
             database.name(),
             folders.len()
         );

@@ -11,9 +11,9 @@ use std::path::PathBuf;
 
 /// Write the report of a session
 ///
-/// The report is one printable page that opens offline in any browser: scores, tasks, the flight on the site, pictures and missed
-/// defects, feedback and reactions, and surface coverage. It uses the telemetry and the two files of the session folder. Live
-/// sessions write it automatically at the end. With two sessions, the page compares them.
+/// The report is one printable page that opens offline in any browser: scores, tasks, the flight on the site, pictures
+/// and missed defects, feedback and reactions, and surface coverage. It uses the telemetry and the two TOML files in
+/// the session folder. Live sessions write it automatically at the end. With two sessions, the page compares them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -37,7 +37,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
     let text = match &args.other {

@@ -18,10 +18,11 @@ use std::path::PathBuf;
 
 /// Show sessions, trainees, cohorts and live flights in a browser
 ///
-/// Serves everything from this machine: no page loads anything from other sites. By default only this machine can connect, without a login and with
-/// full access; once the first password is set, everybody must log in. Trainees see only their own data, instructors see all data and can act in
-/// flights, and administrators manage people. To accept connections from other machines, the server needs a password and TLS, either with its own
-/// certificate or through a proxy.
+/// Serves everything from this machine: no page loads anything from other sites. By default only this machine can
+/// connect, without a login and with full access; once the first password is set, everybody must log in. Trainees see
+/// only their own data, instructors see all data and can intervene in flights, and administrators manage people. To
+/// accept connections from other machines, the server needs a password and TLS, either with its own certificate or
+/// through a proxy.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -42,22 +43,23 @@ pub struct Args {
     /// Folder for uploaded scenarios [default: scenarios in the first folder of sessions]
     #[arg(long, value_name = "DIR")]
     scenarios: Option<PathBuf>,
-    /// Questionnaire wording in another language, or one that replaces a shipped one; may be repeated
+    /// Questionnaire wording in another language, or a replacement for a shipped wording; may be repeated
     ///
-    /// Copy a shipped wording and change its texts. English, German and Spanish are shipped. The browser's language is selected
-    /// at first, and people can change it; the first file given is used if there is no wording in their language.
+    /// Copy a shipped wording and change its texts. English, German and Spanish are shipped. The browser's language is
+    /// the default, and users can change it; if there is no wording in that language, the first file given is used.
     #[arg(long, value_name = "FILE")]
     wording: Vec<PathBuf>,
     /// Vehicle on the live page: address of its payload port, or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "127.0.0.1:14280")]
     vehicle: Vec<Destination>,
-    /// Picture file that `spandrel view --picture FILE` writes, for the live page; may be repeated, in the order of --vehicle
+    /// Picture file that `spandrel view --picture FILE` writes, for the live page; may be repeated, in the order of
+    /// --vehicle
     #[arg(long, value_name = "FILE")]
     picture: Vec<PathBuf>,
     /// Set this user's password (typed, or from standard input) and exit
     #[arg(long, value_name = "USER", requires = "role")]
     set_password: Option<TraineeId>,
-    /// Role of the user of --set-password
+    /// Role of the user given with --set-password
     #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word), requires = "set_password")]
     role: Option<String>,
     /// Print one JSON line {"address"} on standard output at startup
@@ -80,8 +82,8 @@ struct ListenArgs {
     /// Private key of the certificate, PEM
     #[arg(long, value_name = "FILE", requires = "tls_cert")]
     tls_key: Option<PathBuf>,
-    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be reachable in
-    /// any other way
+    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be
+    /// reachable in any other way
     #[arg(long, conflicts_with = "tls_cert")]
     behind_proxy: bool,
     /// Address or network of the proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
@@ -122,7 +124,7 @@ fn listen(text: &str) -> Result<SocketAddr, String> {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If arguments, files, the port or the database are invalid.
+/// Returns an error if arguments, files, the port or the database are invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     if let (Some(name), Some(role)) = (&args.set_password, args.role.as_deref().and_then(Role::from_word)) {
         return set_password(&args.place.location(), name.as_str(), role);
@@ -161,7 +163,7 @@ fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<Watched
 /// Prompts for a password and stores its hash.
 ///
 /// # Errors
-/// If the password is not acceptable, or the database fails.
+/// Returns an error if the password is not acceptable, or the database fails.
 fn set_password(place: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
     let password = prompt_password(name)?;
     login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
@@ -176,7 +178,7 @@ fn prompt_password(name: &str) -> Result<String, AppError> {
     if std::io::stdin().is_terminal() {
         let first = rpassword::prompt_password(format!("Password for {name}: ")).map_err(failed)?;
         let again = rpassword::prompt_password("Repeat password: ").map_err(failed)?;
-        return if first == again { Ok(first) } else { Err(AppError::wrong("the two passwords differ")) };
+        return if first == again { Ok(first) } else { Err(AppError::wrong("the passwords do not match")) };
     }
     let mut line = String::new();
     std::io::stdin().lock().read_line(&mut line).map_err(failed)?;

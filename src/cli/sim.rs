@@ -27,9 +27,9 @@ use std::time::Duration;
 
 /// Simulate the vehicle
 ///
-/// Runs a quadrotor with its autopilot at the scenario's site, as a MAVLink vehicle with the interface of PX4 or ArduPilot (it is neither). It sends
-/// to a ground station and an SDK unprompted, accepts other connections, feeds the monitor, and drops peers that go silent. It runs until
-/// interrupted.
+/// Runs a quadrotor with its autopilot at the scenario's site, as a MAVLink vehicle with the interface of PX4 or
+/// ArduPilot (it runs neither). It sends telemetry to a ground station, an SDK and the monitor, accepts other
+/// connections, and drops silent peers. It runs until interrupted.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -49,16 +49,16 @@ pub struct Args {
     /// Simulation speed: a multiple of real time (0.1 to 100), or max for as fast as possible
     #[arg(long, value_name = "X|max", default_value = "1")]
     speed: SimulationSpeed,
-    /// Run in lockstep with this peer (one that the vehicle sends to, such as --gcs): every 20 ms of simulation time the simulator sends
-    /// TIMESYNC and waits for the answer. At startup the simulation waits up to 10 s for the first answer, sending heartbeats only; after
-    /// that it runs unsynchronized until the peer answers. May be repeated
+    /// Run in lockstep with this peer (one that the vehicle sends to, such as --gcs): every 20 ms of simulation time
+    /// the simulator sends TIMESYNC and waits for the reply. At startup the simulation waits up to 10 s for the first
+    /// reply, sending heartbeats only; after that it runs unsynchronized until the peer replies. May be repeated
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
     lockstep: Vec<SocketAddr>,
-    /// Autopilot protocol; the flight dynamics are the same in all of them
+    /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, value_name = "NAME", default_value = "px4")]
     flavour: args::Flavour,
-    /// Heartbeats of the camera component (100). Turn them off for simple clients that assume every heartbeat to be the vehicle's (DroneKit,
-    /// mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
+    /// Heartbeats of the camera component (100). Turn them off for simple clients that attribute every heartbeat to the
+    /// vehicle (DroneKit, mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
     camera: AnnouncedComponents,
     /// Action after a crash. Use `scenario` when a monitor scores the flight, as train and demo do
@@ -66,28 +66,30 @@ pub struct Args {
     after_crash: AfterCrashArg,
     #[command(flatten)]
     ports: PortArgs,
-    /// Number of vehicles in this process, 1 to 50, side by side at the same site; they do not collide with each other. System IDs and
-    /// ports count up from --instance and from every port that you specify
+    /// Number of vehicles in this process, 1 to 50, side by side at the same site; they do not collide with each other.
+    /// System IDs and ports increase by one per vehicle, starting with --instance and with each port that you specify
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
-    /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where clients can only read and
-    /// delete; files that clients upload may take up to 256 MiB. With several vehicles, each has a subfolder named by its system ID
-    /// [default: no files served, no logs written]
+    /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where
+    /// clients can only read and delete; files that clients upload may take up to 256 MiB. With several vehicles, each
+    /// has a subfolder named by its system ID [default: no files served, no logs written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
-    /// Space for flight logs in the folder of --files, MB; the oldest logs are deleted before a flight to stay within it
+    /// Space for flight logs in the folder of --files, MB; the oldest logs are deleted before a flight to stay within
+    /// it
     #[arg(long, value_name = "MB", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     log_space: u64,
-    /// File that stores parameters between runs: read at startup if it exists, written after every change, in QGroundControl's .params format. With
-    /// several vehicles, each has its own file, with the system ID appended [default: parameters are not saved]
+    /// File that stores parameters between runs: read at startup if it exists, written after every change, in
+    /// QGroundControl's .params format. With several vehicles, each has its own file, with the system ID appended
+    /// [default: parameters are not saved]
     #[arg(long, value_name = "FILE")]
     params: Option<PathBuf>,
-    /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in MAVProxy. Messages not signed with
-    /// it are ignored. Signature timestamps are stored in FILE.heard.N for system N, so that old messages cannot be replayed even after a restart
-    /// [default: no signing]
+    /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in
+    /// MAVProxy. Messages not signed with it are ignored. Signature timestamps are stored in FILE.heard.N for system N,
+    /// so that old messages cannot be replayed even after a restart [default: no signing]
     #[arg(long, value_name = "FILE")]
     signing_key: Option<PathBuf>,
-    /// Kind of link that needs no signature; may be repeated. Use it only for links that no one else can reach
+    /// Kind of link that needs no signature; may be repeated. Use it only for links that nobody else can reach
     #[arg(long, value_name = "KIND", requires = "signing_key")]
     unsigned: Vec<TrustedLink>,
     /// Stop after this much simulation time, s
@@ -96,21 +98,22 @@ pub struct Args {
     /// Print the digest of every tick's state at the end: the same scenario, seed and inputs give the same digest
     #[arg(long)]
     digest: bool,
-    /// Print one line of JSON {"latest_ms", "slips", "slipped_ms"} for each vehicle at the end: the longest delay of a tick, how often a delay
-    /// exceeded 250 ms so that the simulation clock skipped it, and the total skipped; all in wall time
+    /// Print one line of JSON {"latest_ms", "slips", "slipped_ms"} for each vehicle at the end: the longest delay of a
+    /// tick, the number of delays over 250 ms, which the simulation clock skips, and the total time skipped; all in
+    /// wall time
     #[arg(long)]
     lateness: bool,
     /// Print one line of JSON {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output at startup
     #[arg(long)]
     announce: bool,
-    /// Stop when standard input closes (for a parent process). Meanwhile, the lines `pause` and `resume` on standard input pause and resume the
-    /// simulation
+    /// Stop when standard input closes (for a parent process). Meanwhile, the lines `pause` and `resume` on standard
+    /// input pause and resume the simulation
     #[arg(long)]
     leash: bool,
 }
 
 fn seconds(text: &str) -> Result<SimTime, String> {
-    let s: f64 = text.parse().map_err(|_| format!("'{text}' is not a number of seconds"))?;
+    let s: f64 = text.parse().map_err(|_| format!("'{text}' is not a time in seconds"))?;
     if (0.0..=1e6).contains(&s) {
         Ok(SimTime::from_s(s))
     } else {
@@ -130,13 +133,13 @@ enum AnnouncedComponents {
 /// Action after a crash, as named on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum AfterCrashArg {
-    /// The flight continues; the vehicle stays where it fell
+    /// The flight continues; the vehicle stays where it crashed
     Continue,
     /// The vehicle respawns at its last safe hover
     Respawn,
     /// The flight ends
     End,
-    /// Use the rule of the scenario file
+    /// Use the scenario file's rule
     Scenario,
 }
 
@@ -182,7 +185,7 @@ impl TrustedLink {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or ports are invalid, or a lockstep peer disappears.
+/// Returns an error if files or ports are invalid, or a lockstep peer disappears.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(false)?;
     let still = if args.leash { PauseSwitch::listen(&stop) } else { PauseSwitch::default() };
@@ -240,7 +243,7 @@ fn lateness_json(late: Lateness) -> serde_json::Value {
     serde_json::json!({ "latest_ms": ms(late.latest), "slips": late.slips, "slipped_ms": ms(late.slipped) })
 }
 
-/// Results of a vehicle at the end.
+/// Final results of a vehicle.
 struct VehicleResult {
     digest: [u8; 32],
     late: Lateness,
@@ -287,7 +290,7 @@ fn with_system_id(path: &Path, system_id: u8) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Runs every vehicle in its own thread until the end. An error of one vehicle ends all.
+/// Runs every vehicle in its own thread until the end. An error in one vehicle stops all of them.
 fn fly(
     shells: Vec<VehicleShell>,
     end: SimTime,

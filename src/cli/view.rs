@@ -1,4 +1,4 @@
-//! `spandrel view`: a window with the inspector's view and the camera's, live from telemetry.
+//! `spandrel view`: opens a window with the inspector's view and the camera's view, live from telemetry.
 
 use super::args::JobArgs;
 #[cfg(feature = "view")]
@@ -12,23 +12,24 @@ use crate::window::{self, CaptureRequest, WindowConfig, WindowSetup};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
-/// Longest delay of a screenshot, s.
+/// Maximum delay of a screenshot, s.
 #[cfg(feature = "view")]
 const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
-/// Uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another computer. Defects and traffic follow the
-/// seed that the simulator reports, also after a restart; --seed applies until then, or if the vehicle reports none. With --fly, the keyboard in the
-/// window (and a calibrated controller, if one is connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the wheel
-/// zooms, F follows the aircraft again, M hides the map. No graphics card is needed: a software Vulkan driver is enough (Debian and Ubuntu:
-/// mesa-vulkan-drivers).
+/// The view uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another
+/// computer. Defects and traffic follow the seed that the simulator reports, also after a restart; --seed applies until
+/// then, or if the vehicle reports none. With --fly, the keyboard in the window (and a calibrated controller, if one is
+/// connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the wheel zooms, F follows
+/// the aircraft again, M hides the map. No graphics card is needed: a software Vulkan driver is enough (Debian and
+/// Ubuntu: mesa-vulkan-drivers).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel view                                          watch the simulator on this machine
-  spandrel view --fly 127.0.0.1:18570                    fly it with the keyboard: W S A D, arrows, 1 arms, T takes off
+  spandrel view --fly 127.0.0.1:18570                    fly it with the keyboard: W S A D, arrows, 1 to arm, T to take off
   spandrel view --stream 127.0.0.1:5600                  also show the camera's view in QGroundControl
   spandrel view --listen 0.0.0.0 --connect 192.168.1.20:14280 --quality low
   spandrel view --screenshot moment.png --after 10       save a picture of the window after 10 s and exit
@@ -43,17 +44,17 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Fly from the window: send sticks and commands to the vehicle's ground station port
+    /// Fly from the window: send stick input and commands to the vehicle's ground station port
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, group = "pilot")]
     fly: Option<SocketAddr>,
     /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window], [sound]); the same file as for `spandrel rc
     /// --keyboard`
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
-    /// Controller, by its ID or part of its name [default: the only one]
+    /// Controller ID or part of the controller name [default: the only connected controller]
     #[arg(long, value_name = "NAME", requires = "pilot")]
     device: Option<String>,
-    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
+    /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", requires = "pilot")]
     profiles: Option<PathBuf>,
     /// Rendering quality: low, medium, high, ultra, or auto (high with a graphics card, low without)
@@ -65,31 +66,33 @@ pub struct Args {
     /// Disable sound; [sound] in the key bindings file sets propellers, warnings, speech and volume
     #[arg(long)]
     no_sound: bool,
-    /// Disable the map of the reference paths, for an assessment; M does not show it
+    /// Disable the map of the reference paths, for an assessment; M does not show it either
     #[arg(long)]
     no_map: bool,
-    /// Send the camera's view to this address as H.264 over RTP; the vehicle then announces the stream, and ground stations show
-    /// it (QGroundControl listens on UDP port 5600). The vehicle always announces port 5600: configure any other port in the
-    /// ground station
+    /// Send the camera's view to this address as H.264 over RTP; the vehicle then announces the stream, and ground
+    /// stations show it (QGroundControl listens on UDP port 5600). The vehicle always announces port 5600: configure
+    /// any other port in the ground station
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
     stream: Option<SocketAddr>,
     /// Save a picture of the window (PNG) and exit
     #[arg(long, value_name = "FILE", requires = "after")]
     screenshot: Option<PathBuf>,
-    /// Wall time from the first drawn frame to the picture, s
+    /// Wall time from the first rendered frame to the picture, s
     #[arg(long, value_name = "S", requires = "screenshot")]
     after: Option<f64>,
-    /// Save the camera's view to this file (JPEG) about once a second, for the live page of `spandrel serve --picture FILE`
+    /// Save the camera's view to this file (JPEG) about once a second, for the live page of `spandrel serve --picture
+    /// FILE`
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
-    /// Print one JSON line {"device", "quality", "width", "height"} on standard output when both views are drawn
+    /// Print one JSON line {"device", "quality", "width", "height"} on standard output when both views have been
+    /// rendered
     #[arg(long)]
     announce: bool,
     /// Exit when standard input closes (for a parent process)
     #[arg(long)]
     leash: bool,
-    /// Receive pages and flights from the parent process as JSON lines on standard input; send the user's actions on standard
-    /// output
+    /// Receive pages and flights from the parent process as JSON lines on standard input; send the user's actions on
+    /// standard output
     #[arg(long, requires = "leash", hide = true, group = "pilot")]
     led: bool,
 }
@@ -97,7 +100,7 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, or there is no display or no graphics adapter.
+/// Returns an error if files are invalid, or there is no display or no graphics adapter.
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = files::scenario(&args.job.scenario)?.scenario;
@@ -142,8 +145,8 @@ fn picture(args: &Args) -> Result<Option<CaptureRequest>, AppError> {
 /// Reports that the program was built without the view.
 ///
 /// # Errors
-/// Always.
+/// Always returns an error.
 #[cfg(not(feature = "view"))]
 pub fn run(_: &Args) -> Result<(), AppError> {
-    Err(AppError::failed("this program was built without the view: build it with `cargo build --release --features view`"))
+    Err(AppError::failed("this program was built without the view: rebuild it with `cargo build --release --features view`"))
 }

@@ -1,9 +1,9 @@
-//! Addresses and ports as users write them.
+//! Parses the addresses and ports that users specify.
 
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 use std::str::FromStr;
 
-/// A destination address, or none.
+/// Destination address, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
     /// Nothing is sent (`none` on the command line).
@@ -26,10 +26,13 @@ pub fn address(text: &str) -> Result<SocketAddr, String> {
         .map_err(|error| format!("'{text}' is not HOST:PORT, for example 127.0.0.1:14550 ({error})"))?
         .collect();
     found.sort_by_key(|address| !address.is_ipv4());
-    found.into_iter().find(|address| address.port() != 0).ok_or_else(|| format!("'{text}' has no usable address and port"))
+    found
+        .into_iter()
+        .find(|address| address.port() != 0)
+        .ok_or_else(|| format!("'{text}' does not resolve to a usable address and port"))
 }
 
-/// A port number, or none.
+/// Port number, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PortChoice {
     /// The port stays closed (`none` on the command line).

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Returns the saved answers of a session, or `None` if there are none.
 ///
 /// # Errors
-/// If the file cannot be read or is invalid.
+/// Returns an error if the file cannot be read or is invalid.
 pub fn read_answers_of(session: &Path, scenario: &Scenario) -> Result<Option<Answers>, AppError> {
     let path = session.join(ANSWERS);
     if !path.is_file() {
@@ -26,7 +26,7 @@ pub fn task_ids(scenario: &Scenario) -> Vec<u32> {
 /// Returns the custom wordings followed by the shipped ones.
 ///
 /// # Errors
-/// If a file cannot be read or is invalid.
+/// Returns an error if a file cannot be read or is invalid.
 pub fn languages(own: &[PathBuf]) -> Result<Languages, AppError> {
     let read = |path: &PathBuf| Ok(read_wording(&path.display().to_string(), &files::read(path)?)?);
     Ok(Languages::with(own.iter().map(read).collect::<Result<Vec<_>, AppError>>()?)?)

@@ -5,16 +5,17 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Maximum data kept in memory while the disk cannot be written, bytes: about 20 minutes of telemetry (50 kB/s, estimate).
+/// Maximum amount of data kept in memory while the disk cannot be written, bytes: about 20 minutes of telemetry (50
+/// kB/s, estimate).
 const MAX_PENDING_BYTES: usize = 64 * 1024 * 1024;
 
-/// A write that failed.
+/// Error of a failed write.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot write: {error}", path.display())]
 pub struct WriteError {
-    /// Path of the file.
+    /// File path.
     pub path: PathBuf,
-    /// Error of the operating system.
+    /// Error from the operating system.
     pub error: std::io::Error,
 }
 
@@ -49,7 +50,7 @@ impl AppendFile {
     /// Opens or creates the file. `complete_len` returns the length of the complete records at the start of a buffer.
     ///
     /// # Errors
-    /// If the file cannot be opened.
+    /// Returns an error if the file cannot be opened.
     pub fn open(path: PathBuf, complete_len: fn(&[u8]) -> usize) -> Result<Self, WriteError> {
         let open = || {
             let file = OpenOptions::new().create(true).append(true).open(&path)?;
@@ -67,7 +68,7 @@ impl AppendFile {
     /// Locks the file against other processes until it is closed.
     ///
     /// # Errors
-    /// If another process has locked it. A file system without locks is not an error.
+    /// Returns an error if another process has locked it. A file system without locks is not an error.
     pub fn lock(&self) -> Result<(), AppError> {
         match self.file.try_lock() {
             Ok(()) => Ok(()),
@@ -90,7 +91,7 @@ impl AppendFile {
     /// Truncates the file.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn cut(&mut self, len: u64) -> Result<(), WriteError> {
         self.file.set_len(len).map_err(|error| self.refused(error))?;
         self.len = len;
@@ -98,7 +99,8 @@ impl AppendFile {
         Ok(())
     }
 
-    /// Adds complete records, which are written with the next [`Self::flush`]. Above a limit they are dropped and counted.
+    /// Adds complete records, which the next [`Self::flush`] writes. Records beyond a memory limit are dropped and
+    /// counted.
     pub fn push(&mut self, records: &[u8]) {
         if self.pending.len() > MAX_PENDING_BYTES {
             self.dropped += 1;
@@ -107,12 +109,12 @@ impl AppendFile {
         }
     }
 
-    /// Returns the number of calls of [`Self::push`] whose records were dropped.
+    /// Returns the number of [`Self::push`] calls whose records were dropped.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
 
-    /// Returns the size of the data that has not been written, bytes.
+    /// Returns the size of the data that has not been written yet, bytes.
     pub fn pending(&self) -> usize {
         self.pending.len()
     }
@@ -120,7 +122,7 @@ impl AppendFile {
     /// Writes the pending data. After an error, the file contains complete records only, and the rest stays pending.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         if self.has_partial_record {
             self.cut(self.len)?;
@@ -136,16 +138,16 @@ impl AppendFile {
         let Err(error) = result else { return Ok(()) };
         self.has_partial_record = written > kept;
         if self.has_partial_record {
-            // If this fails, too, the next flush repeats it.
+            // If this fails too, the next flush tries again.
             let _ = self.cut(self.len);
         }
         Err(self.refused(error))
     }
 
-    /// Waits until the written data is on the physical disk.
+    /// Waits until all written data is on the physical disk.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn sync(&self) -> Result<(), WriteError> {
         self.file.sync_all().map_err(|error| self.refused(error))
     }
@@ -155,7 +157,7 @@ impl AppendFile {
     }
 }
 
-/// Writes until the end or an error, and returns the number of bytes written.
+/// Writes until all data is written or an error occurs. Returns the number of bytes written.
 fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Result<()>) {
     let mut written = 0;
     while written < bytes.len() {
@@ -172,7 +174,7 @@ fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Resu
 /// Syncs closed files and their folder.
 ///
 /// # Errors
-/// If the disk cannot be written. Missing files are skipped.
+/// Returns an error if the disk cannot be written. Missing files are skipped.
 pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteError> {
     let sync = |path: PathBuf| match File::open(&path).and_then(|file| file.sync_all()) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(WriteError { path, error }),

@@ -1,5 +1,6 @@
-//! Child processes of `train` and `demo`: the same program with another subcommand. The parent holds the write end of each child's standard input;
-//! when the parent exits for any reason, the pipe closes and the child finishes (`--leash`).
+//! Child processes of `train` and `demo`: the same program with another subcommand. The parent owns the write end of
+//! each child's standard input; when the parent exits for any reason, the pipe closes and the child shuts down
+//! (`--leash`).
 
 use super::clock::Stopwatch;
 use crate::errors::AppError;
@@ -11,9 +12,9 @@ use std::time::Duration;
 
 /// Time limit for a child to open its sockets and load its site on a busy machine.
 const START_TIMEOUT: Duration = Duration::from_secs(60);
-/// Time limit for a child to finish cleanly.
+/// Time limit for a child to shut down cleanly.
 const FINISH_TIMEOUT: Duration = Duration::from_secs(10);
-/// Interval at which a finishing child is checked.
+/// Interval at which a child that is shutting down is checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 
 /// A running child process.
@@ -29,7 +30,7 @@ impl Child {
     /// Starts `spandrel NAME ARGS`.
     ///
     /// # Errors
-    /// If the process cannot be started.
+    /// Returns an error if the process cannot be started.
     pub fn start(name: &'static str, args: &[String]) -> Result<Self, AppError> {
         Self::start_with_env(name, args, &[])
     }
@@ -37,7 +38,7 @@ impl Child {
     /// Starts `spandrel NAME ARGS` with additional environment variables.
     ///
     /// # Errors
-    /// If the process cannot be started.
+    /// Returns an error if the process cannot be started.
     pub fn start_with_env(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("cannot start the {name}: {error}"));
         let program = std::env::current_exe().map_err(failed)?;
@@ -55,7 +56,7 @@ impl Child {
         if let Some(stdout) = process.stdout.take() {
             std::thread::spawn(move || {
                 for line in BufReader::new(stdout).lines().map_while(Result::ok) {
-                    // Drains the pipe even after the parent has stopped listening, so that the child does not block.
+                    // Drains the pipe even after the parent has stopped reading, so that the child does not block.
                     let _ = sender.send(line);
                 }
             });
@@ -66,7 +67,7 @@ impl Child {
     /// Waits for the JSON line in which the child announces its ports and paths.
     ///
     /// # Errors
-    /// If the child exits first, or prints anything else.
+    /// Returns an error if the child exits first, or prints anything else.
     pub fn read_announcement(&mut self) -> Result<Value, AppError> {
         let name = self.name;
         let line = self.lines.recv_timeout(START_TIMEOUT).map_err(|error| match self.exit_status_after(error) {
@@ -79,7 +80,7 @@ impl Child {
         serde_json::from_str(&line).map_err(|error| AppError::failed(format!("the {name} announced '{line}': {error}")))
     }
 
-    /// Returns the exit status of a child that has announced nothing, if it has exited.
+    /// Returns the exit status of a child that exited without an announcement.
     fn exit_status_after(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
         match error {
             RecvTimeoutError::Timeout => self.ended(),
@@ -93,7 +94,8 @@ impl Child {
         self.lines.try_recv().ok()
     }
 
-    /// Sends a line to the child. A child that has exited or is finishing ignores it; the exit is reported elsewhere.
+    /// Sends a line to the child. A child that has exited or is shutting down ignores it; the exit is reported
+    /// elsewhere.
     pub fn send_line(&mut self, line: &str) {
         let told = self.stdin.as_mut().map(|leash| writeln!(leash, "{line}").and_then(|()| leash.flush()));
         if let Some(Err(error)) = told {
@@ -106,12 +108,12 @@ impl Child {
         self.process.try_wait().ok().flatten()
     }
 
-    /// Closes the child's standard input, which asks it to finish.
+    /// Closes the child's standard input, which makes the child shut down.
     pub fn close_stdin(&mut self) {
         self.stdin = None;
     }
 
-    /// Asks the child to finish and waits; kills it after the time limit.
+    /// Requests that the child shut down and waits; kills it after the time limit.
     pub fn finish(&mut self) -> Option<ExitStatus> {
         self.close_stdin();
         let watch = Stopwatch::start();
@@ -121,7 +123,7 @@ impl Child {
             }
             std::thread::sleep(CHECK_INTERVAL);
         }
-        tracing::warn!("the {} does not finish and is killed", self.name);
+        tracing::warn!("the {} did not exit in time and was killed", self.name);
         // Both calls fail only if the child has just exited.
         let _ = self.process.kill();
         self.process.wait().ok()

@@ -11,9 +11,9 @@ use std::path::{Component, Path, PathBuf};
 /// A scenario with its source text.
 #[derive(Debug, Clone)]
 pub struct ScenarioFile {
-    /// Source text of the scenario (TOML).
+    /// Scenario source text (TOML).
     pub text: String,
-    /// Files that the scenario refers to (height fields), by the name that it uses.
+    /// Files that the scenario refers to (height fields), by their names in the scenario.
     pub siblings: BTreeMap<String, String>,
     /// Scenario parsed from the text.
     pub scenario: Scenario,
@@ -22,19 +22,19 @@ pub struct ScenarioFile {
 /// A vehicle with its source text.
 #[derive(Debug, Clone)]
 pub struct VehicleFile {
-    /// Source text of the vehicle (TOML).
+    /// Vehicle source text (TOML).
     pub text: String,
     /// Vehicle parsed from the text.
     pub vehicle: Vehicle,
 }
 
-/// Text of a file with its location.
+/// Text of a file and its location.
 pub struct SourceFile {
-    /// Name of the file in messages.
+    /// File name to use in messages.
     pub file: String,
-    /// Contents of the file.
+    /// File contents.
     pub text: String,
-    /// Folder of the file; `None` for a shipped file.
+    /// Folder that contains the file; `None` for a shipped file.
     folder: Option<PathBuf>,
 }
 
@@ -51,7 +51,7 @@ pub fn vehicle_names() -> Vec<&'static str> {
 /// Loads and validates a scenario.
 ///
 /// # Errors
-/// If it cannot be read or is invalid; all problems are listed.
+/// Returns an error if it cannot be read or is invalid; all problems are listed.
 pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
     scenario_from(find_source(argument, "scenario", shipped::SCENARIOS)?)
 }
@@ -59,7 +59,7 @@ pub fn scenario(argument: &str) -> Result<ScenarioFile, AppError> {
 /// Loads and validates a vehicle.
 ///
 /// # Errors
-/// If it cannot be read or is invalid; all problems are listed.
+/// Returns an error if it cannot be read or is invalid; all problems are listed.
 pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
     let source = find_source(argument, "vehicle", shipped::VEHICLES)?;
     let vehicle = vehicle::read(&source.file, &source.text)?;
@@ -69,7 +69,7 @@ pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
 /// Loads a vehicle whose ID differs from its file name (a session's `vehicle.toml`).
 ///
 /// # Errors
-/// Like [`vehicle`].
+/// See [`vehicle`].
 pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     let text = read(path)?;
     let mut vehicle = vehicle::read(&path.display().to_string(), &text)?;
@@ -77,10 +77,10 @@ pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     Ok(VehicleFile { text, vehicle })
 }
 
-/// Validates a scenario's text; files that it refers to are looked up in its folder.
+/// Validates a scenario's text; files that the scenario refers to are read from its folder.
 ///
 /// # Errors
-/// If it is invalid; all problems are listed.
+/// Returns an error if it is invalid; all problems are listed.
 pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     let seen = RefCell::new(BTreeMap::new());
     let sibling = |name: &str| {
@@ -95,7 +95,7 @@ pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
 /// Finds the file for an argument: a path, or a name in `library`.
 ///
 /// # Errors
-/// If there is no such file or name.
+/// Returns an error if there is no such file or name.
 pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
     let path = Path::new(argument);
     let looks_like_a_path = argument.contains(['/', '\\']) || path.extension().is_some_and(|end| end == "toml");
@@ -113,7 +113,7 @@ pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'stati
 /// Finds any file for `check`: a path, or the name of a shipped scenario or vehicle.
 ///
 /// # Errors
-/// If there is no such file or name.
+/// Returns an error if there is no such file or name.
 pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
     let library: Vec<_> = shipped::SCENARIOS.iter().chain(shipped::VEHICLES).copied().collect();
     find_source(argument, "scenario or vehicle", &library)
@@ -122,7 +122,7 @@ pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
 /// Reads a text file (UTF-8).
 ///
 /// # Errors
-/// If it cannot be read.
+/// Returns an error if it cannot be read.
 pub fn read(path: &Path) -> Result<String, AppError> {
     let bytes = std::fs::read(path).map_err(|error| AppError::wrong(format!("{}: cannot read: {error}", path.display())))?;
     String::from_utf8(bytes).map_err(|error| {
@@ -130,15 +130,15 @@ pub fn read(path: &Path) -> Result<String, AppError> {
     })
 }
 
-/// Writes a result to a file, or to standard output for `-`. The file is replaced as a whole: if the disk is full or the process is killed, the old
-/// file remains.
+/// Writes a result to a file, or to standard output for `-`. The file is replaced atomically: if the disk is full or
+/// the process is killed, the old file remains.
 ///
 /// # Errors
-/// If it cannot be written.
+/// Returns an error if it cannot be written.
 pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     use std::io::Write;
     let path = Path::new(target);
-    // Symbolic links are followed; pipes and devices cannot be replaced.
+    // Symbolic links are resolved first; pipes and devices cannot be replaced.
     let real = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
     let done = match target {
         "-" => std::io::stdout().lock().write_all(bytes),
@@ -149,7 +149,7 @@ pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
 }
 
 impl SourceFile {
-    /// Reads a file that this one refers to. Only files in the same folder or below are allowed.
+    /// Reads a file that another file refers to. Only files in the same folder or below are allowed.
     pub fn sibling(&self, name: &str) -> Result<String, String> {
         let Some(folder) = &self.folder else { return Err("a shipped scenario cannot refer to other files".into()) };
         if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {

@@ -3,14 +3,15 @@
 use cap_std::fs::Dir;
 use std::collections::BTreeMap;
 
-/// Extensions of the files of a flight.
+/// File extensions of a flight's logs.
 const EXTENSIONS: [&str; 2] = [".ulg", ".mcap"];
 
-/// Deletes the logs of the oldest flights until the rest takes at most `most` bytes. `folder` contains one folder per day with two files per flight,
-/// named by the time of day; other files are neither counted nor deleted. Returns the number of flights deleted.
+/// Deletes the logs of the oldest flights until the remaining ones take at most `most` bytes. `folder` contains one
+/// folder per day with two files per flight, named by the time of day; other files are neither counted nor deleted.
+/// Returns the number of flights deleted.
 ///
 /// # Errors
-/// If a folder cannot be read or a file cannot be deleted.
+/// Returns an error if a folder cannot be read or a file cannot be deleted.
 pub fn delete_oldest(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
     let flights = flights(root, folder)?;
     let mut total: u64 = flights.values().map(|flight| flight.bytes).sum();
@@ -22,7 +23,8 @@ pub fn delete_oldest(root: &Dir, folder: &str, most: u64) -> std::io::Result<usi
         flight.files.iter().try_for_each(|file| root.remove_file(file))?;
         total -= flight.bytes;
         deleted += 1;
-        // Also removes the folder of a day without logs. Removal fails if it contains other files, which is fine.
+        // Also removes the day's folder if it has no logs left. Removal fails if it contains other files, which is
+        // fine.
         let _ = root.remove_dir(&flight.day);
     }
     Ok(deleted)
@@ -35,7 +37,8 @@ struct LoggedFlight {
     bytes: u64,
 }
 
-/// Returns the flights ordered by day and time, oldest first. The names sort by time; a second flight in the same second has the suffix `-1`.
+/// Returns the flights ordered by day and time, oldest first. The names sort by time; a second flight in the same
+/// second has the suffix `-1`.
 fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String, u32), LoggedFlight>> {
     let mut flights: BTreeMap<(String, String, u32), LoggedFlight> = BTreeMap::new();
     for day in root.read_dir(folder)? {

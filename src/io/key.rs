@@ -7,10 +7,11 @@ use std::path::Path;
 /// Minimum length of a passphrase, characters.
 const MIN_PASSPHRASE_CHARS: usize = 8;
 
-/// Reads a signing key from a file with one line: 64 hexadecimal digits are the key, anything else is a passphrase.
+/// Reads a signing key from a file with one line: either the key as 64 hexadecimal digits, or a passphrase.
 ///
 /// # Errors
-/// If the file cannot be read, is readable by other users, or contains no key. The message never shows the file's contents.
+/// Returns an error if the file cannot be read, is readable by other users, or contains no key. The message never shows
+/// the file's contents.
 pub fn read(path: &Path) -> Result<SigningKey, AppError> {
     let wrong = |what: &str| AppError::wrong(format!("--signing-key {}: {what}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;
@@ -19,7 +20,7 @@ pub fn read(path: &Path) -> Result<SigningKey, AppError> {
     }
     let text = text.trim_end_matches(['\r', '\n']);
     if text.contains('\n') {
-        return Err(wrong("it has more than one line"));
+        return Err(wrong("the file has more than one line (allowed: exactly one)"));
     }
     match parse_hex_key(text) {
         Some(key) => Ok(SigningKey(key)),

@@ -1,4 +1,5 @@
-//! Links of the vehicle: configured destinations that it sends to unprompted, peers that connect to its UDP ports, TCP clients and serial ports.
+//! Links of the vehicle: configured destinations that it sends to from the start, peers that connect to its UDP ports,
+//! TCP clients and serial ports.
 
 use super::clock::Stopwatch;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
@@ -12,35 +13,36 @@ use std::time::Duration;
 
 /// Time after which a silent learned peer is removed.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
-/// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor blocks the peers of another port.
+/// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor
+/// blocks the peers of another port.
 const MAX_LEARNED_PEERS: usize = 64;
 
-/// A change of the links, or received data.
+/// A change in the links, or received data.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinkChange {
     /// A link was opened.
     Opened {
-        /// Number of the link.
+        /// Link number.
         link: u32,
-        /// Kind of the link.
+        /// Link kind.
         kind: LinkKind,
         /// True if the peer runs in lockstep.
         lockstep: bool,
         /// True if the peer contacted the vehicle first; its source address may be forged.
         learned: bool,
-        /// Capacity of the link, bytes/s, if limited.
+        /// Link capacity, bytes/s, if limited.
         limit: Option<f64>,
     },
     /// A datagram, or one complete frame of a stream.
     Bytes {
-        /// Link that the data arrived on.
+        /// Link on which the data arrived.
         link: u32,
         /// Received MAVLink bytes.
         bytes: Vec<u8>,
     },
     /// A link was closed.
     Closed {
-        /// Number of the link.
+        /// Link number.
         link: u32,
     },
 }
@@ -71,10 +73,10 @@ pub struct Links {
 }
 
 impl Links {
-    /// Opens all ports and the links to the configured destinations. Their numbers are the same in every run.
+    /// Opens all ports and the links to the configured destinations. The link numbers are the same in every run.
     ///
     /// # Errors
-    /// If a port cannot be opened, or a lockstep peer is not a configured destination.
+    /// Returns an error if a port cannot be opened, or a lockstep peer is not a configured destination.
     pub fn open(ports: &VehiclePorts, lockstep: &[SocketAddr]) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let bind = |hub: &mut SocketHub, port: Option<u16>, flag| port.map(|port| hub.bind(ports.listen, port, flag)).transpose();
@@ -133,7 +135,7 @@ impl Links {
         }
     }
 
-    /// Returns the next change, if there is one.
+    /// Returns the next event, if there is one.
     pub fn poll(&mut self) -> Option<LinkChange> {
         if self.changes.is_empty() {
             self.wait(Duration::ZERO);
@@ -172,12 +174,13 @@ impl Links {
         }
     }
 
-    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts those of datagrams.
+    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts those of
+    /// datagrams.
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
     }
 
-    /// Returns the number of arrivals and frames dropped because a queue was full.
+    /// Returns the number of events and frames dropped because a queue was full.
     pub fn take_dropped(&self) -> u64 {
         self.hub.dropped()
     }
@@ -222,7 +225,7 @@ impl Links {
 
     fn add_stream(&mut self, stream: StreamId, origin: &StreamOrigin) {
         if self.by_stream.len() >= MAX_LEARNED_PEERS {
-            tracing::warn!("rejected {origin}: {MAX_LEARNED_PEERS} clients are connected");
+            tracing::warn!("rejected {origin}: {MAX_LEARNED_PEERS} clients are already connected");
             self.hub.drop_stream(stream);
             return;
         }
@@ -237,7 +240,7 @@ impl Links {
         self.changes.push_back(LinkChange::Opened { link, kind, lockstep: false, learned: false, limit });
     }
 
-    /// Adds a new peer if it sends MAVLink and its port has room for another one.
+    /// Adds a new peer if it sends MAVLink and its port has not reached the maximum number of peers.
     fn add_peer(&mut self, socket: SocketId, from: SocketAddr, bytes: &[u8], wall: Duration) -> Option<u32> {
         if !is_mavlink(bytes) {
             tracing::debug!("ignored a datagram without a MAVLink message from unknown address {from}");
@@ -246,7 +249,7 @@ impl Links {
         }
         let on_socket = |route: &&LinkRoute| matches!(route, LinkRoute::Learned { socket: other, .. } if *other == socket);
         if self.routes.values().filter(on_socket).count() >= MAX_LEARNED_PEERS {
-            tracing::debug!("rejected {from}: {MAX_LEARNED_PEERS} peers are connected to this port");
+            tracing::debug!("rejected {from}: {MAX_LEARNED_PEERS} peers are already connected to this port");
             return None;
         }
         tracing::info!("{from} has connected");
@@ -285,7 +288,7 @@ mod tests {
         Encoder::new(255, 190).encode(&station::heartbeat())
     }
 
-    /// Any free ports, and these ground stations.
+    /// Returns settings with any free ports and these ground stations.
     fn ephemeral(stations: &[SocketAddr]) -> VehiclePorts {
         VehiclePorts {
             system_id: 1,

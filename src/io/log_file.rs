@@ -9,12 +9,13 @@ use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// Size of a chunk, bytes.
+/// Chunk size, bytes.
 const CHUNK_BYTES: usize = 256 * 1024;
-/// Number of bytes at the start of the file that contain the first record.
+/// Number of bytes at the start of the file that certainly contain the first record.
 const HEAD_BYTES: u64 = 64 * 1024;
 
-/// A telemetry log. Reads end where the file ended when it was opened, because the session may still be recording.
+/// A telemetry log. Reads stop at the length that the file had when it was opened, because the session may still be
+/// recording.
 #[derive(Debug, Clone)]
 pub struct LogFile {
     path: PathBuf,
@@ -25,7 +26,7 @@ impl LogFile {
     /// Opens the log and notes its length.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn open(path: &Path) -> Result<Self, AppError> {
         let len = File::open(path).and_then(|file| file.metadata()).map_err(|error| unreadable(path, &error))?.len();
         Ok(Self { path: path.to_path_buf(), len })
@@ -39,7 +40,7 @@ impl LogFile {
     /// Returns the length of all complete records, bytes.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn complete_len(&self) -> Result<u64, AppError> {
         let mut splitter = RecordSplitter::default();
         let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
@@ -52,7 +53,7 @@ impl LogFile {
     /// Returns the Unix time of simulation time zero, µs; `None` for an empty log.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn session_start_us(&self) -> Result<Option<u64>, AppError> {
         Ok(tlog::session_start_us(&self.read(HEAD_BYTES)?))
     }
@@ -60,7 +61,7 @@ impl LogFile {
     /// Returns the SHA-256 of the log, hexadecimal.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn sha256(&self) -> Result<String, AppError> {
         let mut hash = Sha256::new();
         let mut update = |piece: &[u8]| {
@@ -74,7 +75,7 @@ impl LogFile {
     /// Returns the whole log.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     #[cfg(feature = "view")]
     pub fn bytes(&self) -> Result<Vec<u8>, AppError> {
         self.read(self.len)

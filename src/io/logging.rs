@@ -4,8 +4,9 @@ use std::io::{IsTerminal, stderr};
 use tracing::Level;
 use tracing_subscriber::EnvFilter;
 
-/// Starts logging at this level. Dependencies log warnings and errors only. The window and graphics libraries are quieter still: their driver
-/// messages repeat what the view reports in one message, so they appear only at debug level and below.
+/// Starts logging at this level. Dependencies log warnings and errors only. Messages of the window and graphics
+/// libraries appear only at debug level and below, because the view already reports driver problems in a single
+/// message.
 pub fn start(level: Level) {
     let graphics = if level > Level::INFO { "" } else { ",winit=error,wgpu_hal=off" };
     let filter = EnvFilter::new(format!("warn{graphics},spandrel={level}").to_lowercase());
@@ -16,6 +17,6 @@ pub fn start(level: Level) {
         .with_target(false)
         .without_time()
         .try_init();
-    // In tests, a second call keeps the settings of the first.
+    // In tests, a second call keeps the settings of the first call.
     drop(done);
 }

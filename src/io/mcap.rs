@@ -1,7 +1,7 @@
 //! MCAP recordings, and the recovery of truncated ones.
 //!
-//! A chunk is written as a whole after 16 KiB or one second of flight, so that a killed program loses no more than that. A file without an end can be
-//! read up to its last complete chunk.
+//! A complete chunk is written after every 16 KiB or one second of flight, so a killed program loses no more than that.
+//! A file without a footer can be read up to its last complete chunk.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -11,13 +11,13 @@ use spandrel_model::foxglove::{CHANNELS, ChannelMessage};
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
-/// Size of a chunk, bytes.
+/// Chunk size, bytes.
 const CHUNK_BYTES: u64 = 16 * 1024;
-/// Maximum flight time in a chunk, ns.
+/// Maximum flight time per chunk, ns.
 const FLUSH_AFTER_NS: u64 = 1_000_000_000;
 
 fn options() -> WriteOptions {
-    // Without seeking, chunks are never on disk before their length is known.
+    // Without seeking, a chunk is never written before its length is known.
     WriteOptions::new().compression(None).library("spandrel").chunk_size(Some(CHUNK_BYTES)).disable_seeking(true)
 }
 
@@ -36,10 +36,10 @@ impl<W: Write + Seek> std::fmt::Debug for McapRecording<W> {
 }
 
 impl<W: Write + Seek> McapRecording<W> {
-    /// Starts a file with all schemas and channels.
+    /// Starts a file and writes all schemas and channels.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn begin(to: W) -> McapResult<Self> {
         let mut writer = options().create(to)?;
         let mut channels = Vec::new();
@@ -53,7 +53,7 @@ impl<W: Write + Seek> McapRecording<W> {
     /// Adds a message.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn write(&mut self, message: &ChannelMessage) -> McapResult<()> {
         let topic = message.topic as usize;
         let at = message.unix_ns;
@@ -68,10 +68,10 @@ impl<W: Write + Seek> McapRecording<W> {
         Ok(())
     }
 
-    /// Writes the index and the end of the file.
+    /// Writes the index and the footer of the file.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn end(mut self) -> McapResult<W> {
         self.writer.finish()?;
         Ok(self.writer.into_inner())
@@ -84,7 +84,7 @@ pub fn base64(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Result of a recovery.
+/// Recovery result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RecoveryResult {
     /// The complete recovered file.
@@ -95,10 +95,10 @@ pub struct RecoveryResult {
     pub broken: Option<String>,
 }
 
-/// Reads as much of a file as possible and writes it again, with index and end.
+/// Reads as much of a file as possible and rewrites it with an index and a footer.
 ///
 /// # Errors
-/// If it is not an MCAP file.
+/// Returns an error if it is not an MCAP file.
 pub fn recover(file: &[u8]) -> McapResult<RecoveryResult> {
     if !file.starts_with(MAGIC) {
         return Err(McapError::BadMagic);

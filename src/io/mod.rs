@@ -1,4 +1,5 @@
-//! The outside world for the subcommands: sockets and links, clock, files, serial ports, child processes, pacing, stores and controllers.
+//! I/O for the subcommands: sockets and links, clock, files, serial ports, child processes, pacing, stores and
+//! controllers.
 
 pub mod addresses;
 pub mod answers;

@@ -1,5 +1,6 @@
-//! Collects the data of all sockets in one queue. A thread per socket drains the kernel's buffer while the core computes. The queue is bounded; data
-//! that does not fit is dropped and counted. A misbehaving peer never ends a reader thread.
+//! Collects the data of all sockets in one queue. One thread per socket drains the kernel's buffer while the core
+//! computes. The queue is bounded; data that does not fit is dropped and counted. A misbehaving peer never ends a
+//! reader thread.
 
 use super::serial::{self, SerialDevice};
 use crate::errors::AppError;
@@ -13,18 +14,18 @@ use std::time::Duration;
 
 /// Maximum number of events that wait for the core: about ten seconds of a busy link.
 const EVENT_QUEUE_LEN: usize = 16_384;
-/// Maximum number of frames that wait for a slow TCP client; further ones are dropped.
+/// Maximum number of frames that wait for a slow TCP client; further frames are dropped.
 const STREAM_QUEUE_LEN: usize = 2_048;
 /// Delay after an unexpected socket error, so that a broken network interface does not cause a busy loop.
 const ERROR_DELAY: Duration = Duration::from_millis(50);
 /// Buffer size, larger than any UDP payload.
 const MAX_DATAGRAM: usize = 65_536;
 
-/// Number of a UDP socket.
+/// Identifies a UDP socket.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SocketId(usize);
 
-/// Number of a TCP connection or a serial port.
+/// Identifies a TCP connection or a serial port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StreamId(u32);
 
@@ -46,16 +47,16 @@ impl std::fmt::Display for StreamOrigin {
     }
 }
 
-/// An event of a socket.
+/// A socket event.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NetEvent {
     /// A datagram was received.
     Datagram {
         /// Socket that received it.
         socket: SocketId,
-        /// Address of the sender.
+        /// Sender's address.
         from: SocketAddr,
-        /// Payload of the datagram.
+        /// Datagram payload.
         bytes: Vec<u8>,
     },
     /// A client connected, or a serial port was opened.
@@ -72,7 +73,7 @@ enum QueuedEvent {
     Client(StreamId, StreamOrigin, StreamWriter),
 }
 
-/// Sending side of a stream.
+/// Write side of a stream.
 #[derive(Debug)]
 struct StreamWriter {
     queue: SyncSender<Vec<u8>>,
@@ -138,7 +139,7 @@ impl SocketHub {
     /// Binds a UDP port (0 for any free one). If the port is in use, the error message mentions the option `flag`.
     ///
     /// # Errors
-    /// If the port cannot be bound.
+    /// Returns an error if the port cannot be bound.
     pub fn bind(&mut self, ip: IpAddr, port: u16, flag: &str) -> Result<SocketId, AppError> {
         let socket = UdpSocket::bind((ip, port)).map_err(|error| port_in_use("UDP", ip, port, flag, &error))?;
         let reader = socket.try_clone().map_err(|error| AppError::failed(format!("UDP port {port}: {error}")))?;
@@ -152,7 +153,7 @@ impl SocketHub {
     /// Listens for TCP clients and returns the port number.
     ///
     /// # Errors
-    /// If the port cannot be bound.
+    /// Returns an error if the port cannot be bound.
     pub fn serve(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
         let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
         let bound = listener.local_addr().map_or(port, |address| address.port());
@@ -164,10 +165,10 @@ impl SocketHub {
     /// Opens a serial port and reopens it after it has been disconnected.
     ///
     /// # Errors
-    /// If the port cannot be opened.
+    /// Returns an error if the port cannot be opened.
     pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
         let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
-        // Numbered downward from the maximum, so that the numbers differ from those of TCP clients.
+        // Numbered downward from the maximum to stay clear of the numbers of TCP clients.
         let stream = StreamId(u32::MAX - self.serial_count);
         self.serial_count += 1;
         let (queue, device) = (self.sender.clone(), device.clone());
@@ -190,7 +191,7 @@ impl SocketHub {
         self.sockets.get(socket.0).and_then(|socket| socket.local_addr().ok()).map_or(0, |address| address.port())
     }
 
-    /// Returns the next event; waits for it at most this long.
+    /// Returns the next event, or `None` if there is none within this time.
     pub fn next(&mut self, wait: Duration) -> Option<NetEvent> {
         let inner = if wait.is_zero() { self.receiver.try_recv().ok() } else { self.receiver.recv_timeout(wait).ok() };
         match inner? {
@@ -207,7 +208,7 @@ impl SocketHub {
         }
     }
 
-    /// Sends a datagram. A peer that does not listen yet is no error; any other error is logged once per peer.
+    /// Sends a datagram. It is not an error if the peer is not listening yet; any other error is logged once per peer.
     pub fn send(&mut self, socket: SocketId, to: SocketAddr, bytes: &[u8]) {
         let Some(socket) = self.sockets.get(socket.0) else { return };
         let Err(error) = socket.send_to(bytes, to) else { return };
@@ -296,7 +297,7 @@ fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &S
                 return;
             }
         }
-        // Fails if the core has stopped; there is nothing to report in that case.
+        // Fails only if the core has stopped, which needs no report.
         let _ = queue.send(QueuedEvent::Event(NetEvent::Closed(stream)));
     });
     Ok(())
@@ -308,7 +309,7 @@ mod tests {
     use std::net::Ipv4Addr;
 
     const LOOPBACK: IpAddr = IpAddr::V4(Ipv4Addr::LOCALHOST);
-    /// Keeps a failing test from hanging.
+    /// Prevents a failing test from hanging.
     const TEST_TIMEOUT: Duration = Duration::from_secs(60);
 
     #[test]

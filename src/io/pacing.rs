@@ -1,17 +1,19 @@
-//! Maps wall time to simulation time: real time, N times real time, or as fast as possible. The wall clock is an argument.
+//! Maps wall time to simulation time: real time, N times real time, or as fast as possible. The wall clock is an
+//! argument.
 
 use spandrel_model::time::SimTime;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// Longest step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md, "One simulation step").
+/// Maximum step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md,
+/// "One simulation step").
 pub const LOCKSTEP_STEP: SimTime = SimTime::from_ms(20);
-/// Wall time after which a lockstep peer that does not answer ends the run.
+/// Wall time without an answer from a lockstep peer after which the run ends.
 pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall-clock delay above which the simulation does not catch up: the clock slips, and the slip is reported.
 const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
 
-/// Speed of the simulation.
+/// Simulation speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SimulationSpeed {
     /// Multiple of real time.
@@ -20,12 +22,12 @@ pub enum SimulationSpeed {
     Max,
 }
 
-/// Highest speed, as a multiple of real time.
+/// Maximum speed, as a multiple of real time.
 const MAX_SPEED: f64 = 100.0;
 
 impl SimulationSpeed {
-    /// Returns the simulation seconds per second of a client outside lockstep, at least 1. At `max` the speed is unknown; the highest multiple is
-    /// returned.
+    /// Returns the simulation seconds per wall-clock second for a client that is not in lockstep, at least 1. At `max`
+    /// the speed is unknown; the highest multiple is returned.
     pub fn client_speed_factor(self) -> f64 {
         match self {
             Self::Times(times) => times.max(1.0),
@@ -55,18 +57,18 @@ impl std::fmt::Display for SimulationSpeed {
     }
 }
 
-/// Delay of the simulation behind its clock, in wall time.
+/// Delay of the simulation relative to its clock, in wall time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Lateness {
-    /// Longest delay. It includes the length of a sleep, because one wake-up runs several ticks.
+    /// Longest delay. It includes the sleep time, because each wake-up runs several ticks.
     pub latest: Duration,
-    /// Number of delays beyond the limit, at which the clock slipped.
+    /// Number of times that the clock slipped because a delay exceeded the limit.
     pub slips: u32,
     /// Total wall time that the clock has slipped.
     pub slipped: Duration,
 }
 
-/// Computes the simulation time that the wall clock asks for.
+/// Computes the simulation time to reach at a given wall time.
 #[derive(Debug, Clone)]
 pub struct WallPacer {
     speed: SimulationSpeed,
@@ -97,7 +99,7 @@ impl WallPacer {
         due.min(reached + LOCKSTEP_STEP)
     }
 
-    /// Changes the speed from now on.
+    /// Changes the speed, starting now.
     pub fn set_speed(&mut self, speed: SimulationSpeed, wall: Duration, reached: SimTime) {
         if self.speed != speed {
             self.speed = speed;
@@ -130,8 +132,8 @@ impl WallPacer {
 /// Time after which a peer that sends data but does not answer TIMESYNC is served in real time.
 const FIRST_ANSWER_TIMEOUT: Duration = Duration::from_secs(3);
 
-/// Pauses the simulation until a peer's first answer. No simulation time passes until then, so a peer that answers soon is in lockstep from the first
-/// tick.
+/// Pauses the simulation until a peer's first answer. No simulation time passes until then, so a peer that answers soon
+/// is in lockstep from the first tick.
 #[derive(Debug, Clone, Default)]
 pub struct FirstAnswerWait {
     since: Option<Duration>,
@@ -139,7 +141,7 @@ pub struct FirstAnswerWait {
     last_announced: Option<Duration>,
 }
 
-/// Action while the peer's first answer is outstanding.
+/// Action while waiting for the peer's first answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FirstAnswerAction {
     /// Keep waiting for the peer.
@@ -151,7 +153,8 @@ pub enum FirstAnswerAction {
 }
 
 impl FirstAnswerWait {
-    /// Returns the action at wall time `wall`; `heard` is true once data has arrived from the peer, `every` is the announcement interval.
+    /// Returns the action at wall time `wall`; `heard` is true once data has arrived from the peer, `every` is the
+    /// announcement interval.
     pub fn next_action(&mut self, heard: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
         let since = *self.since.get_or_insert(wall);
         let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
@@ -170,14 +173,16 @@ impl FirstAnswerWait {
     }
 }
 
-/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts, because at `max` speed every step waits.
+/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts, because at `max`
+/// speed every step waits.
 #[derive(Debug, Clone, Default)]
 pub struct LockstepTimeout {
     stalled_since: Option<(SimTime, Duration)>,
 }
 
 impl LockstepTimeout {
-    /// Returns true if simulation time, now `reached`, has not advanced for more than [`LOCKSTEP_PEER_TIMEOUT`] at wall time `wall`.
+    /// Returns true if simulation time, now `reached`, has not advanced for more than [`LOCKSTEP_PEER_TIMEOUT`] at wall
+    /// time `wall`.
     pub fn is_over(&mut self, reached: SimTime, wall: Duration) -> bool {
         match self.stalled_since {
             Some((at, since)) if at == reached => wall.saturating_sub(since) > LOCKSTEP_PEER_TIMEOUT,

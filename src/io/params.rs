@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct ParamFile {
     path: PathBuf,
-    /// Change counter of the parameters when the file was last saved.
+    /// Parameter change counter at the time of the last save.
     pub saved_changes: u64,
 }
 
@@ -22,7 +22,7 @@ impl ParamFile {
     /// Returns the contents; `None` if the file does not exist.
     ///
     /// # Errors
-    /// If the file exists and cannot be read.
+    /// Returns an error if the file exists and cannot be read.
     pub fn text(&self) -> Result<Option<String>, AppError> {
         match std::fs::read_to_string(&self.path) {
             Ok(text) => Ok(Some(text)),
@@ -31,17 +31,18 @@ impl ParamFile {
         }
     }
 
-    /// Combines the problems of the file into one error.
+    /// Combines all problems in the file into one error.
     pub fn parse_error(&self, problems: &[ParamFileProblem]) -> AppError {
         let lines: Vec<String> =
             problems.iter().map(|problem| format!("{}:{}: {}", self.path.display(), problem.line, problem.what)).collect();
         AppError::wrong(lines.join("\n"))
     }
 
-    /// Replaces the whole file, so that concurrent readers, or a reader after a crash, see either the old or the new one.
+    /// Replaces the whole file atomically: concurrent readers, and readers after a crash, see either the old or the new
+    /// version.
     ///
     /// # Errors
-    /// If the file cannot be written; the old one remains.
+    /// Returns an error if the file cannot be written; the old version remains.
     pub fn write(&self, text: &str) -> Result<(), AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--params {}: {error}", self.path.display()));
         let beside = beside(&self.path);

@@ -1,5 +1,5 @@
-//! Writes frames as Parquet, for notebooks and databases. The typed columns are those of the CSV export; the metadata of each field gives its unit,
-//! frame and definition.
+//! Writes frames as Parquet for notebooks and databases. The columns match those of the CSV export, but are typed; the
+//! metadata of each field contains its unit, frame and definition.
 
 mod arrow_schema;
 
@@ -23,7 +23,7 @@ const ARROW_SCHEMA: &str = "ARROW:schema";
 /// Returns the frames as a Parquet file.
 ///
 /// # Errors
-/// Does not happen in practice, because the file is written to memory.
+/// Not expected in practice, because the file is written to memory.
 pub fn frames_to_parquet(rows: &[FrameRow]) -> Result<Vec<u8>, AppError> {
     write(rows).map_err(|error| AppError::failed(format!("cannot create the Parquet file: {error}")))
 }

@@ -1,4 +1,4 @@
-//! Pauses the simulation on request of the parent process: lines `pause` and `resume` on standard input.
+//! Pauses and resumes the simulation at the parent process's request (lines `pause` and `resume` on standard input).
 
 use super::stop::StopRequest;
 use std::sync::Arc;
@@ -14,7 +14,8 @@ pub const RESUME_LINE: &str = "resume";
 pub struct PauseSwitch(Arc<AtomicBool>);
 
 impl PauseSwitch {
-    /// Follows the `pause` and `resume` lines on standard input. When standard input closes, the process is asked to stop.
+    /// Handles the lines `pause` and `resume` on standard input. When standard input closes, requests that the process
+    /// stop.
     pub fn listen(stop: &StopRequest) -> Self {
         let (still, lines) = (Self::default(), stop.lines());
         let heeding = still.clone();

@@ -1,14 +1,14 @@
-//! Rules of training plans, from a file or the shipped ones.
+//! Rules for training plans, from a file or built in.
 
 use super::files;
 use crate::errors::AppError;
 use spandrel_training::plan::{PlanRules, RULES, read_rules};
 use std::path::Path;
 
-/// Returns the shipped rules, or the rules of a file.
+/// Returns the rules from a file, or the built-in rules if there is none.
 ///
 /// # Errors
-/// If the file cannot be read or is invalid.
+/// Returns an error if the file cannot be read or is invalid.
 pub fn rules(file: Option<&Path>) -> Result<PlanRules, AppError> {
     match file {
         Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),

@@ -31,7 +31,7 @@ impl ProgressLog {
         Self { bar, stopwatch: Stopwatch::start(), lines: 0 }
     }
 
-    /// Updates the message; can be called at any rate.
+    /// Updates the message; may be called at any rate.
     pub fn report(&mut self, message: impl FnOnce() -> String) {
         match &self.bar {
             Some(bar) => bar.set_message(message()),

@@ -1,4 +1,4 @@
-//! Replaces a file as a whole.
+//! Replaces whole files atomically.
 
 use super::append_file::WriteError;
 use crate::errors::AppError;
@@ -7,10 +7,11 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Writes a temporary file next to the target and renames it, so that neither a reader nor a killed process leaves a partial file.
+/// Writes a temporary file next to the target and renames it, so that neither a reader nor a killed process leaves a
+/// partial file.
 ///
 /// # Errors
-/// If the disk cannot be written.
+/// Returns an error if the disk cannot be written.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
     Ok(replaced(path, bytes, |_| Ok(()))?)
 }
@@ -18,13 +19,13 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
 /// Like [`replace`], but also safe against a power failure.
 ///
 /// # Errors
-/// If the disk cannot be written.
+/// Returns an error if the disk cannot be written.
 pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     replaced(path, bytes, File::sync_data)
 }
 
 fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteError> {
-    // The temporary name is unique: two writers of the same file must not rename each other's partial file.
+    // The temporary name is unique, because two writers of the same file must not rename each other's partial file.
     static TEMP_FILE_COUNTER: AtomicU64 = AtomicU64::new(0);
     let mut beside = path.to_path_buf().into_os_string();
     beside.push(format!(".{}-{}.new", std::process::id(), TEMP_FILE_COUNTER.fetch_add(1, Ordering::Relaxed)));
@@ -36,7 +37,7 @@ fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>)
         std::fs::rename(&beside, path)
     };
     write().map_err(|error| {
-        // No later write reuses this name, so the file would remain.
+        // Later writes do not reuse this name, so the file would remain.
         let _ = std::fs::remove_file(&beside);
         WriteError { path: path.to_path_buf(), error }
     })

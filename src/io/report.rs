@@ -1,4 +1,4 @@
-//! The report of a session, from what its folder holds.
+//! Builds the report of a session from the contents of its folder.
 
 use super::clock;
 use super::replace::replace;
@@ -9,15 +9,15 @@ use spandrel_monitor::folder::{REPORT, SMALL, SNAPSHOTS, sha256_hex};
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
 use std::path::{Path, PathBuf};
 
-/// Maximum size of a photograph in the page, bytes; larger ones are replaced by a sketch.
+/// Maximum size of a photograph on the page, bytes; larger photographs are replaced by sketches.
 const MAX_PICTURE_BYTES: u64 = 400_000;
-/// Maximum total size of photographs in a page, bytes; keeps the page below 10 MB.
+/// Maximum total size of the photographs on a page, bytes; keeps the page below 10 MB.
 const MAX_PICTURES_BYTES: u64 = 4_000_000;
 
 /// Writes the report into a session folder.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn write(session: &Path) -> Result<(), AppError> {
     replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
 }
@@ -25,7 +25,7 @@ pub fn write(session: &Path) -> Result<(), AppError> {
 /// Returns names and contents of the files in a session's SCORM package.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> {
     let review = review(session)?;
     Ok(scorm::files(&review, &page::session(&review)))
@@ -34,7 +34,7 @@ pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> 
 /// Returns the page that compares two sessions.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
     Ok(page::comparison(&review(first)?, &review(second)?))
 }
@@ -42,10 +42,10 @@ pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
 /// Returns a session's pictures with their assessments.
 ///
 /// # Errors
-/// If files are invalid, the session has no data to report, or the page cannot be written.
+/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
-    // The caller is about to draw the photographs.
+    // No photographs are passed, because the caller is about to render them.
     Ok(review_with_pictures(session, Vec::new())?.pictures)
 }
 
@@ -70,10 +70,10 @@ pub fn address(path: &Path) -> String {
     address
 }
 
-/// Returns everything that the page of a session shows.
+/// Returns the complete contents of a session's page.
 ///
 /// # Errors
-/// If files are invalid, or the session has no data to report.
+/// Returns an error if files are invalid, or the session has no data to report.
 pub fn review(session: &Path) -> Result<Review, AppError> {
     review_with_pictures(session, photographs(&session.join(SNAPSHOTS)))
 }
@@ -105,8 +105,8 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetada
     })
 }
 
-/// Returns the photographs that fit into the page, keyed by the number at the end of their file names. Uses the small copy of a photograph if there
-/// is one.
+/// Returns the photographs that fit on the page, keyed by the number at the end of their file names. Uses the small
+/// copy of a photograph if one exists.
 fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
     let files = numbered_photographs(folder);
     let (mut left, mut found) = (MAX_PICTURES_BYTES, Vec::new());

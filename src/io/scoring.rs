@@ -1,4 +1,4 @@
-//! Scores of logs and stored sessions.
+//! Scores logs and stored sessions.
 
 use super::session_folder::StoredSession;
 use crate::errors::AppError;
@@ -12,7 +12,7 @@ use spandrel_monitor::{AssessError, AssessedSession, assess_log, export};
 /// Scores a log.
 ///
 /// # Errors
-/// If there is nothing to score.
+/// Returns an error if there is nothing to score.
 pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<AssessedSession, AppError> {
     assess_log(log, scenario, vehicle, build_site).map_err(|error| refused(&error))
 }
@@ -20,7 +20,7 @@ pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &
 /// Returns the scored frames of a stored session, for exports.
 ///
 /// # Errors
-/// If there is nothing to score.
+/// Returns an error if there is nothing to score.
 pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
     let rows = export::frame_rows(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle);
     rows.map_err(|error| refused(&error))

@@ -12,7 +12,7 @@ use std::time::Duration;
 const BITS_PER_BYTE: f64 = 10.0;
 /// Interval between attempts to reopen a disconnected port.
 const REOPEN_INTERVAL: Duration = Duration::from_secs(1);
-/// Baud rates in use by radios and cables. The system rejects rates that its hardware does not support.
+/// Range of baud rates that radios and cables use. The system rejects rates that its hardware does not support.
 const BAUD_RANGE: std::ops::RangeInclusive<u32> = 1_200..=4_000_000;
 
 /// A serial port and its speed.
@@ -31,7 +31,7 @@ impl SerialDevice {
     /// Opens the port in raw mode, without flow control or parity.
     ///
     /// # Errors
-    /// If the port does not exist, is in use, or does not support the baud rate.
+    /// Returns an error if the port does not exist, is in use, or does not support the baud rate.
     pub fn open(&self) -> std::io::Result<SerialPort> {
         SerialPort::open(&self.path, self.baud)
     }
@@ -48,7 +48,7 @@ impl FromStr for SerialDevice {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
             format!(
-                "'{text}' is not DEVICE:BAUD_RANGE, for example /dev/ttyUSB0:57600 (allowed: {} to {} baud)",
+                "'{text}' is not DEVICE:BAUD, for example /dev/ttyUSB0:57600 (allowed: {} to {} baud)",
                 BAUD_RANGE.start(),
                 BAUD_RANGE.end()
             )
@@ -59,8 +59,8 @@ impl FromStr for SerialDevice {
     }
 }
 
-/// Reads a port until its bytes are no longer needed. `begin` returns the frames to write, `give` receives the bytes read, and `end` is called when
-/// the port disconnects; the port is then reopened as soon as possible.
+/// Reads a port until its data is no longer needed. `begin` returns the frames to write, `give` receives the data read,
+/// and `end` is called when the port disconnects; the port is then reopened as soon as possible.
 pub fn run_with_reconnect(
     device: &SerialDevice,
     mut port: SerialPort,
@@ -73,7 +73,7 @@ pub fn run_with_reconnect(
         if !read_until_disconnect(port, frames, &give) || !end() {
             return;
         }
-        tracing::warn!("serial port {device} disconnected; it is reopened when it is back");
+        tracing::warn!("serial port {device} disconnected; waiting for it to return");
         port = loop {
             std::thread::sleep(REOPEN_INTERVAL);
             if let Ok(port) = device.open() {
@@ -83,7 +83,8 @@ pub fn run_with_reconnect(
     }
 }
 
-/// Reads the port while a thread writes `frames` to it. Returns false if the bytes are no longer needed, true if the port disconnected.
+/// Reads the port while a thread writes `frames` to it. Returns false if the data is no longer needed, true if the port
+/// disconnected.
 fn read_until_disconnect(port: SerialPort, frames: Receiver<Vec<u8>>, give: &impl Fn(&[u8]) -> bool) -> bool {
     let port = Arc::new(port);
     let to_write = Arc::clone(&port);

@@ -1,4 +1,5 @@
-//! Session folder on disk: created once, appended to and flushed. A monitor that was killed can resume in it.
+//! Session folder on disk. Its logs are only appended to and are flushed regularly, so that a restarted monitor can
+//! resume the session.
 
 use super::append_file::{AppendFile, WriteError, complete_lines_len, sync_folder};
 use super::clock;
@@ -30,17 +31,17 @@ pub struct SessionFolder {
 pub struct StoredSession {
     /// Scenario with the seed and the placed defects.
     pub scenario: ScenarioFile,
-    /// Aircraft of the session.
+    /// Aircraft flown in the session.
     pub vehicle: VehicleFile,
-    /// Telemetry log of the session.
+    /// Telemetry log.
     pub log: LogFile,
-    /// ID of the trainee.
+    /// Trainee ID.
     pub trainee: String,
     /// Purpose of the flight, if one was chosen.
     pub purpose: Option<String>,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Number of monitor starts so far.
+    /// Number of times that a monitor has been started for this session.
     pub starts: u32,
     /// Version of the program that recorded the session; empty if unknown.
     pub spandrel_version: String,
@@ -50,7 +51,7 @@ impl SessionFolder {
     /// Creates `SESSIONS/<utc>-<trainee>-<scenario>-<short id>/`.
     ///
     /// # Errors
-    /// If the folder cannot be created or written.
+    /// Returns an error if the folder cannot be created or written.
     pub fn create(
         sessions: &Path,
         trainee: &str,
@@ -74,10 +75,11 @@ impl SessionFolder {
         Self::open(path, scenario.text.clone(), vehicle.text.clone(), readable, 1)
     }
 
-    /// Opens a folder in which a monitor was killed; truncates telemetry and events to complete records and lines.
+    /// Opens the folder of a session whose monitor was killed, and truncates telemetry and events to complete records
+    /// and lines.
     ///
     /// # Errors
-    /// If this is not a session folder, another monitor is recording to it, or it cannot be written.
+    /// Returns an error if this is not a session folder, another monitor is recording to it, or it cannot be written.
     pub fn resume(path: &Path, stored: &StoredSession) -> Result<Self, AppError> {
         let (readable, _) = clock::utc(stored.started_unix_us);
         let (scenario, vehicle) = (stored.scenario.text.clone(), stored.vehicle.text.clone());
@@ -106,12 +108,12 @@ impl SessionFolder {
         Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, starts })
     }
 
-    /// Returns the path of the folder.
+    /// Returns the folder's path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Adds a record, which is written with the next [`Self::flush`].
+    /// Adds a record, which the next [`Self::flush`] writes.
     pub fn record(&mut self, record: SessionOutput) {
         match record {
             SessionOutput::Telemetry(bytes) => self.telemetry.push(&bytes),
@@ -122,7 +124,8 @@ impl SessionFolder {
     /// Writes pending records.
     ///
     /// # Errors
-    /// If the disk cannot be written. The files then contain complete records only, and the next call retries.
+    /// Returns an error if the disk cannot be written. The files then contain complete records only, and the next call
+    /// retries.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         let telemetry = self.telemetry.flush();
         self.events.flush().and(telemetry)
@@ -141,7 +144,7 @@ impl SessionFolder {
     /// Waits until the session has been written to the physical disk.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn sync(&self) -> Result<(), WriteError> {
         self.telemetry.sync()?;
         self.events.sync()?;
@@ -152,7 +155,7 @@ impl SessionFolder {
     /// Saves the seed and the placed defects in `scenario.toml`.
     ///
     /// # Errors
-    /// If the disk cannot be written; the next call retries.
+    /// Returns an error if the disk cannot be written; the next call retries.
     pub fn resolve(&mut self, seed: u64, placed: &[PlacedDefect]) -> Result<(), WriteError> {
         let resolved = scenario::resolve(&self.scenario_toml, seed, placed);
         replace_durably(&self.path.join(SCENARIO), resolved.as_bytes())?;
@@ -163,7 +166,7 @@ impl SessionFolder {
     /// Writes `session.json`.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn write_session_json(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), WriteError> {
         let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
         let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
@@ -173,7 +176,7 @@ impl SessionFolder {
     /// Writes `assessment.json`.
     ///
     /// # Errors
-    /// If the disk cannot be written.
+    /// Returns an error if the disk cannot be written.
     pub fn write_assessment(&self, json: &str) -> Result<(), WriteError> {
         replace_durably(&self.path.join(ASSESSMENT), json.as_bytes())
     }
@@ -183,7 +186,7 @@ impl StoredSession {
     /// Reads only the scenario of a session folder.
     ///
     /// # Errors
-    /// If this is not a session folder, or the file is invalid.
+    /// Returns an error if this is not a session folder, or the file is invalid.
     pub fn read_scenario(path: &Path) -> Result<ScenarioFile, AppError> {
         if !is_session(path) {
             return Err(not_a_session_folder(path));
@@ -191,11 +194,11 @@ impl StoredSession {
         files::scenario(&path.join(SCENARIO).display().to_string())
     }
 
-    /// Reads a session folder. The telemetry log and the two TOML files are required; without `session.json`, the trainee is taken from the folder
-    /// name.
+    /// Reads a session folder. The telemetry log and the two TOML files are required; without `session.json`, the
+    /// trainee is taken from the folder name.
     ///
     /// # Errors
-    /// If one of these files is missing or invalid.
+    /// Returns an error if one of these files is missing or invalid.
     pub fn read(path: &Path) -> Result<Self, AppError> {
         if !is_session(path) {
             return Err(not_a_session_folder(path));
@@ -226,10 +229,11 @@ impl StoredSession {
     }
 }
 
-/// Returns the trainee of a session and the wall time of its simulation time zero, µs since the Unix epoch. Faster than reading the whole session.
+/// Returns the trainee of a session and the wall time of its simulation time zero, µs since the Unix epoch. Faster than
+/// reading the whole session.
 ///
 /// # Errors
-/// If this is not a session folder, or a file is invalid.
+/// Returns an error if this is not a session folder, or a file is invalid.
 pub fn trainee_and_start(path: &Path) -> Result<(String, u64), AppError> {
     let session = read_session_json(&path.join(SESSION))?;
     match (session["trainee"].as_str(), session["started_unix_us"].as_u64()) {
@@ -238,7 +242,8 @@ pub fn trainee_and_start(path: &Path) -> Result<(String, u64), AppError> {
     }
 }
 
-/// Returns the purpose of a session, if one was chosen and `session.json` is readable. Faster than reading the whole session.
+/// Returns a session's purpose, if one was chosen and `session.json` is readable. Faster than reading the whole
+/// session.
 pub fn purpose(path: &Path) -> Option<String> {
     read_session_json(&path.join(SESSION)).ok()?["purpose"].as_str().map(str::to_owned)
 }
@@ -246,18 +251,18 @@ pub fn purpose(path: &Path) -> Option<String> {
 /// A session that is being recorded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OngoingSession {
-    /// ID of the trainee.
+    /// Trainee ID.
     pub trainee: String,
-    /// CRC of the scenario.
+    /// Scenario CRC.
     pub crc: u32,
-    /// Seed of the session.
+    /// Session seed.
     pub seed: u64,
 }
 
-/// Returns a session that has not ended and whose telemetry has grown within this time; `None` for any other.
+/// Returns the session if it has not ended and its telemetry has grown within this time; `None` otherwise.
 pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> {
     let grown = path.join(TELEMETRY).metadata().and_then(|about| about.modified()).ok()?;
-    // If the clock was set back, the file counts as new.
+    // If the clock was set back, the file counts as recent.
     if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
         return None;
     }
@@ -266,7 +271,7 @@ pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> 
     Some(OngoingSession { trainee: session["trainee"].as_str()?.to_owned(), crc, seed: session["seed"].as_u64()? })
 }
 
-/// Returns true for a folder that contains a session's telemetry.
+/// Returns true if the folder contains a session's telemetry.
 pub fn is_session(path: &Path) -> bool {
     path.join(TELEMETRY).is_file()
 }
@@ -292,7 +297,7 @@ fn trainee_from_folder_name(path: &Path, scenario: &str) -> Option<String> {
     Some(rest.strip_suffix(scenario)?.strip_suffix('-')?.to_owned())
 }
 
-/// Creates a new folder, even if two sessions start in the same second.
+/// Creates a new folder; the name is unique even if two sessions start in the same second.
 fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathBuf, AppError> {
     for attempt in 0..1000u32 {
         let key = format!("{started_unix_us} {} {attempt}", std::process::id());

@@ -17,11 +17,12 @@ use spandrel_sitl::endpoint::{LinkId, LinkKind, StorageRequest};
 use spandrel_sitl::sim::{Sim, SimEvent};
 use std::time::Duration;
 
-/// Longest wait on the sockets, so that stop requests and silent peers are noticed.
+/// Maximum wait for the sockets, so that stop requests and silent peers are noticed.
 const MAX_WAIT: Duration = Duration::from_millis(100);
-/// Shortest sleep. Waking every millisecond would only load the processor, and incoming data ends the sleep anyway.
+/// Minimum sleep. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
 const MIN_SLEEP: Duration = Duration::from_millis(2);
-/// Wall-clock interval of heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3 to 5 s without one.
+/// Wall-clock interval of heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3 to 5
+/// s without one.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Files that belong to one vehicle.
@@ -31,14 +32,14 @@ pub struct VehicleFiles {
     pub store: Option<FileStore>,
     /// File that stores the parameters, if any.
     pub params: Option<ParamFile>,
-    /// Saved state of MAVLink signing.
+    /// Saved MAVLink signing state.
     pub signing_store: Option<SigningStore>,
 }
 
 /// MAVLink signing key, and the links that need no signature.
 #[derive(Debug, Clone)]
 pub struct SigningConfig {
-    /// Key that all other links must sign with.
+    /// Key with which messages on all other links must be signed.
     pub key: SigningKey,
     /// Kinds of links whose unsigned frames are accepted.
     pub unsigned: Vec<LinkKind>,
@@ -62,10 +63,10 @@ pub struct VehicleShell {
 }
 
 impl VehicleShell {
-    /// Loads the saved files and starts the vehicle's clock.
+    /// Loads the vehicle's saved files and starts its clock.
     ///
     /// # Errors
-    /// If a saved file is invalid.
+    /// Returns an error if a saved file is invalid.
     pub fn new(
         mut core: Sim,
         links: Links,
@@ -88,7 +89,7 @@ impl VehicleShell {
             file.saved_changes = core.parameter_changes();
         }
         if let Some(SigningConfig { key, unsigned }) = signing {
-            core.demand_signatures(key, stamp(clock::unix_us()), &unsigned);
+            core.require_signatures(key, stamp(clock::unix_us()), &unsigned);
         }
         if let Some(file) = &heard
             && let Some(memory) = file.text()?
@@ -112,7 +113,7 @@ impl VehicleShell {
         })
     }
 
-    /// Pauses the simulation whenever this switch is on.
+    /// Pauses the simulation whenever this flag is set.
     pub fn set_pause_switch(&mut self, still: PauseSwitch) {
         self.pause = still;
     }
@@ -137,10 +138,11 @@ impl VehicleShell {
         self.links.wait(MAX_WAIT);
     }
 
-    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data and waits for the next tick.
+    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data
+    /// and waits for the next tick.
     ///
     /// # Errors
-    /// If a lockstep peer has disappeared.
+    /// Returns an error if a lockstep peer has disappeared.
     pub fn run_until(&mut self, end: SimTime) -> Result<(), AppError> {
         if self.pause.is_paused() {
             self.run_paused();
@@ -186,7 +188,7 @@ impl VehicleShell {
         }
     }
 
-    /// Carries out the clients' file requests and appends to the flight log.
+    /// Executes the clients' file requests and appends to the flight log.
     fn serve_file_jobs(&mut self) {
         while let Some(job) = self.core.poll_file_job() {
             let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.run_action(&job.action));
@@ -199,10 +201,10 @@ impl VehicleShell {
         }
     }
 
-    /// Saves changed parameters, and reads the file again when a client requests it.
+    /// Saves changed parameters, and rereads the file at a client's request.
     fn save_parameters(&mut self) {
         let Some(file) = &mut self.params else { return };
-        let wish = self.core.poll_storage();
+        let wish = self.core.take_storage_request();
         let told = match wish {
             Some(StorageRequest::Load) => file.text().and_then(|text| {
                 self.core.read_parameters(&text.unwrap_or_default()).map_err(|problems| file.parse_error(&problems))
@@ -222,7 +224,7 @@ impl VehicleShell {
     fn save_signing_state(&mut self, at_once: bool) {
         let wall = self.stopwatch.elapsed();
         if let Some(file) = self.signing_store.as_mut().filter(|file| at_once || file.is_due(wall))
-            && let Some(memory) = self.core.signing_memory()
+            && let Some(memory) = self.core.signing_state()
         {
             file.save(memory, wall);
         }
@@ -254,7 +256,7 @@ impl VehicleShell {
         if self.core.waiting() {
             if self.lockstep_timeout.is_over(self.core.now(), wall) {
                 return Err(AppError::failed(format!(
-                    "a lockstep peer has not answered TIMESYNC for {} s (simulation time {}) and seems to be gone",
+                    "a lockstep peer has not answered TIMESYNC for {} s (simulation time {}); it may have exited",
                     LOCKSTEP_PEER_TIMEOUT.as_secs(),
                     self.core.now()
                 )));
@@ -269,15 +271,16 @@ impl VehicleShell {
         Ok(())
     }
 
-    /// Waits for a peer's first TIMESYNC answer. The vehicle announces itself meanwhile, because a peer has to find it before it can answer.
+    /// Waits for a peer's first TIMESYNC answer. The vehicle announces itself meanwhile, because a peer must find it
+    /// before it can answer.
     fn await_first_answer(&mut self, heard: bool, wall: Duration) {
         self.pacer.hold(wall, self.core.now());
         match self.first_answer.next_action(heard, wall, HEARTBEAT_INTERVAL) {
             FirstAnswerAction::Wait => {}
-            FirstAnswerAction::Announce => self.core.send_first_contact(),
+            FirstAnswerAction::Announce => self.core.send_first_heartbeats(),
             FirstAnswerAction::Proceed => {
                 tracing::info!("a lockstep peer has not answered TIMESYNC yet: serving it in real time until it does");
-                self.core.skip_first_responses();
+                self.core.stop_awaiting_first_responses();
                 return;
             }
         }
@@ -298,12 +301,12 @@ impl VehicleShell {
         }
     }
 
-    /// Returns the delay of the simulation behind the wall clock.
+    /// Returns the delay of the simulation relative to the wall clock.
     pub fn lateness(&self) -> Lateness {
         self.pacer.lateness()
     }
 
-    /// Closes the flight log, saves the signing state and logs all losses.
+    /// Closes the flight log, saves the signing state and logs how much data was lost.
     pub fn finish(&mut self) {
         self.core.close_flight_log();
         self.serve_file_jobs();

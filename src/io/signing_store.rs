@@ -1,4 +1,5 @@
-//! Timestamps of signed MAVLink messages, saved next to the key file, so that a restarted program rejects messages that it has already processed.
+//! Timestamps of signed MAVLink messages, saved next to the key file so that the program rejects already processed
+//! messages even after a restart.
 
 use super::replace::replace;
 use crate::errors::AppError;
@@ -6,10 +7,11 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Interval at which the timestamps are saved. Messages received after the last save before a kill could be replayed within one minute.
+/// Interval at which the timestamps are saved. If the program is killed, messages received since the last save could be
+/// replayed within one minute.
 const SAVE_INTERVAL: Duration = Duration::from_secs(1);
 
-/// File of the signing timestamps of one vehicle.
+/// File with the signing timestamps of one vehicle.
 #[derive(Debug)]
 pub struct SigningStore {
     path: PathBuf,
@@ -29,7 +31,7 @@ impl SigningStore {
     /// Returns the contents; `None` if the file does not exist.
     ///
     /// # Errors
-    /// If the file exists and cannot be read.
+    /// Returns an error if the file exists and cannot be read.
     pub fn text(&self) -> Result<Option<String>, AppError> {
         match std::fs::read_to_string(&self.path) {
             Ok(text) => Ok(Some(text)),

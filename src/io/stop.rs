@@ -1,4 +1,5 @@
-//! Stop requests: on SIGINT or SIGTERM, or when the parent process exits. Long runs check the flag and finish cleanly.
+//! Stop requests: on SIGINT or SIGTERM, or when the parent process exits. Long-running loops check the flag and shut
+//! down cleanly.
 
 use crate::errors::AppError;
 use std::io::{BufRead, Read};
@@ -11,11 +12,11 @@ use std::sync::mpsc::{Receiver, channel};
 pub struct StopRequest(Arc<AtomicBool>);
 
 impl StopRequest {
-    /// Listens for SIGINT and SIGTERM, and with `leash` also for the end of standard input: it closes when the parent exits for any reason, so no
-    /// child outlives its parent.
+    /// Listens for SIGINT and SIGTERM, and with `leash` also for the end of standard input: it closes when the parent
+    /// exits for any reason, so no child outlives its parent.
     ///
     /// # Errors
-    /// If the system rejects the listener.
+    /// Returns an error if the signal handler cannot be installed.
     pub fn install(leash: bool) -> Result<Self, AppError> {
         let stop = Self::default();
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -36,14 +37,15 @@ impl StopRequest {
         Ok(stop)
     }
 
-    /// Returns the lines that the parent process writes to standard input. When standard input closes, the process is asked to stop.
+    /// Returns the lines that the parent process writes to standard input. When standard input closes, requests that
+    /// the process stop.
     pub fn lines(&self) -> Receiver<String> {
         let (sender, lines) = channel();
         let on_end = self.clone();
         std::thread::spawn(move || {
             let mut stdin = std::io::stdin().lock();
             let mut line = Vec::new();
-            // Bytes that are not UTF-8 make an invalid line, but do not end the input.
+            // Bytes that are not UTF-8 make the line invalid, but do not end the input.
             while matches!(stdin.read_until(b'\n', &mut line), Ok(1..)) {
                 let text = String::from_utf8_lossy(&line).trim_end().to_owned();
                 line.clear();

@@ -1,5 +1,5 @@
-//! The vehicle's files on disk, in one folder that no client can leave. The folder is opened as a capability: the operating system's path lookup, not
-//! a text comparison, rejects links and names that point outside.
+//! The vehicle's files on disk, in one folder that clients cannot escape. The folder is opened as a capability: the
+//! operating system's path lookup, not a text comparison, rejects links and names that point outside.
 
 use super::flight_logs;
 use super::mcap::{McapRecording, base64};
@@ -18,8 +18,8 @@ use std::path::{Path, PathBuf};
 const CLIENT_QUOTA_BYTES: u64 = 256 * 1024 * 1024;
 /// Maximum number of files and directories of all clients, because a listing reads each of them.
 const CLIENT_QUOTA_ENTRIES: u64 = 1_000;
-/// Folder of the flight logs, with one folder per day, as in PX4. The logs belong to the vehicle: clients can read and remove them, and they do not
-/// count toward the quota.
+/// Folder of flight logs, with one folder per day as in PX4. The logs belong to the vehicle: clients can read and
+/// remove them, and they do not count toward the quota.
 const LOG_FOLDER: &str = "log";
 
 /// Folder of the vehicle's files, with the log of the current flight.
@@ -50,7 +50,7 @@ impl FlightLog {
     /// Appends a message completely or not at all, so that readers never find a message after a partial one.
     fn write(&mut self, piece: &[u8]) -> std::io::Result<()> {
         self.file.write_all(piece).inspect_err(|_| {
-            // If this fails too, the partial message is at the end of the file, where readers expect one.
+            // If this fails too, the partial message is at the end of the file, where readers tolerate one.
             let _ = self.file.set_len(self.whole);
         })?;
         self.whole += piece.len() as u64;
@@ -62,7 +62,7 @@ impl FileStore {
     /// Opens the folder and creates it if necessary.
     ///
     /// # Errors
-    /// If the folder can neither be opened nor created.
+    /// Returns an error if the folder can neither be opened nor created.
     pub fn open(path: &Path, max_log_bytes: u64) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--files {}: {error}", path.display()));
         std::fs::create_dir_all(path).map_err(failed)?;
@@ -77,10 +77,10 @@ impl FileStore {
         self.site = Some(base64(glb));
     }
 
-    /// Carries out a client's file request.
+    /// Executes a client's file request.
     ///
     /// # Errors
-    /// The reason as a MAVLink FTP error.
+    /// Returns the reason as a MAVLink FTP error.
     pub fn run_action(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
         self.act(action).map_err(|error| match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => FileError::NotFound,
@@ -129,7 +129,8 @@ impl FileStore {
         self.change(path, act)
     }
 
-    /// Writes to a file, whose length then is at most `length` or its previous length, unless the clients' quota is exhausted.
+    /// Writes to a file unless the clients' quota is exhausted. Its new length is at most the larger of `length` and
+    /// its previous length.
     fn write(
         &mut self,
         path: &FilePath,
@@ -189,10 +190,12 @@ impl FileStore {
         Ok(FileJobResult::Checksum { sum: checksum(sum, &bytes), bytes: u32::try_from(bytes.len()).unwrap_or(CHECKSUM_SLICE) })
     }
 
-    /// Appends to the vehicle's log `log/<date>/<time>.ulg` or to the recording with the same name and `.mcap`.
+    /// Appends to the vehicle's log `log/<date>/<time>.ulg`, or to the recording with the same name and the extension
+    /// `.mcap`.
     ///
     /// # Errors
-    /// If the disk cannot be written. The file then ends with the previous data; the next flight starts a new one.
+    /// Returns an error if the disk cannot be written. The file then ends with the previous data; the next flight
+    /// starts a new one.
     pub fn log(&mut self, piece: &LogOutput) -> Result<(), AppError> {
         match piece {
             LogOutput::Bytes(bytes) => {
@@ -211,7 +214,7 @@ impl FileStore {
         }
     }
 
-    /// Starts or ends a flight's log.
+    /// Starts or ends a flight log.
     fn begin_or_end_log(&mut self, piece: &LogOutput) -> std::io::Result<()> {
         match piece {
             LogOutput::Begin(unix_us) => {
@@ -219,7 +222,7 @@ impl FileStore {
                 let (date, time) = readable.split_at(10);
                 let deleted = flight_logs::delete_oldest(&self.root, LOG_FOLDER, self.max_log_bytes)?;
                 if deleted > 0 {
-                    tracing::info!("deleted the logs of {deleted} old flights to make space for a new one");
+                    tracing::info!("deleted the logs of {deleted} old flights to make room for a new one");
                 }
                 let folder = format!("{LOG_FOLDER}/{date}");
                 self.root.create_dir_all(&folder)?;
@@ -271,7 +274,7 @@ fn is_log(path: &FilePath) -> bool {
     path.as_str() == LOG_FOLDER || path.as_str().strip_prefix(LOG_FOLDER).is_some_and(|rest| rest.starts_with('/'))
 }
 
-/// Rejects paths that clients must not write.
+/// Rejects paths to which clients must not write.
 fn check_client_path(path: &FilePath) -> std::io::Result<()> {
     if is_log(path) { Err(ErrorKind::PermissionDenied.into()) } else { Ok(()) }
 }
@@ -284,14 +287,14 @@ struct StorageUsage {
 }
 
 impl StorageUsage {
-    /// Measures a folder without its logs. A folder over the quota can still be read and emptied.
+    /// Measures a folder without its logs. Clients can still read and empty a folder that exceeds the quota.
     fn measure(root: &Dir) -> Self {
         let mut used = Self::default();
         used.count(root, true);
         used
     }
 
-    /// Adds the contents of a directory. Stops at the quota, so that a large folder does not delay the start.
+    /// Adds up the contents of a directory. Stops at the quota, so that a large folder does not delay startup.
     fn count(&mut self, directory: &Dir, is_root: bool) {
         let Ok(entries) = directory.entries() else { return };
         for entry in entries.flatten().filter(|entry| !(is_root && entry.file_name() == LOG_FOLDER)) {
@@ -434,7 +437,7 @@ mod tests {
         let (base, mut store) = place("refused");
         store.log(&LogOutput::Begin(1_790_000_000_000_000)).unwrap();
         store.log(&LogOutput::Bytes("one".into())).unwrap();
-        // A read-only descriptor fails like a full disk.
+        // A read-only descriptor simulates a full disk.
         let name = "log/2026-09-21/14_13_20.ulg";
         store.log.as_mut().unwrap().file = store.root.open(name).unwrap();
         let refused = store.log(&LogOutput::Bytes("two".into())).unwrap_err().to_string();

@@ -1,4 +1,4 @@
-//! The ports that a vehicle opens and the addresses that it sends to without being asked.
+//! Ports that a vehicle opens, and addresses that it sends to from the start.
 
 use super::serial::SerialDevice;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
@@ -28,7 +28,7 @@ pub struct VehiclePorts {
     pub gcs_limit: Option<u32>,
 }
 
-/// Returns a port of this machine.
+/// Returns the address of a port on this machine.
 pub fn local(port: u16) -> SocketAddr {
     SocketAddr::from((Ipv4Addr::LOCALHOST, port))
 }

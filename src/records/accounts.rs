@@ -1,4 +1,4 @@
-//! Accounts that can log in to `spandrel serve`.
+//! Login accounts of `spandrel serve`.
 
 use super::database::Database;
 use super::trainees::{trainee, update_details};
@@ -23,7 +23,8 @@ pub struct Account {
 }
 
 impl Account {
-    /// Returns a hash of the password and the role. Browser sessions end when it changes. `None` for a person who cannot log in.
+    /// Returns a hash of the password and the role. When it changes, browser sessions end. `None` for a person who
+    /// cannot log in.
     #[must_use]
     pub fn credential(&self) -> Option<CredentialHash> {
         let hash = self.hash.as_ref()?;
@@ -35,7 +36,7 @@ impl Database {
     /// Returns a person; `None` if there is no such name.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn account(&self, name: &str) -> Result<Option<Account>, AppError> {
         self.run(async {
             let row = sqlx::query(ACCOUNT).bind(name.to_owned()).fetch_optional(&self.pool).await?;
@@ -46,7 +47,7 @@ impl Database {
     /// Adds a person or sets their role, and sets their password, in one transaction; the details are kept.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn set_login(&self, name: &str, role: Role, hash: &str) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -60,7 +61,7 @@ impl Database {
     /// Changes a person's password if the stored hash is still `before`; returns false otherwise.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn change_password(&self, name: &str, before: &str, after: &str) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -73,7 +74,7 @@ impl Database {
     /// Removes a person's password, so that they can no longer log in. Returns false if there was none.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn remove_password(&self, name: &str) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -86,7 +87,7 @@ impl Database {
     /// Returns the names of all people with a password.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn names_with_password(&self) -> Result<Vec<String>, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT pseudonym FROM passwords ORDER BY pseudonym").fetch_all(&self.pool).await?;

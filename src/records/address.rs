@@ -1,12 +1,12 @@
-//! Addresses of databases: a file, or a PostgreSQL URL. The TLS options of a URL are checked here, because the driver's error messages are unclear
-//! and some options do less than their names suggest.
+//! Database addresses: a file, or a PostgreSQL URL. The TLS options of a URL are checked here, because the driver's
+//! error messages are unclear and some options do less than their names suggest.
 
 use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 
-/// Allowed values of `sslmode`. `allow` is excluded because the driver would treat it as `disable`, and `verify-ca` because the driver (sqlx 0.8.6
-/// with rustls) verifies the host name anyway, with a misleading error message.
+/// Allowed values of `sslmode`. `allow` is excluded because the driver would treat it as `disable`, and `verify-ca`
+/// because the driver (sqlx 0.8.6 with rustls) verifies the host name anyway, with a misleading error message.
 const SSL_MODES: [&str; 4] = ["disable", "prefer", "require", "verify-full"];
 /// The only mode that verifies PostgreSQL's certificate.
 const VERIFYING_MODE: &str = "verify-full";
@@ -19,7 +19,7 @@ pub fn is_url(target: &str) -> bool {
 /// Checks the TLS options of a URL.
 ///
 /// # Errors
-/// If an option is invalid: its name, its value and the allowed values.
+/// Returns an error if an option is invalid. The error contains its name, its value and the allowed values.
 pub fn check_tls_options(target: &str) -> Result<(), String> {
     let Some((_, query)) = target.split_once('?').filter(|_| is_url(target)) else { return Ok(()) };
     let said: Vec<(String, String)> = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
@@ -50,7 +50,7 @@ pub fn check_tls_options(target: &str) -> Result<(), String> {
     }
 }
 
-/// Returns true if an option concerns TLS, in upper or lower case: the driver ignores `SSLMODE`.
+/// Returns true if an option concerns TLS, in upper or lower case, because the driver ignores `SSLMODE`.
 fn is_tls_option(key: &str) -> bool {
     key.to_ascii_lowercase().starts_with("ssl")
 }
@@ -65,19 +65,16 @@ fn check_certificate_file(key: &str, file: &str) -> Result<(), String> {
     }
 }
 
-/// Describes a connection error, with advice where the driver's message is unclear.
+/// Describes a connection error, and adds advice where the driver's message is unclear.
 pub fn connection_error(error: &sqlx::Error) -> String {
     let said = error.to_string();
     let advice = [
         (
             "UnknownIssuer",
-            "the server's certificate was issued by an unknown authority: specify the authority's certificate with sslrootcert=FILE",
+            "the server's certificate was issued by an unknown certificate authority: specify the CA certificate with sslrootcert=FILE",
         ),
         ("not valid for name", "the server's certificate is for another host name: use that name in the URL"),
-        (
-            "CaUsedAsEndEntity",
-            "the server uses an authority's certificate as its own: issue a server certificate for its host name",
-        ),
+        ("CaUsedAsEndEntity", "the server uses a CA certificate as its own: issue a server certificate for its host name"),
         ("certificate expired", "the server's certificate has expired, or a clock is wrong"),
         ("server does not support TLS", "enable TLS on the server (ssl = on), or use sslmode=disable on a trusted network"),
     ];

@@ -1,4 +1,4 @@
-//! Import of many session folders.
+//! Imports many session folders.
 
 use super::database::Database;
 use super::erasure_marks::ErasureMarks;
@@ -25,7 +25,7 @@ pub struct ImportCounts {
 
 impl ImportCounts {
     /// Returns the record of a folder, or `None` if the session was erased, is unchanged in `known`, or cannot be read.
-    /// `otherwise` is logged as the consequence in the last case.
+    /// If it cannot be read, logs the error with `otherwise` as the consequence.
     pub fn read(
         &mut self,
         folder: &Path,
@@ -47,7 +47,7 @@ impl ImportCounts {
 /// Imports new and changed sessions. Logs and skips sessions that cannot be scored.
 ///
 /// # Errors
-/// If the database fails.
+/// Returns an error if the database fails.
 pub fn import_into(database: &Database, folders: &[PathBuf]) -> Result<ImportCounts, AppError> {
     let (known, erased) = (database.fingerprints()?, database.erased()?);
     let mut taken = ImportCounts::default();

@@ -1,6 +1,6 @@
-//! Database of records: SQLite in a file, or PostgreSQL by URL, with the same statements and migrations. All calls block. Every change is one
-//! transaction that takes the write lock first, so that stations that write at the same time wait for one another, and an interrupted program leaves
-//! either all of a session or nothing.
+//! Database of records: SQLite in a file, or PostgreSQL by URL, with the same statements and migrations. All calls
+//! block. Every change is one transaction that takes the write lock first, so concurrent writers wait for each other,
+//! and an interrupted program leaves either all of a session or nothing.
 
 use super::address::{self, sqlite_url, without_password};
 use crate::errors::AppError;
@@ -10,15 +10,15 @@ use std::future::Future;
 use std::path::Path;
 use std::time::Duration;
 
-/// Time that SQLite waits for other writers, ms.
+/// Maximum time that SQLite waits for other writers, ms.
 const BUSY_TIMEOUT: &str = "PRAGMA busy_timeout = 60000";
 /// SQLite overwrites deleted data with zeros.
 const SECURE_DELETE: &str = "PRAGMA secure_delete = ON";
-/// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without it, two stations that add the same new trainees in different
-/// orders would deadlock, and one transaction would be aborted.
+/// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without it, two stations that add the
+/// same new trainees in different orders would deadlock, and one transaction would be aborted.
 const WRITE_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
 
-/// SQL dialect of a database.
+/// SQL dialect of the database.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SqlDialect {
     Sqlite,
@@ -39,7 +39,7 @@ impl Database {
     /// Opens `postgres://...` or a file, which is created if it does not exist, and brings its tables up to date.
     ///
     /// # Errors
-    /// If the URL is invalid, or the database cannot be opened or has a newer version.
+    /// Returns an error if the URL is invalid, or the database cannot be opened or has a newer version.
     pub fn open(target: &str) -> Result<Self, AppError> {
         sqlx::any::install_default_drivers();
         let kind = if address::is_url(target) { SqlDialect::Postgres } else { SqlDialect::Sqlite };
@@ -61,7 +61,8 @@ impl Database {
                 Box::pin(async move { if kind == SqlDialect::Sqlite { prepare(connection).await } else { Ok(()) } })
             },
         );
-        // The pool would retry a server that refuses connections; a separate first connection reports the error immediately.
+        // The pool would retry a server that refuses connections; a separate first connection reports the error
+        // immediately.
         let open = async {
             AnyConnection::connect(&url).await?.close().await?;
             options.connect(&url).await
@@ -112,7 +113,7 @@ impl Database {
     /// Returns a version string, which changes whenever another connection has modified the database.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn version(&self) -> Result<String, AppError> {
         self.run(async {
             match self.kind {
@@ -120,7 +121,8 @@ impl Database {
                     let version: i64 = sqlx::query("PRAGMA data_version").fetch_one(&self.pool).await?.try_get(0)?;
                     Ok(version.to_string())
                 }
-                // Every write transaction on the server changes this value: results are recomputed too often rather than too rarely.
+                // Every write transaction on the server changes this value, so results may be recomputed too often, but
+                // never too rarely.
                 SqlDialect::Postgres => {
                     sqlx::query("SELECT txid_current_snapshot()::text").fetch_one(&self.pool).await?.try_get(0)
                 }
@@ -150,7 +152,8 @@ impl Database {
 
 impl Drop for Database {
     fn drop(&mut self) {
-        // The last reference may be dropped in a task of the web server, which must not block; dropping the runtime normally would block.
+        // The last reference may be dropped in a task of the web server, which must not block; dropping the runtime
+        // normally would block.
         if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_background();
         }
@@ -161,8 +164,8 @@ async fn prepare(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
     for pragma in [BUSY_TIMEOUT, SECURE_DELETE] {
         connection.execute(pragma).await?;
     }
-    // The write-ahead log lets readers work while another process writes. SQLite may reject the switch while another station has the file open; that
-    // station then requests it too, and until then the busy timeout is sufficient.
+    // The write-ahead log allows reads while another process writes. SQLite may reject the mode change while another
+    // station has the file open; that station requests it as well, and until then the busy timeout is sufficient.
     let _ = connection.execute("PRAGMA journal_mode = WAL").await;
     Ok(())
 }

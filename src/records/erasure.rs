@@ -1,5 +1,6 @@
-//! Removes session folders so that an interrupted program leaves nothing half done. The transaction that erases the records also marks their folders;
-//! each folder is then renamed, so that nothing reads it anymore, and deleted. The next start finishes interrupted removals.
+//! Removes session folders in a crash-safe way. The transaction that erases the records also marks their folders; each
+//! folder is then renamed, so that nothing reads it anymore, and deleted. At the next start, interrupted removals are
+//! completed.
 
 use super::database::Database;
 use super::erasure_marks::{self, ErasedKind, folder_name};
@@ -34,7 +35,7 @@ impl Database {
 /// Removes folders that the database has marked (`Database::erase`, `Database::delete_sessions`).
 ///
 /// # Errors
-/// If the disk or the database fails; the next start tries again.
+/// Returns an error if the disk or the database fails; the next start tries again.
 pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result<(), AppError> {
     for folder in folders {
         let name = folder_name(folder);
@@ -55,7 +56,7 @@ pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result
 /// Finishes interrupted erasures.
 ///
 /// # Errors
-/// If the disk or the database fails.
+/// Returns an error if the disk or the database fails.
 pub(super) fn finish(database: &Database, sessions: &[PathBuf]) -> Result<(), AppError> {
     let marked = database.erasing()?;
     for entry in sessions.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().flatten() {
@@ -125,7 +126,7 @@ mod tests {
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(place.path()), ["b-ben"]);
         assert_eq!(database.erasing(), Ok(BTreeSet::new()));
-        // A folder that is copied back later is not removed without a request.
+        // A folder that is copied back later is not deleted automatically.
         session(place.path(), "a-anna");
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(place.path()), ["a-anna", "b-ben"]);

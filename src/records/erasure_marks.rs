@@ -1,4 +1,5 @@
-//! Marks of erased data in the database. Every import and rebuild checks them, so that erased sessions do not return from folders on other stations.
+//! Marks for erased data in the database. Every import and rebuild checks them, so that erased sessions do not return
+//! from folders on other stations.
 
 use super::database::{Database, signed};
 use crate::errors::AppError;
@@ -14,14 +15,14 @@ const MARK: &str = "INSERT INTO erased (what, sha256, erased_unix_us) VALUES ($1
 const CONTAINS: &str = "SELECT COUNT(*) FROM erased WHERE (what = 'trainee' AND sha256 = $1 AND erased_unix_us >= $2) \
     OR (what = 'session' AND sha256 = $3)";
 
-/// Kind of an erasure mark.
+/// Kind of erasure mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ErasedKind {
     /// All sessions of a trainee that started before the mark.
     Trainee,
     /// A single session, by its ID.
     Session,
-    /// A folder on this machine that still has to be removed.
+    /// A folder on this machine that must still be removed.
     Folder,
 }
 
@@ -53,7 +54,7 @@ pub(super) fn folder_name(folder: &Path) -> String {
     folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Returns the hash under which a name is marked; storing the name itself would defeat the erasure.
+/// Returns the hash of a name for its mark; storing the name itself would defeat the erasure.
 pub(super) fn hash(name: &str) -> String {
     sha256_hex(format!("erased: {name}").as_bytes())
 }
@@ -62,7 +63,7 @@ impl Database {
     /// Returns all erasure marks.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn erased(&self) -> Result<ErasureMarks, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT what, sha256, erased_unix_us FROM erased").fetch_all(&self.pool).await?;

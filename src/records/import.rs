@@ -13,10 +13,10 @@ use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, recor
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Returns the session folders directly inside these folders, ordered by name (that is, by time).
+/// Returns the session folders directly inside these folders, sorted by name (that is, by time).
 ///
 /// # Errors
-/// If a folder cannot be read.
+/// Returns an error if a folder cannot be read.
 pub fn session_folders(sessions: &[PathBuf]) -> Result<Vec<PathBuf>, AppError> {
     let mut found = Vec::new();
     for folder in sessions {
@@ -36,7 +36,7 @@ fn is_hidden(path: &Path) -> bool {
 /// Returns the ID of a session: the name of its folder.
 ///
 /// # Errors
-/// If the name of the folder is not valid UTF-8.
+/// Returns an error if the name of the folder is not valid UTF-8.
 pub fn id(session: &Path) -> Result<String, AppError> {
     let path = session.canonicalize().map_err(|error| AppError::wrong(format!("{}: {error}", session.display())))?;
     let name = path.file_name().and_then(|name| name.to_str());
@@ -46,7 +46,7 @@ pub fn id(session: &Path) -> Result<String, AppError> {
 /// Creates the record of a session folder. Returns `None` if `known` contains it unchanged.
 ///
 /// # Errors
-/// If the folder is invalid or contains nothing to score.
+/// Returns an error if the folder is invalid or contains nothing to score.
 pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<SessionRecord>, AppError> {
     let id = id(session)?;
     let hashes = hashes(session)?;
@@ -57,7 +57,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     let scenario = &stored.scenario.scenario;
     let graded = scoring::grade(&stored.log, scenario, &stored.vehicle.vehicle)
         .map_err(|error| AppError::failed(format!("{}: {error}", session.display())))?;
-    // A monitor that was killed early has not saved the positions of the defects; the seed gives the same ones.
+    // If the monitor was killed early, the positions of the defects were not saved; the seed reproduces them.
     let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
     let answers = answers::read_answers_of(session, scenario)?;
@@ -76,8 +76,8 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     })))
 }
 
-/// Returns true if the session of a folder was erased, or its trainee was erased after it had started. Unreadable folders return false, because
-/// [`read`] reports them.
+/// Returns true if the session of a folder was erased, or its trainee was erased after it had started. Unreadable
+/// folders return false, because [`read`] reports them.
 pub fn is_erased(session: &Path, erased: &ErasureMarks) -> bool {
     let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), trainee_and_start(session)) else { return false };
     erased.contains(&id, &trainee, started_unix_us)

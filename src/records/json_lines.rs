@@ -1,4 +1,4 @@
-//! Records as JSON lines, to exchange them between databases.
+//! Records as JSON lines, for exchange between databases.
 
 use crate::errors::AppError;
 use crate::io::files;
@@ -8,7 +8,7 @@ use std::path::Path;
 /// Returns the records as JSON lines.
 ///
 /// # Errors
-/// If a record cannot be serialized as JSON (not expected in practice).
+/// Returns an error if a record cannot be serialized as JSON (not expected in practice).
 pub fn lines(records: &[SessionRecord]) -> Result<String, AppError> {
     let line = |record: &SessionRecord| serde_json::to_string(record).map(|text| text + "\n");
     records.iter().map(line).collect::<Result<String, _>>().map_err(|error| AppError::failed(error.to_string()))
@@ -17,7 +17,7 @@ pub fn lines(records: &[SessionRecord]) -> Result<String, AppError> {
 /// Reads records from a JSON lines file, as written by `records export`.
 ///
 /// # Errors
-/// If the file cannot be read or a line is not a valid record.
+/// Returns an error if the file cannot be read or a line is not a valid record.
 pub fn read_json_lines(path: &Path) -> Result<Vec<SessionRecord>, AppError> {
     let text = files::read(path)?;
     let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());

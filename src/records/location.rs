@@ -18,7 +18,7 @@ impl RecordsLocation {
     /// Opens the database and completes interrupted erasures.
     ///
     /// # Errors
-    /// If the database cannot be opened.
+    /// Returns an error if the database cannot be opened.
     pub fn open(&self) -> Result<Database, AppError> {
         let database = match &self.database {
             Some(target) => Database::open(target),

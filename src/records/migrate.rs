@@ -3,7 +3,8 @@
 use super::database::Database;
 use sqlx::{Executor, Row};
 
-/// Migrations in order; a database of version n has the first n. Released migrations never change; new ones are appended.
+/// Migrations in order; version n of the database includes the first n. Released migrations never change; new
+/// migrations are appended.
 const MIGRATIONS: &[&str] = &[
     include_str!("migrations/0001_first.sql"),
     include_str!("migrations/0002_passwords.sql"),
@@ -14,7 +15,7 @@ const MIGRATIONS: &[&str] = &[
 impl Database {
     /// Runs the missing migrations in one transaction under the write lock.
     pub(super) async fn migrate(&self) -> Result<(), sqlx::Error> {
-        // If the tables are up to date, no lock is taken, so that readers do not wait for writers.
+        // If the tables are up to date, no lock is taken, so readers do not wait for writers.
         let version = sqlx::query("SELECT version FROM schema_version").fetch_optional(&self.pool).await;
         if let Ok(Some(row)) = version
             && row.try_get::<i64, _>(0).is_ok_and(|version| usize::try_from(version) == Ok(MIGRATIONS.len()))
@@ -30,7 +31,7 @@ impl Database {
             let newest = MIGRATIONS.len();
             return Err(sqlx::Error::Configuration(
                 format!(
-                    "the database has version {version}, but this program supports only {newest}: use a newer version of spandrel"
+                    "the database has version {version}, but this program supports versions up to {newest}: use a newer version of spandrel"
                 )
                 .into(),
             ));

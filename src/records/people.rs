@@ -1,4 +1,4 @@
-//! Details of trainees, and the export and erasure of all data of a trainee.
+//! Trainee details, and export and erasure of all data of a trainee.
 
 use super::database::Database;
 use super::location::RecordsLocation;
@@ -19,8 +19,8 @@ pub struct TraineeData {
 }
 
 impl TraineeData {
-    /// Returns the same data with folder names instead of full paths, so that web responses do not reveal the server's file
-    /// system.
+    /// Returns the same data with folder names instead of full paths, so that web responses do not reveal the server's
+    /// file system.
     #[must_use]
     pub fn with_folder_names(mut self) -> Self {
         for folder in &mut self.folders {
@@ -31,11 +31,11 @@ impl TraineeData {
     }
 }
 
-/// Returns all stored data of a trainee: details, sessions and answers from the database, and folder names. `None` if there is no
-/// data.
+/// Returns all stored data of a trainee: details, sessions and answers from the database, and folder names. `None` if
+/// there is no data.
 ///
 /// # Errors
-/// If the database or a folder cannot be read.
+/// Returns an error if the database or a folder cannot be read.
 pub fn stored_data(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<Option<TraineeData>, AppError> {
     let sessions = database.records(Some(trainee))?;
     let folders = folders_of_trainee(place, trainee)?;
@@ -50,7 +50,7 @@ pub fn stored_data(database: &Database, place: &RecordsLocation, trainee: &str) 
 /// Erases a trainee. Returns whether any data existed, and the number of sessions in the database.
 ///
 /// # Errors
-/// If a folder or the database cannot be changed.
+/// Returns an error if a folder or the database cannot be changed.
 pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
     let folders = folders_of_trainee(place, trainee)?;
     let (known, sessions) = database.erase(trainee, &folders)?;
@@ -61,24 +61,24 @@ pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str)
 /// Returns a person, or `None` if nobody has this name.
 ///
 /// # Errors
-/// If the database fails.
+/// Returns an error if the database fails.
 pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppError> {
     Ok(database.account(trainee)?.map(|account| account.person))
 }
 
-/// Returns the session folders of a trainee.
+/// Returns a trainee's session folders.
 ///
 /// # Errors
-/// If the folder of sessions cannot be read.
+/// Returns an error if the folder of sessions cannot be read.
 pub fn folders_of_trainee(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |owner, _| owner == trainee)
 }
 
-/// Returns the session folders whose trainee and start (µs since the Unix epoch) satisfy the predicate. Logs unreadable folders,
-/// because they may match.
+/// Returns the session folders whose trainee and start (µs since the Unix epoch) satisfy the predicate. Logs unreadable
+/// folders, because they may match.
 ///
 /// # Errors
-/// If the folder of sessions cannot be read.
+/// Returns an error if the folder of sessions cannot be read.
 fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
@@ -92,11 +92,11 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
     Ok(found)
 }
 
-/// Erases all sessions and session folders that started before this time, µs since the Unix epoch. Returns the numbers of
-/// sessions and folders.
+/// Erases all sessions and session folders that started before this time, µs since the Unix epoch. Returns the numbers
+/// of sessions and folders.
 ///
 /// # Errors
-/// If a folder or the database cannot be changed.
+/// Returns an error if a folder or the database cannot be changed.
 pub fn erase_older_than(database: &Database, place: &RecordsLocation, limit_us: u64) -> Result<(u64, usize), AppError> {
     let folders = folders_older_than(place, limit_us)?;
     let ids: Vec<String> = database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
@@ -108,7 +108,7 @@ pub fn erase_older_than(database: &Database, place: &RecordsLocation, limit_us: 
 /// Returns the session folders that started before this time, µs since the Unix epoch.
 ///
 /// # Errors
-/// If the folder of sessions cannot be read.
+/// Returns an error if the folder of sessions cannot be read.
 pub fn folders_older_than(place: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

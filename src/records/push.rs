@@ -1,5 +1,5 @@
-//! `spandrel records push`: sends sessions as xAPI statements to a learning record store. The ID of a statement is derived from its contents, so
-//! statements that the store already has are not sent twice.
+//! `spandrel records push`: sends sessions as xAPI statements to a learning record store. The ID of a statement is
+//! derived from its contents, so statements that the store already has are not sent twice.
 
 use super::location::RecordsLocation;
 use crate::errors::AppError;
@@ -11,7 +11,7 @@ use spandrel_training::xapi;
 use std::path::Path;
 use std::time::Duration;
 
-/// Name of the file with a session's statements, in the session folder.
+/// Name of the file with the session's statements in a session folder.
 pub const STATEMENTS: &str = "xapi.jsonl";
 /// Maximum number of statements per request.
 const BATCH_SIZE: usize = 50;
@@ -25,23 +25,23 @@ const RETRY_DELAYS: [Duration; 5] = [
 ];
 /// Timeout of a request.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(60);
-/// Environment variables with user name and password, so that process lists do not show them.
+/// Environment variables with the user name and password, so that process lists do not show them.
 const USER: &str = "SPANDREL_LRS_USER";
 const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
 
-/// Number of statements by the store's answer.
+/// Number of statements by the store's response.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct PushCounts {
     /// Statements that were new to the store.
     pub sent: usize,
-    /// Statements that the store had already.
+    /// Statements that the store already had.
     pub already_there: usize,
 }
 
-/// Checks the URL of an endpoint and removes slashes at its end.
+/// Checks the URL of an endpoint and removes trailing slashes.
 ///
 /// # Errors
-/// If it has another scheme, no host, or a user, query or fragment.
+/// Returns an error if it has a different scheme, no host, or a user, query or fragment.
 pub fn endpoint(text: &str) -> Result<String, String> {
     let rest = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://")).unwrap_or_default();
     if rest.is_empty() || rest.starts_with('/') || text.contains(['?', '#', ' ', '@']) {
@@ -52,10 +52,11 @@ pub fn endpoint(text: &str) -> Result<String, String> {
     Ok(text.trim_end_matches('/').to_owned())
 }
 
-/// Sends these sessions in their order.
+/// Sends these sessions in the given order.
 ///
 /// # Errors
-/// If the store rejects statements or cannot be reached. Statements accepted before the error stay in the store.
+/// Returns an error if the store rejects statements or cannot be reached. Statements accepted before the error stay in
+/// the store.
 pub fn push(place: &RecordsLocation, records: &[SessionRecord], url: &str, home: &str) -> Result<PushCounts, AppError> {
     let store = LearningRecordStore::new(url)?;
     let mut progress = ProgressLog::start("sending statements");
@@ -73,7 +74,7 @@ pub fn push(place: &RecordsLocation, records: &[SessionRecord], url: &str, home:
     Ok(all)
 }
 
-/// Writes the statements into the session folder, if it is on this machine.
+/// Writes the statements to the session folder, if it is on this machine.
 fn save_statements(place: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
     let here = |folder: &Path| crate::io::session_folder::is_session(&folder.join(&record.id));
     match place.sessions.iter().find(|folder| here(folder)) {
@@ -102,7 +103,7 @@ impl LearningRecordStore {
             }
             (Err(_), Err(_)) => None,
             (Ok(_), Err(_)) | (Err(_), Ok(_)) => {
-                return Err(AppError::wrong(format!("{USER} and {PASSWORD} must both be set, or neither")));
+                return Err(AppError::wrong(format!("{USER} and {PASSWORD} must be set together")));
             }
         };
         Ok(Self { agent: config.into(), url: url.to_owned(), authorization })
@@ -131,7 +132,7 @@ impl LearningRecordStore {
                 Ok(PushOutcome::Retry(words)) | Err(words) => words,
             };
             let Some(wait) = waits.next() else {
-                return Err(AppError::failed(format!("{address}: {why}, after {} tries", RETRY_DELAYS.len() + 1)));
+                return Err(AppError::failed(format!("{address}: {why}, after {} attempts", RETRY_DELAYS.len() + 1)));
             };
             tracing::info!("{address}: {why}; retrying in {:.1} s", wait.as_secs_f64());
             std::thread::sleep(*wait);

@@ -1,4 +1,4 @@
-//! Sessions in the database: import, list, delete.
+//! Imports, lists and deletes sessions in the database.
 
 use super::database::{Database, signed};
 use super::erasure_marks::{self, ErasedKind, folder_name};
@@ -25,18 +25,18 @@ const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     fingerprint = excluded.fingerprint, record = excluded.record, purpose = excluded.purpose \
     WHERE sessions.fingerprint <> excluded.fingerprint";
 const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
-// The subquery needs only an index; complete rows are read only for the sessions that are shown.
+// The subquery uses only an index; complete rows are read only for the sessions to show.
 const LIST_ALL: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 const LIST_OF_TRAINEE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
-    /// Adds records with their trainees. Unchanged sessions stay untouched, and erased sessions are not added again. Returns the number of new or
-    /// changed sessions.
+    /// Adds records with their trainees. Unchanged sessions are left alone, and erased sessions are not added again.
+    /// Returns the number of new or changed sessions.
     ///
     /// # Errors
-    /// If the database fails; nothing is imported in that case.
+    /// Returns an error if the database fails; nothing is imported in that case.
     pub fn put(&self, records: &[SessionRecord]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -45,11 +45,11 @@ impl Database {
         })
     }
 
-    /// Replaces these sessions and deletes those with the IDs in `gone`. All other sessions, which another station may have added meanwhile, are
-    /// kept, and so are the trainees and their details. Returns the number of sessions added.
+    /// Replaces these sessions and deletes those with the IDs in `gone`. All other sessions, which another station may
+    /// have added meanwhile, are kept, and so are the trainees and their details. Returns the number of sessions added.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed in that case.
+    /// Returns an error if the database fails; nothing is changed in that case.
     pub fn rebuild(&self, records: &[SessionRecord], gone: &[String]) -> Result<usize, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -64,7 +64,7 @@ impl Database {
     /// Returns the ID and the trainee of the session with this telemetry (SHA-256, hexadecimal).
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn find_by_telemetry(&self, sha256: &str) -> Result<Option<(String, String)>, AppError> {
         self.run(async {
             let query = sqlx::query("SELECT id, trainee FROM sessions WHERE telemetry_sha256 = $1 ORDER BY id LIMIT 1");
@@ -76,7 +76,7 @@ impl Database {
     /// Returns the fingerprints of all sessions by session ID.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn fingerprints(&self) -> Result<BTreeMap<String, String>, AppError> {
         self.run(async {
             let rows = sqlx::query("SELECT id, fingerprint FROM sessions").fetch_all(&self.pool).await?;
@@ -84,10 +84,10 @@ impl Database {
         })
     }
 
-    /// Returns the records of all trainees, or of one, in the order of their start.
+    /// Returns the records of all trainees, or of one, in order of start time.
     ///
     /// # Errors
-    /// If the database fails or contains an invalid record.
+    /// Returns an error if the database fails or contains an invalid record.
     pub fn records(&self, trainee: Option<&str>) -> Result<Vec<SessionRecord>, AppError> {
         let rows: Vec<(String, String)> = self.run(async {
             let rows = match trainee {
@@ -108,7 +108,7 @@ impl Database {
     /// Returns the record of one session.
     ///
     /// # Errors
-    /// If the database fails or contains an invalid record.
+    /// Returns an error if the database fails or contains an invalid record.
     pub fn record(&self, id: &str) -> Result<Option<SessionRecord>, AppError> {
         let text: Option<String> = self.run(async {
             let query = sqlx::query("SELECT record FROM sessions WHERE id = $1").bind(id.to_owned());
@@ -121,7 +121,7 @@ impl Database {
     /// Returns the number of sessions of all trainees, or of one.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn count(&self, trainee: Option<&str>) -> Result<u64, AppError> {
         let counted: i64 = self.run(async {
             let query = match trainee {
@@ -133,10 +133,10 @@ impl Database {
         Ok(u64::try_from(counted).unwrap_or_default())
     }
 
-    /// Returns up to `most` list entries of all trainees, or of one, newest first; skips the first `skip`.
+    /// Returns up to `most` list entries of all trainees, or of one, newest first, after skipping the first `skip`.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<SessionListEntry>, AppError> {
         let query = if trainee.is_some() { LIST_OF_TRAINEE } else { LIST_ALL };
         self.run(async {
@@ -149,7 +149,7 @@ impl Database {
     /// Returns the IDs and trainees of the sessions that started before this time, µs since the Unix epoch.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn older_than(&self, unix_us: u64) -> Result<Vec<(String, String)>, AppError> {
         self.run(async {
             let query = "SELECT id, trainee FROM sessions WHERE started_unix_us < $1 ORDER BY started_unix_us, id";
@@ -158,11 +158,11 @@ impl Database {
         })
     }
 
-    /// Erases sessions, so that they cannot be imported again from folders on other stations. Marks `folders` for [`super::erasure::remove_folders`].
-    /// Returns the number of sessions deleted.
+    /// Erases sessions, so that they cannot be imported again from folders on other stations. Marks `folders` for
+    /// [`super::erasure::remove_folders`]. Returns the number of sessions deleted.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed in that case.
+    /// Returns an error if the database fails; nothing is changed in that case.
     pub fn delete_sessions(&self, ids: &[String], folders: &[PathBuf]) -> Result<u64, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -177,11 +177,12 @@ impl Database {
         })
     }
 
-    /// Erases a trainee with all data, so that the sessions so far cannot be imported again from folders on other stations. Marks `folders` for
-    /// [`super::erasure::remove_folders`]. Returns whether the trainee existed, and the number of sessions deleted.
+    /// Erases a trainee with all data, so that the existing sessions cannot be imported again from folders on other
+    /// stations. Marks `folders` for [`super::erasure::remove_folders`]. Returns whether the trainee existed, and the
+    /// number of sessions deleted.
     ///
     /// # Errors
-    /// If the database fails; nothing is changed in that case.
+    /// Returns an error if the database fails; nothing is changed in that case.
     pub fn erase(&self, trainee: &str, folders: &[PathBuf]) -> Result<(bool, u64), AppError> {
         self.run(async {
             let mut change = self.begin().await?;

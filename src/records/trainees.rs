@@ -6,7 +6,7 @@ use spandrel_training::trainee::{Role, Trainee};
 use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
-/// Empty values keep the stored ones, so that no concurrent change is lost.
+/// Empty values leave the stored values unchanged, so that no concurrent change is lost.
 const UPSERT_DETAILS: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
     VALUES ($1, CASE WHEN $2 = '' THEN 'trainee' ELSE $2 END, NULLIF($3, ''), NULLIF($4, ''), NULLIF($5, '')) \
     ON CONFLICT (pseudonym) DO UPDATE SET role = CASE WHEN $2 = '' THEN trainees.role ELSE excluded.role END, \
@@ -23,7 +23,7 @@ impl Database {
     /// Returns all trainees, ordered by pseudonym.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn trainees(&self) -> Result<Vec<Trainee>, AppError> {
         self.run(async {
             let rows = sqlx::query(TRAINEES).fetch_all(&self.pool).await?;
@@ -34,7 +34,7 @@ impl Database {
     /// Adds a trainee, or sets the role and those details (age, drones, games) that are given.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn update_details(&self, name: &str, role: Option<Role>, details: [Option<&str>; 3]) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -43,11 +43,11 @@ impl Database {
         })
     }
 
-    /// Sets a person's details (age, drones, games; empty for no answer) if they are still as in `before`. Returns false if they are not, or if there
-    /// is no such person; nothing is changed in that case.
+    /// Sets a person's details (age, drones, games; empty for no answer) if they still match `before`. Returns false
+    /// and changes nothing if they do not match or if there is no such person.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn set_details(&self, name: &str, before: [&str; 3], after: [&str; 3]) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;

@@ -1,4 +1,5 @@
-//! Authentication: cookies and logins. The rules are in `spandrel_training::web`; this module adds the clock and random numbers.
+//! Authentication: cookies and logins. The rules are in `spandrel_training::web`; this module adds the clock and random
+//! numbers.
 
 mod origin;
 
@@ -20,23 +21,23 @@ use std::net::IpAddr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Lifetime of the cookie that identifies a browser; the server forgets the browser after the same time.
+/// Lifetime of the cookie that identifies a browser. The server forgets the browser after the same period.
 const BROWSER_COOKIE_LIFETIME: cookie::time::Duration = cookie::time::Duration::days(90);
 
-/// Keeps the browser sessions, the known browsers and the failed logins.
+/// Stores the browser sessions, the known browsers and the failed logins.
 #[derive(Debug)]
 pub struct Authenticator {
     visits: Mutex<BrowserSessions>,
     throttle: Mutex<LoginThrottle>,
     devices: Mutex<KnownBrowsers>,
-    /// Queue for password hashing.
+    /// Queue of password hash requests.
     pub hashing: HashingQueue,
     login_required: AtomicBool,
     secure: bool,
     reach: AllowedOrigins,
 }
 
-/// Origin of a login.
+/// Client that sent a login.
 #[derive(Debug, Clone, Copy)]
 pub struct LoginClient<'a> {
     /// IP address of the client.
@@ -48,9 +49,9 @@ pub struct LoginClient<'a> {
 /// A visitor with their session cookie.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identified {
-    /// Visitor with name and role.
+    /// Name and role of the visitor.
     pub visitor: Visitor,
-    /// Value of the session cookie.
+    /// Session cookie value.
     pub cookie: String,
     /// True if the cookie is new and must be set.
     pub is_new: bool,
@@ -70,18 +71,18 @@ impl Authenticator {
         }
     }
 
-    /// Checks where a request comes from, as [`AllowedOrigins::check_origin`].
+    /// Checks the origin of a request.
     ///
     /// # Errors
-    /// As [`AllowedOrigins::check_origin`].
+    /// See [`AllowedOrigins::check_origin`].
     pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
         self.reach.check_origin(headers, changes, open)
     }
 
-    /// Returns the client's address, as [`AllowedOrigins::address`].
+    /// Returns the client's address.
     ///
     /// # Errors
-    /// As [`AllowedOrigins::address`].
+    /// See [`AllowedOrigins::address`].
     pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
         self.reach.address(socket, headers)
     }
@@ -99,12 +100,13 @@ impl Authenticator {
     /// Returns true if there is no password, so that every visitor has full access.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Returns an error if the database fails.
     pub fn is_open(&self, database: &Database) -> Result<bool, AppError> {
         if self.login_required.load(Ordering::SeqCst) {
             return Ok(false);
         }
-        // The command line may have set the first password meanwhile. Once logins are required, they stay required until a restart.
+        // The command line may have set the first password meanwhile. Once logins are required, they stay required
+        // until a restart.
         if !database.names_with_password()?.is_empty() {
             self.require_login();
             return Ok(false);
@@ -112,16 +114,16 @@ impl Authenticator {
         Ok(true)
     }
 
-    /// Identifies the visitor by this cookie. Without a valid one, a new anonymous browser session starts.
+    /// Identifies the visitor by this cookie. Without a valid cookie, a new anonymous browser session starts.
     ///
     /// # Errors
-    /// If the database or the system's random number generator fails.
+    /// Returns an error if the database or the system's random number generator fails.
     pub fn identify(&self, database: &Database, cookie: Option<String>) -> Result<Identified, WebError> {
         let open = self.is_open(database)?;
         let now_us = clock::unix_us();
         let found = cookie.and_then(|cookie| lock(&self.visits).find(&cookie, now_us).map(|visit| (cookie, visit)));
-        // Checked with every request, so that a change of role, an erasure or a new password ends the browser session immediately, even if another
-        // server or the command line made the change.
+        // Checked with every request, so a change of role, an erasure or a new password ends the browser session
+        // immediately, even if another server or the command line made the change.
         let account = found.as_ref().and_then(|(_, visit)| visit.name.as_deref());
         let account = account.map(|name| database.account(name)).transpose()?.flatten();
         let over =
@@ -141,11 +143,12 @@ impl Authenticator {
         Ok(Identified { visitor: visitor(open, person, visit), cookie, is_new: false })
     }
 
-    /// Logs in: checks name and password, ends the previous browser session and starts a new one. Returns the new session cookie and the cookie of
-    /// the browser, which is known for this name from now on.
+    /// Logs in: checks name and password, ends the previous browser session and starts a new one. Returns the new
+    /// session cookie and the cookie of the browser, which is known for this name from now on.
     ///
     /// # Errors
-    /// If there were too many failures, or name and password do not match; the message does not tell which of the two is wrong.
+    /// Returns an error if there were too many failures, or name and password do not match; the message does not reveal
+    /// which of them is wrong.
     pub fn log_in(
         &self,
         database: &Database,
@@ -165,10 +168,11 @@ impl Authenticator {
         Ok((cookie, device))
     }
 
-    /// Checks a password within the limits on failed logins. Returns the account as it was when the password matched.
+    /// Checks a password within the limits on failed logins. Returns the account in the state in which the password
+    /// matched.
     ///
     /// # Errors
-    /// Like [`Self::log_in`].
+    /// See [`Self::log_in`].
     pub fn check(&self, database: &Database, name: &str, password: &str, client: &LoginClient<'_>) -> Result<Account, WebError> {
         let now_us = clock::unix_us();
         let known = client.device.and_then(|cookie| lock(&self.devices).find(cookie, name, now_us));
@@ -176,9 +180,10 @@ impl Authenticator {
         if let Some(wait_us) = lock(&self.throttle).wait_us(from, name, now_us) {
             return Err(WebError::RateLimited(wait_us.div_ceil(1_000_000)));
         }
-        // If the queue is full, the request is rejected before it counts as a failure: a flood from elsewhere must not lock out other users.
+        // If the queue is full, the request is rejected before it counts as a failure: a flood from elsewhere must not
+        // lock out other users.
         let turn = self.hashing.acquire()?;
-        // Counted before the slow hashing, so that simultaneous attempts count, too.
+        // Counted before the slow hashing, so that simultaneous attempts count as well.
         lock(&self.throttle).record_failure(from, name, now_us);
         let account = database.account(name)?;
         let hash = account.as_ref().and_then(|account| account.hash.as_deref());
@@ -200,17 +205,17 @@ impl Authenticator {
         lock(&self.visits).end_all_of(name, but);
     }
 
-    /// Continues a browser session after a change of its account's password or role.
+    /// Keeps a browser session valid after a change of its account's password or role.
     pub fn renew(&self, cookie: Option<&str>, account: &Account) {
         if let (Some(cookie), Some(credential)) = (cookie, account.credential()) {
             lock(&self.visits).renew(cookie, credential);
         }
     }
 
-    /// Checks that the form token is the visitor's.
+    /// Checks that the form token belongs to the visitor.
     ///
     /// # Errors
-    /// If it is not: the form belongs to another site, or was loaded before a login.
+    /// Returns an error if it does not, because the form belongs to another site or was loaded before a login.
     pub fn check_token(visitor: &Visitor, given: Option<&str>) -> Result<(), WebError> {
         if given.is_some_and(|given| constant_time_eq(given, &visitor.token)) {
             return Ok(());
@@ -238,14 +243,16 @@ impl Authenticator {
         cookie_value(headers, self.browser_cookie_name())
     }
 
-    /// Returns the Set-Cookie value for a known browser. It grants no access; failed logins of known browsers are only counted separately.
+    /// Returns the Set-Cookie value for a known browser. It grants no access; failed logins of known browsers are only
+    /// counted separately.
     pub fn browser_cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.browser_cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Strict).max_age(BROWSER_COOKIE_LIFETIME).build().to_string()
     }
 
-    /// Returns the Set-Cookie value of the session. The policy is Lax: with Strict, a link in an e-mail would arrive without the cookie, and the new
-    /// anonymous session would log the user out. Requests that change anything need a form token and are checked for their origin.
+    /// Returns the Set-Cookie value of the session. The policy is Lax: with Strict, a link in an e-mail would arrive
+    /// without the cookie, and the new anonymous session would log the user out. Requests that change anything need a
+    /// form token and are checked for their origin.
     pub fn cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Lax).build().to_string()

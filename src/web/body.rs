@@ -13,15 +13,15 @@ use std::time::Duration;
 
 /// Time limit for a form without a file.
 const FORM_TIMEOUT: Duration = Duration::from_secs(30);
-/// Time limit for an uploaded file, over a slow line.
+/// Time limit for uploading a file, even over a slow connection.
 const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 
-/// Reads the body and checks the form token. Large files are written to `spool` while they arrive.
+/// Reads the body and checks the form token. Large files are written to `spool` during the upload.
 ///
 /// # Errors
-/// If the body is too large, too slow, not a form, or its token is wrong.
+/// Returns an error if the body is too large, too slow, not a form, or its token is wrong.
 pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
-    let late = |_| WebError::BadRequest("the form arrived too slowly".into());
+    let late = |_| WebError::BadRequest("the upload of the form timed out".into());
     match how {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
         RouteKind::Change => {
@@ -36,7 +36,7 @@ pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spoo
     }
 }
 
-/// Reads a form with a file. The token must come first; without it, nothing else is read.
+/// Reads a form with a file. The token must be the first field; without it, nothing else is read.
 async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool: &Path) -> Result<(), WebError> {
     let mut parts = Multipart::from_request(request, &()).await.map_err(|_| not_a_form())?;
     let too_large = |error: MultipartError| unreadable(&error, most);
@@ -63,19 +63,19 @@ async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool
     Authenticator::check_token(&asked.visitor, asked.form_field("token"))
 }
 
-/// Reads a file while it arrives.
+/// Reads a file as it arrives.
 async fn arrive(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<SpooledUpload, WebError> {
     let begun = tokio::time::Instant::now();
     let most = spool.max_bytes();
     while let Some(chunk) = part.chunk().await.map_err(|error| unreadable(&error, most))? {
-        // Usually only a write to the page cache; if the disk is slow, the runtime's other threads continue.
+        // Usually this only writes to the page cache; if the disk is slow, the runtime's other threads continue.
         tokio::task::block_in_place(|| spool.append(&chunk, begun.elapsed()))?;
     }
     Ok(spool.finish())
 }
 
 fn not_a_form() -> WebError {
-    WebError::BadRequest("this is not a form with a file".into())
+    WebError::BadRequest("the request is not a form with a file".into())
 }
 
 fn unreadable(error: &MultipartError, most: usize) -> WebError {

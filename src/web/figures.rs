@@ -1,6 +1,6 @@
-//! Cohort figures, computed once for each state of the database. Reading ten thousand records takes seconds of processor time, and every reload of a
-//! cohort page needs the same figures. They use a separate database connection, so that lists do not have to wait; the request pipeline processes one
-//! such request at a time.
+//! Cohort figures, cached for each state of the database. Reading ten thousand records takes seconds of processor time,
+//! and every reload of a cohort page needs the same figures. They use a separate database connection, so that list
+//! pages do not have to wait; the request pipeline processes one such request at a time.
 
 use super::lock::lock;
 use crate::errors::AppError;
@@ -10,13 +10,13 @@ use spandrel_training::record::SessionRecord;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
-/// Maximum number of cached selections; the oldest is removed first. Estimate: more than an instructor compares.
+/// Maximum number of cached selections; the oldest is removed first. Estimate: more than an instructor would compare.
 const MAX_SELECTIONS: usize = 8;
 
-/// Figures of one selection.
+/// Figures for one selection.
 #[derive(Debug)]
 pub struct CohortFigures {
-    /// Cohort, which may contain no sessions.
+    /// Cohort; it may contain no sessions.
     pub cohort: Cohort,
     /// Names of all scenarios with at least one session.
     pub flown_scenarios: Vec<String>,
@@ -40,15 +40,15 @@ impl FigureCache {
     /// Opens a separate database connection.
     ///
     /// # Errors
-    /// If the database cannot be opened.
+    /// Returns an error if the database cannot be opened.
     pub fn open(place: &RecordsLocation) -> Result<Self, AppError> {
         Ok(Self { database: place.open()?, cache: Mutex::default() })
     }
 
-    /// Returns the figures of a selection.
+    /// Returns the figures for a selection.
     ///
     /// # Errors
-    /// If the database fails or contains an invalid record.
+    /// Returns an error if the database fails or contains an invalid record.
     pub fn get(&self, selection: &Selection) -> Result<Arc<CohortFigures>, AppError> {
         let mut kept = lock(&self.cache);
         let version = self.database.version()?;
@@ -61,7 +61,7 @@ fn compute_figures(records: &[SessionRecord], selection: &Selection) -> CohortFi
     CohortFigures { cohort: cohort(records, selection), flown_scenarios: flown.into_iter().map(str::to_owned).collect() }
 }
 
-/// Cached values for one version of their source, by key.
+/// Values cached by key for one version of their source.
 #[derive(Debug)]
 struct VersionedCache<K, V> {
     version: String,

@@ -1,5 +1,6 @@
-//! Bounded queue for password hashing. Each hash costs 19 MiB and about 50 ms of one core, and anyone who can reach the server can request one:
-//! without a limit, a flood of logins would use up all memory and all threads that pages need.
+//! Bounded queue for password hashing. Each hash costs 19 MiB and about 50 ms of one core, and anyone who can reach the
+//! server can request one: without a limit, a flood of logins would exhaust the memory and the threads that serve
+//! pages.
 
 use super::lock::lock;
 use super::passwords::{self, HashingMemory};
@@ -7,8 +8,8 @@ use super::response::WebError;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Maximum number of requests that hash or wait at the same time. Each occupies one of the server's threads (`server::BLOCKING_THREADS`), so this is
-/// well below their number.
+/// Maximum number of requests that are hashing or waiting at the same time. Each occupies one of the server's threads
+/// (`server::BLOCKING_THREADS`), so this is well below their number.
 const MAX_WAITING: usize = 6;
 /// Time after which a rejected client may retry, s.
 const RETRY_AFTER_S: u64 = 2;
@@ -38,7 +39,7 @@ impl HashingQueue {
     /// Reserves a slot in the queue.
     ///
     /// # Errors
-    /// [`WebError::Busy`] if the queue is full.
+    /// Returns [`WebError::Busy`] if the queue is full.
     pub fn acquire(&self) -> Result<HashingSlot<'_>, WebError> {
         let enter = |waiting| (waiting < MAX_WAITING).then_some(waiting + 1);
         let entered = self.waiting.fetch_update(Ordering::AcqRel, Ordering::Acquire, enter);
@@ -60,7 +61,7 @@ impl HashingSlot<'_> {
     /// Returns the password's hash.
     ///
     /// # Errors
-    /// If the system's random number generator fails.
+    /// Returns an error if the system's random number generator fails.
     pub fn hash(&self, password: &str) -> Result<String, WebError> {
         Ok(self.with_memory(|memory| passwords::hash(password, memory))?)
     }

@@ -1,4 +1,4 @@
-//! Where and how the server listens.
+//! Listening settings of the server.
 
 use ipnet::IpNet;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -13,8 +13,8 @@ pub struct ListenConfig {
     pub tls_cert: Option<PathBuf>,
     /// Private key of the certificate, PEM
     pub tls_key: Option<PathBuf>,
-    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be reachable in
-    /// any other way
+    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be
+    /// reachable in any other way
     pub behind_proxy: bool,
     /// Address or network of the proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
     pub trusted_proxy: Vec<IpNet>,

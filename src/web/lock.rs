@@ -1,8 +1,8 @@
-//! Locks of shared state.
+//! Locks shared state.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Locks a mutex even if a holder has panicked: the data is consistent between statements.
+/// Locks a mutex even if a thread has panicked while holding it: the data is consistent between statements.
 pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,14 +1,16 @@
-//! Password hashing with argon2id and the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), which are the library's defaults.
+//! Password hashing with argon2id and the parameters that OWASP recommends (19 MiB, 2 passes, 1 lane), which are the
+//! library's defaults.
 
 use crate::errors::AppError;
 use argon2::password_hash::phc::{Output, PasswordHash, Salt};
 use argon2::{ARGON2ID_IDENT, Algorithm, Argon2, Block, Params, Version};
 
-/// Verified for a name without a password, so that the response takes as long as for a name with one.
+/// Hash to verify for names without a password, so that the response takes the same time as for names with a password.
 const DUMMY_HASH: &str = "$argon2id$v=19$m=19456,t=2,p=1$c3BhbmRyZWxzcGFuZHJlbA$lpYT1oVDUN5U6kPGGjEw5xOVQbQTkgO2xbCVrTQEzDM";
-/// Maximum memory cost of a stored hash, KiB, so that a foreign database cannot exhaust the memory. Estimate: about three times the default.
+/// Maximum memory cost of a stored hash, KiB, so that an untrusted database cannot exhaust the memory. Estimate: about
+/// three times the default.
 const MAX_MEMORY_KIB: u32 = 65_536;
-/// Maximum number of passes of a stored hash, for the same reason. Estimate.
+/// Maximum number of passes of a stored hash, for the same reason (estimate).
 const MAX_PASSES: u32 = 10;
 
 /// Working memory for hashing, allocated once and reused.
@@ -28,7 +30,7 @@ impl HashingMemory {
 /// Returns the password's hash in PHC string format.
 ///
 /// # Errors
-/// If the system's random number generator fails.
+/// Returns an error if the system's random number generator fails.
 pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppError> {
     let failed = |error: &dyn std::fmt::Display| AppError::failed(format!("cannot hash the password: {error}"));
     let mut salt = [0; 16];
@@ -93,7 +95,7 @@ mod tests {
         let ours = hash("correct horse battery", memory).unwrap();
         let parsed = PasswordHash::new(&ours).unwrap();
         assert!(Argon2::default().verify_password(b"correct horse battery", &parsed).is_ok());
-        // A different cost, as an older database may contain.
+        // A hash with a different cost, as in older databases.
         let other = Argon2::new(Algorithm::Argon2id, Version::V0x13, Params::new(8_192, 3, 2, None).unwrap());
         let theirs = other.hash_password_with_salt(b"correct horse battery", &[7; 16]).unwrap().to_string();
         assert!(verify("correct horse battery", Some(&theirs), memory) && !verify("another", Some(&theirs), memory));

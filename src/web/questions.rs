@@ -31,7 +31,8 @@ fn render_form(state: &ServerState, asked: &WebRequest, saved: bool) -> HandlerR
     Ok(WebResponse::page(questionnaire_form::page(&asked.visitor, &about)))
 }
 
-/// Returns the wording in the requested language, that of the saved answers, or the browser's preferred one.
+/// Returns the wording in the requested language, the language of the saved answers, or the browser's preferred
+/// language.
 fn language<'a>(state: &'a ServerState, asked: &WebRequest, answers: &Answers) -> Result<&'a Wording, WebError> {
     if let Some(tag) = asked.form_field("language").or_else(|| asked.query_value("language")) {
         return state

@@ -12,7 +12,7 @@ use std::net::IpAddr;
 pub struct UploadedFile {
     /// File name as sent by the browser; never used as a path.
     pub name: String,
-    /// Contents of the file.
+    /// File contents.
     pub file: SpooledUpload,
 }
 
@@ -21,13 +21,13 @@ pub struct UploadedFile {
 pub struct WebRequest {
     /// Visitor who sent the request.
     pub visitor: Visitor,
-    /// Value of the session cookie.
+    /// Session cookie value.
     pub cookie: Option<String>,
-    /// Address of the client.
+    /// Client address.
     pub from: IpAddr,
     /// Cookie of a browser that has logged in before.
     pub device: Option<String>,
-    /// Path parameters, by their names in the table of routes.
+    /// Path parameters, keyed by their names in the route table.
     pub path: BTreeMap<String, String>,
     /// Query parameters as name and value.
     pub query: Vec<(String, String)>,
@@ -37,12 +37,12 @@ pub struct WebRequest {
     pub upload: Option<UploadedFile>,
     /// Preferred languages of the browser (Accept-Language).
     pub languages: String,
-    /// True for requests of the pages' scripts, which expect JSON.
+    /// True for requests from the pages' scripts, which expect JSON.
     pub expects_json: bool,
 }
 
 impl WebRequest {
-    /// Returns the origin of a login.
+    /// Returns the client that sent a login.
     pub fn client(&self) -> LoginClient<'_> {
         LoginClient { from: self.from, device: self.device.as_deref() }
     }
@@ -65,16 +65,16 @@ impl WebRequest {
     /// Returns a form field that must not be empty.
     ///
     /// # Errors
-    /// If the field is missing or empty.
+    /// Returns an error if the field is missing or empty.
     pub fn required_field(&self, name: &str) -> Result<&str, WebError> {
         self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::BadRequest(format!("{name}: missing")))
     }
 
-    /// Checks that the visitor may see this trainee's data: the trainee, instructors and administrators may. To others it looks as if it did not
-    /// exist.
+    /// Checks that the visitor may see this trainee's data: the trainee, instructors and administrators may. For anyone
+    /// else, the data appears not to exist.
     ///
     /// # Errors
-    /// If the visitor has no access.
+    /// Returns an error if the visitor has no access.
     pub fn require_access(&self, trainee: &str) -> Result<(), WebError> {
         if self.visitor.may_see(trainee) { Ok(()) } else { Err(WebError::NotFound) }
     }

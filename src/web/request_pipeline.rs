@@ -1,5 +1,5 @@
-//! Request pipeline. Every request is identified, authorized and checked for its form token; then the route's handler runs on a thread that may block
-//! on disk and database access.
+//! Request pipeline. Every request is identified, authorized and checked for its form token; then the route's handler
+//! runs on a thread that may block on disk and database access.
 
 use super::auth::Identified;
 use super::body;
@@ -19,17 +19,17 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use tokio::sync::Semaphore;
 
-/// Retry-After for a client that was rejected for lack of capacity, s.
+/// Retry-After value for a client that was rejected for lack of capacity, s.
 const RETRY_AFTER_S: u64 = 5;
 
 /// State shared by the tasks that handle requests.
 #[derive(Debug, Clone)]
 pub struct PipelineState {
-    /// State of the server.
+    /// Server state.
     pub state: Arc<ServerState>,
     /// Limits the number of concurrent uploads.
     pub uploads: Arc<Semaphore>,
-    /// Acquired while a recording is scored or cohort figures are computed. Waiting for it occupies no thread.
+    /// Acquired while a recording is scored or cohort figures are computed. Waiting for it does not occupy a thread.
     pub working: Arc<Semaphore>,
 }
 
@@ -70,7 +70,7 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
         };
         let state = shared.state.clone();
         blocking(move || {
-            // The handler continues if its client disconnects, and keeps its permit.
+            // If the client disconnects, the handler continues and keeps its permit.
             let _turn = turn;
             (route.handler)(&state, &asked)
         })

@@ -1,11 +1,11 @@
-//! HTTP responses, and the headers that every response carries.
+//! HTTP responses, and the headers common to all responses.
 
 use crate::errors::AppError;
 use axum::body::Body;
 use axum::http::{HeaderName, HeaderValue, Response, StatusCode, header};
 use maud::Markup;
 
-/// Content security policy of the pages: only the server's own files, no inline code, no requests to other sites.
+/// Content security policy of the pages: only the server's own files, no inline code and no requests to other sites.
 const PAGE_POLICY: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; connect-src 'self'; \
     form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
 
@@ -27,13 +27,14 @@ pub struct WebResponse {
 /// Error of a handler, with its HTTP status.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum WebError {
-    /// The resource does not exist, or this visitor may not see it. Both look the same, so that guessing reveals nothing.
+    /// The resource does not exist, or this visitor may not see it. The response is the same in both cases, so that
+    /// guessing reveals nothing.
     NotFound,
     /// The visitor must log in first.
     LoginRequired,
-    /// The visitor has no permission; with a message.
+    /// The visitor has no permission; contains a message.
     Forbidden(String),
-    /// The request is invalid; with a message.
+    /// The request is invalid; contains a message.
     BadRequest(String),
     /// The body is larger than this maximum, bytes.
     TooLarge(usize),
@@ -68,7 +69,8 @@ impl WebResponse {
         Self::new("text/html; charset=utf-8", markup.into_string().into_bytes())
     }
 
-    /// Responds with a page that brings its own policy and scripts (a report). It is sandboxed, without access to the cookies.
+    /// Responds with a page that has its own policy and scripts (a report). It is sandboxed, without access to the
+    /// cookies.
     pub fn sandboxed_page(page: Vec<u8>, policy: &str) -> Self {
         let policy = format!("{policy}; frame-ancestors 'none'; sandbox allow-scripts allow-downloads");
         Self { policy, ..Self::new("text/html; charset=utf-8", page) }
@@ -117,7 +119,8 @@ impl WebResponse {
         let mut response = Response::new(Body::from(self.body));
         *response.status_mut() = self.status;
         let mut set = |name: HeaderName, value: &str| {
-            // All values are generated or validated, so this cannot fail; an invalid value would be omitted rather than sent.
+            // All values are generated or validated, so this cannot fail; an invalid value would be omitted rather than
+            // sent.
             if let Ok(value) = HeaderValue::from_str(value) {
                 response.headers_mut().insert(name, value);
             }

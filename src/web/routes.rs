@@ -1,4 +1,4 @@
-//! Table of routes: path, required access level and handler. Any other path gives "not found".
+//! Table of routes: path, required access level and handler. Any other path returns "not found".
 
 use super::request::WebRequest;
 use super::response::HandlerResult;
@@ -11,12 +11,12 @@ pub type Handler = fn(&ServerState, &WebRequest) -> HandlerResult;
 
 /// Maximum size of a form without a file, bytes.
 pub const MAX_FORM_BYTES: usize = 64 * 1024;
-/// Maximum size of an uploaded scenario, bytes; the shipped ones have about ten thousand.
+/// Maximum size of an uploaded scenario, bytes; the shipped scenarios have about ten thousand bytes.
 pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
 /// Maximum size of an uploaded recording, bytes; an hour of telemetry is about a third of this.
 pub const MAX_RECORDING_BYTES: usize = 96 * 1024 * 1024;
 
-/// Kind of a route.
+/// Kind of route.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RouteKind {
     /// A static asset, the same for every visitor.
@@ -38,16 +38,16 @@ impl RouteKind {
     }
 }
 
-/// A row of the table.
+/// A row of the route table.
 #[derive(Debug, Clone, Copy)]
 pub struct Route {
     /// Path, with parameters in braces.
     pub path: &'static str,
-    /// Kind of the route.
+    /// Route kind.
     pub how: RouteKind,
-    /// Access level that the visitor needs.
+    /// Access level required for the route.
     pub needs: AccessLevel,
-    /// Handler of the request.
+    /// Request handler.
     pub handler: Handler,
 }
 
@@ -70,7 +70,7 @@ const fn upload(path: &'static str, most: usize, needs: AccessLevel, handler: Ha
 /// Path of the stream of live values. It is not in the table, because its response does not end.
 pub const STREAM_PATH: &str = "/live/stream";
 
-/// All routes except the stream. Handlers of a trainee's data also check whether the visitor may access that trainee.
+/// All routes except the stream. Handlers for a trainee's data also check whether the visitor may access that trainee.
 pub const ROUTES: &[Route] = &[
     show("/", AccessLevel::Public, sessions::start),
     Route { path: "/assets/{name}", how: RouteKind::File, needs: AccessLevel::Public, handler: assets::file },

@@ -1,4 +1,4 @@
-//! Names that come from browsers and are used as names of files.
+//! Checks names that come from browsers and are used as file names.
 
 /// Returns true for a name that stays inside its folder on every operating system.
 pub fn is_plain(name: &str) -> bool {

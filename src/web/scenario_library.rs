@@ -1,4 +1,4 @@
-//! The scenarios of the server: shipped, then uploaded.
+//! The server's scenarios, shipped and uploaded.
 
 use super::response::WebError;
 use super::safe_names::is_plain;
@@ -14,7 +14,7 @@ pub struct StoredScenario {
     pub named: ScenarioEntry,
     /// Scenario parsed from the text.
     pub scenario: Scenario,
-    /// Source text of the scenario (TOML).
+    /// Scenario source text (TOML).
     pub text: String,
 }
 
@@ -58,7 +58,8 @@ pub fn read(file: &str, text: &str) -> Result<Scenario, AppError> {
     Ok(scenario::read(file, text, &alone)?)
 }
 
-/// Returns the argument for the rest of the program: the path of an uploaded scenario, or the name of a shipped one.
+/// Returns the scenario as an argument for other functions: the path of an uploaded scenario, or the name of a shipped
+/// one.
 pub fn argument(folder: &Path, name: &str) -> Result<String, WebError> {
     let job = find(folder, name).ok_or_else(|| WebError::BadRequest("scenario: unknown name".into()))?;
     Ok(if job.named.uploaded { place(folder, name).display().to_string() } else { job.named.name })

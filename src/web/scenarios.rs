@@ -1,4 +1,4 @@
-//! Pages of the shipped and uploaded scenarios.
+//! Pages for the shipped and uploaded scenarios.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};

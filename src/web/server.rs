@@ -1,4 +1,4 @@
-//! The server: its port, its threads and its axum router.
+//! The web server with its port, threads and axum router.
 
 use super::auth::AllowedOrigins;
 use super::listening::ListenConfig;
@@ -20,9 +20,10 @@ use tokio::sync::Semaphore;
 
 /// Time limit for a client to send the header of a request.
 const HEADER_TIMEOUT: Duration = Duration::from_secs(30);
-/// Maximum number of simultaneous uploads; each takes up to `MAX_RECORDING_BYTES` of disk space. Estimate: a class of thirty.
+/// Maximum number of simultaneous uploads; each takes up to `MAX_RECORDING_BYTES` of disk space. Estimate: a class of
+/// thirty.
 const MAX_UPLOADS: usize = 32;
-/// Time that requests in progress get when the server stops.
+/// Time limit for requests in progress when the server stops.
 const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(2);
 /// Interval at which stop requests are checked.
 const STOP_CHECK_INTERVAL: Duration = Duration::from_millis(50);
@@ -41,7 +42,7 @@ impl WebServer {
     /// Opens the port and starts serving.
     ///
     /// # Errors
-    /// If arguments, files, the port or the database are invalid.
+    /// Returns an error if arguments, files, the port or the database are invalid.
     pub fn start(args: &ListenConfig, setup: ServerSetup) -> Result<Self, AppError> {
         let secure = args.tls_cert.is_some() || args.behind_proxy;
         let tls = tls::config(args)?;
@@ -81,7 +82,7 @@ impl WebServer {
         Ok(Self { address, handle, thread: Some(thread) })
     }
 
-    /// Returns the URL of the server.
+    /// Returns the server's URL.
     pub fn address(&self) -> &str {
         &self.address
     }
@@ -150,7 +151,7 @@ fn method(route: &'static Route, shared: &PipelineState) -> MethodRouter {
     match route.how {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => get(handle),
         RouteKind::Change => post(handle),
-        // The other fields of the form need space, too.
+        // The other fields of the form also need space.
         RouteKind::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + MAX_FORM_BYTES)),
     }
 }

@@ -1,5 +1,6 @@
-//! Imports new sessions into the database. A thread scans the folders for sessions that have ended and imports changed ones again on request. The
-//! folders remain the source of truth: after a kill or a database failure, a later scan imports everything.
+//! Imports new sessions into the database. A thread scans the folders for sessions that have ended and imports changed
+//! ones again on request. The folders remain the source of truth: after a kill or a database failure, a later scan
+//! imports everything.
 
 use crate::errors::AppError;
 use crate::records::{Database, RecordsLocation, is_erased, read_session, session_folders, session_id};
@@ -11,10 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-/// Interval between scans of the folders.
+/// Interval between folder scans.
 const SCAN_INTERVAL: Duration = Duration::from_secs(2);
 
-/// Handle of the importer thread.
+/// Handle to the importer thread.
 #[derive(Debug)]
 pub struct SessionImporter(Sender<PathBuf>);
 
@@ -22,7 +23,7 @@ impl SessionImporter {
     /// Starts the thread with a separate database connection, so that pages do not have to wait.
     ///
     /// # Errors
-    /// If the database cannot be opened.
+    /// Returns an error if the database cannot be opened.
     pub fn start(place: &RecordsLocation) -> Result<Self, AppError> {
         let (sender, changed) = channel::<PathBuf>();
         let database = place.open()?;
@@ -33,7 +34,8 @@ impl SessionImporter {
                 looked.scan(&database, &sessions);
                 match changed.recv_timeout(SCAN_INTERVAL) {
                     Ok(folder) => {
-                        // Answers are saved in quick succession; the session is imported once for all pending requests.
+                        // Answers are saved in quick succession, so the session is imported once for all pending
+                        // requests.
                         let mut folders = BTreeSet::from([folder]);
                         folders.extend(changed.try_iter());
                         folders.iter().for_each(|folder| looked.import(&database, folder, &BTreeMap::new()));
@@ -57,19 +59,19 @@ impl SessionImporter {
 /// State of the importer thread.
 #[derive(Debug, Default)]
 struct ImportProgress {
-    /// True once changed answers from before the start have been looked for.
+    /// True once answers that changed before startup have been checked.
     answers_checked: bool,
     /// Unreadable folders, each logged once.
     unreadable: BTreeSet<PathBuf>,
-    /// Sessions that the database did not accept; retried at every scan.
+    /// Sessions that the database rejected; retried at every scan.
     rejected: BTreeSet<PathBuf>,
     /// Folders of erased sessions, each logged once.
     erased: BTreeSet<PathBuf>,
 }
 
 impl ImportProgress {
-    /// Imports ended sessions that are missing in the database, those that it did not accept before, and, on the first scan, those with changed
-    /// answers.
+    /// Imports ended sessions that are missing from the database, sessions that it rejected before, and, on the first
+    /// scan, sessions with changed answers.
     fn scan(&mut self, database: &Database, sessions: &[PathBuf]) {
         let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
         let (known, erased, folders) = match (database.fingerprints(), database.erased(), session_folders(&here)) {
@@ -111,7 +113,7 @@ impl ImportProgress {
                 self.unreadable.remove(folder);
                 self.save_record(database, folder, record);
             }
-            // The folder was erased meanwhile, or is unreadable.
+            // The folder has been erased meanwhile, or is unreadable.
             Err(error) => {
                 self.rejected.remove(folder);
                 if self.unreadable.insert(folder.to_path_buf()) && folder.is_dir() {

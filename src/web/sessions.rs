@@ -1,4 +1,4 @@
-//! Session pages: list, one session with its report and files, and the comparison of two sessions.
+//! Session pages: the list, one session with its report and files, and the comparison of two sessions.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -14,7 +14,7 @@ use spandrel_training::report::assets;
 use spandrel_training::web::sessions as pages;
 use std::path::{Path, PathBuf};
 
-/// Sessions per page of the list.
+/// Number of sessions on each page of the list.
 const SESSIONS_PER_PAGE: u32 = 50;
 /// Maximum number of other sessions offered for comparison.
 const MAX_COMPARISONS: u32 = 50;
@@ -32,7 +32,7 @@ pub fn session_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let last = u32::try_from(count.div_ceil(u64::from(SESSIONS_PER_PAGE))).unwrap_or(u32::MAX).max(1);
     let page = asked.query_value("page").and_then(|page| page.parse().ok()).unwrap_or(1).clamp(1, last);
     let lines = state.database.list(trainee, SESSIONS_PER_PAGE, (page - 1).saturating_mul(SESSIONS_PER_PAGE))?;
-    // Links contain the name, so an invalid one is shown as empty.
+    // Links contain the name, so an invalid name is shown as empty.
     let trainee = wanted.filter(|name| asked.visitor.restricted_to().is_none() && name.parse::<TraineeId>().is_ok());
     let listing = pages::SessionList { lines: &lines, trainee, page, last, count };
     Ok(WebResponse::page(pages::list(&asked.visitor, &listing)))
@@ -41,7 +41,7 @@ pub fn session_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 /// Returns a session's record, if the visitor may see it.
 ///
 /// # Errors
-/// If there is no such session, or the visitor has no access to it.
+/// Returns an error if there is no such session, or the visitor has no access to it.
 pub fn record(state: &ServerState, asked: &WebRequest, id: &str) -> Result<SessionRecord, WebError> {
     let record = state.database.record(id)?.ok_or(WebError::NotFound)?;
     asked.require_access(&record.trainee)?;
@@ -51,7 +51,7 @@ pub fn record(state: &ServerState, asked: &WebRequest, id: &str) -> Result<Sessi
 /// Returns a session's folder, if the visitor may see it.
 ///
 /// # Errors
-/// If the folder is not on this machine, or the visitor has no access to it.
+/// Returns an error if the folder is not on this machine, or the visitor has no access to it.
 pub fn folder(state: &ServerState, asked: &WebRequest, id: &str) -> Result<PathBuf, WebError> {
     record(state, asked, id)?;
     state.folder(id).ok_or(WebError::NotFound)
@@ -66,7 +66,8 @@ pub fn session_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::session(&asked.visitor, &record, &pages::SessionPageData { folder, others: &others })))
 }
 
-/// Responds with a session's report under its own policy. Creates the report again if it is missing or was written by another version.
+/// Responds with a session's report under its own policy. Creates the report again if it is missing or was written by
+/// another version.
 pub fn report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let folder = folder(state, asked, asked.path_part("id"))?;
     let policy = assets::page_policy();
@@ -82,7 +83,7 @@ pub fn report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::sandboxed_page(page, &policy))
 }
 
-/// Returns true if the page's head contains the policy of this version.
+/// Returns true if the page's head contains this version's policy.
 fn has_current_policy(page: &[u8], policy: &str) -> bool {
     let head = &page[..page.len().min(2_000)];
     let escaped = maud::html! { (policy) }.into_string();

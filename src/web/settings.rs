@@ -1,4 +1,4 @@
-//! Pages for login, account and server settings.
+//! Pages for the login, the account and the server settings.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -9,7 +9,7 @@ use crate::records::{Account, erase_older_than};
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::{login, settings as pages};
 
-/// Microseconds in one day.
+/// Microseconds per day.
 const US_PER_DAY: u64 = 86_400_000_000;
 
 /// Shows the login form.

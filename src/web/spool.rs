@@ -1,5 +1,5 @@
-//! Uploaded files. A small file stays in memory; a large one is written to disk while it arrives, so that slow clients occupy neither memory nor a
-//! slot in a queue. Clients that are too slow are disconnected.
+//! Uploaded files. A small file stays in memory; a large one is written to disk as it arrives, so that slow clients
+//! occupy neither memory nor a slot in a queue. Clients that are too slow are disconnected.
 
 use super::response::WebError;
 use crate::errors::AppError;
@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// Maximum size of a file that stays in memory, bytes.
 const MAX_IN_MEMORY: usize = 512 * 1024;
-/// Time before the minimum rate applies to an upload.
+/// Time after which the minimum rate applies to an upload.
 const GRACE_PERIOD: Duration = Duration::from_secs(30);
 /// Minimum rate after that, bytes/s. Estimate: one sixteenth of a 1 Mbit/s line.
 const MIN_RATE: u64 = 8 * 1024;
@@ -39,10 +39,10 @@ impl Drop for SpoolFile {
 }
 
 impl SpooledUpload {
-    /// Returns the contents of the file.
+    /// Returns the file's contents.
     ///
     /// # Errors
-    /// If the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn bytes(&self) -> Result<Cow<'_, [u8]>, AppError> {
         match self {
             Self::Memory(bytes) => Ok(Cow::Borrowed(bytes)),
@@ -62,7 +62,7 @@ pub struct UploadSpool<'a> {
 }
 
 impl<'a> UploadSpool<'a> {
-    /// Creates an empty upload of at most `most` bytes, which can be written to this folder.
+    /// Creates an empty upload of at most `most` bytes. Large uploads are written to this folder.
     pub fn new(folder: &'a Path, most: usize) -> Self {
         Self { folder, max_bytes: most, size: 0, head: Vec::new(), disk: None }
     }
@@ -75,7 +75,7 @@ impl<'a> UploadSpool<'a> {
     /// Appends a chunk that arrived `elapsed` after the start of the upload.
     ///
     /// # Errors
-    /// If the file is too large, the client is too slow, or the disk cannot be written.
+    /// Returns an error if the file is too large, the client is too slow, or the disk cannot be written.
     pub fn append(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), WebError> {
         self.size += bytes.len();
         if self.size > self.max_bytes {

@@ -13,7 +13,7 @@ use spandrel_training::questionnaire::Languages;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-/// Settings of a server.
+/// Server settings.
 #[derive(Debug, Clone)]
 pub struct ServerSetup {
     /// Location of the database and the session folders.
@@ -31,7 +31,7 @@ pub struct ServerSetup {
 pub struct ServerState {
     /// Database of sessions, trainees and answers.
     pub database: Database,
-    /// Cache of the cohort figures.
+    /// Cohort figure cache.
     pub figures: FigureCache,
     /// Location of the database and the session folders.
     pub place: RecordsLocation,
@@ -39,13 +39,13 @@ pub struct ServerState {
     pub scenarios: PathBuf,
     /// Logins, browser sessions and cookies.
     pub auth: Authenticator,
-    /// Languages of the questionnaire.
+    /// Questionnaire languages.
     pub languages: Languages,
     /// Vehicles on the live page.
     pub live: Vec<LiveVehicle>,
     /// Imports new sessions into the database.
     pub importer: SessionImporter,
-    /// Locked while an answers file is read, changed and written.
+    /// Locked while an answers file is read, modified and written.
     pub answers: Mutex<()>,
     /// Locked while a recording is scored, because scoring is expensive.
     pub scoring: Mutex<()>,
@@ -55,7 +55,7 @@ impl ServerState {
     /// Opens the database and the links to the vehicles, and removes stale temporary files.
     ///
     /// # Errors
-    /// If a wording is invalid, or the database or a link to a vehicle cannot be opened.
+    /// Returns an error if a wording is invalid, or the database or a link to a vehicle cannot be opened.
     pub fn open(setup: ServerSetup, secure: bool, reach: AllowedOrigins) -> Result<Self, AppError> {
         let ServerSetup { place, scenarios, watched, wordings } = setup;
         let languages = answers::languages(&wordings)?;

@@ -5,14 +5,14 @@ use crate::records::session_folders;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Folder of sessions that are being imported; the name cannot be that of a session.
+/// Folder of sessions that are being imported; no session can have this name.
 pub const IMPORT_FOLDER: &str = ".taking-in";
-/// Age above which a temporary file counts as abandoned. A process on another computer that shares the disk may have any process ID, so the age must
-/// be longer than any write takes.
+/// Age above which a temporary file counts as abandoned. A process on another computer that shares the disk may have
+/// any process ID, so the age must be longer than any write takes.
 const STALE_AGE: Duration = Duration::from_secs(600);
 
-/// Removes stale temporary files from the folders of sessions, from the session folders in them, and from the folder of scenarios. Files that cannot
-/// be checked or removed stay; they do no harm.
+/// Removes stale temporary files from the folders of sessions, from the session folders in them, and from the folder of
+/// scenarios. Files that cannot be checked or removed are left in place; they are harmless.
 pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let inside = session_folders(&here).unwrap_or_default();
@@ -30,7 +30,7 @@ pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
 /// Removes imports that a killed server has left incomplete.
 ///
 /// # Errors
-/// If the disk cannot be written.
+/// Returns an error if the disk cannot be written.
 pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
     let aside = sessions.join(IMPORT_FOLDER);
     match std::fs::remove_dir_all(&aside) {
@@ -41,7 +41,7 @@ pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
     }
 }
 
-/// Returns true if the name is one of `io::replace`, the process no longer runs, and the file is old.
+/// Returns true if `io::replace` created the name, the process no longer runs, and the file is old.
 fn is_stale(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let Some(writer) = writer_pid(name) else { return false };
@@ -57,7 +57,7 @@ fn writer_pid(name: &str) -> Option<u32> {
     process.parse().ok()
 }
 
-/// Returns true if the process runs, or if the system has no /proc to tell.
+/// Returns true if the process runs, or if the system has no /proc to check.
 fn is_alive(process: u32) -> bool {
     let all = Path::new("/proc");
     !all.join("self").exists() || all.join(process.to_string()).exists()

@@ -9,10 +9,10 @@ use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Checks that a server that other machines can reach has a password and TLS.
+/// Checks that the server has a password and TLS if other machines can reach it.
 ///
 /// # Errors
-/// If one of them is missing.
+/// Returns an error if either is missing.
 pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), AppError> {
     let beyond = !args.listen.ip().is_loopback();
     if (beyond || args.behind_proxy) && !somebody_has_a_password {
@@ -35,7 +35,7 @@ pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), A
 /// Returns the TLS configuration, or `None` without certificate files.
 ///
 /// # Errors
-/// If a file cannot be read, or is not a certificate or key.
+/// Returns an error if a file cannot be read, or is not a certificate or key.
 pub fn config(args: &ListenConfig) -> Result<Option<RustlsConfig>, AppError> {
     let (Some(chain), Some(key)) = (&args.tls_cert, &args.tls_key) else { return Ok(None) };
     let wrong =

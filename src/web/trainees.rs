@@ -1,4 +1,4 @@
-//! Pages of trainees and cohorts.
+//! Pages for trainees and cohorts.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -70,9 +70,7 @@ pub fn details(state: &ServerState, asked: &WebRequest) -> HandlerResult {
         after[k] = given;
     }
     if !state.database.set_details(&person.pseudonym, before, after)? {
-        return Err(WebError::BadRequest(
-            "these details were changed elsewhere meanwhile: reload the page and check them".into(),
-        ));
+        return Err(WebError::BadRequest("these details have been changed elsewhere: reload the page and check them".into()));
     }
     Ok(WebResponse::redirect(&format!("/trainees/{}", asked.path_part("name"))))
 }
@@ -84,7 +82,7 @@ pub fn erase(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     if asked.required_field("again")? != name {
         return Err(WebError::BadRequest(format!("the pseudonym you typed is not {name}: nothing was erased")));
     }
-    // Administrators cannot erase themselves, so one always remains.
+    // Administrators cannot erase themselves, so at least one always remains.
     if person.role == Role::Administrator && asked.visitor.name.as_deref() == Some(name) {
         return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to erase you".into()));
     }
@@ -94,7 +92,7 @@ pub fn erase(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::redirect("/trainees"))
 }
 
-/// Returns whether incomplete sessions count, from the page's switch.
+/// Returns whether incomplete sessions count, as selected on the page.
 fn incomplete(asked: &WebRequest) -> IncompletePolicy {
     IncompletePolicy::included(asked.query_value("incomplete").is_some())
 }
@@ -128,7 +126,7 @@ pub fn cohort_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(cohort_page::group(&asked.visitor, &chosen, counted)))
 }
 
-/// Responds with one of the cohort's tables as CSV.
+/// Responds with one of the cohort tables as CSV.
 pub fn cohort_table(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let name = TABLES.into_iter().find(|name| *name == asked.path_part("name")).ok_or(WebError::NotFound)?;
     let figured = state.figures.get(&selection_from_query(asked)?)?;
@@ -139,7 +137,7 @@ pub fn cohort_table(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 /// Responds with the cohort report as a single page that works offline.
 pub fn cohort_report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
     let figured = state.figures.get(&selection_from_query(asked)?)?;
-    let nothing = || WebError::BadRequest("no session of these scenarios counts".into());
+    let nothing = || WebError::BadRequest("these scenarios have no sessions to include".into());
     let cohort = figured.non_empty().ok_or_else(nothing)?;
     Ok(WebResponse::sandboxed_page(report::cohort(cohort).into_bytes(), &assets::page_policy()))
 }

@@ -31,9 +31,9 @@ fn render_form(state: &ServerState, asked: &WebRequest, told: Option<pages::Uplo
     Ok(WebResponse::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
 }
 
-/// Result of an upload.
+/// Upload result.
 enum UploadOutcome {
-    /// Folder of the new session.
+    /// Folder of the imported session.
     Session(PathBuf),
     /// ID and trainee of the existing session with the same recording.
     There(String, String),
@@ -77,12 +77,13 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
     if let Some((id, trainee)) = state.database.find_by_telemetry(&sha256_hex(kept))? {
         return Ok(UploadOutcome::There(id, trainee));
     }
-    // A recording that cannot be scored is an error of the file, whatever kind of error the scorer reports.
+    // A recording that cannot be scored counts as an invalid file, whatever kind of error the scorer reports.
     let unfit = |error: AppError| WebError::BadRequest(format!("cannot import this recording: {error}"));
     let graded = scoring::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
     if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
-        let words = format!("trainee = {}: erased after this flight, so it cannot be imported again", trainee.as_str());
+        let words =
+            format!("trainee = {}: this trainee was erased after the flight, so the flight cannot be imported", trainee.as_str());
         return Err(WebError::BadRequest(words));
     }
     let first = state.default_folder();
@@ -119,14 +120,15 @@ fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOut
         tracing::warn!("cannot write the report: {error}");
     }
     folder.write_assessment(&json_text(&graded.assessment))?;
-    // The complete folder is moved to the others; if the server is killed before that, nothing appears there.
+    // The complete folder is moved to the other sessions; if the server is killed before that, nothing appears there.
     let place = free_folder(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
     let moved = std::fs::rename(folder.path(), &place);
     moved.map_err(|error| WebError::Failed(format!("{}: cannot move: {error}", place.display())))?;
     Ok(UploadOutcome::Session(place))
 }
 
-/// Returns a path with this name, or with a similar one if another recording with the same start time has the name already.
+/// Returns a path with this name, or with a similar one if another recording with the same start time already has that
+/// name.
 fn free_folder(sessions: &Path, name: &str) -> PathBuf {
     let stem = name.rsplit_once('-').map_or(name, |(stem, _)| stem);
     let others = (1..).map(|k: u32| format!("{stem}-{}", &sha256_hex(format!("{name} {k}").as_bytes())[..6]));

@@ -1,4 +1,4 @@
-//! Main loop of the window: handles events and shows pages and views.
+//! Main loop of the window. Handles events and shows pages and views.
 
 use super::display;
 use super::flight_view::FlightView;
@@ -27,9 +27,10 @@ use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, Window
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::window::WindowId;
 
-/// Maximum frame rates of the views, 1/s: with a graphics card, that of fast screens; without one, a rate that still looks fluid.
+/// Maximum frame rates of the views, 1/s: with a graphics card, the refresh rate of fast displays; without one, a rate
+/// that still looks smooth.
 const MAX_FRAME_HZ: (f64, f64) = (120.0, 25.0);
-/// Frame rate of pages, which only change by keys and sticks, 1/s.
+/// Frame rate of pages, which change only on key and stick input, 1/s.
 const PAGE_HZ: f64 = 20.0;
 /// Pause after each frame without a graphics card, as a share of the frame time, so that other processes can run.
 const REST: f64 = 0.25;
@@ -38,11 +39,11 @@ const ZOOM_PER_NOTCH: f64 = 1.15;
 
 /// Threads and connections of the window.
 pub struct WindowThreads {
-    /// Pilot thread, if the window can fly.
+    /// Pilot thread, if the window can fly the vehicle.
     pub pilot: Option<PilotThread>,
     /// Pipe to `train`, if it started the window.
     pub lead: Option<TrainPipe>,
-    /// Flight to show from the start.
+    /// Flight to show at startup.
     pub flight: Option<FlightView>,
     /// Video stream of the camera's view.
     pub stream: Option<StreamSender>,
@@ -62,7 +63,7 @@ pub struct Cockpit {
     pub(super) gaze: InspectorCamera,
     pub(super) map: bool,
     pub(super) held: HeldKeys,
-    /// Pause state that was last sent to the pilot thread.
+    /// Last pause state sent to the pilot thread.
     pub(super) was_paused: bool,
     mouse: Option<(f64, f64)>,
     dragging: bool,
@@ -131,7 +132,7 @@ impl Cockpit {
         }
     }
 
-    /// Returns true while the views are shown and the keys fly.
+    /// Returns true while the views are shown and the keys control the vehicle.
     fn flies(&self) -> bool {
         self.flow.page() == Page::Flight
     }
@@ -169,7 +170,7 @@ impl Cockpit {
             Some(KeyChange::Up(key)) => self.send_to_pilot(PilotCommand::Up(key)),
             _ => {}
         }
-        // Keys that are being tested there have no other effect.
+        // Keys being tested there have no other effect.
         let tried = self.flow.is_key_test() && keys::name(&event.logical_key).is_some_and(|key| self.keys.is_stick(&key));
         if let Some(press) = keys::press(event).filter(|_| !tried) {
             self.flow.press(press);
@@ -215,7 +216,7 @@ impl Cockpit {
         if let (true, Some((from_x, from_y)), Some(flight)) = (self.dragging, self.mouse, &self.threads.flight)
             && let (Some(panes), Some(now)) = (flight.panes(), flight.now())
         {
-            // The scene is dragged along, so that the object under the pointer stays there.
+            // The scene follows the drag, so that the same object stays under the pointer.
             let to = panes.inspector_to_aircraft(&now);
             let rad_per_px = self.gaze.rad_per_px(self.inspector_view_height_px(), to);
             self.gaze.turn(rad_per_px * (from_x - x), rad_per_px * (y - from_y), to);

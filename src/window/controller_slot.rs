@@ -8,7 +8,7 @@ use spandrel_clients::rc::{ControllerProfile, RawInput, StickMode, Sticks};
 use spandrel_model::time::SimTime;
 use spandrel_view::flow::{ControllerStatus, ProfileChange};
 
-/// State of the controller.
+/// Controller state.
 enum DeviceState {
     /// No controller; the watcher detects a new one.
     Nothing(DeviceWatcher),
@@ -20,7 +20,7 @@ enum DeviceState {
     Calibrating(EventSource, Box<CalibrationWizard>),
 }
 
-/// The window's controller, or none.
+/// The window's controller, if any.
 pub struct ControllerSlot {
     requested_device: Option<String>,
     profiles: ProfileFolder,
@@ -32,7 +32,7 @@ pub struct ControllerSlot {
 }
 
 impl ControllerSlot {
-    /// Finds the device with this name, or the only one.
+    /// Finds the device with this name, or the only device.
     pub fn new(wanted: Option<String>, profiles: ProfileFolder) -> Self {
         let mut desk = Self {
             requested_device: wanted,
@@ -52,7 +52,7 @@ impl ControllerSlot {
             Ok(source) => self.open_controller(source),
             Err(error) => {
                 self.held = DeviceState::Nothing(DeviceWatcher::start());
-                // The rest of the message is advice for the command line.
+                // The rest of the message applies to the command line only.
                 let why = error.to_string();
                 let why = why.rsplit_once(';').map_or(why.as_str(), |(why, _)| why);
                 let mut signs = why.chars();
@@ -61,7 +61,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Opens a newly connected device. Returns true if there is one, whether calibrated or not.
+    /// Opens a newly connected device. Returns true if there is a new device, calibrated or not.
     pub fn open_new_device(&mut self) -> bool {
         let DeviceState::Nothing(watch) = &mut self.held else { return self.replace_disconnected() };
         if !watch.is_available() {
@@ -71,7 +71,8 @@ impl ControllerSlot {
         !matches!(self.held, DeviceState::Nothing(_))
     }
 
-    /// Opens a device that was connected while the current one is disconnected, unless the current one is calibrated and the new one is not.
+    /// Opens a device that was connected while the current one is disconnected, unless only the current one is
+    /// calibrated.
     fn replace_disconnected(&mut self) -> bool {
         if !self.lost() || matches!(self.held, DeviceState::Calibrating(..)) {
             self.replacement_watcher = None;
@@ -119,7 +120,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Returns the name of the controller, if there is one.
+    /// Returns the controller's name, if there is one.
     pub fn name(&self) -> Option<&str> {
         match &self.held {
             DeviceState::Nothing(_) => None,
@@ -128,7 +129,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Returns the reason why only the keyboard flies; `None` while a controller does.
+    /// Returns the reason why the vehicle can be flown only with the keyboard; `None` if a controller can be used.
     pub fn keyboard_reason(&self) -> Option<String> {
         match self.name() {
             Some(name) if self.lost() => Some(format!("'{name}' is not connected.")),
@@ -136,7 +137,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Returns the reason why there is no controller, or the location of its profile.
+    /// Returns the location of the controller's profile, or the reason why there is no controller.
     pub fn note(&self) -> &str {
         &self.note
     }
@@ -169,8 +170,8 @@ impl ControllerSlot {
         }
     }
 
-    /// Leaves the wizard without changes. A device that was disconnected meanwhile is searched for again, so that it does not appear connected with
-    /// its sticks at rest.
+    /// Leaves the wizard without changes. Searches again for a device that was disconnected meanwhile, so that it does
+    /// not appear connected with its sticks at rest.
     pub fn cancel(&mut self) {
         let lost = self.lost();
         match self.take_device() {
@@ -201,7 +202,7 @@ impl ControllerSlot {
     /// Returns the current stick positions of a calibrated device. Its buttons trigger actions on the link.
     ///
     /// # Errors
-    /// If the device cannot be used any longer.
+    /// Returns an error if the device can no longer be used.
     pub fn sticks(&mut self, link: &mut ControllerLink, now: SimTime) -> Result<Option<Sticks>, AppError> {
         match &mut self.held {
             DeviceState::Nothing(_) => Ok(None),
@@ -265,7 +266,7 @@ impl ControllerSlot {
     }
 }
 
-/// Returns a profile with one setting changed. All other values of each axis stay as measured or edited.
+/// Returns a profile with one setting changed. All other values of each axis keep their measured or edited values.
 fn adjusted_profile(profile: &ControllerProfile, tune: ProfileChange) -> ControllerProfile {
     let mut profile = profile.clone();
     match tune {
@@ -293,7 +294,7 @@ mod tests {
         let source = EventSource::Record(input_recording::InputRecording::read("pad.jsonl", &text.join("\n")).unwrap());
         let profile = ControllerProfile { device, mode: StickMode::Two, axes: ways, buttons: [].into() };
         ControllerSlot {
-            // A name that matches none of the computer's devices.
+            // A name that matches no device of the computer.
             requested_device: Some("no device is called so".into()),
             profiles: ProfileFolder::at(None),
             held: DeviceState::Calibrated(Box::new(CalibratedController::new(source, profile))),

@@ -1,12 +1,13 @@
-//! Opens the display, or explains why there is none.
+//! Opens the display, or reports why there is none.
 
 use crate::errors::AppError;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-/// Returns the event loop of the display.
+/// Returns the display's event loop.
 pub fn open() -> Result<EventLoop<()>, AppError> {
-    // The keyboard library is loaded on first use and panics if it is missing; the panic is converted to an error here.
+    // The keyboard library is loaded on first use, and the loader panics if it is missing. The panic is converted to an
+    // error here.
     let told = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let opened = std::panic::catch_unwind(EventLoop::new);
@@ -21,7 +22,7 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
     Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without one")))
 }
 
-/// Describes the configured display; the library's own message would refer to its source code.
+/// Describes the configured display, because the library's own message refers to its source code.
 fn unreachable_display() -> String {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let asked: Vec<String> =

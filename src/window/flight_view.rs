@@ -14,11 +14,11 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
-/// State of the scene of a flight.
+/// Scene state of a flight.
 pub enum SceneLoading {
-    /// Waiting for the seed of the session.
+    /// Waiting for the session's seed.
     Waiting,
-    /// Building site and light.
+    /// Building the site and its lighting.
     Building(Receiver<RenderJob>),
     /// Ready to be rendered.
     Ready(Box<ViewPanes>),
@@ -36,17 +36,18 @@ struct SceneKey {
 }
 
 impl SceneKey {
-    /// Returns the seed to build with: the simulator's, else the requested one, else `otherwise`.
+    /// Returns the seed to build with: the simulator's seed, the requested seed, or `otherwise`, in this order of
+    /// preference.
     fn seed(&self, said: Option<u64>, otherwise: Option<u64>) -> Option<u64> {
         said.or(self.requested_seed).or(otherwise)
     }
 
-    /// Returns the seed of the scene and that of the simulator if they differ.
+    /// Returns the seeds of the scene and of the simulator if they differ.
     fn built_seed_mismatch(&self, said: Option<u64>) -> Option<(u64, u64)> {
         self.built_seed.zip(said).filter(|(built, said)| built != said)
     }
 
-    /// Returns the requested seed and that of the simulator the first time they differ.
+    /// Returns the requested seed and the simulator's seed the first time that they differ.
     fn requested_seed_mismatch(&mut self, said: Option<u64>) -> Option<(u64, u64)> {
         let differ = self.requested_seed.zip(said).filter(|(given, said)| !self.mismatch_reported && given != said);
         self.mismatch_reported |= differ.is_some();
@@ -58,9 +59,9 @@ impl SceneKey {
 pub struct FlightView {
     /// Scenario and aircraft of the flight.
     pub job: (Scenario, Vehicle),
-    /// Receiver of its telemetry.
+    /// Telemetry listener.
     pub listener: TelemetryListener,
-    /// State of its scene.
+    /// Scene state.
     pub scene: SceneLoading,
     session: SceneKey,
     /// Views of an earlier session, kept until their textures can be freed.
@@ -72,10 +73,10 @@ pub struct FlightView {
 }
 
 impl FlightView {
-    /// Connects to a vehicle. `seed` is the session's, if it is known before the simulator reports it.
+    /// Connects to a vehicle. `seed` is the session's seed, if it is known before the simulator reports it.
     ///
     /// # Errors
-    /// If the socket cannot be opened.
+    /// Returns an error if the socket cannot be opened.
     pub fn begin(listen: IpAddr, vehicle: SocketAddr, job: (Scenario, Vehicle), seed: Option<u64>) -> Result<Self, AppError> {
         let listener = TelemetryListener::dial(listen, vehicle, &job.0)?;
         let session = SceneKey { requested_seed: seed, ..SceneKey::default() };
@@ -87,10 +88,11 @@ impl FlightView {
         self.listener.live().moment(self.listener.wall(), &self.job.1)
     }
 
-    /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts another session.
+    /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts
+    /// another session.
     ///
     /// # Errors
-    /// If the simulator flies another scenario.
+    /// Returns an error if the simulator uses a different scenario.
     pub fn prepare(&mut self, screen: &WindowSurface, quality: Quality, now: Option<&LiveMoment>) -> Result<(), AppError> {
         let (said, crc, real) = {
             let (wall, live) = (self.listener.wall(), self.listener.live());
@@ -98,7 +100,7 @@ impl FlightView {
         };
         if crc.is_some_and(|crc| crc != self.job.0.crc) {
             return Err(AppError::wrong(
-                "the simulator uses another scenario than this window: start both with the same --scenario",
+                "the simulator and this window use different scenarios: start both with the same --scenario",
             ));
         }
         self.follow_seed(said);
@@ -111,7 +113,7 @@ impl FlightView {
                 tracing::info!("rendering with {}, {}, seed {seed}", screen.gpu.name, quality.name);
                 let (sender, receiver) = channel();
                 std::thread::spawn(move || {
-                    // Fails if the window has been closed meanwhile.
+                    // Fails only if the window has been closed meanwhile.
                     let _ = sender.send(RenderJob::build(scenario, vehicle, seed, &quality, at));
                 });
                 self.session.built_seed = Some(seed);
@@ -129,10 +131,11 @@ impl FlightView {
         Ok(())
     }
 
-    /// Follows the simulator's seed, which takes precedence over the requested one and over that of an earlier session.
+    /// Switches to the simulator's seed, which takes precedence over the requested seed and the seed of an earlier
+    /// session.
     fn follow_seed(&mut self, said: Option<u64>) {
         if let Some((given, said)) = self.session.requested_seed_mismatch(said) {
-            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the latter");
+            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the simulator's");
         }
         if let Some((built, said)) = self.session.built_seed_mismatch(said) {
             tracing::info!("the simulator now uses seed {said} instead of {built}; rebuilding defects and traffic");
@@ -146,7 +149,7 @@ impl FlightView {
     /// Renders the views, if the scene is ready.
     ///
     /// # Errors
-    /// If a device fails.
+    /// Returns an error if a device fails.
     pub fn draw(
         &mut self,
         screen: &mut WindowSurface,

@@ -1,4 +1,4 @@
-//! One frame of the window: a page, or a flight with its displays; also carries out the pages' requests.
+//! Renders one frame of the window (a page, or a flight with its displays) and handles the pages' requests.
 
 use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
@@ -16,15 +16,15 @@ use spandrel_view::hud;
 use spandrel_view::live::LiveMoment;
 use spandrel_view::sound::SoundInputs;
 
-/// Turn rate of the inspector's view by keys, rad/s, and zoom factor per second (estimates: comfortable on a laptop).
+/// Keyboard turn rate of the inspector's view, rad/s, and zoom factor per second (estimates: comfortable on a laptop).
 const TURN_RAD_S: f64 = 1.0;
 const ZOOM_PER_S: f64 = 2.0;
-/// Duration of messages and of the initial key help on the screen, s.
+/// Display time of messages and of the initial key help, s.
 const MESSAGE_S: f64 = 7.0;
 const KEY_HELP_S: f64 = 25.0;
 
 impl Cockpit {
-    /// Handles messages from `train`, carries out the pages' requests, and renders a frame.
+    /// Handles messages from `train` and requests from the pages, and renders a frame.
     pub(super) fn frame(&mut self) -> Result<(), AppError> {
         if let Some(fault) = self.screen.as_ref().and_then(|screen| screen.gpu.fault()) {
             return Err(fault.into());
@@ -99,7 +99,7 @@ impl Cockpit {
             WindowRequest::ChangeProfile(tune) => self.send_to_pilot(PilotCommand::ChangeProfile(tune)),
             WindowRequest::Open(address) => {
                 if let Err(error) = open::that_detached(&address) {
-                    self.flow.show_notice(format!("Cannot open a browser ({error}). Open the address above yourself."));
+                    self.flow.show_notice(format!("Cannot open a browser ({error}). Enter the address above in a browser."));
                 }
             }
             WindowRequest::Sound(on) => {
@@ -147,7 +147,7 @@ impl Cockpit {
         let stands = self.flow.is_paused();
         let mut now = self.threads.flight.as_ref().and_then(FlightView::now);
         if let (Some(now), true) = (&mut now, stands) {
-            // No telemetry arrives while the simulation is paused, but the link is not lost.
+            // While the simulation is paused, no telemetry arrives, but the link is not lost.
             now.hud.telemetry_age_s = 0.0;
         }
         if let Some(screen) = &self.screen {
@@ -182,7 +182,7 @@ impl Cockpit {
         self.save_screenshot(&shown, &text)
     }
 
-    /// Passes the camera's view to the stream and the picture file; reads it back only once for both.
+    /// Passes the camera's view to the stream and the picture file, with a single readback for both.
     fn publish_frame(&mut self) -> Result<(), AppError> {
         let (Some(screen), Some(flight)) = (&self.screen, &self.threads.flight) else { return Ok(()) };
         let Some(panes) = flight.panes() else { return Ok(()) };

@@ -1,12 +1,12 @@
-//! Keys of the window, by the names used in key binding files.
+//! Keys of the window, with the names used in key binding files.
 
 use spandrel_view::flow::KeyPress;
 use std::collections::{BTreeMap, BTreeSet};
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
 
-/// Converts a key press to its action on a page. Held keys repeat movement and typing, but not Enter and Escape, which would otherwise act on the
-/// next page.
+/// Converts a key press to its action on a page. Held keys repeat movement and typing, but not Enter and Escape, which
+/// would otherwise act on the next page.
 pub fn press(event: &KeyEvent) -> Option<KeyPress> {
     if event.state != ElementState::Pressed {
         return None;
@@ -38,8 +38,9 @@ pub enum KeyChange {
     Up(String),
 }
 
-/// Keys that are pressed, and keys that were already pressed when the window got the focus: those were meant for another window and do nothing until
-/// released. The physical key identifies them, because a key released with Shift may have another symbol.
+/// Pressed keys, and keys that were already pressed when the window gained focus: those were meant for another window
+/// and do nothing until released. Keys are identified by their physical key, because the symbol may differ between
+/// press and release (Shift).
 #[derive(Debug, Default)]
 pub struct HeldKeys {
     names: BTreeMap<String, String>,
@@ -47,7 +48,8 @@ pub struct HeldKeys {
 }
 
 impl HeldKeys {
-    /// Returns true for a key that was pressed for another window. `made_up` is true if the window system reports a key that was already pressed.
+    /// Returns true if a key press was meant for another window. `made_up` is true if the window system reports a key
+    /// that was already pressed.
     pub fn pressed_elsewhere(&mut self, event: &KeyEvent, made_up: bool) -> bool {
         self.update_foreign(key_id(&event.physical_key), event.state, made_up)
     }
@@ -58,7 +60,7 @@ impl HeldKeys {
                 self.others.insert(place);
                 true
             }
-            // While it is held, it repeats, and the first repetition is not marked as one.
+            // A held key repeats, and its first repetition is not marked as such.
             ElementState::Pressed => self.others.contains(&place),
             ElementState::Released => self.others.remove(&place),
         }

@@ -1,4 +1,4 @@
-//! Telemetry subscriber in a separate thread, so that slow frames do not delay the timestamps of datagrams.
+//! Telemetry subscriber in a separate thread, so that slow frames do not delay datagram timestamps.
 
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -10,7 +10,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Longest wait for a datagram, so that heartbeats are sent on time.
+/// Maximum wait for a datagram, so that heartbeats are sent on time.
 const MAX_WAIT: Duration = Duration::from_millis(50);
 
 /// Received telemetry, shared with the render loop.
@@ -25,14 +25,14 @@ impl TelemetryListener {
     /// Connects to the vehicle and starts the thread.
     ///
     /// # Errors
-    /// If the socket cannot be opened.
+    /// Returns an error if the socket cannot be opened.
     pub fn dial(listen: IpAddr, vehicle: SocketAddr, scenario: &Scenario) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;
         let listener = Self { live: Arc::new(Mutex::new(LiveFlight::new(scenario))), stopwatch: Stopwatch::start(), vehicle };
         let heard = listener.clone();
         std::thread::spawn(move || {
-            // Ends when no other owner of the telemetry is left.
+            // The thread ends when the telemetry has no other owner.
             while Arc::strong_count(&heard.live) > 1 {
                 let arrival = hub.next(MAX_WAIT);
                 let wall = heard.wall();
@@ -53,7 +53,7 @@ impl TelemetryListener {
         Ok(listener)
     }
 
-    /// Returns the address of the vehicle.
+    /// Returns the vehicle's address.
     pub fn vehicle(&self) -> SocketAddr {
         self.vehicle
     }

@@ -1,5 +1,5 @@
-//! The window and its threads: one receives telemetry, one builds the scene, one flies, and the pipe to `train` controls the window. The main loop
-//! renders.
+//! The window and its threads: one receives telemetry, one builds the scene and one flies the vehicle. `train` controls
+//! the window through a pipe. The main loop renders.
 
 mod cockpit;
 mod controller_slot;
@@ -52,11 +52,11 @@ pub fn run(setup: WindowSetup) -> Result<(), AppError> {
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, setup.fly) {
         pilot.send_command(PilotCommand::Fly(vehicle));
     }
-    // On Linux, each thread inherits its nice value from the thread that starts it: the pilot thread has started before and keeps its priority, the
-    // encoder starts later and gets the lower one.
+    // On Linux, each thread inherits its nice value from the thread that starts it. The pilot thread was started
+    // earlier and keeps its priority; the encoder is started later and gets the lower priority.
     priority::lower_priority();
     crew.stream = match setup.stream.map(|to| StreamSender::open(to, clock::unix_us())).transpose() {
-        // The trainee's window is more important than the stream.
+        // The trainee's window takes precedence over the stream.
         Err(error) if led => {
             tracing::warn!("cannot stream: {error}");
             None

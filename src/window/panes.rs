@@ -22,7 +22,8 @@ use spandrel_view::stage::{self, Stage};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Number of pixels of a view without a graphics card, whatever its size on the screen (issue: 640 x 360 each on two cores).
+/// Number of pixels of a view without a graphics card, regardless of its size on the screen (issue: 640 x 360 each on
+/// two cores).
 const SOFTWARE_VIEW_PX: f64 = 640.0 * 360.0;
 
 /// A flight whose scene has been built.
@@ -36,7 +37,7 @@ pub struct RenderJob {
 }
 
 impl RenderJob {
-    /// Builds site and scene, which takes seconds.
+    /// Builds the site and the scene, which takes several seconds.
     pub fn build(scenario: Scenario, vehicle: Vehicle, seed: u64, quality: &Quality, at: SimTime) -> Self {
         let site = Site::build(&scenario, seed);
         let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, quality, at));
@@ -60,7 +61,7 @@ struct ViewPane {
 pub struct ViewPanes {
     job: RenderJob,
     renderer: Renderer,
-    /// Second device for the camera's view, if the window's own device is software.
+    /// Second device for the camera's view, if the window's own device is a software renderer.
     secondary: Option<SecondaryRenderer>,
     panes: BTreeMap<u8, ViewPane>,
     /// Last image of the second device.
@@ -69,7 +70,7 @@ pub struct ViewPanes {
     meters: [ExposureMeter; 2],
 }
 
-/// Content of a view to show.
+/// A view to show.
 pub struct PaneContent {
     /// Position in the window.
     pub place: ViewRect,
@@ -96,7 +97,7 @@ impl ViewPanes {
         now.moment.drone.pose.position_m - self.job.scenario.ground_team.inspector_m
     }
 
-    /// Frees the textures in the window's painter.
+    /// Frees the textures registered with the window's painter.
     pub fn close(self, screen: &mut WindowSurface) {
         self.panes.values().for_each(|pane| screen.painter.free_texture(&pane.id));
     }
@@ -104,7 +105,7 @@ impl ViewPanes {
     /// Renders both views.
     ///
     /// # Errors
-    /// If a device fails.
+    /// Returns an error if a device fails.
     pub fn draw(
         &mut self,
         screen: &mut WindowSurface,
@@ -195,7 +196,7 @@ impl ViewPanes {
             }
             ViewKind::Camera => {
                 let display = stage::display(&stage, moment, &now.hud, (feed, false), map);
-                // Text has its normal size on the screen; displays with a larger scale factor have more pixels for it.
+                // Text keeps its normal size on the screen; displays with a larger scale factor use more pixels for it.
                 let scale = screen.window.scale_factor();
                 (stage.camera_frame(moment, size_px, film), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
             }
@@ -203,7 +204,7 @@ impl ViewPanes {
     }
 }
 
-/// Returns the texture of a view; creates a new one if the size has changed.
+/// Returns the texture of a view, and recreates it if the size has changed.
 fn pane<'a>(
     panes: &'a mut BTreeMap<u8, ViewPane>,
     screen: &mut WindowSurface,

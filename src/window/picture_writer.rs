@@ -1,5 +1,5 @@
-//! Saves the camera's view to a file about once a second, for the live page. A separate thread encodes the JPEG and waits for the disk, so that the
-//! window loses no frames.
+//! Saves the camera's view to a file about once a second, for the live page. A separate thread encodes the JPEG and
+//! waits for the disk, so that the window loses no frames.
 
 use crate::errors::AppError;
 use crate::io::replace::replace;
@@ -10,7 +10,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Interval between two images.
+/// Interval between images.
 const SAVE_INTERVAL: Duration = Duration::from_secs(1);
 /// Maximum file size, bytes; a phone connection transfers it in a second.
 const MAX_BYTES: usize = 150_000;
@@ -25,7 +25,7 @@ pub struct PictureWriter {
 impl PictureWriter {
     /// Starts the thread that saves images to `path`.
     pub fn start(path: PathBuf) -> Self {
-        // At most one image waits; further ones are dropped meanwhile.
+        // At most one image waits; further images are dropped.
         let (sender, receiver) = sync_channel(1);
         let thread = std::thread::spawn(move || save_images(&path, &receiver));
         Self { sender: Some(sender), thread: Some(thread), due: Duration::ZERO }
@@ -61,13 +61,13 @@ fn save_images(path: &Path, pictures: &Receiver<Picture>) {
     let mut told = false;
     for picture in pictures {
         if let Err(error) = write(path, &picture) {
-            // Logged once, because the next failure most likely has the same cause.
+            // Logged only once, because later failures most likely have the same cause.
             if !std::mem::replace(&mut told, true) {
                 tracing::warn!("cannot save the camera's view: {error}");
             }
         }
     }
-    // An outdated image must not remain.
+    // Do not leave an outdated image behind.
     let _ = std::fs::remove_file(path);
 }
 

@@ -1,4 +1,4 @@
-//! Flies from the window in a separate thread: stick positions are sent fifty times a second, independent of the frame rate.
+//! Flies from the window in a separate thread: stick positions are sent at 50 Hz, regardless of the frame rate.
 
 use super::controller_slot::ControllerSlot;
 use crate::errors::AppError;
@@ -16,7 +16,7 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Longest wait for a datagram: a quarter of the interval between stick samples.
+/// Maximum wait for a datagram: a quarter of the interval between stick samples.
 const MAX_WAIT: Duration = Duration::from_millis(5);
 /// Interval at which the controller's status is updated on the ground (a tenth of a person's reaction time; estimate).
 const STATUS_INTERVAL: SimTime = SimTime::from_ms(30);
@@ -48,7 +48,7 @@ pub enum PilotCommand {
     ChangeProfile(ProfileChange),
 }
 
-/// The window's handle of the pilot thread.
+/// The window's handle to the pilot thread.
 #[derive(Debug)]
 pub struct PilotThread {
     commands: Sender<PilotCommand>,
@@ -57,10 +57,10 @@ pub struct PilotThread {
 }
 
 impl PilotThread {
-    /// Starts the thread. Without a controller, the keyboard flies, and the reason is logged.
+    /// Starts the thread. Without a controller, logs the reason and uses the keyboard.
     ///
     /// # Errors
-    /// If the socket cannot be opened, or a file is invalid.
+    /// Returns an error if the socket cannot be opened, or a file is invalid.
     pub fn start(listen: IpAddr, device: Option<String>, profiles: Option<PathBuf>, keys: KeyBindings) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;
@@ -70,7 +70,8 @@ impl PilotThread {
         let controls = Arc::new(Mutex::new(ControllerStatus::default()));
         let shown = controls.clone();
         std::thread::spawn(move || {
-            // The device is opened in the thread that uses it, because some systems do not allow moving devices between threads.
+            // The device is opened in the thread that uses it, because some systems do not allow moving devices between
+            // threads.
             let desk = ControllerSlot::new(device, profiles);
             if let Some(why) = desk.keyboard_reason() {
                 tracing::info!("{why} Flying with the keyboard.");
@@ -107,7 +108,7 @@ impl PilotThread {
         self.messages.try_recv().ok()
     }
 
-    /// Returns the status of the controller.
+    /// Returns the controller's status.
     pub fn controls(&self) -> ControllerStatus {
         self.controls.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -152,11 +153,11 @@ impl PilotLoop {
             }
             if self.controller.open_new_device() {
                 self.lost = false;
-                let flies = if self.controller.flies() { "Flying with it." } else { "Use the keyboard until it is calibrated." };
+                let flies = if self.controller.flies() { "Use it to fly." } else { "Use the keyboard until it is calibrated." };
                 send_message(teller, format!("Controller connected. {} {flies}", self.controller.note()));
             }
             let (sticks, news) = self.sticks(now);
-            // On the ground, the controller page shows it.
+            // On the ground, the controller page shows this message.
             if let Some(news) = news.filter(|_| self.vehicle.is_some()) {
                 send_message(teller, news);
             }
@@ -195,8 +196,9 @@ impl PilotLoop {
                 if let Some(action) = action.filter(|_| self.vehicle.is_some()) {
                     self.link.request_action(action, now);
                 }
-                // Sticks are sent only after the user has started to fly, because another ground station or a script may be in control. Arming counts
-                // as flying; otherwise the vehicle would detect a lost control link.
+                // Stick positions are sent only after the user has started to fly, because another ground station or a
+                // script may be in control. Arming counts as flying; otherwise the vehicle would detect a lost control
+                // link.
                 let flies =
                     matches!(action, Some(ControllerAction::Arm | ControllerAction::TakeOff | ControllerAction::Position));
                 self.keyboard_in_use |= self.vehicle.is_some() && (flies || self.keyboard.sticks(now) != Sticks::default());
@@ -221,11 +223,11 @@ impl PilotLoop {
         }
     }
 
-    /// Returns the controller's stick positions unless keys are held, or those of the keyboard once it has been used. Also returns a message about
-    /// the controller for the user.
+    /// Returns the controller's stick positions unless keys are held; without a controller, returns those of the
+    /// keyboard once it has been used. Also returns a message for the user about the controller.
     fn sticks(&mut self, now: SimTime) -> (Option<Sticks>, Option<String>) {
         let keys = self.keyboard.sticks(now);
-        // While the simulation is paused, a button would act late or never, so actions go to a dummy link.
+        // While the simulation is paused, button actions would be late or lost, so they go to a dummy link.
         let (mut nobody, flown);
         if self.paused {
             nobody = ControllerLink::default();
@@ -248,16 +250,16 @@ impl PilotLoop {
         }
     }
 
-    /// Updates whether the controller is disconnected. Returns a message if this has changed.
+    /// Updates the connection state of the controller. Returns a message if the state has changed.
     fn set_device_lost(&mut self, lost: bool) -> Option<String> {
         let before = std::mem::replace(&mut self.lost, lost);
         let name = self.controller.name().unwrap_or("the controller");
         match (before, lost) {
             (false, true) => {
-                // If the controller is disconnected, no sticks are sent, whatever keys were pressed before, so that the vehicle's failsafe acts until
-                // a key is used again.
+                // If the controller is disconnected, no stick positions are sent, even if keys were used before, so
+                // that the vehicle's failsafe is active until a key is used again.
                 self.keyboard_in_use = false;
-                Some(format!("'{name}' disconnected: sticks centered, then no longer sent. Press a key to take over."))
+                Some(format!("'{name}' disconnected: stick input centered, then stopped. Press a key to fly with the keyboard."))
             }
             (true, false) if self.controller.flies() => Some(format!("'{name}' reconnected.")),
             _ => None,

@@ -10,11 +10,11 @@ use winit::window::Window;
 
 /// The window and its graphics device.
 pub struct WindowSurface {
-    /// Window of the operating system.
+    /// Operating system window.
     pub window: Arc<Window>,
     /// Graphics device that renders to the window.
     pub gpu: Gpu,
-    /// egui's painter, which the views' textures are registered with.
+    /// egui's painter, with which the views' textures are registered.
     pub painter: egui_wgpu::Renderer,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
@@ -26,7 +26,7 @@ impl WindowSurface {
     /// Opens a window of this size, px, enlarged by the scale factor of the display.
     ///
     /// # Errors
-    /// If there is no display or no graphics device.
+    /// Returns an error if there is no display or no graphics device.
     pub fn open(events: &ActiveEventLoop, title: &str, (width, height): (u32, u32)) -> Result<Self, AppError> {
         // The window is never larger than the display, because its edges would be hidden.
         let display = events.primary_monitor().or_else(|| events.available_monitors().next());
@@ -38,14 +38,14 @@ impl WindowSurface {
         let failed = |why: String| AppError::failed(format!("cannot open a window: {why}"));
         let window = Arc::new(events.create_window(attributes).map_err(|error| failed(error.to_string()))?);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        // Without a driver, no surface can be created.
+        // Surface creation fails if there is no driver.
         let surface = instance.create_surface(window.clone()).map_err(|error| GpuError::NoDevice(error.to_string()))?;
         let gpu = Gpu::open_for(&instance, Some(&surface))?;
         let size = window.inner_size();
         let config = surface
             .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
-            .ok_or_else(|| failed(format!("{} cannot draw in windows", gpu.name)))?;
-        // egui and the rendered images are already in sRGB, so the surface must not convert them again.
+            .ok_or_else(|| failed(format!("{} cannot render to windows", gpu.name)))?;
+        // egui's output and the rendered images are already in sRGB, so the surface must not convert them again.
         let plain = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
         let formats = surface.get_capabilities(&gpu.adapter).formats;
         let format = plain.into_iter().find(|format| formats.contains(format)).unwrap_or(config.format);

@@ -1,7 +1,7 @@
 //! Renders a second view on a second software device.
 //!
-//! A software device processes the vertices of an image in one thread and then its pixels in all others, so one core is idle during the vertex phase.
-//! A second device uses that time to render another image.
+//! A software device processes the vertices of an image in one thread and then its pixels in all other threads, so
+//! cores are idle during the vertex phase. A second device uses that time to render another image.
 
 use spandrel_view::gpu::{DrawCounts, Gpu, GpuError, Renderer, picture_texture, read};
 use spandrel_view::picture::Picture;
@@ -15,7 +15,7 @@ use std::thread::{self, JoinHandle};
 /// A rendered image and its draw counts.
 pub type RenderedShot = (Picture, DrawCounts);
 
-/// Draws shots in a separate thread, on a separate software device. The thread ends when this is dropped.
+/// Renders shots in a separate thread, on a separate software device. The thread ends when this is dropped.
 pub struct SecondaryRenderer {
     /// Set to `None` to end the thread.
     shots: Option<Sender<Shot>>,
@@ -27,7 +27,7 @@ impl SecondaryRenderer {
     /// Opens the device; the other thread uploads the scene.
     ///
     /// # Errors
-    /// If there is no software device, or it cannot be opened.
+    /// Returns an error if there is no software device, or it cannot be opened.
     pub fn open(quality: Quality, scene: Arc<Scene>) -> Result<Self, GpuError> {
         let gpu = Gpu::open_software()?;
         let (shots, ordered) = channel();
@@ -39,15 +39,15 @@ impl SecondaryRenderer {
     /// Starts rendering an image.
     ///
     /// # Errors
-    /// If the thread has ended.
+    /// Returns an error if the thread has ended.
     pub fn start(&self, shot: Shot) -> Result<(), GpuError> {
         self.shots.as_ref().and_then(|shots| shots.send(shot).ok()).ok_or_else(ended)
     }
 
-    /// Waits for the oldest image that has not been returned yet.
+    /// Waits for the oldest image that has not been returned yet, and returns it.
     ///
     /// # Errors
-    /// If the device fails.
+    /// Returns an error if the device fails.
     pub fn picture(&self) -> Result<RenderedShot, GpuError> {
         self.pictures.recv().map_err(|_| ended())?
     }
@@ -56,7 +56,8 @@ impl SecondaryRenderer {
 impl Drop for SecondaryRenderer {
     fn drop(&mut self) {
         drop(self.shots.take());
-        // A driver that is still rendering when the program exits can crash. A panic in the thread has already been reported.
+        // A driver that is still rendering when the program exits can crash. A panic in the thread has already been
+        // reported.
         if let Some(render_thread) = self.render_thread.take() {
             let _ = render_thread.join();
         }

@@ -1,4 +1,5 @@
-//! Plays sound samples with a program of the system, and speaks warnings with another. Sound libraries would need system headers to build.
+//! Plays sound samples with one system program, and speaks warnings with another. Sound libraries would need system
+//! headers to build.
 
 use crate::io::clock::Stopwatch;
 use spandrel_clients::rc::keyboard::SoundPreferences;
@@ -15,11 +16,11 @@ const PLAYERS: [(&str, &[&str]); 2] = [
 ];
 /// Programs that speak their last argument.
 const VOICES: [&str; 2] = ["spd-say", "espeak-ng"];
-/// Number of samples in a chunk: 10 ms.
+/// Number of samples per chunk (10 ms).
 const CHUNK_SAMPLES: usize = SAMPLE_RATE_HZ as usize / 100;
-/// Playback lead: a longer one delays the sound, a shorter one causes dropouts on a busy machine (estimate).
+/// Playback lead time: longer delays the sound, shorter causes dropouts on a busy machine (estimate).
 const PLAYBACK_LEAD: Duration = Duration::from_millis(80);
-/// Pause between checks whether another chunk is needed.
+/// Interval between checks for whether another chunk is needed.
 const CHUNK_INTERVAL: Duration = Duration::from_millis(5);
 
 /// Sound output of the window; its thread starts with the first sound.
@@ -31,7 +32,7 @@ pub struct AudioOutput {
 }
 
 impl AudioOutput {
-    /// Creates the output; `on` is false if sound is disabled at the start.
+    /// Creates the output; `on` is false if sound is initially disabled.
     pub fn new(sounds: SoundPreferences, on: bool) -> Self {
         let SoundPreferences { propellers, warnings, speech, volume } = sounds;
         let heard = Arc::new(Mutex::new(SoundInputs { silent: true, ..SoundInputs::default() }));
@@ -51,12 +52,12 @@ impl AudioOutput {
         }
     }
 
-    /// Silences the output until the next inputs.
+    /// Silences the output until the inputs are updated again.
     pub fn silence(&self) {
         locked(&self.inputs).silent = true;
     }
 
-    /// Updates the inputs of the sound.
+    /// Updates the inputs of the sound synthesis.
     pub fn set(&mut self, heard: SoundInputs) {
         if !self.on {
             return;
@@ -90,7 +91,7 @@ fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     speak(heard, settings);
 }
 
-/// Speaks until the window is closed; speech needs no player.
+/// Speaks warnings until the window is closed; speech does not require a player.
 fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut voice = SpeechVoice::new(settings.speech);
     while Arc::strong_count(heard) > 1 && voice.on {
@@ -102,7 +103,7 @@ fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
 /// Plays until the window is closed.
 ///
 /// # Errors
-/// If this player does not work.
+/// Returns an error if this player does not work.
 fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) -> std::io::Result<()> {
     let mut command = Command::new(name);
     let mut player = command.args(args).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
@@ -113,7 +114,7 @@ fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, setting
         let now = locked(heard).clone();
         voice.update_inputs(&now);
         sound.set(now);
-        // After a delay of the computer, does not catch up on the missed sound.
+        // After a stall of the computer, skips the missed sound instead of catching up.
         made = made.max(watch.elapsed());
         while made < watch.elapsed() + PLAYBACK_LEAD {
             if stdin.write_all(&next_chunk(&mut sound)).is_err() {

@@ -1,5 +1,5 @@
-//! Streams the camera's view as H.264 over RTP. A separate thread encodes and sends, so that a slow network or encoder costs frames of the stream,
-//! but none of the window.
+//! Streams the camera's view as H.264 over RTP. A separate thread encodes and sends, so that a slow network or encoder
+//! drops frames of the stream, but not of the window.
 
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -16,12 +16,12 @@ use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Bits per pixel (estimate: 2 Mbit/s at 720p25, which wireless networks carry).
+/// Bits per pixel (estimate: 2 Mbit/s at 720p25, which wireless networks can handle).
 const BITS_PER_PIXEL: f64 = 0.1;
-/// Number of frames between key frames: the longest wait of a receiver that joins.
+/// Number of frames between key frames, which is the maximum wait of a receiver that joins the stream.
 const KEY_FRAME_INTERVAL: u32 = 25;
-/// Shortest interval between frames: 30 a second, as drones' cameras send (estimate; docs/src/reference/wire.md, "Camera, gimbal and lamp"). The
-/// window may have a higher frame rate.
+/// Minimum interval between frames: 30 per second, as from drone cameras (estimate; docs/src/reference/wire.md,
+/// "Camera, gimbal and lamp"). The window may have a higher frame rate.
 const MIN_FRAME_INTERVAL: Duration = Duration::from_nanos(33_000_000);
 
 /// A video stream to a receiver.
@@ -36,25 +36,26 @@ pub struct StreamSender {
     last: Option<Stopwatch>,
 }
 
-/// Statistics of the stream.
+/// Stream statistics.
 #[derive(Debug, Clone, Copy, Default)]
 struct StreamStatistics {
     pictures: u64,
-    /// Total wall time of encoding.
+    /// Total encoding time (wall time).
     encoding: Duration,
 }
 
 impl StreamSender {
-    /// Opens a stream to a receiver. Its random RTP numbers come from `seed`, which should differ between streams.
+    /// Opens a stream to a receiver. Its random initial RTP values are derived from `seed`, which should differ between
+    /// streams.
     ///
     /// # Errors
-    /// If the socket cannot be opened, or there is no route to the receiver.
+    /// Returns an error if the socket cannot be opened, or there is no route to the receiver.
     pub fn open(to: SocketAddr, seed: u64) -> Result<Self, AppError> {
         let socket = socket(to).map_err(|error| AppError::failed(format!("--stream {to}: {error}")))?;
         if to.port() != PORT {
             tracing::warn!("--stream {to}: the vehicle still announces port {PORT}; configure the other port in the receiver");
         }
-        // At most one frame waits while another is encoded; further ones are dropped.
+        // At most one frame waits while another is being encoded; further frames are dropped.
         let (pictures, wanted) = sync_channel(1);
         let encoding_fails = Arc::new(AtomicBool::new(false));
         let line = Line { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
@@ -71,7 +72,8 @@ impl StreamSender {
         self.last.is_none_or(|last| last.elapsed() >= MIN_FRAME_INTERVAL)
     }
 
-    /// Passes a frame to the encoder if it is ready. Returns the status of the stream after the first frames, while encoding works.
+    /// Passes a frame to the encoder if it is ready. Returns the status of the stream once the frame rate is known, if
+    /// encoding works.
     pub fn push(&mut self, picture: Picture) -> Option<VideoStatus> {
         let (width_px, height_px) = (picture.width, picture.height);
         self.last = Some(Stopwatch::start());
@@ -93,7 +95,7 @@ impl Drop for StreamSender {
         // A panic in the thread has already been reported.
         if let Some(Ok(sent)) = self.sender.take().map(JoinHandle::join) {
             let each_ms = 1e3 * sent.encoding.as_secs_f64() / (sent.pictures.max(1) as f64);
-            tracing::info!("{} pictures streamed, encoded in {each_ms:.1} ms each", sent.pictures);
+            tracing::info!("{} frames streamed, encoded in {each_ms:.1} ms each", sent.pictures);
         }
     }
 }
@@ -125,12 +127,12 @@ impl Line {
     /// Sends an encoded frame with the current time.
     fn send(&mut self, units: &[Vec<u8>]) {
         for packet in self.packets.picture(units, self.watch.elapsed().as_secs_f64()) {
-            // The receiver may not listen yet.
+            // The receiver may not be listening yet.
             if let Err(error) = self.socket.send(&packet)
                 && error.kind() != std::io::ErrorKind::ConnectionRefused
                 && !std::mem::replace(&mut self.told, true)
             {
-                tracing::warn!("packets of the stream to {} are lost: {error}", self.to);
+                tracing::warn!("lost packets of the stream to {}: {error}", self.to);
             }
         }
     }
@@ -158,7 +160,7 @@ impl ResizingEncoder {
 struct LastError(Option<VideoError>);
 
 impl LastError {
-    /// Returns an error that differs from the last one. A success in between makes the same error new again.
+    /// Returns an error only if it differs from the last one. After a success, the same error is returned again.
     fn new_error(&mut self, wrong: Option<VideoError>) -> Option<&VideoError> {
         if self.0 == wrong {
             return None;

@@ -1,4 +1,4 @@
-//! Pipe to `train`, which starts and ends flights.
+//! Pipe to the `train` process, which starts and ends flights.
 
 use crate::io::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
@@ -13,12 +13,12 @@ pub struct TrainPipe {
 }
 
 impl TrainPipe {
-    /// Reads messages from standard input. When it closes, the window closes, too.
+    /// Reads messages from standard input. When it closes, the window closes as well.
     pub fn listen(stop: &StopRequest) -> Self {
         Self { lines: stop.lines(), error_reported: false }
     }
 
-    /// Returns the next message from `train`. The first invalid line is logged, further ones are ignored.
+    /// Returns the next message from `train`. Only the first invalid line is logged; later ones are ignored.
     pub fn poll(&mut self) -> Option<ToWindow> {
         while let Ok(line) = self.lines.try_recv() {
             match pipe::read(&line) {

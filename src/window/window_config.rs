@@ -13,9 +13,9 @@ use std::time::Duration;
 pub struct WindowConfig {
     /// Local address to bind.
     pub listen: IpAddr,
-    /// Quality preset; `None` to choose by the device.
+    /// Quality preset; `None` to choose one that suits the device.
     pub quality: Option<Quality>,
-    /// Size of the window, px: width, height.
+    /// Window size, px: width, height.
     pub size_px: (u32, u32),
     /// True if the map may be shown.
     pub map: bool,
@@ -23,7 +23,7 @@ pub struct WindowConfig {
     pub picture: Option<CaptureRequest>,
     /// File to save the camera's view to.
     pub keep: Option<PathBuf>,
-    /// True to report on standard output when both views have been rendered.
+    /// True to print a line on standard output when both views have been rendered.
     pub announce: bool,
 }
 
@@ -36,16 +36,16 @@ pub struct CaptureRequest {
     pub after: Duration,
 }
 
-/// Everything that the window starts with.
+/// Startup configuration of the window.
 #[derive(Debug)]
 pub struct WindowSetup {
-    /// The window itself.
+    /// Settings of the window itself.
     pub config: WindowConfig,
     /// The job to show.
     pub scenario: Scenario,
     /// The aircraft to show.
     pub vehicle: Vehicle,
-    /// Seed until the vehicle reports one.
+    /// Seed to use until the vehicle reports one.
     pub seed: Option<u64>,
     /// Key bindings.
     pub keys: KeyBindings,
@@ -53,16 +53,16 @@ pub struct WindowSetup {
     pub connect: SocketAddr,
     /// Ground station port of the vehicle to fly.
     pub fly: Option<SocketAddr>,
-    /// Controller, by its ID or part of its name; `None` for the only one.
+    /// Controller ID or part of the controller name; `None` for the only connected controller.
     pub device: Option<String>,
-    /// Folder of calibration profiles; `None` for the user's.
+    /// Folder for calibration profiles; `None` for the user's default folder.
     pub profiles: Option<PathBuf>,
     /// Destination of the camera's view as H.264 over RTP.
     pub stream: Option<SocketAddr>,
-    /// Sound is on.
+    /// True if sound is on.
     pub sound: bool,
-    /// Pages and flights come from a parent process over standard input.
+    /// True if a parent process sends pages and flights over standard input.
     pub led: bool,
-    /// The window closes when standard input closes.
+    /// True if the window closes when standard input closes.
     pub leash: bool,
 }

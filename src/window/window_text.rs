@@ -1,4 +1,4 @@
-//! Texts of the window, and the composition of views, displays and texts.
+//! Composes the window from views, displays and texts.
 
 use super::flight_view::SceneLoading;
 use super::listener::TelemetryListener;
@@ -14,7 +14,7 @@ pub struct WindowText {
     pub waiting: String,
     /// Recent messages, shown for a few seconds.
     pub lines: Vec<String>,
-    /// Help about the keys.
+    /// Key help.
     pub help: String,
 }
 
@@ -28,7 +28,7 @@ pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener) 
     }
 }
 
-/// Returns the help about the keys.
+/// Returns the key help.
 pub fn help(keys: &KeyBindings, flies: bool) -> String {
     let key = |name: &str| keys.label(name);
     let mut words = format!(

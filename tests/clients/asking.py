@@ -16,7 +16,7 @@ AGAIN_S = 2.0
 TIMES = int(LIMIT_S / AGAIN_S)
 
 
-class Again:
+class Repeater:
     """Sends a message immediately, and repeats it as long as `if_due` is called."""
 
     def __init__(self, say, again_s=AGAIN_S):

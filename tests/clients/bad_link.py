@@ -51,7 +51,7 @@ def error_text(error):
     return str(error).split(";", maxsplit=1)[0]
 
 
-def settled(what, predicate, limit_s=LIMIT_S):
+def wait_for_result(what, predicate, limit_s=LIMIT_S):
     """Waits for a truthy value and returns it."""
     try:
         return spandrel.wait_for(what, predicate, limit_s)
@@ -63,12 +63,12 @@ def ended(start, *args, next_result, success):
     """Runs a transfer that reports progress until it ends."""
     results = []
     start(*args, lambda result, *_: results.append(type(success)(result)))
-    last = settled("the end of the transfer", lambda: next((r for r in results if r != next_result), None))
+    last = wait_for_result("the end of the transfer", lambda: next((r for r in results if r != next_result), None))
     if last != success:
         raise Failed(last.name)
 
 
-def pressed(act):
+def repeat_until_done(act):
     """Repeats an action if there is no response, as a user would press the button again."""
     for k in range(MAX_RETRIES):
         try:
@@ -156,12 +156,12 @@ def parameters(bench):
 def flight(bench):
     """Arms, takes off, lands and disarms. Repeats commands that get no response."""
     action, telemetry = Action(bench.system), Telemetry(bench.system)
-    settled("the vehicle is ready to arm", telemetry.health_all_ok)
-    pressed(action.arm)
-    pressed(action.takeoff)
-    settled("the height", lambda: telemetry.position().relative_altitude_m > 2.0)
-    pressed(action.land)
-    settled("disarmed", lambda: not telemetry.armed())
+    wait_for_result("the vehicle is ready to arm", telemetry.health_all_ok)
+    repeat_until_done(action.arm)
+    repeat_until_done(action.takeoff)
+    wait_for_result("the height", lambda: telemetry.position().relative_altitude_m > 2.0)
+    repeat_until_done(action.land)
+    wait_for_result("disarmed", lambda: not telemetry.armed())
 
 
 def download(bench, burst):
@@ -176,7 +176,7 @@ def download(bench, burst):
 def log(bench):
     """Downloads a log of 50 kB; requests the list again if it does not arrive."""
     logs = LogFiles(bench.system)
-    entries = pressed(logs.get_entries)
+    entries = repeat_until_done(logs.get_entries)
     old = next((entry for entry in entries or [] if entry.size_bytes == LOG_BYTES), None)
     if old is None:
         raise Failed("the log is not listed")
@@ -192,7 +192,7 @@ def mavproxy_get(bench):
         bench.console.say("ftp get /survey.bin down.bin", f"Wrote {FILE_BYTES} bytes to down.bin")
     except AssertionError:
         raise Failed("the download did not finish") from None
-    settled("the content", lambda: (bench.folder / "down.bin").read_bytes() == content(FILE_BYTES), 10)
+    wait_for_result("the content", lambda: (bench.folder / "down.bin").read_bytes() == content(FILE_BYTES), 10)
 
 
 TASKS = {

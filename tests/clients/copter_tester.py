@@ -67,14 +67,14 @@ class Copter:
                 continue
             if kind == "TIMESYNC" and message.tc1 == 0:
                 self.now = message.ts1 / 1e9
-                self.speak()
+                self.send_inputs()
                 self.link.mav.timesync_send(1, message.ts1)
                 return
             self.last[kind] = message
             if kind == "STATUSTEXT":
                 self.texts.append(message.text)
 
-    def speak(self):
+    def send_inputs(self):
         """Sends sticks and heartbeats at their rates."""
         if self.now >= self.beat_due:
             self.beat_due = self.now + 1.0

@@ -23,7 +23,7 @@ AXES = {X: STICK, Y: STICK, LEFT_TRIGGER: TRIGGER, RIGHT_X: STICK, RIGHT_Y: STIC
 NODE_LIMIT_S = 10
 
 
-class Missing(Exception):
+class GamepadUnavailable(Exception):
     """This machine cannot create virtual gamepads."""
 
 
@@ -34,14 +34,14 @@ class Gamepad:
         try:
             self.file = os.open(DEVICE, os.O_WRONLY | os.O_NONBLOCK)
         except OSError as error:
-            raise Missing(f"{DEVICE} cannot be opened ({error.strerror}): run `modprobe uinput` and check the write permission") from error
+            raise GamepadUnavailable(f"{DEVICE} cannot be opened ({error.strerror}): run `modprobe uinput` and check the write permission") from error
         try:
             self._create()
             self.node = self._node()
         except OSError as error:
             os.close(self.file)
-            raise Missing(f"{DEVICE} cannot create a gamepad: {error.strerror}") from error
-        except Missing:
+            raise GamepadUnavailable(f"{DEVICE} cannot create a gamepad: {error.strerror}") from error
+        except GamepadUnavailable:
             self.close()
             raise
 
@@ -66,26 +66,26 @@ class Gamepad:
                 if os.access(node, os.R_OK | os.W_OK):
                     return node
             time.sleep(0.05)
-        raise Missing(f"the gamepad's node in /dev/input did not appear, or cannot be opened ({name})")
+        raise GamepadUnavailable(f"the gamepad's node in /dev/input did not appear, or cannot be opened ({name})")
 
     def environment(self):
         """Returns the environment that programs need to find the gamepad; without udev, they must search /dev/input
         themselves."""
         return {} if os.path.exists("/run/udev/control") else {"GILRS_DISABLE_UDEV": "1"}
 
-    def _tell(self, kind, code, value):
+    def _emit(self, kind, code, value):
         for event in ((kind, code, value), (EV_SYN, 0, 0)):
             os.write(self.file, struct.pack("llHHi", 0, 0, *event))
 
     def axis(self, axis, part):
         """Moves an axis to a fraction of its range, -1 to 1; a trigger rests at -1."""
         low, high = AXES[axis]
-        self._tell(EV_ABS, axis, round((low + high) / 2 + part * (high - low) / 2))
+        self._emit(EV_ABS, axis, round((low + high) / 2 + part * (high - low) / 2))
 
     def press(self, button):
         """Presses and releases a button."""
         for pressed in (1, 0):
-            self._tell(EV_KEY, button, pressed)
+            self._emit(EV_KEY, button, pressed)
             time.sleep(0.05)
 
     def close(self):

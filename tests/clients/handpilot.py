@@ -54,7 +54,7 @@ def simplify(path, step_m=4.0):
     return kept + [path[-1]]
 
 
-def squareness(defect, point):
+def incidence_cosine(defect, point):
     """Returns the cosine between the defect's normal and the line of sight from a point."""
     line = [p - d for p, d in zip(point, defect["position_enu_m"])]
     length = math.sqrt(sum(c * c for c in line))
@@ -67,7 +67,7 @@ def defect_to_photograph(job, path):
 
     def visibility(item):
         defect, point = item
-        return max(0.0, squareness(defect, point)) * defect["size_m"] / distance(defect["position_enu_m"], point)
+        return max(0.0, incidence_cosine(defect, point)) * defect["size_m"] / distance(defect["position_enu_m"], point)
 
     return max(((d, p) for d in job["defects"] for p in path), key=visibility)
 

@@ -220,7 +220,7 @@ class Tester:
         for unit in units:
             failure.inject(unit, kind, 0)
 
-    def refused_failure(self, unit, kind):
+    def rejected_failure_result(self, unit, kind):
         """Returns the name of the response to a failure that is not enabled."""
         try:
             self.failure.inject(unit, kind, 1)

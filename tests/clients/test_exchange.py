@@ -98,7 +98,7 @@ class Store(http.server.BaseHTTPRequestHandler):
             return self.tell(400, "headers")
         statements = json.loads(body)
         for one in statements:
-            fault = broken_rule(one)
+            fault = violated_rule(one)
             if fault:
                 store.faults.append(fault)
                 return self.tell(400, fault)
@@ -120,7 +120,7 @@ class Store(http.server.BaseHTTPRequestHandler):
         self.wfile.write(text.encode())
 
 
-def broken_rule(one):
+def violated_rule(one):
     """Returns the first rule of the standard that a statement violates."""
     if set(one) - {"id", "actor", "verb", "object", "result", "context", "timestamp"}:
         return "unknown field"

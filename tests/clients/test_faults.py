@@ -93,7 +93,7 @@ COMMANDS = {
 COMPARED = (".json", ".csv", ".glb", ".plan", ".parquet", ".zip", ".jsonl", ".html", ".params")
 
 
-class Place:
+class SessionCopy:
     """A copy of the session, with a folder for results."""
 
     def __init__(self, folder, flown):
@@ -121,7 +121,7 @@ class Place:
 @pytest.mark.parametrize("kind", ["enospc", "eio", "short", "kill"])
 @pytest.mark.parametrize("name", list(COMMANDS))
 def test_regress_fault_at_any_operation_leaves_complete_files(shim, flown, tmp_path, name, kind, measured):
-    sound = Place(tmp_path / "sound", flown)
+    sound = SessionCopy(tmp_path / "sound", flown)
     log = tmp_path / "operations"
     done = sound.run(name, environment(shim, sound.root, "none", log=log))
     assert done.returncode == 0, done.stderr
@@ -130,7 +130,7 @@ def test_regress_fault_at_any_operation_leaves_complete_files(shim, flown, tmp_p
     step = max(1, total // MAX_ATTEMPTS)
     hit = 0
     for first in range(1, total + 1, step):
-        place = Place(tmp_path / "faulty", flown)
+        place = SessionCopy(tmp_path / "faulty", flown)
         before = place.results()
         log.unlink(missing_ok=True)
         done = place.run(name, environment(shim, place.root, kind, first, log=log))
@@ -157,7 +157,7 @@ def spread(total, most=SLOW_TRIED):
     return sorted({1 + round(k * (total - 1) / (most - 1)) for k in range(most)})
 
 
-def ended_well(done, kind, place):
+def check_clean_exit(done, kind, place):
     """Checks that a program with a fault ends with a message that names the file, and never with a panic."""
     assert "panicked" not in done.stderr, done.stderr
     if kind == "kill":
@@ -222,7 +222,7 @@ def test_regress_fault_while_rendering_leaves_complete_pictures(shim, photograph
             log.unlink(missing_ok=True)
             done = draw(root, environment(shim, root, kind, first, log=log))
             hit += any(line.endswith(" fault") for line in operations(log))
-            ended_well(done, kind, root)
+            check_clean_exit(done, kind, root)
             for file, content in files(root).items():
                 assert content in (before.get(file), expected.get(file)), (kind, first, file, "is neither the old file nor the new one")
     again = draw(root, dict(os.environ))
@@ -250,7 +250,7 @@ def test_regress_demo_with_faults_ends_with_a_session_or_a_reason(shim, tmp_path
             log.unlink(missing_ok=True)
             done = demo(sessions, environment(shim, sessions, kind, first, log=log))
             hit += any(line.endswith(" fault") for line in operations(log))
-            ended_well(done, kind, sessions)
+            check_clean_exit(done, kind, sessions)
             for file in sessions.glob("*/*.json"):
                 json.loads(file.read_text(encoding="utf-8"))
             for file in sessions.glob("*/report.html"):
@@ -391,7 +391,7 @@ def listen(port, texts, over):
             texts.append(message.text)
 
 
-class Watched:
+class MonitoredFlight:
     """A simulator, and a monitor with faults when it writes telemetry."""
 
     def __init__(self, shim, folder, **fault):
@@ -435,7 +435,7 @@ class Watched:
 REPORTED = [{"t_s": round(0.05 * k, 2), "axis": test_controller.YAW, "value": round(0.01 * k, 2)} for k in range(10)]
 
 
-class Recorded:
+class RecordedInput:
     """`spandrel rc --record` with a vehicle on a fault-free disk; a recording replaces the controller."""
 
     def __init__(self, shim, folder):
@@ -467,7 +467,7 @@ class Recorded:
 @pytest.fixture(name="recorded")
 def fixture_recorded(shim, tmp_path):
     """A vehicle, and the files needed to fly it."""
-    made = Recorded(shim, tmp_path)
+    made = RecordedInput(shim, tmp_path)
     yield made
     spandrel.end(made.sim)
 
@@ -500,7 +500,7 @@ def test_regress_fault_ends_the_input_recording_but_not_the_flight(recorded, kin
 def test_regress_disk_failure_in_flight_loses_no_telemetry(shim, tmp_path, kind):
     """From the 24th operation on, 10 fail (about two seconds of a flight): the pilot is warned, the flight continues,
     and no data is lost."""
-    watched = Watched(shim, tmp_path, kind=kind, first=24, count=10, log=tmp_path / "operations")
+    watched = MonitoredFlight(shim, tmp_path, kind=kind, first=24, count=10, log=tmp_path / "operations")
     texts, over = [], threading.Event()
     listener = threading.Thread(target=listen, args=(watched.gcs_port, texts, over))
     listener.start()
@@ -530,7 +530,7 @@ def test_regress_disk_failure_in_flight_loses_no_telemetry(shim, tmp_path, kind)
 def test_regress_second_monitor_is_rejected_and_files_are_synced(shim, tmp_path):
     """A session has one writer, and its files are synced to the disk when it ends."""
     log = tmp_path / "operations"
-    watched = Watched(shim, tmp_path, kind="none", log=log)
+    watched = MonitoredFlight(shim, tmp_path, kind="none", log=log)
     try:
         session = watched.session()
         telemetry = session / "telemetry.tlog"

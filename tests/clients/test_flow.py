@@ -163,8 +163,8 @@ def test_wire_complete_session_with_the_keyboard(screen, tmp_path):
         screen.focus()
         # Flies for a short time: arming and takeoff are repeated until they succeed, because the filter must settle
         # first.
-        again = asking.Again(lambda: (screen.tap("1"), screen.tap("t")))
-        photograph = asking.Again(lambda: screen.tap("p"))
+        again = asking.Repeater(lambda: (screen.tap("1"), screen.tap("t")))
+        photograph = asking.Repeater(lambda: screen.tap("p"))
 
         def flies():
             again.if_due()
@@ -212,7 +212,7 @@ def test_wire_assessment_can_be_ended_but_not_paused_or_restarted(screen, tmp_pa
     try:
         training.see("assessment", in_flight)
         screen.focus()
-        again = asking.Again(lambda: screen.tap("BackSpace"), again_s=AGAIN_S)
+        again = asking.Repeater(lambda: screen.tap("BackSpace"), again_s=AGAIN_S)
 
         def refused():
             again.if_due()

@@ -14,7 +14,7 @@ import gamepad
 import spandrel
 
 # Actions in the wizard's button prompts: three get a button, the rest get none.
-WISHES = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("takeoff", None), ("landing", None),
+BUTTON_ACTIONS = (("the lamp", gamepad.SOUTH), ("a snapshot", gamepad.EAST), ("arming", gamepad.NORTH), ("takeoff", None), ("landing", None),
           ("camera up", None), ("camera down", None))
 # On a gamepad, up is the lower value.
 PUSHES = (("LEFT stick fully UP", gamepad.Y, -1), ("LEFT stick fully to the RIGHT", gamepad.X, 1),
@@ -28,7 +28,7 @@ def fixture_pad():
     """Returns a gamepad that the program can read; otherwise skips the test with the reason."""
     try:
         pad = gamepad.Gamepad()
-    except gamepad.Missing as missing:
+    except gamepad.GamepadUnavailable as missing:
         pytest.skip(f"no gamepad available: {missing}")
     listed = subprocess.run([spandrel.COCKPIT, "rc", "--list"], capture_output=True, text=True, timeout=LIMIT_S, check=False)
     if "this build does not support gamepads" in listed.stderr:
@@ -94,9 +94,9 @@ def calibrate(pad, profiles):
         for words, axis, part in PUSHES:
             wizard.hear(f"Push the {words}")
             pad.axis(axis, part)
-            wizard.hear("Center the sticks" if (words, axis, part) != PUSHES[-1] else f"button for {WISHES[0][0]}")
+            wizard.hear("Center the sticks" if (words, axis, part) != PUSHES[-1] else f"button for {BUTTON_ACTIONS[0][0]}")
             pad.axis(axis, 0)
-        for (_, button), following in zip(WISHES, [*WISHES[1:], None]):
+        for (_, button), following in zip(BUTTON_ACTIONS, [*BUTTON_ACTIONS[1:], None]):
             if button is None:
                 wizard.enter()
             else:
@@ -125,7 +125,7 @@ def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
         link = asking.connect(watcher)
         assert asking.command(link, mavutil.mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, 376, 200_000) == 0
         bridge.hear("connected to the vehicle")
-        arm = asking.Again(lambda: pad.press(gamepad.NORTH))
+        arm = asking.Repeater(lambda: pad.press(gamepad.NORTH))
 
         def armed(beat):
             arm.if_due()
@@ -145,7 +145,7 @@ def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
         pad.press(gamepad.EAST)
         asking.hear(link, "CAMERA_IMAGE_CAPTURED")
         pad.close()
-        bridge.hear("disconnected: sticks centered, then no longer sent")
+        bridge.hear("disconnected: stick input centered, then stopped")
         asking.hear(link, "STATUSTEXT", lambda text: "manual control lost" in text.text)
         beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
         assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold its position"

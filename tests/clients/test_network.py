@@ -146,7 +146,7 @@ def test_wire_unknown_peers_get_no_streams_and_do_not_block_a_sidecar(tmp_path):
         # A peer would receive its streams within one second.
         assert bytes_received_by(strangers[0], 1.0) == 0
         sidecar = mavutil.mavlink_connection(f"udpout:127.0.0.1:{payload}", source_system=1, source_component=192, dialect="all")
-        hello = asking.Again(lambda: sidecar.mav.heartbeat_send(18, 8, 0, 0, 4))
+        hello = asking.Repeater(lambda: sidecar.mav.heartbeat_send(18, 8, 0, 0, 4))
         end, truth = time.monotonic() + LIMIT_S, None
         while truth is None and time.monotonic() < end:
             hello.if_due()

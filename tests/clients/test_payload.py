@@ -58,7 +58,7 @@ class Station:
         params = list(params) + [0] * (7 - len(params))
         self.pump()
         self.heard.clear()
-        again = asking.Again(lambda: self.link.mav.command_long_send(1, component, number, 0, *params))
+        again = asking.Repeater(lambda: self.link.mav.command_long_send(1, component, number, 0, *params))
 
         def answer():
             for message in self.heard:
@@ -125,7 +125,7 @@ def found(rig):
     return cameras[0].component_id
 
 
-def told_again(rig, predicate, what):
+def wait_for_camera_status(rig, predicate, what):
     """Waits for storage and capture status, which MAVSDK polls every few seconds."""
 
     def look():
@@ -149,25 +149,25 @@ def test_wire_mavsdk_takes_single_pictures_and_series(rig):
     camera = found(rig)
     shots = {}
     rig.camera.subscribe_capture_info(lambda info, _: shots.__setitem__(info.index, info))
-    told_again(rig, lambda s: s.total_storage_mib > 30_000, "storage")
+    wait_for_camera_status(rig, lambda s: s.total_storage_mib > 30_000, "storage")
     for _ in range(2):
         rig.camera.take_photo(camera)
     assert pictures(rig) == 2, "each command must take one photo"
     rig.camera.start_photo_interval(camera, 0.5)
-    told_again(rig, lambda s: s.photo_interval_on, "series on")
+    wait_for_camera_status(rig, lambda s: s.photo_interval_on, "series on")
     wait_for("a series", lambda: max(shots, default=0) >= 5)
     rig.camera.stop_photo_interval(camera)
-    told_again(rig, lambda s: not s.photo_interval_on, "series off")
+    wait_for_camera_status(rig, lambda s: not s.photo_interval_on, "series off")
     # MAVSDK requests any photos that it missed before the newest one, but it may also miss the newest one.
-    again = asking.Again(lambda: rig.camera.take_photo(camera))
+    again = asking.Repeater(lambda: rig.camera.take_photo(camera))
     again.if_due()
 
-    def all_told():
+    def all_reported():
         again.if_due()
         rig.camera.list_photos(camera, PhotosRange.ALL)
         return sorted(shots) == list(range(pictures(rig)))
 
-    wait_for("a message for every photo", all_told)
+    wait_for("a message for every photo", all_reported)
     count = len(shots)
     home = rig.telemetry.position()
     for shot in shots.values():
@@ -176,19 +176,19 @@ def test_wire_mavsdk_takes_single_pictures_and_series(rig):
         assert abs(shot.position.longitude_deg - home.longitude_deg) < 1e-4
     listed = rig.camera.list_photos(camera, PhotosRange.ALL)
     assert sorted(info.index for info in listed) == list(range(count))
-    storage = told_again(rig, lambda s: s.used_storage_mib == count * PICTURE_MIB, "used storage")
+    storage = wait_for_camera_status(rig, lambda s: s.used_storage_mib == count * PICTURE_MIB, "used storage")
     assert math.isclose(storage.used_storage_mib + storage.available_storage_mib, storage.total_storage_mib, abs_tol=0.1)
     rig.camera.format_storage(camera, 1)
-    told_again(rig, lambda s: s.used_storage_mib == 0.0, "an empty card")
+    wait_for_camera_status(rig, lambda s: s.used_storage_mib == 0.0, "an empty card")
     rig.camera.take_photo(camera)
     assert pictures(rig) == 1, "numbering must restart"
-    again = asking.Again(lambda: rig.camera.take_photo(camera))
+    again = asking.Repeater(lambda: rig.camera.take_photo(camera))
 
-    def listed_again():
+    def new_photos_listed():
         again.if_due()
         return [info.index for info in rig.camera.list_photos(camera, PhotosRange.ALL)]
 
-    assert max(wait_for("a list of the new photos", listed_again)) < count
+    assert max(wait_for("a list of the new photos", new_photos_listed)) < count
 
 
 @pytest.mark.timeout(300)
@@ -197,23 +197,23 @@ def test_wire_mavsdk_records_video_with_its_duration(rig):
     camera = found(rig)
     with pytest.raises(CameraError):
         rig.camera.start_video(camera)
-    again = asking.Again(lambda: rig.camera.set_mode(camera, Mode.VIDEO))
+    again = asking.Repeater(lambda: rig.camera.set_mode(camera, Mode.VIDEO))
 
-    def told_to_others():
+    def mode_broadcast():
         again.if_due()
         return getattr(rig.station.last.get(("CAMERA_SETTINGS", CAMERA)), "mode_id", 0) == 1
 
-    rig.station.wait("the mode broadcast", told_to_others)
+    rig.station.wait("the mode broadcast", mode_broadcast)
     rig.camera.start_video(camera)
-    storage = told_again(rig, lambda s: s.video_on and s.recording_time_s > 3.0, "recording")
+    storage = wait_for_camera_status(rig, lambda s: s.video_on and s.recording_time_s > 3.0, "recording")
     assert storage.recording_time_s < 600.0
     rig.camera.take_photo(camera)
     assert pictures(rig) == 1, "a photo during recording must count"
     with pytest.raises(CameraError):
         rig.camera.set_mode(camera, Mode.PHOTO)
     rig.camera.stop_video(camera)
-    storage = told_again(rig, lambda s: not s.video_on, "recording over")
-    told_again(rig, lambda s: s.used_storage_mib > PICTURE_MIB + 3.0 * VIDEO_MIB_S, "the recording's share of the card")
+    storage = wait_for_camera_status(rig, lambda s: not s.video_on, "recording over")
+    wait_for_camera_status(rig, lambda s: s.used_storage_mib > PICTURE_MIB + 3.0 * VIDEO_MIB_S, "the recording's share of the card")
     rig.camera.set_mode(camera, Mode.PHOTO)
     wait_for("photo mode again", lambda: rig.camera.get_mode(camera) == Mode.PHOTO)
     stream = wait_for("stream", lambda: (s := rig.camera.get_video_stream_info(camera)).stream_id == 1 and s)

@@ -187,14 +187,14 @@ def no_failure_injection_in_the_air_unless_enabled(t):
     t.arm()
     t.take_off()
     t.wait_until_hovering()
-    assert "DISABLED" in t.refused_failure(FailureUnit.SYSTEM_MOTOR, FailureType.OFF).upper()
+    assert "DISABLED" in t.rejected_failure_result(FailureUnit.SYSTEM_MOTOR, FailureType.OFF).upper()
     t.action.return_to_launch()
     t.wait_until_disarmed(180)
 
 
 def no_failure_injection_on_the_ground_unless_enabled(t):
     t.wait_until_ready()
-    assert "DISABLED" in t.refused_failure(FailureUnit.SYSTEM_MOTOR, FailureType.OFF).upper()
+    assert "DISABLED" in t.rejected_failure_result(FailureUnit.SYSTEM_MOTOR, FailureType.OFF).upper()
 
 
 def set_current_item_to_jump(t):

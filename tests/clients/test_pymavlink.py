@@ -68,7 +68,7 @@ class Client:
         """Sends a command and returns the result of its acknowledgment."""
         params = list(params) + [0] * (7 - len(params))
         self.state.pop("COMMAND_ACK", None)
-        again = asking.Again(lambda: self.link.mav.command_long_send(self.link.target_system, component, number, 0, *params))
+        again = asking.Repeater(lambda: self.link.mav.command_long_send(self.link.target_system, component, number, 0, *params))
 
         def answered():
             ack = self.state.get("COMMAND_ACK")

@@ -128,7 +128,7 @@ COMMANDS, QUESTIONS = 7, 8
 NUMBERS = itertools.count(1_000)
 
 
-def is_obeyed(wire, frame):
+def is_acknowledged(wire, frame):
     """Returns whether a lamp command is acknowledged before a valid request that is sent after it."""
     good, ears = Signer(PASSPHRASE, QUESTIONS), mavlink.MAVLink(None)
     ears.robust_parsing = True
@@ -173,10 +173,10 @@ def test_wire_signed_frames_cannot_be_replayed_on_any_link_or_after_a_restart(tm
     wire = Wire(kind)
     with running(wire, key) as process:
         bare, forged, good = (Signer(phrase, COMMANDS).lamp(1.0) for phrase in (None, "another bridge", PASSPHRASE))
-        assert not is_obeyed(wire, bare)
-        assert not is_obeyed(wire, forged)
-        assert is_obeyed(wire, good)
-        assert not is_obeyed(wire, good), "a replayed command must be ignored"
+        assert not is_acknowledged(wire, bare)
+        assert not is_acknowledged(wire, forged)
+        assert is_acknowledged(wire, good)
+        assert not is_acknowledged(wire, good), "a replayed command must be ignored"
         # The memory is written once per second, and at a normal exit.
         memory = key.with_name("key.heard.1")
         stream = f"255 190 {COMMANDS} "
@@ -184,8 +184,8 @@ def test_wire_signed_frames_cannot_be_replayed_on_any_link_or_after_a_restart(tm
         process.send_signal(ended)
         process.wait(timeout=60)
     with running(wire, key):
-        assert not is_obeyed(wire, good), "a replayed command must be ignored after a restart"
-        assert is_obeyed(wire, Signer(PASSPHRASE, COMMANDS).lamp(0.0))
+        assert not is_acknowledged(wire, good), "a replayed command must be ignored after a restart"
+        assert is_acknowledged(wire, Signer(PASSPHRASE, COMMANDS).lamp(0.0))
 
 
 @pytest.mark.timeout(60)

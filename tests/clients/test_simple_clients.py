@@ -29,7 +29,7 @@ NEAR_M = 1.5
 LOOKS = 12
 
 
-def metres(a, b):
+def distance_m(a, b):
     """Returns the distance between two nearby positions, m."""
     north = (a.lat - b.lat) * 111_319.5
     east = (a.lon - b.lon) * 111_319.5 * math.cos(math.radians(a.lat))
@@ -104,7 +104,7 @@ def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
         here = vehicle.location.global_relative_frame
         there = dronekit.LocationGlobalRelative(here.lat + 10 / 111_319.5, here.lon, 6)
         vehicle.simple_goto(there)
-        wait_for("10 m north", lambda: metres(vehicle.location.global_relative_frame, there) < NEAR_M)
+        wait_for("10 m north", lambda: distance_m(vehicle.location.global_relative_frame, there) < NEAR_M)
         commands = vehicle.commands
         commands.clear()
         for north in (0, 5, 10):

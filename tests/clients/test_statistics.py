@@ -24,7 +24,7 @@ PICKS = {
 }
 
 
-def made_up_record(random, trainee, number):
+def random_record(random, trainee, number):
     """Returns a session with random scores and answers in the format of `records export`."""
     conformity, efficiency, safety, accuracy = (float(x) for x in random.uniform(20, 100, 4))
     nothing = {"bridge": 0, "terrain": 0, "water": 0, "other": 0, "vehicle": 0, "person": 0}
@@ -54,7 +54,7 @@ def made_up_record(random, trainee, number):
 def study(request, tmp_path_factory):
     """Random sessions in chronological order, and the program's results: 40 people, 15 of them with five sessions."""
     random = np.random.default_rng(request.param)
-    people = {f"p{k:02}": [made_up_record(random, f"p{k:02}", n) for n in range(5 if k < 15 else 1)] for k in range(40)}
+    people = {f"p{k:02}": [random_record(random, f"p{k:02}", n) for n in range(5 if k < 15 else 1)] for k in range(40)}
     path = tmp_path_factory.mktemp("study") / "records.jsonl"
     path.write_text("".join(json.dumps(record) + "\n" for records in people.values() for record in records), encoding="utf-8")
     return people, json.loads(spandrel.run("cohort", "--records", str(path), "--repetitions", "5", "--json", "-"))
@@ -186,7 +186,7 @@ def test_val_paired_test_of_the_tasbid_paper(tmp_path):
     records = []
     for k in range(8):
         for n in range(2):
-            record = made_up_record(random, f"p{k}", n)
+            record = random_record(random, f"p{k}", n)
             record["scores"]["conformity"] = 60.0 + n * float(difference[k])
             records.append(record)
     path = tmp_path / "records.jsonl"
@@ -200,7 +200,7 @@ def test_val_paired_test_of_the_tasbid_paper(tmp_path):
 def test_regress_incomplete_sessions_are_excluded_and_counted(tmp_path):
     """An aborted session must not count as a first session, unless requested."""
     random = np.random.default_rng(9)
-    records = [made_up_record(random, trainee, n) for trainee in ("anna", "ben") for n in range(2)]
+    records = [random_record(random, trainee, n) for trainee in ("anna", "ben") for n in range(2)]
     broken_off = records[0]
     broken_off["completion"] |= {"complete": False, "tasks_done": 1, "path_share": 0.31, "landed_at_home": False}
     broken_off["end_reason"] = "abort"
@@ -212,6 +212,6 @@ def test_regress_incomplete_sessions_are_excluded_and_counted(tmp_path):
     first = lambda cohort: next(one["session"] for one in cohort["individuals"] if one["trainee"] == "anna")
     assert (first(without), first(asked)) == ("anna-1", "anna-0")
     said = spandrel.run("cohort", "--records", str(path), "--repetitions", "1")
-    assert "1 incomplete session excluded (--include-incomplete counts them)" in said, said
+    assert "1 incomplete session excluded (use --include-incomplete to count them)" in said, said
     plan = lambda *more: json.loads(spandrel.run("plan", "anna", "--records", str(path), "--json", *more))
     assert (plan()["session"], plan()["left_out"]) == ("anna-1", 1) and plan("--include-incomplete")["left_out"] == 0

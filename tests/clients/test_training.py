@@ -102,7 +102,7 @@ def test_errors_include_file_key_and_value(sessions, tmp_path):
     code, _, errors = run_with("", "cohort", "--records", str(broken))
     assert code == 2 and "broken.jsonl:1: not a valid record" in errors
     code, _, errors = run_with("", "plan", "nobody", "--sessions", str(sessions))
-    assert code == 2 and "no session of 'nobody'" in errors
+    assert code == 2 and "no sessions of 'nobody'" in errors
 
 
 def test_trainee_data_can_be_exported_and_erased(sessions):
@@ -113,7 +113,7 @@ def test_trainee_data_can_be_exported_and_erased(sessions):
     kept = json.loads(spandrel.run("records", "export", "--trainee", "ben", *place))
     assert kept["trainee"]["age_band"] == "35-44" and len(kept["sessions"]) == 1 and len(kept["folders"]) == 1
     # The first command only announces the erasure, the second performs it.
-    assert "--yes erases them" in spandrel.run("records", "erase", "--trainee", "ben", *place)
+    assert "use --yes to erase them" in spandrel.run("records", "erase", "--trainee", "ben", *place)
     assert pathlib.Path(kept["folders"][0]).is_dir()
     assert "erased 'ben': 1 sessions" in spandrel.run("records", "erase", "--trainee", "ben", "--yes", *place)
     assert not pathlib.Path(kept["folders"][0]).exists()

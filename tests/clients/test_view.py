@@ -61,7 +61,7 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
             "--profiles", str(tmp_path),
         )
         assert told["quality"] == "low" and (told["width"], told["height"]) == screen.size, told
-        (photograph,) = spandrel.wait_for("a screenshot with the HUD", lambda: with_display(screen), DRAW_LIMIT_S)
+        (photograph,) = spandrel.wait_for("a screenshot with the HUD", lambda: screenshot_with_hud(screen), DRAW_LIMIT_S)
         height, width, _ = photograph.shape
         left, right = photograph[:, : width // 2], photograph[:, width // 2 :]
         assert contrast(left) > 10 and contrast(right) > 10, "no view may be blank"
@@ -77,7 +77,7 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
 
         screen.focus()
         # The first press may come before the window has the focus, so keys without an effect are pressed again.
-        again = asking.Again(lambda: screen.tap("m"), again_s=PRESS_AGAIN_S)
+        again = asking.Repeater(lambda: screen.tap("m"), again_s=PRESS_AGAIN_S)
 
         def hidden():
             again.if_due()
@@ -85,11 +85,11 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
 
         spandrel.wait_for("the map is hidden", hidden, DRAW_LIMIT_S)
         screen.tap("Tab")
-        spandrel.wait_for("the camera view fills the window", lambda: in_the_middle(screen), DRAW_LIMIT_S)
+        spandrel.wait_for("the camera view fills the window", lambda: camera_view_is_centered(screen), DRAW_LIMIT_S)
 
         link = asking.connect(watcher)
-        spandrel.wait_for("the vehicle is ready to arm", lambda: armable(link), DRAW_LIMIT_S)
-        arm = asking.Again(lambda: screen.tap("1"), again_s=PRESS_AGAIN_S)
+        spandrel.wait_for("the vehicle is ready to arm", lambda: is_armable(link), DRAW_LIMIT_S)
+        arm = asking.Repeater(lambda: screen.tap("1"), again_s=PRESS_AGAIN_S)
 
         def armed():
             arm.if_due()
@@ -108,13 +108,13 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
             spandrel.end(process)
 
 
-def with_display(screen):
+def screenshot_with_hud(screen):
     """Returns a screenshot if it shows the battery, otherwise nothing."""
     photograph = screen.photograph()
     return [photograph] if len(display.pixels_of(photograph, GREEN)) > 0 else []
 
 
-def in_the_middle(screen):
+def camera_view_is_centered(screen):
     """Returns whether the camera view is in the middle of the window with its sensor's aspect ratio, which leaves an
     empty bar above the inset view."""
     photograph = screen.photograph()
@@ -122,7 +122,7 @@ def in_the_middle(screen):
     return len(green) > 0 and 0.6 < green[:, 1].max() / screen.size[0] < 0.75 and contrast(photograph[: screen.size[1] // 5, : bar - 4]) < 1.0
 
 
-def armable(link):
+def is_armable(link):
     """Returns whether the vehicle's filter has settled, so that its position is known."""
     return link.recv_match(type="GLOBAL_POSITION_INT", blocking=True, timeout=1)
 

@@ -54,14 +54,14 @@ def server(sessions):
     server.close()
 
 
-def ids(sessions, trainee):
+def session_ids(sessions, trainee):
     """Returns a trainee's sessions by start time; the names of flights in the same second have random parts."""
     folders = [path for path in sessions.iterdir() if f"-{trainee}-" in path.name]
     started = lambda path: json.loads((path / "session.json").read_text(encoding="utf-8"))["started_unix_us"]
     return [path.name for path in sorted(folders, key=started)]
 
 
-class Person:
+class BrowserUser:
     """A user with a browser that collects all problems on the pages."""
 
     def __init__(self, browser, server, name=None, size="desktop", scheme="light", locale="en-GB"):
@@ -108,8 +108,8 @@ class Person:
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", list(SIZES))
 def test_every_page_passes_axe(browser, server, sessions, size, scheme):
-    person = Person(browser, server, "ada", size, scheme)
-    anna = ids(sessions, "anna")
+    person = BrowserUser(browser, server, "ada", size, scheme)
+    anna = session_ids(sessions, "anna")
     pages = {
         "sessions": "/sessions", "session": f"/sessions/{anna[0]}", "questions": f"/sessions/{anna[0]}/questions", "trainees": "/trainees",
         "trainee": "/trainees/anna", "practised": "/trainees/lena", "cohort": "/cohort?scenario=drill-hover&repetitions=2", "scenarios": "/scenarios",
@@ -123,7 +123,7 @@ def test_every_page_passes_axe(browser, server, sessions, size, scheme):
         # The browser treats a missing page as an error, but this test intends it.
         person.wrong = [wrong for wrong in person.wrong if "404" not in wrong]
         person.check()
-    stranger = Person(browser, server, None, size, scheme)
+    stranger = BrowserUser(browser, server, None, size, scheme)
     stranger.go("/sessions")
     assert stranger.page.url.endswith("/login")
     stranger.keep(f"login-{size}-{scheme}")
@@ -133,7 +133,7 @@ def test_every_page_passes_axe(browser, server, sessions, size, scheme):
 def test_progress_page_shows_repetitions_and_tables_download(browser, server, tmp_path):
     """Like participant 18 of the TASBID paper: scores, on-path share by task and crashes over the repetitions;
     learning curves from the fourth on."""
-    person = Person(browser, server, "lena")
+    person = BrowserUser(browser, server, "lena")
     page = person.page
     person.go("/trainees/lena")
     progress = page.locator("#progress")
@@ -141,13 +141,13 @@ def test_progress_page_shows_repetitions_and_tables_download(browser, server, tm
     # The drill has one task, so there is one point for each of the four repetitions.
     assert progress.locator("svg.lines").nth(1).locator("circle").count() == 4
     with page.expect_download() as download:
-        progress.locator("summary", has_text="each repetition").click()
+        progress.locator("summary", has_text="crashes by repetition").click()
         progress.locator("details[open] a[download]").first.click()
     download.value.save_as(tmp_path / "progress.csv")
     lines = (tmp_path / "progress.csv").read_text(encoding="utf-8").splitlines()
     assert lines[0].startswith("repetition,scenario,conformity") and [line.split(",")[0] for line in lines[1:]] == ["1", "2", "3", "4"]
     assert person.wrong == []
-    ida = Person(browser, server, "ida")
+    ida = BrowserUser(browser, server, "ida")
     ida.go("/trainees/anna")
     assert ida.page.locator("#progress svg.practice").count() == 0, "two repetitions are not enough for a curve"
     ida.go("/cohort?scenario=drill-hover&repetitions=2")
@@ -160,8 +160,8 @@ def test_progress_page_shows_repetitions_and_tables_download(browser, server, tm
 
 
 def test_questionnaire_answers_persist_after_leaving(browser, server, sessions):
-    session = sessions / ids(sessions, "anna")[0]
-    person = Person(browser, server, "anna")
+    session = sessions / session_ids(sessions, "anna")[0]
+    person = BrowserUser(browser, server, "anna")
     person.page.click("table a >> nth=-1")
     person.page.click("text=Answer the questionnaire")
     person.page.click("fieldset >> nth=0 >> label >> nth=1")
@@ -188,7 +188,7 @@ def test_questionnaire_answers_persist_after_leaving(browser, server, sessions):
 
 
 def test_questionnaire_works_without_scripts(browser, server, sessions):
-    session = sessions / ids(sessions, "ben")[0]
+    session = sessions / session_ids(sessions, "ben")[0]
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto(server.address + "/login")
@@ -209,9 +209,9 @@ def test_questionnaire_language_follows_browser_and_selection(browser, sessions,
     (tmp_path / "ch.toml").write_text(swiss, encoding="utf-8")
     server = webserver.Server(sessions, "--wording", str(tmp_path / "ch.toml"))
     try:
-        session = sessions / ids(sessions, "anna")[1]
+        session = sessions / session_ids(sessions, "anna")[1]
         given = lambda: json.loads((session / "answers.json").read_text(encoding="utf-8"))
-        person = Person(browser, server, locale="es-MX")
+        person = BrowserUser(browser, server, locale="es-MX")
         person.log_in("anna")
         page = person.page
         person.go(f"/sessions/{session.name}/questions")
@@ -259,8 +259,8 @@ def test_invalid_questionnaire_text_is_reported_with_line_and_key(tmp_path):
 
 
 def test_report_works_under_its_content_security_policy(browser, server, sessions):
-    person = Person(browser, server, "anna")
-    session = ids(sessions, "anna")[0]
+    person = BrowserUser(browser, server, "anna")
+    session = session_ids(sessions, "anna")[0]
     person.go(f"/sessions/{session}")
     person.page.click("text=Open the report")
     person.page.wait_for_selector("body.live")
@@ -277,7 +277,7 @@ def test_report_works_under_its_content_security_policy(browser, server, session
 
 
 def test_report_of_another_version_is_regenerated(server, sessions):
-    session = sessions / ids(sessions, "ben")[0]
+    session = sessions / session_ids(sessions, "ben")[0]
     page = (session / "report.html").read_bytes()
     (session / "report.html").write_text("<script>alert('planted')</script>", encoding="utf-8")
     visitor = webserver.Browser(server.address)
@@ -289,9 +289,9 @@ def test_report_of_another_version_is_regenerated(server, sessions):
 
 def test_two_sessions_can_be_compared(browser, server, sessions):
     """Both flights in one drawing with one slider, aligned as the instructor selects."""
-    first, second = ids(sessions, "anna")
+    first, second = session_ids(sessions, "anna")
     for size, scheme in [("desktop", "light"), ("phone", "dark")]:
-        person = Person(browser, server, "anna", size, scheme)
+        person = BrowserUser(browser, server, "anna", size, scheme)
         page = person.page
         person.go(f"/sessions/{first}")
         page.select_option("[name=second]", second)
@@ -329,13 +329,13 @@ def test_two_sessions_can_be_compared(browser, server, sessions):
 
 
 def test_trainees_cannot_read_data_of_others(browser, server, sessions):
-    person = Person(browser, server, "anna")
-    ben = ids(sessions, "ben")[0]
+    person = BrowserUser(browser, server, "anna")
+    ben = session_ids(sessions, "ben")[0]
     # The list is available, but does not contain Ben.
     expect(person.page.locator("table.list")).to_contain_text("drill-hover")
     assert "ben" not in person.page.inner_text("main")
     for path in [f"/sessions/{ben}", f"/sessions/{ben}/report", f"/sessions/{ben}/questions", f"/sessions/{ben}/frames.csv",
-                 f"/sessions/{ben}/telemetry.tlog", f"/compare?first={ids(sessions, 'anna')[0]}&second={ben}", "/trainees/ben",
+                 f"/sessions/{ben}/telemetry.tlog", f"/compare?first={session_ids(sessions, 'anna')[0]}&second={ben}", "/trainees/ben",
                  "/trainees/ben/export.json"]:
         assert person.go(path).status == 404, path
     for path in ["/trainees", "/cohort", "/live", "/upload", "/settings", "/live/stream", "/live/camera.jpg"]:
@@ -345,7 +345,7 @@ def test_trainees_cannot_read_data_of_others(browser, server, sessions):
 
 def test_trainee_can_be_exported_and_erased(browser, server, sessions, tmp_path):
     webserver.flown(sessions, "gone", seed=31)
-    person = Person(browser, server, "ada")
+    person = BrowserUser(browser, server, "ada")
     # The server finds the new session automatically.
     spandrel.wait_for("the new session", lambda: person.go("/sessions?trainee=gone") and person.page.locator("table.list").count())
     person.go("/trainees/gone")
@@ -354,16 +354,16 @@ def test_trainee_can_be_exported_and_erased(browser, server, sessions, tmp_path)
     download.value.save_as(tmp_path / "gone.json")
     kept = json.loads((tmp_path / "gone.json").read_text(encoding="utf-8"))
     assert kept["trainee"]["pseudonym"] == "gone" and len(kept["sessions"]) == 1
-    assert kept["folders"] == ids(sessions, "gone") and str(sessions) not in (tmp_path / "gone.json").read_text(encoding="utf-8")
+    assert kept["folders"] == session_ids(sessions, "gone") and str(sessions) not in (tmp_path / "gone.json").read_text(encoding="utf-8")
     person.page.click("summary:has-text('Erase')")
     person.page.fill("[name=again]", "anna")
     person.page.click("text=Erase permanently")
-    assert ids(sessions, "gone"), "a wrong name must not erase anything"
+    assert session_ids(sessions, "gone"), "a wrong name must not erase anything"
     person.go("/trainees/gone")
     person.page.click("summary:has-text('Erase')")
     person.page.fill("[name=again]", "gone")
     person.page.click("text=Erase permanently")
-    assert person.page.url.endswith("/trainees") and ids(sessions, "gone") == []
+    assert person.page.url.endswith("/trainees") and session_ids(sessions, "gone") == []
     assert person.go("/trainees/gone").status == 404
     person.go("/trainees/ada")
     person.page.click("summary:has-text('Erase')")
@@ -374,7 +374,7 @@ def test_trainee_can_be_exported_and_erased(browser, server, sessions, tmp_path)
 
 
 def test_scenario_can_be_uploaded_validated_and_deleted(browser, server, tmp_path):
-    person = Person(browser, server, "ida")
+    person = BrowserUser(browser, server, "ida")
     good = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
     name = "ours-hover"
     renamed = good.replace('name = "drill-hover"', f'name = "{name}"')
@@ -388,7 +388,7 @@ def test_scenario_can_be_uploaded_validated_and_deleted(browser, server, tmp_pat
         person.keep(f"upload-{said.split()[0]}")
     person.page.click(f"a:has-text('{name}')")
     # The file may contain defect positions, so a trainee sees the job but not the file.
-    trainee = Person(browser, server, "anna")
+    trainee = BrowserUser(browser, server, "anna")
     trainee.go(f"/scenarios/{name}")
     expect(trainee.page.locator("#facts")).to_be_visible()
     assert trainee.page.locator("pre").count() == 0 and person.page.locator("pre").count() == 1
@@ -399,18 +399,18 @@ def test_scenario_can_be_uploaded_validated_and_deleted(browser, server, tmp_pat
 
 
 def test_recorded_flight_can_be_imported(browser, server, sessions, tmp_path):
-    source = sessions / ids(sessions, "anna")[1]
+    source = sessions / session_ids(sessions, "anna")[1]
     # A new recording: the same flight without its last record.
     log = tmp_path / "telemetry.tlog"
     log.write_bytes((source / "telemetry.tlog").read_bytes()[:-1])
-    person = Person(browser, server, "ida")
+    person = BrowserUser(browser, server, "ida")
     person.go("/upload")
     person.page.fill("[name=trainee]", "carl")
     person.page.select_option("[name=scenario]", "drill-hover")
     person.page.set_input_files("[name=file]", log)
     person.page.click("text=Import >> nth=-1")
     person.page.wait_for_url("**/sessions/*-carl-*")
-    taken = sessions / ids(sessions, "carl")[0]
+    taken = sessions / session_ids(sessions, "carl")[0]
     ours, theirs = (json.loads((folder / "assessment.json").read_text(encoding="utf-8")) for folder in (taken, source))
     assert ours["scores"] == theirs["scores"] and ours["tasks"] == theirs["tasks"]
     kept, sent = (taken / "telemetry.tlog").read_bytes(), log.read_bytes()
@@ -427,7 +427,7 @@ def test_recorded_flight_can_be_imported(browser, server, sessions, tmp_path):
         person.keep("upload-again")
     person.page.click(".message a")
     person.page.wait_for_url("**/sessions/2*")
-    assert len(ids(sessions, "carl")) == 1 and ids(sessions, "carlotta") == []
+    assert len(session_ids(sessions, "carl")) == 1 and session_ids(sessions, "carlotta") == []
     # A flight of another job is rejected without leaving anything behind.
     log.write_bytes(log.read_bytes()[:-600])
     person.go("/upload")
@@ -436,12 +436,12 @@ def test_recorded_flight_can_be_imported(browser, server, sessions, tmp_path):
     person.page.set_input_files("[name=file]", log)
     person.page.click("text=Import >> nth=-1")
     expect(person.page.locator(".message")).to_contain_text("cannot import this recording")
-    assert len(ids(sessions, "carl")) == 1
+    assert len(session_ids(sessions, "carl")) == 1
 
 
 def test_users_can_change_their_password(browser, server, sessions):
     webserver.set_password(sessions, "dora", "trainee")
-    person, elsewhere = Person(browser, server, "dora"), Person(browser, server, "dora")
+    person, elsewhere = BrowserUser(browser, server, "dora"), BrowserUser(browser, server, "dora")
     person.go("/account")
     person.page.fill("[name=present]", webserver.PASSWORD)
     person.page.fill("[name=new]", "another long word")
@@ -469,7 +469,7 @@ def test_concurrent_edits_are_not_lost(browser, server, sessions):
     """Two users edit one trainee at the same time. The second user is informed, and neither the first user's changes
     nor a new role are lost."""
     webserver.set_password(sessions, "emil", "trainee")
-    first, second = Person(browser, server, "emil"), Person(browser, server, "ida")
+    first, second = BrowserUser(browser, server, "emil"), BrowserUser(browser, server, "ida")
     for one in (first, second):
         one.go("/trainees/emil")
     spandrel.run("records", "trainee", "emil", "--drone-experience", "some", "--sessions", str(sessions))
@@ -485,7 +485,7 @@ def test_concurrent_edits_are_not_lost(browser, server, sessions):
 
 def test_local_server_requires_login_only_after_a_password_is_set(browser, tmp_path):
     server = webserver.Server(tmp_path / "sessions")
-    person = Person(browser, server)
+    person = BrowserUser(browser, server)
     person.go("/")
     expect(person.page.locator("main")).to_contain_text("No sessions yet")
     person.keep("open")
@@ -493,13 +493,13 @@ def test_local_server_requires_login_only_after_a_password_is_set(browser, tmp_p
     person.page.fill("[name=name]", "ada")
     person.page.select_option("[name=role]", "trainee")
     person.page.fill("[name=password]", webserver.PASSWORD)
-    person.page.click("text=Set >> nth=-1")
+    person.page.click("text=Save >> nth=-1")
     expect(person.page.locator("main")).to_contain_text("must be an administrator's")
     person.go("/settings")
     person.page.fill("[name=name]", "ada")
     person.page.select_option("[name=role]", "administrator")
     person.page.fill("[name=password]", webserver.PASSWORD)
-    person.page.click("text=Set >> nth=-1")
+    person.page.click("text=Save >> nth=-1")
     assert person.page.url.endswith("/login")
     person.go("/sessions")
     assert person.page.url.endswith("/login")
@@ -518,7 +518,7 @@ def test_instructor_can_watch_and_intervene(browser, tmp_path):
         stdin=subprocess.DEVNULL, stdout=flight.log, stderr=flight.log,
     )
     try:
-        person = Person(browser, server)
+        person = BrowserUser(browser, server)
         page = person.page
         person.go("/live")
         page.wait_for_selector(".live-page.live", timeout=PATIENCE_MS)
@@ -583,7 +583,7 @@ def test_trainee_sees_only_the_camera_of_their_own_flight(browser, tmp_path):
         assert flying(anna) == {"flying": False, "picture": None} and anna.ask("/flight/camera.jpg")[0] == 404
         assert pilot.ask("/live")[0] == pilot.ask("/live/camera.jpg")[0] == 403, "only instructors may access the map and the actions"
         for size, scheme in [("desktop", "light"), ("phone", "dark")]:
-            person = Person(browser, server, "client-test", size, scheme)
+            person = BrowserUser(browser, server, "client-test", size, scheme)
             page = person.page
             picture.write_bytes(photograph)
             page.click("text=My flight")
@@ -593,7 +593,7 @@ def test_trainee_sees_only_the_camera_of_their_own_flight(browser, tmp_path):
             person.check()
         # When the flight ends, its picture disappears.
         spandrel.end(flight.monitor)
-        expect(page.locator("[data-state]")).to_contain_text("not flying", timeout=PATIENCE_MS)
+        expect(page.locator("[data-state]")).to_contain_text("No flight in progress", timeout=PATIENCE_MS)
         assert pilot.ask("/flight/camera.jpg")[0] == 404
     finally:
         server.close()

@@ -161,7 +161,7 @@ SESSIONS, RELOADS = 10_000, 16
 MAX_COSTS = 4.0
 
 
-def fill(database):
+def insert_sessions(database):
     """Inserts copies of the example study's records with other names directly into the tables."""
     lines = (spandrel.ROOT / "examples" / "cohort" / "records.jsonl").read_text(encoding="utf-8").splitlines()
     originals = [json.loads(line) for line in lines]
@@ -188,7 +188,7 @@ def test_cohort_page_reloads_are_cached(tmp_path):
     sessions = tmp_path / "sessions"
     server = webserver.Server(sessions)
     try:
-        fill(sessions / "records.sqlite")
+        insert_sessions(sessions / "records.sqlite")
         browser = webserver.Browser(server.address)
 
         def cost(reloads):

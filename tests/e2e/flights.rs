@@ -23,14 +23,14 @@ fn only_session(sessions: &Path) -> PathBuf {
     folders[0].clone()
 }
 
-fn well(output: &Output) -> String {
+fn successful_stdout(output: &Output) -> String {
     let out = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{out}{}", String::from_utf8_lossy(&output.stderr));
     out
 }
 
-fn printed(args: &[&str]) -> String {
-    well(&Command::new(PROGRAM).args(args).output().unwrap())
+fn stdout_of(args: &[&str]) -> String {
+    successful_stdout(&Command::new(PROGRAM).args(args).output().unwrap())
 }
 
 fn json(path: &Path) -> Value {
@@ -40,8 +40,8 @@ fn json(path: &Path) -> Value {
 #[test]
 fn wire_demo_session_is_complete_and_reproducible() {
     let (first, second) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let out = well(&demo(first.path(), "7").output().unwrap());
-    well(&demo(second.path(), "7").output().unwrap());
+    let out = successful_stdout(&demo(first.path(), "7").output().unwrap());
+    successful_stdout(&demo(second.path(), "7").output().unwrap());
     let (a, b) = (only_session(first.path()), only_session(second.path()));
     for line in ["conformity", "efficiency", "safety", "accuracy", "overall", "crashes", "snapshots", "session"] {
         assert!(out.lines().any(|text| text.starts_with(line)), "no {line} in\n{out}");
@@ -51,11 +51,11 @@ fn wire_demo_session_is_complete_and_reproducible() {
         assert!(std::fs::metadata(a.join(file)).is_ok_and(|file| file.len() > 0), "{file} is missing");
     }
     let (a, b) = (a.display().to_string(), b.display().to_string());
-    let again = printed(&["assess", &a, "--json", "-"]);
+    let again = stdout_of(&["assess", &a, "--json", "-"]);
     assert_eq!(again.into_bytes(), std::fs::read(Path::new(&a).join("assessment.json")).unwrap());
-    let frames = printed(&["export", &a, "--frames", "-"]);
+    let frames = stdout_of(&["export", &a, "--frames", "-"]);
     assert!(frames.lines().count() > 30);
-    assert_eq!(frames, printed(&["export", &b, "--frames", "-"]));
+    assert_eq!(frames, stdout_of(&["export", &b, "--frames", "-"]));
     assert_eq!(json(&Path::new(&a).join("assessment.json"))["end"]["reason"], "landed");
 }
 
@@ -65,7 +65,7 @@ fn wire_four_parallel_demos_succeed() {
     let running: Vec<Child> =
         folders.iter().zip(["1", "2", "3", "4"]).map(|(folder, seed)| demo(folder.path(), seed).spawn().unwrap()).collect();
     for (child, folder) in running.into_iter().zip(&folders) {
-        well(&child.wait_with_output().unwrap());
+        successful_stdout(&child.wait_with_output().unwrap());
         assert!(only_session(folder.path()).join("assessment.json").is_file());
     }
 }
@@ -74,7 +74,7 @@ fn wire_four_parallel_demos_succeed() {
 fn wire_demo_in_every_flavor_ends_with_scores() {
     for flavour in ["ardupilot", "generic"] {
         let folder = tempfile::tempdir().unwrap();
-        let out = well(&demo(folder.path(), "7").args(["--flavour", flavour]).output().unwrap());
+        let out = successful_stdout(&demo(folder.path(), "7").args(["--flavour", flavour]).output().unwrap());
         let assessment = json(&only_session(folder.path()).join("assessment.json"));
         assert_eq!(assessment["end"]["reason"], "landed", "{flavour}: {out}");
         assert!(assessment["tasks"][0]["on_path"].as_f64().unwrap() > 0.9, "{flavour}: {out}");
@@ -113,7 +113,7 @@ impl Process {
     }
 
     /// Waits until the process ends. The lifeline pipe stays open until then.
-    fn exits_alone(mut self) -> bool {
+    fn exits_successfully(mut self) -> bool {
         self.out.read_to_string(&mut String::new()).unwrap();
         self.child.wait().unwrap().success()
     }
@@ -153,7 +153,7 @@ fn wire_restarted_monitor_continues_the_session() {
 
     let session_text = session.display().to_string();
     let again = Process::start(&["monitor", "--port", &monitor_port, "--session", &session_text]);
-    assert!(again.exits_alone(), "the second monitor failed");
+    assert!(again.exits_successfully(), "the second monitor failed");
     let whole = spandrel_mavlink::telemetry::tlog::complete_len(&before);
     assert_eq!(std::fs::read(&log).unwrap()[..whole], before[..whole], "received data was lost");
     assert_eq!(json(&session.join("session.json"))["monitor_starts"], 2);
@@ -195,7 +195,7 @@ fn wire_lost_lockstep_peer_ends_the_run_with_a_reason() {
 #[test]
 fn wire_same_seed_gives_the_same_digest_without_clients() {
     let run = |seed: &str| {
-        printed(&[
+        stdout_of(&[
             "sim",
             "--ports",
             "ephemeral",

@@ -117,7 +117,7 @@ fn wire_exports_use_standard_output_and_logs_do_not() {
 }
 
 #[test]
-fn wire_program_works_from_any_folder() {
+fn wire_program_works_in_any_folder() {
     let elsewhere = tempfile::tempdir().unwrap();
     let program = Path::new(env!("CARGO_BIN_EXE_spandrel"));
     let output = Command::new(program).args(["export", "practice", "--glb", "p.glb"]).current_dir(&elsewhere).output().unwrap();

@@ -10,7 +10,7 @@ mod hover;
 mod score_tlog;
 
 /// Maximum number of lines of an example, so that it can be read at a glance.
-const LINES_MAX: usize = 60;
+const MAX_LINES: usize = 60;
 
 #[test]
 fn flight_hover_example_takes_off_and_lands() {
@@ -34,6 +34,6 @@ fn exact_examples_are_short() {
     for name in ["custom_job", "hover", "score_tlog"] {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("examples/{name}.rs"));
         let lines = std::fs::read_to_string(&path).unwrap().lines().count();
-        assert!(lines <= LINES_MAX, "{name}: {lines} lines");
+        assert!(lines <= MAX_LINES, "{name}: {lines} lines");
     }
 }

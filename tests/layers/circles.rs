@@ -32,8 +32,11 @@ impl CrateFiles {
             let path = module_path(file);
             let all = tokens(&code_only(source));
             let code = without_tests(&all);
-            for_tests
-                .extend(declared(&all).difference(&declared(&code)).map(|name| [&path[..], std::slice::from_ref(name)].concat()));
+            for_tests.extend(
+                declared_modules(&all)
+                    .difference(&declared_modules(&code))
+                    .map(|name| [&path[..], std::slice::from_ref(name)].concat()),
+            );
             let items = items(&code);
             let (imports, body) = (imports(&code), without_imports(&code));
             modules.insert(path, SourceModule { file: file.to_owned(), items, imports, body });
@@ -44,7 +47,7 @@ impl CrateFiles {
 
     /// Returns the import cycles, each as lines `file -> files in the same cycle that it imports`.
     pub fn circles(&self) -> Vec<Vec<String>> {
-        let edges: Edges = self.modules.keys().map(|path| (path.clone(), self.imported(path))).collect();
+        let edges: Edges = self.modules.keys().map(|path| (path.clone(), self.imported_files(path))).collect();
         let reachable: Edges = edges.keys().map(|path| (path.clone(), reachable(path, &edges))).collect();
         let mut seen = BTreeSet::new();
         let mut found = Vec::new();
@@ -67,16 +70,16 @@ impl CrateFiles {
 
     /// Returns the module paths of the files that a file imports from. Re-exports are not edges: an import counts as an
     /// edge to the module that defines the name, not to the modules that re-export it.
-    fn imported(&self, path: &[String]) -> BTreeSet<Vec<String>> {
+    fn imported_files(&self, path: &[String]) -> BTreeSet<Vec<String>> {
         let module = &self.modules[path];
         let mut found = BTreeSet::new();
         let mut imported_modules = BTreeMap::new();
         for import in module.imports.iter().filter(|import| !import.public) {
-            match self.absolute(path, &import.path) {
+            match self.path_in_crate(path, &import.path) {
                 Some(whole) if self.modules.contains_key(&whole) => {
                     imported_modules.insert(import.name.clone(), import.path.clone());
                 }
-                _ => found.extend(self.home(path, &import.path, 0)),
+                _ => found.extend(self.defining_module(path, &import.path, 0)),
             }
         }
         for named in inline_paths(&module.body) {
@@ -84,14 +87,14 @@ impl CrateFiles {
                 Some(start) => [&start[..], &named[1..]].concat(),
                 None => named,
             };
-            found.extend(self.home(path, &whole, 0));
+            found.extend(self.defining_module(path, &whole, 0));
         }
         found.remove(path);
         found
     }
 
     /// Returns a path relative to the crate root; `None` if it is outside the crate.
-    fn absolute(&self, from: &[String], path: &[String]) -> Option<Vec<String>> {
+    fn path_in_crate(&self, from: &[String], path: &[String]) -> Option<Vec<String>> {
         let ups = path.iter().take_while(|part| *part == "super").count();
         let (base, rest) = match path.first()?.as_str() {
             "crate" => (&from[..0], &path[1..]),
@@ -104,8 +107,8 @@ impl CrateFiles {
     }
 
     /// Returns the module that defines the item at a path. Follows re-exports.
-    fn home(&self, from: &[String], path: &[String], depth: u32) -> Option<Vec<String>> {
-        let whole = self.absolute(from, path)?;
+    fn defining_module(&self, from: &[String], path: &[String], depth: u32) -> Option<Vec<String>> {
+        let whole = self.path_in_crate(from, path)?;
         let mut len = 0;
         while len < whole.len() && self.modules.contains_key(&whole[..=len]) {
             len += 1;
@@ -121,10 +124,10 @@ impl CrateFiles {
             return None;
         }
         if let Some(import) = module.imports.iter().find(|import| import.name == *name) {
-            return self.home(home, &[&import.path[..], &rest[1..]].concat(), depth + 1);
+            return self.defining_module(home, &[&import.path[..], &rest[1..]].concat(), depth + 1);
         }
         let globs = module.imports.iter().filter(|import| import.public && import.name == "*");
-        globs.filter_map(|glob| self.home(home, &[&glob.path[..glob.path.len() - 1], rest].concat(), depth + 1)).next()
+        globs.filter_map(|glob| self.defining_module(home, &[&glob.path[..glob.path.len() - 1], rest].concat(), depth + 1)).next()
     }
 }
 
@@ -149,7 +152,7 @@ fn module_path(file: &str) -> Vec<String> {
 }
 
 /// Returns the names of the modules that a file declares.
-fn declared(code: &[Token]) -> BTreeSet<String> {
+fn declared_modules(code: &[Token]) -> BTreeSet<String> {
     let declared = code.windows(3).filter(|three| three[0].1 == "mod" && is_word(&three[1].1) && three[2].1 == ";");
     declared.map(|three| three[1].1.clone()).collect()
 }
@@ -172,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_files_that_import_each_other_are_a_circle() {
+    fn exact_files_that_import_each_other_form_a_cycle() {
         let files =
             [("lib.rs", "mod a; mod b;"), ("a.rs", "use crate::b::B; pub struct A;"), ("b.rs", "pub struct B(super::a::A);")];
         assert_eq!(circles(&files), [["a.rs -> b.rs", "b.rs -> a.rs"]]);
@@ -181,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_name_is_charged_to_the_file_that_defines_it() {
+    fn exact_imported_names_count_for_the_defining_file() {
         let handed_on = [("a/mod.rs", "mod b; mod c; pub use c::C;"), ("a/b.rs", "use super::C;"), ("a/c.rs", "pub struct C;")];
         assert!(circles(&handed_on).is_empty());
         let defined = [("a/mod.rs", "mod b; use b::B; pub struct C;"), ("a/b.rs", "use super::C; pub struct B;")];
@@ -195,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_module_that_is_imported_counts_where_it_is_used() {
+    fn exact_imported_modules_count_where_they_are_used() {
         let used = [("a.rs", "use crate::b; fn f() { b::g() }"), ("b.rs", "pub fn g() { crate::a::f() }")];
         assert_eq!(circles(&used), [["a.rs -> b.rs", "b.rs -> a.rs"]]);
         let unused = [("a.rs", "use crate::b; fn f() {}"), ("b.rs", "pub fn g() { crate::a::f() }")];
@@ -205,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_tests_make_no_circle() {
+    fn exact_test_modules_do_not_form_cycles() {
         let inside =
             [("a.rs", "fn f() {} #[cfg(test)] mod tests { use crate::b::g; }"), ("b.rs", "pub fn g() { crate::a::f() }")];
         assert!(circles(&inside).is_empty());
@@ -215,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_long_circle_lists_every_file_once() {
+    fn exact_long_cycles_list_every_file_once() {
         let files = [
             ("a.rs", "use crate::b::B; pub struct A;"),
             ("b.rs", "use crate::c::{self, C}; pub struct B;"),

@@ -61,7 +61,7 @@ fn exact_layer_diagram_matches_the_imports() {
 }
 
 #[test]
-fn exact_no_circle_of_imports_between_files() {
+fn exact_files_have_no_import_cycles() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut found = Vec::new();
     for folder in rules::crates().map(|folder| format!("crates/{folder}")).chain([".".to_owned()]) {
@@ -81,7 +81,7 @@ fn exact_no_circle_of_imports_between_files() {
 }
 
 #[test]
-fn exact_no_match_on_an_enum_of_ours_has_an_arm_for_all_further_variants() {
+fn exact_matches_on_our_enums_have_no_catch_all_arms() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let code = |path: &PathBuf| paths::without_tests(&paths::tokens(&paths::code_only(&std::fs::read_to_string(path).unwrap())));
     let files: Vec<_> = all_sources(root).into_iter().map(|path| (code(&path), path)).collect();
@@ -95,7 +95,7 @@ fn exact_no_match_on_an_enum_of_ours_has_an_arm_for_all_further_variants() {
 }
 
 #[test]
-fn exact_crates_depend_only_on_lower_ones() {
+fn exact_crates_depend_only_on_lower_crates() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for entry in std::fs::read_dir(root.join("crates")).unwrap() {
         let folder = entry.unwrap().file_name().into_string().unwrap();

@@ -9,7 +9,7 @@ pub fn code_only(source: &str) -> String {
     let mut out = String::with_capacity(source.len());
     let mut at = 0;
     while at < bytes.len() {
-        let end = skip(&bytes, at);
+        let end = literal_end(&bytes, at);
         if end == at {
             out.push(bytes[at]);
             at += 1;
@@ -22,7 +22,7 @@ pub fn code_only(source: &str) -> String {
 }
 
 /// Returns the end of the comment or literal that starts at `at`; returns `at` if none starts there.
-fn skip(text: &[char], at: usize) -> usize {
+fn literal_end(text: &[char], at: usize) -> usize {
     let starts = |what: &str| what.chars().enumerate().all(|(k, c)| text.get(at + k) == Some(&c));
     let joined = at > 0 && (text[at - 1].is_alphanumeric() || text[at - 1] == '_');
     if starts("//") {
@@ -88,12 +88,12 @@ fn character(text: &[char], at: usize) -> usize {
 
 /// Returns every path of two or more parts in `code` that starts with one of `roots`, with `use` groups expanded.
 /// `module` is the file's module path, which resolves `self`.
-pub fn named(code: &str, module: &[String], roots: &[&str]) -> Vec<PathUse> {
-    named_in(&tokens(code), module, roots)
+pub fn rooted_paths(code: &str, module: &[String], roots: &[&str]) -> Vec<PathUse> {
+    rooted_paths_in(&tokens(code), module, roots)
 }
 
-/// Same as [`named`], for code that is already split into tokens.
-pub fn named_in(tokens: &[Token], module: &[String], roots: &[&str]) -> Vec<PathUse> {
+/// Same as [`rooted_paths`], for code that is already split into tokens.
+pub fn rooted_paths_in(tokens: &[Token], module: &[String], roots: &[&str]) -> Vec<PathUse> {
     let mut found = Vec::new();
     for at in 0..tokens.len() {
         let begins = roots.contains(&tokens[at].1.as_str()) || ["self", "super"].contains(&tokens[at].1.as_str());
@@ -322,7 +322,7 @@ mod tests {
 
     fn paths(source: &str, module: &[&str]) -> Vec<String> {
         let module: Vec<String> = module.iter().map(|part| (*part).to_owned()).collect();
-        named(&code_only(source), &module, &["crate", "std"]).into_iter().map(|(_, path)| path.join("::")).collect()
+        rooted_paths(&code_only(source), &module, &["crate", "std"]).into_iter().map(|(_, path)| path.join("::")).collect()
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Draws the layers and their imports, read from the source code, as an SVG image.
 
-use crate::rules::{layers, place_name};
+use crate::rules::{crate_label, layers};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ type Arrow = ((usize, usize), (usize, usize));
 const WIDTH: usize = 1_200;
 const BOX_WIDTH: usize = 132;
 const BOX_HEIGHT: usize = 46;
-const ROW: usize = 118;
+const ROW_HEIGHT: usize = 118;
 const MARGIN: usize = 30;
 /// One fill color for each crate and one for the program, in the order of their first layers.
 const COLORS: [&str; 8] = ["#e8eef7", "#e5f3ee", "#f8ecdf", "#f3e9f5", "#fbf3d6", "#e9f2dc", "#dff0f6", "#f0f0f0"];
@@ -23,7 +23,7 @@ const COLORS: [&str; 8] = ["#e8eef7", "#e5f3ee", "#f8ecdf", "#f3e9f5", "#fbf3d6"
 pub fn svg(imports: &Imports) -> String {
     let rows = rows(imports);
     let centers = centers(&rows, imports);
-    let height = 2 * MARGIN + (rows.len() - 1) * ROW + BOX_HEIGHT;
+    let height = 2 * MARGIN + (rows.len() - 1) * ROW_HEIGHT + BOX_HEIGHT;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"14\">\n\
          <!-- Generated from the code: SPANDREL_REFERENCE=write cargo nextest run layers -->\n\
@@ -43,7 +43,7 @@ pub fn svg(imports: &Imports) -> String {
     }
     for (layer, (x, y)) in &centers {
         let (left, top) = (x.saturating_sub(BOX_WIDTH / 2), y - BOX_HEIGHT / 2);
-        let (place, color) = (place_name(layer), color(layer));
+        let (place, color) = (crate_label(layer), color(layer));
         let _ = writeln!(
             out,
             "<rect x=\"{left}\" y=\"{top}\" width=\"{BOX_WIDTH}\" height=\"{BOX_HEIGHT}\" rx=\"5\" fill=\"{color}\" stroke=\"#333\"/>\
@@ -103,7 +103,7 @@ fn centers(rows: &[Vec<&'static str>], imports: &Imports) -> BTreeMap<&'static s
         };
         let mut ordered = row.clone();
         ordered.sort_by_key(|layer| mean(layer));
-        let y = MARGIN + k * ROW + BOX_HEIGHT / 2;
+        let y = MARGIN + k * ROW_HEIGHT + BOX_HEIGHT / 2;
         let step = WIDTH / (ordered.len() + 1);
         let placed: Vec<_> = ordered.into_iter().enumerate().map(|(i, layer)| (layer, ((i + 1) * step, y))).collect();
         out.extend(placed);
@@ -128,12 +128,12 @@ fn direct(imports: &Imports) -> Imports {
 
 fn color(layer: &str) -> &'static str {
     let mut places: Vec<String> = Vec::new();
-    for place in layers().map(place_name) {
+    for place in layers().map(crate_label) {
         if !places.contains(&place) {
             places.push(place);
         }
     }
-    let k = places.iter().position(|place| *place == place_name(layer)).unwrap_or_default();
+    let k = places.iter().position(|place| *place == crate_label(layer)).unwrap_or_default();
     COLORS[k % COLORS.len()]
 }
 
@@ -142,13 +142,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_only_imports_without_a_detour_have_arrows() {
+    fn exact_only_direct_imports_have_arrows() {
         let imports = Imports::from([(("mav", "base"), 3), (("telemetry", "mav"), 2), (("telemetry", "base"), 9)]);
         assert_eq!(direct(&imports), Imports::from([(("mav", "base"), 3), (("telemetry", "mav"), 2)]));
     }
 
     #[test]
-    fn exact_every_room_is_above_what_it_imports() {
+    fn exact_every_layer_is_above_its_imports() {
         let imports = Imports::from([(("mav", "base"), 3), (("telemetry", "mav"), 2), (("telemetry", "base"), 9)]);
         let centers = centers(&rows(&imports), &imports);
         assert!(imports.keys().all(|(from, to)| centers[from].1 < centers[to].1));

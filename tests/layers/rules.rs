@@ -1,12 +1,12 @@
 //! Rules that Cargo cannot enforce: the table of layers within crates, and the main rules of ARCHITECTURE.md.
 
-use crate::paths::{code_only, named, named_in, tokens, without_tests};
+use crate::paths::{code_only, rooted_paths, rooted_paths_in, tokens, without_tests};
 use crate::picture::Imports;
 
 /// A module that is a separate layer, and the name of the layer.
-type OwnRoom = (&'static str, &'static str);
+type ModuleLayer = (&'static str, &'static str);
 /// Each crate with the modules that are separate layers, and the layer of all other modules.
-const CRATES: &[(&str, &[OwnRoom], &str)] = &[
+const CRATES: &[(&str, &[ModuleLayer], &str)] = &[
     ("model", &[("scenario", "scenario"), ("vehicle", "vehicle"), ("site", "site")], "base"),
     ("mavlink", &[("telemetry", "telemetry")], "mav"),
     ("sitl", &[], "sitl"),
@@ -19,7 +19,7 @@ const CRATES: &[(&str, &[OwnRoom], &str)] = &[
 /// The package at the root of the workspace.
 const PROGRAM: &str = "";
 /// Each layer with the layers that it may use.
-const TABLE: &[(&str, &[&str])] = &[
+const ALLOWED_IMPORTS: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("mav", &["base"]),
     ("scenario", &["base"]),
@@ -106,18 +106,18 @@ pub fn crates() -> impl Iterator<Item = &'static str> {
 
 /// Returns all layers.
 pub fn layers() -> impl Iterator<Item = &'static str> {
-    TABLE.iter().map(|(layer, _)| *layer)
+    ALLOWED_IMPORTS.iter().map(|(layer, _)| *layer)
 }
 
 /// Returns the crates that a crate may depend on: those with layers that its own layers may use.
 pub fn may_depend_on(folder: &str) -> Vec<&'static str> {
-    let known = TABLE.iter().filter(|(layer, _)| folder_of(layer) == folder).flat_map(|(_, known)| *known);
+    let known = ALLOWED_IMPORTS.iter().filter(|(layer, _)| folder_of(layer) == folder).flat_map(|(_, known)| *known);
     crates().filter(|other| *other != folder && known.clone().any(|layer| folder_of(layer) == *other)).collect()
 }
 
 /// Returns the crate that contains a layer.
 fn folder_of(layer: &str) -> &'static str {
-    let holds = |own: &[OwnRoom], rest: &str| rest == layer || own.iter().any(|(_, name)| *name == layer);
+    let holds = |own: &[ModuleLayer], rest: &str| rest == layer || own.iter().any(|(_, name)| *name == layer);
     CRATES.iter().find(|(_, own, rest)| holds(own, rest)).map_or(PROGRAM, |(folder, ..)| *folder)
 }
 
@@ -134,15 +134,15 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
     };
     let layer = layer_of(folder, module.first().map(String::as_str)).unwrap_or_default();
     let code = code_only(source);
-    let mut found: Vec<String> = named(&code, &module, ROOTS)
+    let mut found: Vec<String> = rooted_paths(&code, &module, ROOTS)
         .into_iter()
         .filter_map(|(line, path)| {
             let path: Vec<&str> = path.iter().map(String::as_str).collect();
-            let why = forbidden(folder, layer, &module, &path)?;
+            let why = violated_rule(folder, layer, &module, &path)?;
             Some(format!("{file}:{line}: {}: {why}", path.join("::")))
         })
         .collect();
-    found.extend(clock_readings(folder, file, &code));
+    found.extend(clock_violations(folder, file, &code));
     found.dedup();
     found
 }
@@ -151,7 +151,7 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
 pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
     let Some((folder, module)) = module_of(file) else { return };
     let Some(layer) = layer_of(folder, module.first().map(String::as_str)) else { return };
-    for (_, path) in named_in(&without_tests(&tokens(&code_only(source))), &module, ROOTS) {
+    for (_, path) in rooted_paths_in(&without_tests(&tokens(&code_only(source))), &module, ROOTS) {
         let path: Vec<&str> = path.iter().map(String::as_str).collect();
         if let Some(target) = target_of(folder, &path).filter(|target| *target != layer) {
             *imports.entry((layer, target)).or_default() += 1;
@@ -160,7 +160,7 @@ pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
 }
 
 /// Returns the display name of the folder of a layer's crate.
-pub fn place_name(layer: &str) -> String {
+pub fn crate_label(layer: &str) -> String {
     match folder_of(layer) {
         PROGRAM => "src".to_owned(),
         folder => format!("crates/{folder}"),
@@ -175,7 +175,7 @@ fn target_of(folder: &str, path: &[&str]) -> Option<&'static str> {
 }
 
 /// Returns uses of `Instant::now()` and similar functions, including uses through imported names.
-fn clock_readings(folder: &str, file: &str, code: &str) -> Vec<String> {
+fn clock_violations(folder: &str, file: &str, code: &str) -> Vec<String> {
     let reads = |line: &str| folder != PROGRAM && line.contains("::now()");
     let lines = code.lines().enumerate().filter(|(_, line)| reads(line));
     lines
@@ -200,13 +200,13 @@ fn module_of(file: &str) -> Option<(&'static str, Vec<String>)> {
     Some((folder, module.iter().map(|part| (*part).to_owned()).collect()))
 }
 
-fn forbidden(folder: &str, layer: &str, module: &[String], path: &[&str]) -> Option<String> {
+fn violated_rule(folder: &str, layer: &str, module: &[String], path: &[&str]) -> Option<String> {
     if folder != PROGRAM && OUTSIDE.iter().any(|outside| path.starts_with(outside)) && !PLAIN_DATA.contains(&path) {
         return Some("ONLY THE PROGRAM AND THE PYTHON PACKAGE TOUCH THE OUTSIDE WORLD".into());
     }
     let target = target_of(folder, path)?;
     let rest = &path[1..];
-    let (_, allowed) = TABLE.iter().find(|(name, _)| *name == layer)?;
+    let (_, allowed) = ALLOWED_IMPORTS.iter().find(|(name, _)| *name == layer)?;
     let library = folder == PROGRAM && folder_of(target) != PROGRAM;
     if target != layer && !library && !allowed.contains(&target) {
         return Some(format!("{layer} must not use {target}"));
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_rooms_of_the_program_know_lower_ones_only_and_nobody_knows_the_command_line() {
+    fn exact_program_layers_import_only_lower_layers_and_never_the_command_line() {
         assert_eq!(check("src/io/links.rs", "use crate::errors::AppError; use super::net::SocketHub;"), 0);
         assert_eq!(check("src/web/server.rs", "use crate::{errors::AppError, io::stop, records::Database};"), 0);
         assert_eq!(check("src/cli/serve.rs", "use crate::web::WebServer; use crate::window;"), 0);

@@ -12,7 +12,7 @@ pub fn enums(code: &[Token]) -> BTreeSet<String> {
 
 /// Returns the catch-all arms in matches on one of `enums`, each as a line number and the name of the enum.
 pub fn found(code: &[Token], enums: &BTreeSet<String>) -> Vec<(usize, String)> {
-    let implementations = implementations(code);
+    let implementations = impl_blocks(code);
     let mut out = Vec::new();
     for at in (0..code.len()).filter(|at| code[*at].1 == "match") {
         let arms = arms(code, at);
@@ -25,13 +25,13 @@ pub fn found(code: &[Token], enums: &BTreeSet<String>) -> Vec<(usize, String)> {
             (start == 0 && enums.contains(name)).then(|| name.to_owned())
         };
         let Some(name) = arms.iter().find_map(|arm| variant_of(arm)) else { continue };
-        out.extend(arms.iter().filter(|arm| catches_all(arm)).map(|arm| (arm[0].0, name.clone())));
+        out.extend(arms.iter().filter(|arm| is_catch_all(arm)).map(|arm| (arm[0].0, name.clone())));
     }
     out
 }
 
 /// Returns true for a pattern without a guard that matches everything: `_`, or a new name.
-fn catches_all(pattern: &[Token]) -> bool {
+fn is_catch_all(pattern: &[Token]) -> bool {
     match pattern {
         [(_, only)] => {
             only == "_" || (only.starts_with(|c: char| c.is_ascii_lowercase()) && !["true", "false"].contains(&only.as_str()))
@@ -55,7 +55,7 @@ fn path_at(code: &[Token], start: usize) -> Vec<&str> {
 }
 
 /// Returns the `impl` blocks, each as first token, last token and name of the type.
-fn implementations(code: &[Token]) -> Vec<(usize, usize, String)> {
+fn impl_blocks(code: &[Token]) -> Vec<(usize, usize, String)> {
     let mut out = Vec::new();
     for at in (0..code.len()).filter(|at| code[*at].1 == "impl") {
         let Some(open) = (at..code.len()).find(|k| ["{", ";", "("].contains(&code[*k].1.as_str())) else { continue };
@@ -65,13 +65,13 @@ fn implementations(code: &[Token]) -> Vec<(usize, usize, String)> {
         let header = &code[at..open];
         let of = header.iter().rposition(|token| token.1 == "for").map_or(header, |k| &header[k + 1..]);
         let name = of.iter().find(|token| token.1.starts_with(|c: char| c.is_ascii_uppercase()));
-        out.extend(name.map(|name| (open, closing(code, open), name.1.clone())));
+        out.extend(name.map(|name| (open, closing_bracket(code, open), name.1.clone())));
     }
     out
 }
 
 /// Returns the index of the bracket that closes the bracket at `open`.
-fn closing(code: &[Token], open: usize) -> usize {
+fn closing_bracket(code: &[Token], open: usize) -> usize {
     let mut depth = 0_u32;
     for (at, token) in code.iter().enumerate().skip(open) {
         match token.1.as_str() {
@@ -90,16 +90,20 @@ fn closing(code: &[Token], open: usize) -> usize {
 fn arms(code: &[Token], at: usize) -> Vec<&[Token]> {
     let mut open = at + 1;
     while code.get(open).is_some_and(|token| token.1 != "{") {
-        open = if ["(", "["].contains(&code[open].1.as_str()) { closing(code, open) + 1 } else { open + 1 };
+        open = if ["(", "["].contains(&code[open].1.as_str()) { closing_bracket(code, open) + 1 } else { open + 1 };
     }
-    let end = closing(code, open.min(code.len()));
+    let end = closing_bracket(code, open.min(code.len()));
     let mut out = Vec::new();
     let mut next = open + 1;
     while next < end {
         let arrow = arrow(code, next, end);
         out.push(&code[next..arrow]);
         let body = arrow + 2;
-        next = if code.get(body).is_some_and(|token| token.1 == "{") { closing(code, body) + 1 } else { comma(code, body, end) };
+        next = if code.get(body).is_some_and(|token| token.1 == "{") {
+            closing_bracket(code, body) + 1
+        } else {
+            arm_end(code, body, end)
+        };
         if code.get(next).is_some_and(|token| token.1 == ",") {
             next += 1;
         }
@@ -113,7 +117,7 @@ fn arrow(code: &[Token], from: usize, end: usize) -> usize {
     let mut at = from;
     while at < end {
         match code[at].1.as_str() {
-            "{" | "(" | "[" => at = closing(code, at),
+            "{" | "(" | "[" => at = closing_bracket(code, at),
             "=" if code[at + 1].1 == ">" => return at,
             _ => {}
         }
@@ -123,10 +127,10 @@ fn arrow(code: &[Token], from: usize, end: usize) -> usize {
 }
 
 /// Returns the end of an arm without a block.
-fn comma(code: &[Token], from: usize, end: usize) -> usize {
+fn arm_end(code: &[Token], from: usize, end: usize) -> usize {
     let mut at = from;
     while at < end && code[at].1 != "," {
-        at = if ["{", "(", "["].contains(&code[at].1.as_str()) { closing(code, at) + 1 } else { at + 1 };
+        at = if ["{", "(", "["].contains(&code[at].1.as_str()) { closing_bracket(code, at) + 1 } else { at + 1 };
     }
     at
 }
@@ -142,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_arms_that_catch_further_variants_are_found() {
+    fn exact_catch_all_arms_are_found() {
         assert_eq!(lines("enum E { A, B(u8) }\nfn f(e: E) { match e { E::A => 1,\n_ => 2 } }"), [3]);
         assert_eq!(lines("enum E { A, B(u8) }\nfn f(e: E) { match e { E::B(k) if k > 1 => { g(k) }\nother => h(other) } }"), [3]);
         assert_eq!(lines("enum E { A, B }\nimpl E { fn f(self) { match self { Self::A => 1,\n_ => 2 } } }"), [3]);
@@ -150,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_arms_that_name_everything_and_matches_of_other_types_are_none() {
+    fn exact_exhaustive_arms_and_matches_on_other_types_are_ignored() {
         for fine in [
             "enum E { A, B }\nfn f(e: E) { match e { E::A => 1, E::B => 2 } }",
             "enum E { A, B }\nfn f(k: u8) { match k { 0 => E::A, _ => E::B } }",

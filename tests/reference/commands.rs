@@ -1,6 +1,6 @@
 //! Command line reference page: the help text of the program and of every subcommand.
 
-use crate::{check, head};
+use crate::{check, page_head};
 use clap::{Command, CommandFactory};
 
 /// Appends the help of a command and of its subcommands.
@@ -20,9 +20,8 @@ fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
 fn exact_commands_page_matches_the_program() {
     let mut command = spandrel::Cli::command();
     command.build();
-    let about =
-        "The help text of every subcommand, as printed by `--help`. Exit codes: 0 success, 1 failure, 2 invalid arguments or files.";
-    let mut page = head("Command line", about);
+    let about = "The help text of every subcommand, as printed by `--help`. Exit codes: 0 success, 1 failure, 2 invalid arguments or files.";
+    let mut page = page_head("Command line", about);
     help(&mut command, "spandrel", 2, &mut page);
     check("commands.md", &page);
 }

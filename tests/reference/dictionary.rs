@@ -1,7 +1,7 @@
 //! Data dictionary page: columns of the frames export, fields of the assessment, columns of the cohort tables.
 
 use crate::table::{code, table};
-use crate::{check, head};
+use crate::{check, page_head};
 use serde_json::Value;
 use spandrel_monitor::assess_log;
 use spandrel_monitor::export::COLUMNS;
@@ -56,13 +56,12 @@ fn exact_data_dictionary_matches_the_code() {
     let frames_about = "`spandrel export SESSION --frames FILE.csv` and `--parquet FILE.parquet` write one row for each scored frame. An empty \
                         cell in CSV is a null in Parquet: the telemetry has no value for that frame. Flags are 1 or 0 in CSV. In \
                         Parquet, the metadata of each field contains its unit, frame and definition.";
-    let assessment_about =
-        "`spandrel assess SESSION --json FILE` and `assessment.json`. `[]` marks the elements of a list, and `*` the keys of a map.";
+    let assessment_about = "`spandrel assess SESSION --json FILE` and `assessment.json`. `[]` marks the elements of a list, and `*` the keys of a map.";
     let cohort_about = "`spandrel cohort --csv FOLDER` writes these tables. `crashes.csv` has a column `task_ID` for each task after `trainee`. \
                         `progress.csv` has a column `on_path_ID` for each task after `seconds`.";
     let page = format!(
         "{}\n## Frames\n\n{frames_about}\n\n{}\n## Assessment\n\n{assessment_about}\n\n{}\n## Cohort tables\n\n{cohort_about}\n{}",
-        head("Data dictionary", about),
+        page_head("Data dictionary", about),
         frames(),
         assessment(),
         cohort_tables(),
@@ -109,7 +108,7 @@ fn exact_data_dictionary_covers_exactly_the_assessment_fields() {
     nothing.fly((0.0, 0.0, 10.0), 2.0);
     let mut seen = BTreeSet::new();
     for tape in [full, nothing] {
-        let graded = assess_log(&tape.log(0), &one_task(), &vehicle(), fence_of_ten).unwrap();
+        let graded = assess_log(&tape.log(0), &one_task(), &vehicle(), test_survey).unwrap();
         paths(&serde_json::to_value(&graded.assessment).unwrap(), "", &mut seen);
     }
     let documented: BTreeSet<String> = FIELDS.iter().map(|field| field.path.to_owned()).collect();

@@ -14,7 +14,7 @@ mod table;
 use std::path::Path;
 
 /// Returns the beginning of a page: the title, a note that the page is generated, and an introduction.
-fn head(title: &str, about: &str) -> String {
+fn page_head(title: &str, about: &str) -> String {
     format!("# {title}\n\n<!-- Generated from the code: SPANDREL_REFERENCE=write cargo test --test reference -->\n\n{about}\n")
 }
 
@@ -28,7 +28,11 @@ fn check(page: &str, text: &str) {
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
     let differs = committed.lines().zip(text.lines()).position(|(a, b)| a != b).unwrap_or(committed.lines().count());
     let now = text.lines().nth(differs).unwrap_or_default();
-    assert!(committed == text, "{page}, line {}: expected `{now}`; regenerate the page with SPANDREL_REFERENCE=write", differs + 1);
+    assert!(
+        committed == text,
+        "{page}, line {}: expected `{now}`; regenerate the page with SPANDREL_REFERENCE=write",
+        differs + 1
+    );
 }
 
 /// The tables of scenario and vehicle keys are stored next to the files; the pages must include them.

@@ -1,7 +1,7 @@
 //! Message reference page: streams with their rates, and handled messages.
 
 use crate::table::table;
-use crate::{check, head};
+use crate::{check, page_head};
 use mavlink::Message;
 use spandrel_mavlink::ardupilotmega;
 use spandrel_mavlink::dialect::MavMessage;
@@ -59,8 +59,11 @@ fn handled() -> String {
 
 #[test]
 fn exact_messages_page_matches_the_code() {
-    let asks: Vec<&str> =
-        [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR].iter().filter(|f| f.asks_first).map(|f| f.name).collect();
+    let asks: Vec<&str> = [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR]
+        .iter()
+        .filter(|f| f.streams_on_request_only)
+        .map(|f| f.name)
+        .collect();
     let about = format!(
         "The vehicle sends these streams unrequested, at rates that depend on the kind of link. With `--flavour {}`, ground stations and SDKs \
          receive only heartbeats until they request streams; payload links receive all streams immediately. SET_MESSAGE_INTERVAL changes a \
@@ -69,6 +72,6 @@ fn exact_messages_page_matches_the_code() {
     );
     let acts = "The vehicle handles these messages. It forwards all other messages to the links of their target.";
     let page =
-        format!("{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}", head("Messages", &about), streams(), handled());
+        format!("{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}", page_head("Messages", &about), streams(), handled());
     check("messages.md", &page);
 }

@@ -1,7 +1,7 @@
 //! Parameter reference page for both autopilots, generated from the metadata that ground stations receive.
 
 use crate::table::{code, table};
-use crate::{check, head};
+use crate::{check, page_head};
 use serde_json::Value;
 use spandrel_sitl::endpoint::params::param_view::{COPTER, PX4};
 use spandrel_sitl::endpoint::params::{ParamView, metadata};
@@ -63,7 +63,7 @@ fn exact_parameters_page_matches_the_code() {
     let about = "Names, units, ranges and defaults of all parameters, as the vehicle reports them to ground stations (MAVLink \
                  component metadata). Stored parameters have no effect; the vehicle keeps their values for clients that \
                  expect them.";
-    let mut page = head("Parameters", about);
+    let mut page = page_head("Parameters", about);
     for (title, face) in [("PX4 and generic interface", &PX4), ("ArduPilot interface", &COPTER)] {
         let parameters = described(face);
         page.push_str(&format!("\n## {title}: active parameters\n\n{}", rows(&parameters, true)));

@@ -20,7 +20,7 @@ use spandrel_testkit::station::{Station, one};
 /// errors, a single point at an end may be missed.
 const MIN_COVERAGE: f64 = 0.97;
 /// Time limit for all four tasks, s of simulation time (TASBID battery: 25 minutes).
-const LIMIT_S: f64 = 1_500.0;
+const TIME_LIMIT_S: f64 = 1_500.0;
 
 fn plan_for(name: &str, autopilot: MavAutopilot) -> Value {
     let (scenario, vehicle) = (scenario(name), vehicle("phantom2"));
@@ -88,7 +88,7 @@ fn flight_exported_plan_flies_every_task_without_contact() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED);
     let mut passed: Vec<Vec<bool>> = job.tasks.iter().map(|task| vec![false; task.path_m.len()]).collect();
     let (mut hits, mut pictures, mut landed) = (0, 0, false);
-    for _ in 0..(LIMIT_S * 10.0) as usize {
+    for _ in 0..(TIME_LIMIT_S * 10.0) as usize {
         station.received.clear();
         station.run_ms(100);
         let here = station.sim.truth().rigid.position_m.enu();
@@ -139,12 +139,12 @@ fn exact_exported_plan_meets_ground_station_requirements() {
 
 /// Results of a flight of the plan.
 #[derive(Debug, Default)]
-struct Flown {
+struct FlightResults {
     landed: bool,
     /// Root mean square and maximum of the body's roll and pitch rates, deg/s.
     rms_deg_s: [f64; 2],
-    fastest_deg_s: f64,
-    fastest_at: String,
+    max_rate_deg_s: f64,
+    max_rate_at: String,
     /// Bit mask of all cues during the flight.
     cues: i32,
     /// Status texts and tasks, with their times.
@@ -152,24 +152,24 @@ struct Flown {
 }
 
 /// A flight of a plan with a live monitor.
-struct Observed {
+struct MonitoredFlight {
     station: Station,
     monitor: Monitor,
     site: Site,
     pad_up_m: f64,
-    squares: [f64; 2],
+    sum_of_squares: [f64; 2],
     samples: u32,
     cues_before: i32,
-    flown: Flown,
+    flown: FlightResults,
 }
 
 const SIDECAR: LinkId = LinkId(2);
 /// Minimum height above the pad for rate measurements, m; below it, the feet touch the ground.
-const FLYING_M: f64 = 1.0;
+const MIN_RATE_HEIGHT_M: f64 = 1.0;
 /// Interval between rate measurements.
-const EVERY: SimTime = SimTime::from_ms(10);
+const SAMPLE_INTERVAL: SimTime = SimTime::from_ms(10);
 
-impl Observed {
+impl MonitoredFlight {
     fn ready(name: &str, seed: u64) -> Self {
         let (items, _) = plan(name);
         let mut station = Station::new(name, seed);
@@ -191,11 +191,20 @@ impl Observed {
         let job = scenario(name);
         let pad_up_m = job.ground_team.pad_m.up();
         let site = Site::build(&job, seed);
-        Self { station, monitor, site, pad_up_m, squares: [0.0; 2], samples: 0, cues_before: 0, flown: Flown::default() }
+        Self {
+            station,
+            monitor,
+            site,
+            pad_up_m,
+            sum_of_squares: [0.0; 2],
+            samples: 0,
+            cues_before: 0,
+            flown: FlightResults::default(),
+        }
     }
 
     fn step(&mut self) {
-        let until = self.station.sim.now() + EVERY;
+        let until = self.station.sim.now() + SAMPLE_INTERVAL;
         self.station.sim.handle_timeout(until);
         while let Some(transmit) = self.station.sim.poll_transmit() {
             if transmit.link == SIDECAR {
@@ -236,33 +245,33 @@ impl Observed {
 
     fn measure(&mut self) {
         let rigid = &self.station.sim.truth().rigid;
-        if rigid.position_m.enu().up() - self.pad_up_m < FLYING_M {
+        if rigid.position_m.enu().up() - self.pad_up_m < MIN_RATE_HEIGHT_M {
             return;
         }
         let [roll, pitch, _] = rigid.rates_rad_s.array().map(f64::to_degrees);
-        self.squares = [self.squares[0] + roll * roll, self.squares[1] + pitch * pitch];
+        self.sum_of_squares = [self.sum_of_squares[0] + roll * roll, self.sum_of_squares[1] + pitch * pitch];
         self.samples += 1;
         let fastest = roll.abs().max(pitch.abs());
-        if fastest > self.flown.fastest_deg_s {
-            self.flown.fastest_deg_s = fastest;
+        if fastest > self.flown.max_rate_deg_s {
+            self.flown.max_rate_deg_s = fastest;
             let place = rigid.position_m.enu();
-            self.flown.fastest_at = format!("{:.1} s, {:.1?} m", self.station.sim.now().s(), place.array());
+            self.flown.max_rate_at = format!("{:.1} s, {:.1?} m", self.station.sim.now().s(), place.array());
         }
     }
 
-    fn fly(mut self) -> Flown {
+    fn fly(mut self) -> FlightResults {
         let start = self.station.sim.now();
-        while !self.flown.landed && (self.station.sim.now() - start).s() < LIMIT_S {
+        while !self.flown.landed && (self.station.sim.now() - start).s() < TIME_LIMIT_S {
             self.step();
         }
-        self.flown.rms_deg_s = self.squares.map(|sum| (sum / f64::from(self.samples.max(1))).sqrt());
+        self.flown.rms_deg_s = self.sum_of_squares.map(|sum| (sum / f64::from(self.samples.max(1))).sqrt());
         self.flown
     }
 }
 
 /// Jobs and seeds: the plan is created with the traffic of one seed and flown with the traffic, wind and receiver
 /// errors of other seeds.
-const FLIGHTS: [(&str, u64); 6] =
+const FLIGHT_CASES: [(&str, u64); 6] =
     [("two-bridges", 1), ("two-bridges", 2), ("two-bridges", 7), ("practice", 7), ("drill-gap", 7), ("drill-landing", 7)];
 /// Maximum root mean square of the roll and pitch rates, deg/s, measured with a real PX4 on this plan (issue about
 /// flight tests).
@@ -273,15 +282,15 @@ const MAX_RATE_DEG_S: f64 = 60.0;
 
 #[test]
 fn regress_exported_plan_flies_smoothly_without_cues() {
-    for (name, seed) in FLIGHTS {
-        let flown = Observed::ready(name, seed).fly();
+    for (name, seed) in FLIGHT_CASES {
+        let flown = MonitoredFlight::ready(name, seed).fly();
         assert!(flown.landed, "{name}, seed {seed}: {:#?}", flown.log);
         assert!(flown.rms_deg_s.iter().all(|rate| *rate <= MAX_RMS_DEG_S), "{name}, seed {seed}: {:?} deg/s", flown.rms_deg_s);
         assert!(
-            flown.fastest_deg_s <= MAX_RATE_DEG_S,
+            flown.max_rate_deg_s <= MAX_RATE_DEG_S,
             "{name}, seed {seed}: {} deg/s at {}",
-            flown.fastest_deg_s,
-            flown.fastest_at
+            flown.max_rate_deg_s,
+            flown.max_rate_at
         );
         let wrong = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
         assert_eq!(flown.cues & wrong, 0, "{name}, seed {seed}: {:#?}", flown.log);
@@ -293,7 +302,7 @@ fn prop_traffic_respects_the_minimum_lane_distance() {
     /// Rounding tolerance, m.
     const ROUNDING_M: f64 = 1e-6;
     /// Range of the queries, m, and time over which traffic is observed.
-    const REACH_M: f64 = 6.0;
+    const QUERY_RANGE_M: f64 = 6.0;
     const OBSERVATION_S: i64 = 60;
     let job = scenario("two-bridges");
     let mut met = 0;
@@ -301,9 +310,9 @@ fn prop_traffic_respects_the_minimum_lane_distance() {
         let site = Site::build(&job, seed);
         for (east, north, over) in (0..60).map(|k| (f64::from(k) * 2.0 - 60.0, f64::from(k % 7) * 2.0 - 6.0, f64::from(k % 5))) {
             let point: Vec3<Enu> = Vec3::new(east, north, 36.0 + over);
-            let least_m = site.traffic().min_distance_ever_m(point, REACH_M);
+            let least_m = site.traffic().min_distance_over_time_m(point, QUERY_RANGE_M);
             for ms in (0..OBSERVATION_S * 1_000).step_by(100) {
-                let Some(near) = site.traffic().nearest(point, REACH_M, SimTime::from_ms(ms)) else { continue };
+                let Some(near) = site.traffic().nearest(point, QUERY_RANGE_M, SimTime::from_ms(ms)) else { continue };
                 met += 1;
                 assert!(least_m.is_some_and(|m| m <= near.distance_m + ROUNDING_M), "{point:?}: {least_m:?} and {near:?}");
             }

@@ -9,15 +9,15 @@ use spandrel_testkit::station::{Station, p};
 
 const CAMERA: u8 = 100;
 /// The only shipped aircraft with a zoom lens.
-const ZOOMS: &str = "m30";
+const ZOOM_RATIOS: &str = "m30";
 /// Tolerance for the rounding of CAMERA_FOV_STATUS, which has single precision, deg.
-const WIRE_DEG: f32 = 1e-5;
+const FOV_TOLERANCE_DEG: f32 = 1e-5;
 
 #[test]
 fn exact_pictures_are_scored_with_their_own_field_of_view() {
     let job = scenario("drill-hover");
     let origin = job.origin;
-    let mut station = Station::of(job, ZOOMS, 7);
+    let mut station = Station::of(job, ZOOM_RATIOS, 7);
     station.run_ms(100);
     let accepted = MavResult::MAV_RESULT_ACCEPTED;
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0])), accepted);
@@ -32,8 +32,8 @@ fn exact_pictures_are_scored_with_their_own_field_of_view() {
         }
         let flight = timeline.flight(0);
         let [(time, _, _)] = flight.snapshots.all() else { panic!("one picture") };
-        let judged_deg = camera(&flight, *time, &vehicle(ZOOMS).camera).hfov_rad.to_degrees() as f32;
+        let judged_deg = camera(&flight, *time, &vehicle(ZOOM_RATIOS).camera).hfov_rad.to_degrees() as f32;
         let sent_deg = station.last_message(|m| if let MavMessage::CAMERA_FOV_STATUS(f) = m { Some(f.hfov) } else { None });
-        assert!((judged_deg - sent_deg.unwrap()).abs() < WIRE_DEG, "{judged_deg} for {sent_deg:?}");
+        assert!((judged_deg - sent_deg.unwrap()).abs() < FOV_TOLERANCE_DEG, "{judged_deg} for {sent_deg:?}");
     }
 }

@@ -10,12 +10,12 @@ const NOTE_PAYLOAD_TYPE: u16 = 33_077;
 /// Number of bytes before the text: payload type, target system, target component, text length.
 const HEADER_LEN: usize = 5;
 /// Maximum length of the text, bytes.
-pub const LONGEST: usize = 128;
+pub const MAX_TEXT_LEN: usize = 128;
 
-/// Encodes a note for a component. Text longer than [`LONGEST`] is truncated at a character boundary.
+/// Encodes a note for a component. Text longer than [`MAX_TEXT_LEN`] is truncated at a character boundary.
 #[must_use]
 pub fn encode(encoder: &mut Encoder, system: u8, component: u8, text: &str) -> Vec<u8> {
-    let end = (0..=LONGEST.min(text.len())).rfind(|at| text.is_char_boundary(*at)).unwrap_or(0);
+    let end = (0..=MAX_TEXT_LEN.min(text.len())).rfind(|at| text.is_char_boundary(*at)).unwrap_or(0);
     let text = &text[..end];
     let [low, high] = NOTE_PAYLOAD_TYPE.to_le_bytes();
     let mut payload = vec![low, high, system, component, u8::try_from(text.len()).unwrap_or(0)];
@@ -29,7 +29,7 @@ pub fn decode(frame: &ReceivedFrame) -> Option<((u8, u8), String)> {
     if frame.message_id != TUNNEL {
         return None;
     }
-    let payload = frame.payload(HEADER_LEN + LONGEST);
+    let payload = frame.payload(HEADER_LEN + MAX_TEXT_LEN);
     let [low, high, system, component, length, text @ ..] = payload.as_slice() else { return None };
     if u16::from_le_bytes([*low, *high]) != NOTE_PAYLOAD_TYPE {
         return None;
@@ -51,7 +51,7 @@ mod tests {
 
     #[test]
     fn wire_note_round_trips_and_targets_only_the_monitor() {
-        for text in ["too fast at the pier", "", "Brücke", &"x".repeat(LONGEST)] {
+        for text in ["too fast at the pier", "", "Brücke", &"x".repeat(MAX_TEXT_LEN)] {
             let frame = sent(text);
             assert_eq!(decode(&frame), Some(((1, 191), text.to_owned())));
             assert_eq!(target(&frame), (1, 191));

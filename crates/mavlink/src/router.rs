@@ -44,7 +44,7 @@ impl<L: Copy + Ord> Router<L> {
     }
 
     /// Removes a link from the table.
-    pub fn forget_link(&mut self, link: L) {
+    pub fn remove_link(&mut self, link: L) {
         self.links_by_sender.values_mut().for_each(|links| links.retain(|l| *l != link));
         self.links_by_sender.retain(|_, links| !links.is_empty());
     }
@@ -118,7 +118,7 @@ mod tests {
         assert_eq!(router.targets_of(3, &frame(1, 191, &beat), &[1, 2, 3]), [1, 2]);
         let ack = MavMessage::COMMAND_ACK(COMMAND_ACK_DATA { target_system: 254, target_component: 190, ..Default::default() });
         assert_eq!(router.targets_of(3, &frame(1, 191, &ack), &[1, 2, 3]), [2]);
-        router.forget_link(2);
+        router.remove_link(2);
         assert!(router.targets_of(3, &frame(1, 191, &ack), &[1, 3]).is_empty());
     }
 

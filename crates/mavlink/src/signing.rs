@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_new_stream_may_lag_at_most_a_minute() {
+    fn exact_new_stream_may_lag_at_most_one_minute() {
         let (mut ours, _) = pair();
         let old = read(&ours.sign(frame(1), NOW));
         let verdict = |late: u64| Signing::new(SigningKey::from_passphrase("bridge"), 0, NOW + 1 + late).verify(&old, NOW);
@@ -341,7 +341,7 @@ mod tests {
     /// Without this check, a single frame from a former key holder or a sender with a wrong clock would make all other
     /// frames too old, and the saved state would make this permanent.
     #[test]
-    fn regress_frame_from_far_future_is_rejected_without_trace() {
+    fn regress_frame_from_far_future_is_rejected_without_side_effects() {
         let (mut ours, mut theirs) = pair();
         let far = |stamp: u64| read(&Signing::new(SigningKey::from_passphrase("bridge"), 9, stamp - 1).sign(frame(7), stamp));
         for stamp in [NOW + MAX_TIMESTAMP_LEAD + 1, MAX_TIMESTAMP] {

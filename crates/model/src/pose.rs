@@ -33,12 +33,12 @@ impl<F: Copy> Motion<F> {
     /// returns `other`.
     #[must_use]
     pub fn lerp(&self, other: &Self, t: f64) -> Self {
-        Self { ned_from_frd: self.ned_from_frd.lerp(other.ned_from_frd, t), ..self.lerp_held(other, t) }
+        Self { ned_from_frd: self.ned_from_frd.lerp(other.ned_from_frd, t), ..self.lerp_with_held_attitude(other, t) }
     }
 
     /// Interpolates position and velocity linearly and keeps the attitude of this motion.
     #[must_use]
-    pub fn lerp_held(&self, other: &Self, t: f64) -> Self {
+    pub fn lerp_with_held_attitude(&self, other: &Self, t: f64) -> Self {
         Self {
             position_m: self.position_m.lerp(other.position_m, t),
             velocity_m_s: self.velocity_m_s.lerp(other.velocity_m_s, t),

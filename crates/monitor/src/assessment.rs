@@ -1,4 +1,4 @@
-//! The assessment of a flight. Field names are the keys in `assessment.json`, which external tools read.
+//! Flight assessment. External tools read `assessment.json`, whose keys are the field names.
 
 use super::measures::attention::{self, SiteSurvey, Snapshot};
 use super::measures::coverage::{self, PathCoverage};
@@ -24,24 +24,24 @@ use std::collections::BTreeSet;
 /// The scenario, vehicle and site that a flight is scored against.
 #[derive(Debug, Clone, Copy)]
 pub struct ScoringJob<'a> {
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: &'a Scenario,
-    /// Vehicle flown in the session.
+    /// Aircraft flown in the session.
     pub vehicle: &'a Vehicle,
-    /// Site built from the session's seed, used to determine which defects are visible.
+    /// Site built from the session's seed; determines which defects are visible.
     pub survey: &'a dyn SiteSurvey,
 }
 
-/// Reason why a flight cannot be scored.
+/// Reason that a flight cannot be scored.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum AssessError {
     /// The drone never rose above the lift-off height.
-    #[error("the drone never lifted off (rose more than 0.3 m above the pad), so there is no session to score")]
+    #[error("no lift-off: the drone never rose more than 0.3 m above the pad, so there is no session to score")]
     NeverFlown,
-    /// The telemetry contains no ground-truth message.
-    #[error("no HIL_STATE_QUATERNION in the telemetry; it provides the time and the true state that scoring requires")]
+    /// The telemetry contains no ground-truth messages.
+    #[error("the telemetry contains no HIL_STATE_QUATERNION messages; scoring requires their time and true state")]
     NoTruth,
-    /// The telemetry is from a different scenario.
+    /// The telemetry was recorded in a different scenario.
     #[error("the simulator runs a different scenario: it reports scn_crc {heard:#010x}, but `{name}` has {ours:#010x}")]
     OtherScenario {
         /// Name of the session's scenario.
@@ -51,12 +51,12 @@ pub enum AssessError {
         /// CRC of the session's scenario.
         ours: u32,
     },
-    /// The telemetry is from a different seed.
+    /// The telemetry was recorded with a different seed.
     #[error("the simulator uses seed {heard}, but the session uses seed {ours}, which places different defects")]
     OtherSeed {
         /// Seed received from the simulator.
         heard: u64,
-        /// Seed of the session.
+        /// The session's seed.
         ours: u64,
     },
     /// No seed is available from the telemetry, the scenario or the command line.
@@ -65,7 +65,7 @@ pub enum AssessError {
     )]
     NoSeed,
     /// The telemetry log could not be read.
-    #[error("the telemetry cannot be read: {0}")]
+    #[error("cannot read the telemetry: {0}")]
     Unreadable(String),
 }
 
@@ -75,24 +75,24 @@ impl From<std::io::Error> for AssessError {
     }
 }
 
-/// Assessment of a session: the TASBID scores and the certification profile.
+/// Session assessment: the TASBID scores and the certification profile.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Assessment {
     /// Scoring profile used for `scores`; always `paper`.
     pub profile: &'static str,
     /// The four scores and their sum.
     pub scores: Scores,
-    /// Completion of the job.
+    /// Job completion.
     pub completion: Completion,
     /// Results per task, in scenario order.
     pub tasks: Vec<TaskResult>,
-    /// Number of crashes by kind.
+    /// Number of crashes by kind of object hit.
     pub crashes: CrashCounts,
-    /// Picture results: totals, and the result of each picture.
+    /// Picture results: totals and individual results.
     pub snapshots: SnapshotCounts,
     /// End of the session: reason, length and battery failure.
     pub end: SessionEnd,
-    /// Fraction of frames for which telemetry was received, and the number of gaps.
+    /// Fraction of frames with received telemetry, and the number of gaps.
     pub telemetry: TelemetryCoverage,
     /// Control source over time. Does not affect any score.
     pub flown_by: Vec<ControlInterval>,
@@ -103,9 +103,9 @@ pub struct Assessment {
 /// An interval of consecutive frames with the same control source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct ControlInterval {
-    /// Number of the first frame.
+    /// First frame number.
     pub from_frame: u32,
-    /// Number of the last frame, inclusive.
+    /// Last frame number, inclusive.
     pub to_frame: u32,
     /// Control source; `None` before the first heartbeat.
     pub by: Option<ControlSource>,
@@ -116,40 +116,40 @@ pub struct ControlInterval {
 pub struct Scores {
     /// Conformity; `None` for a job without tasks.
     pub conformity: Option<Score>,
-    /// Efficiency, from flight time and return.
+    /// Efficiency, based on flight time and return.
     pub efficiency: Score,
-    /// Safety, from crashes.
+    /// Safety, based on crashes.
     pub safety: Score,
     /// Accuracy; `None` for a job without defects.
     pub accuracy: Option<Score>,
-    /// Sum of the scores' percentages.
+    /// Sum of the score percentages.
     pub overall: f64,
-    /// Maximum of `overall`: 100 for each score that applies.
+    /// Maximum possible `overall`: 100 per applicable score.
     pub overall_max: f64,
 }
 
 /// Path and speed results of one task.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TaskResult {
-    /// Number of the task in the scenario.
+    /// Task number in the scenario.
     pub id: u32,
-    /// Whether the drone entered the task's path. If false, the task has the flag `not_attempted`.
+    /// Whether the drone entered the task's path. If not, the task is flagged `not_attempted`.
     pub attempted: bool,
-    /// State of the task: done, partly flown or not attempted.
+    /// Task state: done, partly flown or not attempted.
     pub state: TaskState,
-    /// Fraction of the task's path that was flown, 0 to 1.
+    /// Flown fraction of the task's path, 0 to 1.
     pub covered: f64,
-    /// Number of the first frame on the path.
+    /// First frame number on the path.
     pub first_frame: Option<u32>,
-    /// Number of the last frame on the path.
+    /// Last frame number on the path.
     pub last_frame: Option<u32>,
-    /// Fraction of the window's frames that are on the path (P_p), 0 to 1.
+    /// Fraction of window frames on the path (P_p), 0 to 1.
     pub on_path: f64,
     /// Speeding loss of the task (P_s in TASBID).
     pub speeding: f64,
 }
 
-/// Crash counts, by kind of object hit.
+/// Crash counts by kind of object hit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashCounts {
     /// Number of contacts with anything except people and vehicles (X_o).
@@ -158,7 +158,7 @@ pub struct CrashCounts {
     pub person: usize,
     /// 1 if a vehicle was hit, otherwise 0 (X_v).
     pub vehicle: usize,
-    /// Number of crashes by task number; crashes outside all windows have the key `outside`.
+    /// Crash counts by task number; the key `outside` counts crashes outside all windows.
     pub by_task: serde_json::Map<String, serde_json::Value>,
 }
 
@@ -167,9 +167,9 @@ pub struct CrashCounts {
 pub struct SnapshotCounts {
     /// Number of pictures taken (X_pd).
     pub taken: usize,
-    /// Number of pictures that show a defect not shown in any earlier picture.
+    /// Number of pictures that show a new defect.
     pub hits: usize,
-    /// Number of different defects that the pictures show (X_td).
+    /// Number of distinct defects shown (X_td).
     pub defects_found: usize,
     /// Number of defects placed in the scene (X_d).
     pub defects_placed: usize,
@@ -179,7 +179,7 @@ pub struct SnapshotCounts {
     pub recall: Option<f64>,
     /// F-measure of precision and recall; `None` if no defect was placed.
     pub f_beta: Option<f64>,
-    /// Result of each picture in order, including the conditions that it did not meet.
+    /// Individual picture results in order, including any unmet conditions.
     pub each: Vec<Snapshot>,
 }
 
@@ -196,7 +196,7 @@ pub struct SessionEnd {
     pub battery_failed: bool,
 }
 
-/// Fraction of the session for which telemetry was received, and its gaps.
+/// Fraction of the session with received telemetry, and the gaps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TelemetryCoverage {
     /// Number of frames in gaps longer than 1 s. They repeat the last position and velocity.
@@ -209,14 +209,14 @@ pub struct TelemetryCoverage {
     pub covered: f64,
 }
 
-/// An assessment, together with the frames from which it was computed.
+/// An assessment and the frames it was computed from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AssessedSession {
-    /// Assessment of the session.
+    /// The session's assessment.
     pub assessment: Assessment,
-    /// Frames of the session; frame 1 has index 0.
+    /// Session frames; frame 1 has index 0.
     pub frames: Vec<Frame>,
-    /// Seed from which the defects were placed.
+    /// Seed used to place the defects.
     pub seed: u64,
 }
 
@@ -291,7 +291,7 @@ pub fn assess_log(
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log)?;
     let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
-    // The flight contains all required data. Keeping the timeline as well would double the memory usage.
+    // The flight contains all required data. Keeping the timeline as well would double memory use.
     drop(timeline);
     let survey = attention::with_flight_closures(build(scenario, seed), &flight);
     let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: survey.as_ref() })?;
@@ -311,13 +311,13 @@ pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Veh
     Ok((flight, seed))
 }
 
-/// Returns the flight to score: the first one in which the drone lifted off, otherwise the last one.
+/// Returns the flight to score: the first with a lift-off, or the last one if there was none.
 #[must_use]
 pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Flight {
     scored_epoch(timeline, scenario, vehicle).1
 }
 
-/// Returns the flight to score, and the number of simulator runs before it in the timeline.
+/// Returns the flight to score and the number of earlier simulator runs in the timeline.
 #[must_use]
 pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
     let height_m = lift_off_height_m(vehicle);
@@ -331,7 +331,7 @@ pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle)
     last
 }
 
-/// Returns the session's seed. Checks that the telemetry, the scenario and the command line agree on scenario and seed.
+/// Checks that the telemetry, scenario and command line agree on scenario and seed, and returns the seed.
 ///
 /// # Errors
 /// Fails if the scenario or the seed differs, or if no seed is available.
@@ -380,7 +380,7 @@ fn shares(scenario: &Scenario, session: &Session, on_path: &OnPath) -> Vec<TaskS
     on_path.windows.iter().enumerate().map(one).collect()
 }
 
-/// Computes the scores of the TASBID paper from the measures.
+/// Computes the TASBID paper's scores from the measures.
 #[must_use]
 pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &SessionEnd, crashes: &[Crash], counts: DetectionTally) -> Scores {
     let scoring = &scenario.scoring;

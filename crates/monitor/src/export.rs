@@ -1,5 +1,5 @@
-//! Exports for external tools: the frames as a table, and the scoring-related parts of a scenario as JSON. Column names and keys
-//! are stable. Numbers are written with the fewest digits that still represent the value exactly.
+//! Exports for external tools: the frames as a table, and the scoring-related parts of a scenario as JSON. Column names
+//! and keys are stable. Numbers use the fewest digits that represent the value exactly.
 
 pub mod columns;
 pub mod fields;
@@ -12,7 +12,7 @@ use serde::Serialize;
 use spandrel_model::elements::Element;
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 
-/// A task in the scenario export.
+/// Task in the scenario export.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskExport {
     id: u32,
@@ -22,7 +22,7 @@ pub struct TaskExport {
     path_enu_m: Vec<[f64; 3]>,
 }
 
-/// A defect in the scenario export.
+/// Defect in the scenario export.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DefectExport {
     id: u32,
@@ -33,7 +33,7 @@ pub struct DefectExport {
     size_m: f64,
 }
 
-/// The parts of a scenario that a scorer needs.
+/// The scoring-related parts of a scenario.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScenarioExport {
     name: String,
@@ -42,7 +42,7 @@ pub struct ScenarioExport {
     max_speed_m_s: f64,
     time_best_s: f64,
     time_max_s: f64,
-    /// Weight of recall; a number, or the string `inf` because JSON has no infinity.
+    /// Weight of recall: a number, or the string `inf` because JSON cannot represent infinity.
     beta: serde_json::Value,
     tasks: Vec<TaskExport>,
     defects: Vec<DefectExport>,
@@ -86,6 +86,6 @@ impl ScenarioExport {
 /// Serializes an export as indented JSON with a trailing newline.
 #[must_use]
 pub fn json_text(value: &impl Serialize) -> String {
-    // Serialization cannot fail here, because all map keys are strings.
+    // Serialization cannot fail because all map keys are strings.
     serde_json::to_string_pretty(value).map(|text| text + "\n").unwrap_or_default()
 }

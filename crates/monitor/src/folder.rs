@@ -1,4 +1,4 @@
-//! File names in the session folder and the contents of `session.json`. The application writes the files.
+//! Session folder file names and the contents of `session.json`. The application writes the files.
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -14,48 +14,48 @@ pub const VEHICLE: &str = "vehicle.toml";
 pub const SESSION: &str = "session.json";
 /// Event log with one JSON object per line.
 pub const EVENTS: &str = "events.jsonl";
-/// Name of the event that is logged when the simulator restarts.
+/// Event logged when the simulator restarts.
 pub const SIMULATOR_RESTARTED: &str = "simulator_restarted";
-/// Scores and measures of the session.
+/// Session scores and measures.
 pub const ASSESSMENT: &str = "assessment.json";
 /// Report page.
 pub const REPORT: &str = "report.html";
 /// Folder that contains the pictures.
 pub const SNAPSHOTS: &str = "snapshots";
-/// Subfolder with reduced copies of the pictures for the report, under the same file names.
+/// Subfolder with downsized copies of the pictures for the report, under the same file names.
 pub const SMALL: &str = "small";
 
 /// Contents of `session.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SessionInfo {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Start time in UTC, RFC 3339.
     pub started_utc: String,
-    /// Version of Spandrel that recorded the session.
+    /// Spandrel version that recorded the session.
     pub spandrel_version: String,
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
     /// The scenario's `scn_crc`, hexadecimal.
     pub scenario_crc: String,
     /// SHA-256 of `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle id, such as `phantom2`.
+    /// Vehicle ID, such as `phantom2`.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
-    /// Seed of the session; `None` until it is received.
+    /// The session's seed; `None` until received.
     pub seed: Option<u64>,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
-    /// Number of times that the monitor was started for this folder.
+    /// Number of monitor starts for this folder.
     pub monitor_starts: u32,
     /// Link statistics since the monitor was last started.
     pub link: LinkCounts,
-    /// Number of received bytes that were not valid MAVLink.
+    /// Number of received bytes that are not valid MAVLink.
     pub bad_bytes: u64,
 }
 

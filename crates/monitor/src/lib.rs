@@ -1,8 +1,8 @@
-//! The monitor observes an inspection flight through its telemetry only, gives feedback during the flight, and scores it
-//! afterward. It does not depend on the simulator, so flights with a real autopilot are scored in the same way.
+//! The monitor observes an inspection flight solely through telemetry, gives feedback during the flight, and scores it
+//! afterward. It is independent of the simulator, so flights with a real autopilot are scored the same way.
 //!
-//! [`assessment::assess`] is the only scorer. Both the live [`Monitor`] and [`assess_log`] call it, so scoring a recorded flight
-//! again gives exactly the same scores:
+//! [`assessment::assess`] is the only scorer. Both the live [`Monitor`] and [`assess_log`] call it, so rescoring a
+//! recorded flight gives exactly the same scores:
 //!
 //! ```
 //! use spandrel_monitor::{AssessError, assess_log, sidecar::build_site};

@@ -1,5 +1,5 @@
-//! Converts a flight received over MAVLink to a Foxglove recording with coordinate frames of drone and camera, battery, scoring
-//! data and log messages.
+//! Converts a flight received over MAVLink to a Foxglove recording: drone and camera coordinate frames, battery,
+//! scoring data and log messages.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Flight;
@@ -9,15 +9,15 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// Minimum interval between coordinate frames.
+/// Minimum interval between coordinate frame updates.
 const FRAME_STEP: SimTime = SimTime::from_ms(40);
-/// All other data is recorded once per this number of frames.
+/// Number of frames between recordings of all other data.
 const SLOW_DATA_INTERVAL_FRAMES: usize = 25;
-/// MAVLink severities used for log messages.
+/// MAVLink severity levels used for log messages.
 const SEVERITY_CRITICAL: u8 = 2;
 const SEVERITY_INFO: u8 = 6;
 
-/// Returns all messages of the recording in chronological order.
+/// Returns all messages in the recording in chronological order.
 #[must_use]
 pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<ChannelMessage> {
     let unix_ns = |time: SimTime| (scenario.light.start_unix_s * 1_000_000_000 + time.ns()).max(0).cast_unsigned();

@@ -1,4 +1,4 @@
-//! Determines the start and end of a session, and the reason why it ended.
+//! Determines a session's start, end and end reason.
 
 use super::measures::crash;
 use serde::Serialize;
@@ -12,7 +12,7 @@ use spandrel_model::vehicle::Vehicle;
 
 /// Minimum height of the drone's center above the pad that counts as lift-off, m (docs/src/reference/assessment.md, "Frames").
 const MIN_LIFT_OFF_HEIGHT_M: f64 = 0.3;
-/// Margin above the resting height, for aircraft whose center is higher than `MIN_LIFT_OFF_HEIGHT_M` when resting, m (estimate).
+/// Margin above the resting height for aircraft whose center rests higher than `MIN_LIFT_OFF_HEIGHT_M`, m (estimate).
 const RESTING_HEIGHT_MARGIN_M: f64 = 0.05;
 /// Speed below which the drone is at rest, m/s (estimate: above the resolution of 0.01 m/s in the truth messages, below any
 /// controlled drift).
@@ -20,10 +20,10 @@ const MAX_REST_SPEED_M_S: f64 = 0.2;
 /// Time at rest that counts as a landing (docs/src/reference/assessment.md, "Frames").
 const LANDING_REST_TIME: SimTime = SimTime::from_ms(3_000);
 
-/// Maximum age of the armed and on-ground states, which the autopilot sends once per second.
+/// Maximum age of the armed and on-ground states, which the autopilot sends every second.
 const MAX_STATE_AGE: SimTime = SimTime::from_ms(1_500);
 
-/// Reason why a session ended.
+/// Reason that a session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(into = "&'static str")]
 pub enum EndReason {
@@ -68,7 +68,7 @@ impl EndReason {
     }
 }
 
-/// State of the flight at one point in time, used to detect the end of the session.
+/// Flight state at one time step, used to detect the end of the session.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndRuleInput {
     /// Current simulation time.
@@ -77,20 +77,20 @@ pub struct EndRuleInput {
     pub flown_s: f64,
     /// Position of the drone's center in the site frame, m.
     pub position_m: Vec3<Enu>,
-    /// Magnitude of the velocity, m/s.
+    /// Speed (magnitude of the velocity), m/s.
     pub speed_m_s: f64,
-    /// Kind of object in contact, after touchdowns on the pad are removed.
+    /// Kind of object in contact, excluding touchdowns on the pad.
     pub contact: ContactKind,
-    /// Remaining battery charge, 0 to 100 %.
+    /// Remaining battery charge, %.
     pub battery_pct: f64,
-    /// Whether the drone is armed; `None` if not received yet.
+    /// Whether the drone is armed; `None` if not yet received.
     pub armed: Option<bool>,
     /// Whether the autopilot reports that the drone is on the ground.
     pub on_ground: bool,
 }
 
-/// Detects the end of a session. A landing counts from the moment when the drone came to rest, but is confirmed only after the
-/// rest time. Events in between, such as an empty battery, do not override the landing.
+/// Detects the end of a session. A landing counts from the time the drone came to rest but is confirmed only after
+/// the rest time. Events in between, such as an empty battery, do not override it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndRule {
     pad_m: Vec3<Enu>,
@@ -106,7 +106,7 @@ pub struct EndRule {
 }
 
 impl EndRule {
-    /// Creates the rule for a session.
+    /// Creates the end rule for a session.
     #[must_use]
     pub fn new(scenario: &Scenario, vehicle: &Vehicle) -> Self {
         Self {
@@ -123,7 +123,7 @@ impl EndRule {
         }
     }
 
-    /// Discards armed and on-ground states that were received before a respawn.
+    /// Discards armed and on-ground states received before a respawn.
     fn discard_stale_states(&mut self, moment: &EndRuleInput) -> EndRuleInput {
         let jumped = self.last.is_some_and(|last| {
             let step_m = (moment.position_m - last.position_m).norm();
@@ -140,7 +140,7 @@ impl EndRule {
         EndRuleInput { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
     }
 
-    /// Returns the time of the last frame and the reason for the end, if the session ends now.
+    /// Returns the time of the last frame and the end reason if the session ends now.
     pub fn update(&mut self, moment: &EndRuleInput) -> Option<(SimTime, EndReason)> {
         let moment = &self.discard_stale_states(moment);
         match moment.contact {
@@ -153,7 +153,7 @@ impl EndRule {
             }
             ContactKind::None | ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other => {}
         }
-        // The armed state can be up to a second old. Disarmed therefore means a landing only after armed was received.
+        // The armed state can be up to a second old, so disarmed means a landing only after armed was received.
         self.seen_armed |= moment.armed == Some(true);
         self.rest_since = self.has_landed_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
         if let Some(since) = self.rest_since
@@ -170,7 +170,8 @@ impl EndRule {
         if self.rest_since.is_none() { self.pending } else { None }
     }
 
-    /// Returns the end that is on hold while a possible landing is being confirmed. It applies if the telemetry stops first.
+    /// Returns the pending end while a possible landing is being confirmed. It takes effect if the telemetry stops
+    /// first.
     #[must_use]
     pub fn pending(&self) -> Option<(SimTime, EndReason)> {
         self.pending
@@ -183,27 +184,27 @@ impl EndRule {
     }
 }
 
-/// Returns the height of the drone's center above the pad at which this aircraft counts as lifted off, m.
+/// Returns the height of the aircraft's center above the pad that counts as lift-off, m.
 #[must_use]
 pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     let stand = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);
     MIN_LIFT_OFF_HEIGHT_M.max(stand + RESTING_HEIGHT_MARGIN_M)
 }
 
-/// Time beyond the time limit during which frames are still evaluated. It is longer than a landing takes to be confirmed.
+/// How long frames are still evaluated past the time limit; longer than it takes to confirm a landing.
 const EVALUATION_MARGIN: SimTime = SimTime::from_ms(10_000);
 
-/// The frames of a session and its end.
+/// A session's frames and end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Session {
-    /// Frames of the session, with touchdowns on the pad removed; frame 1 has index 0.
+    /// Session frames, with pad touchdowns removed; frame 1 has index 0.
     pub frames: Vec<Frame>,
-    /// Reason why the session ended after the last frame.
+    /// Reason that the session ended after the last frame.
     pub reason: EndReason,
 }
 
 impl Session {
-    /// Extracts the session from a flight; `None` if the drone never lifted off.
+    /// Extracts the session from a flight; `None` if there was no lift-off.
     #[must_use]
     pub fn truncate(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
         let start = flight.lift_off(scenario.ground_team.pad_m.up(), lift_off_height_m(vehicle))?;
@@ -220,7 +221,7 @@ impl Session {
         Some(Self { frames, reason })
     }
 
-    /// Returns the duration of the session (N/f), s.
+    /// Returns the session duration (N/f), s.
     #[must_use]
     pub fn seconds(&self, frame_rate_hz: f64) -> f64 {
         self.frames.len() as f64 / frame_rate_hz
@@ -229,7 +230,7 @@ impl Session {
 
 fn all_frames(flight: &Flight, start: SimTime, end: SimTime, rate: f64) -> Vec<Frame> {
     let at = |k: u32| start + SimTime::from_s(f64::from(k) / rate);
-    // Frame 1 has no predecessor, so its interval contains only its own instant.
+    // Frame 1 has no predecessor, so its interval is a single instant.
     let before = SimTime::from_ns(start.ns() - 1);
     (0u32..)
         .take_while(|k| at(*k) <= end)
@@ -261,8 +262,8 @@ mod tests {
         EndRule::new(&read(include_str!("../../../scenarios/two-bridges.toml")), &vehicle)
     }
 
-    /// Returns the first end within eight seconds at rest at a fixed position, sampled 30 times per second from `from_ms`.
-    /// `words` returns the armed and on-ground states of a sample.
+    /// Returns the first end detected within eight seconds at rest, sampled 30 times per second from `from_ms`. `words`
+    /// returns the armed and on-ground states of a sample.
     fn end(rule: &mut EndRule, from_ms: i64, position_m: Vec3<Enu>, words: impl Fn(i64) -> (bool, bool)) -> Option<EndReason> {
         (0..240).find_map(|k| {
             let (armed, on_ground) = words(k);
@@ -292,7 +293,7 @@ mod tests {
         // disarmed and on the ground.
         assert_eq!(end(&mut rule, 8_000, pad_m + Vec3::new(80.0, 0.0, -5.0), |_| (false, true)), None);
         assert_eq!(end(&mut rule, 16_000, over_home, |k| (k >= 30, k < 30)), None);
-        // Later states are valid again: the drone rests on an object near home and disarms.
+        // Later states are valid again: the drone comes to rest near home and disarms.
         assert_eq!(end(&mut rule, 24_000, over_home, |_| (false, true)), Some(EndReason::Landed));
     }
 }

@@ -1,4 +1,4 @@
-//! Checks the score formulas against reference values: the assessment's definitions and results from the pilot study.
+//! Checks the score formulas against the assessment's definitions and pilot study results.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_monitor::score::accuracy::DetectionTally;
@@ -7,11 +7,11 @@ use spandrel_monitor::score::{efficiency, safety};
 
 const SPEED_LIMIT_M_S: f64 = 4.4704;
 const MAX_SPEED_M_S: f64 = 13.4112;
-/// Tolerance for the rounding error of a few operations on numbers up to 100, points.
+/// Tolerance for rounding errors in a few operations on numbers up to 100, points.
 const TOLERANCE: f64 = 1e-12;
 
 fn assert_close(got: f64, wanted: f64) {
-    assert!((got - wanted).abs() < TOLERANCE, "got {got}, wanted {wanted}");
+    assert!((got - wanted).abs() < TOLERANCE, "got {got}, expected {wanted}");
 }
 
 fn conformity_pct(tasks: &[(f64, f64)]) -> f64 {

@@ -139,7 +139,7 @@ impl Faults {
             FailureUnit::Sticks => self.sticks = kind,
             FailureUnit::Battery => {}
             FailureUnit::Magnetometer | FailureUnit::Barometer | FailureUnit::Gnss | FailureUnit::Flow | FailureUnit::Ranges => {
-                self.sensors[place(unit)] = kind
+                self.sensors[sensor_index(unit)] = kind
             }
         }
         true
@@ -153,7 +153,7 @@ impl Faults {
 
     /// Returns true if manual control input reaches the autopilot at this time.
     #[must_use]
-    pub fn passes_sticks(&self, now: SimTime) -> bool {
+    pub fn passes_manual_control(&self, now: SimTime) -> bool {
         match self.sticks {
             Some(FailureType::Intermittent) => !is_silent(now),
             Some(_) => false,
@@ -164,7 +164,7 @@ impl Faults {
     /// Stores the latest reading of every sensor that is not stuck.
     fn freeze(&mut self, fresh: &Readings) {
         let before = self.held;
-        let stuck = |unit| self.sensors[place(unit)] == Some(FailureType::Stuck);
+        let stuck = |unit| self.sensors[sensor_index(unit)] == Some(FailureType::Stuck);
         let [mag, baro, gnss, flow, ranges] =
             [FailureUnit::Magnetometer, FailureUnit::Barometer, FailureUnit::Gnss, FailureUnit::Flow, FailureUnit::Ranges]
                 .map(stuck);
@@ -199,7 +199,7 @@ impl Faults {
         self.freeze(fresh);
         let held = self.held;
         let noise = |stream: &mut RandomStream, scale: f64| stream.normal3().map(|x| x * scale);
-        if let Some(kind) = kinds[place(FailureUnit::Gnss)]
+        if let Some(kind) = kinds[sensor_index(FailureUnit::Gnss)]
             && let Some(fix) = &mut fresh.gnss
         {
             let [n, e, d] = match kind {
@@ -216,7 +216,7 @@ impl Faults {
                 fresh.gnss = held.gnss;
             }
         }
-        if let Some(kind) = kinds[place(FailureUnit::Barometer)] {
+        if let Some(kind) = kinds[sensor_index(FailureUnit::Barometer)] {
             let rise = match kind {
                 FailureType::Wrong => HEIGHT_ERROR_M,
                 FailureType::Garbage => self.stream.normal() * GARBAGE_UP_M,
@@ -224,7 +224,7 @@ impl Faults {
             };
             fresh.baro_up_m = faulty_reading(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
         }
-        if let Some(kind) = kinds[place(FailureUnit::Magnetometer)] {
+        if let Some(kind) = kinds[sensor_index(FailureUnit::Magnetometer)] {
             let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {
                 // Rotated by 90 degrees, as by a magnet near the sensor.
                 FailureType::Wrong => Vec3::new(-field.right(), field.forward(), field.down()),
@@ -236,10 +236,10 @@ impl Faults {
             let spoilt = fresh.mag_gauss.map(|field| turned(field, noise(&mut self.stream, scale)));
             fresh.mag_gauss = faulty_reading(kind, spoilt, held.mag_gauss, now);
         }
-        if let Some(kind) = kinds[place(FailureUnit::Flow)] {
+        if let Some(kind) = kinds[sensor_index(FailureUnit::Flow)] {
             fresh.flow = faulty_reading(kind, fresh.flow, held.flow, now);
         }
-        if let Some(kind) = kinds[place(FailureUnit::Ranges)] {
+        if let Some(kind) = kinds[sensor_index(FailureUnit::Ranges)] {
             let factor = match kind {
                 FailureType::Wrong => RANGE_FACTOR,
                 FailureType::Garbage => 0.2 + self.stream.uniform(),
@@ -262,7 +262,7 @@ impl Faults {
     }
 }
 
-fn place(sensor: FailureUnit) -> usize {
+fn sensor_index(sensor: FailureUnit) -> usize {
     match sensor {
         FailureUnit::Magnetometer => 0,
         FailureUnit::Barometer => 1,
@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_each_failure_type_corrupts_a_reading() {
+    fn exact_each_failure_type_corrupts_readings() {
         assert_eq!(is_corrupted(FailureType::Off, 0), None);
         assert_eq!(is_corrupted(FailureType::Stuck, 0), Some(3.0));
         assert_eq!(is_corrupted(FailureType::Wrong, 0), Some(5.0 + HEIGHT_ERROR_M));

@@ -101,7 +101,7 @@ pub struct Sim {
     wind: WindField,
     now: SimTime,
     /// Boot time of the autopilot.
-    booted: SimTime,
+    boot_time: SimTime,
     readings: Readings,
     actuators: Actuators,
     scoring: ScoringTruth,
@@ -115,12 +115,12 @@ pub struct Sim {
     /// Whether the current contact reached crash speed.
     hard_contact: bool,
     touched_at: SimTime,
-    standing_up_m: f64,
+    start_height_m: f64,
     has_lifted_off: bool,
     end_reason: Option<String>,
     battery_empty_reported: bool,
     speed_factor: f64,
-    pending_answers: BTreeMap<LinkId, i64>,
+    pending_responses: BTreeMap<LinkId, i64>,
     inbox: Inbox,
     radio: RadioLink,
     faults: Faults,
@@ -172,7 +172,7 @@ impl Sim {
             endpoint,
             wind: WindField::new(&scenario.wind, seed),
             now: SimTime::ZERO,
-            booted: SimTime::ZERO,
+            boot_time: SimTime::ZERO,
             readings: Readings::default(),
             actuators: Actuators::default(),
             scoring: ScoringTruth {
@@ -190,12 +190,12 @@ impl Sim {
             crashed_since: None,
             hard_contact: false,
             touched_at: SimTime::ZERO,
-            standing_up_m: -start.down(),
+            start_height_m: -start.down(),
             has_lifted_off: false,
             end_reason: None,
             battery_empty_reported: false,
             speed_factor: 1.0,
-            pending_answers: BTreeMap::new(),
+            pending_responses: BTreeMap::new(),
             inbox: Inbox::default(),
             radio: RadioLink::new(seed),
             faults: Faults::new(seed),
@@ -231,7 +231,7 @@ impl Sim {
     pub fn close_link(&mut self, link: LinkId) {
         self.endpoint.close(link);
         self.inbox.close(link);
-        self.pending_answers.remove(&link);
+        self.pending_responses.remove(&link);
         self.scale_timeouts();
     }
 
@@ -289,10 +289,10 @@ impl Sim {
         }
         self.endpoint.links.note_received(link);
         let mut datagram = ReceivedDatagram::new(bytes);
-        if let Some(token) = self.pending_answers.get(&link)
+        if let Some(token) = self.pending_responses.get(&link)
             && self.endpoint.links.answers_lockstep(link, &mut datagram, *token)
         {
-            self.pending_answers.remove(&link);
+            self.pending_responses.remove(&link);
             self.endpoint.links.join_lockstep(link);
         }
         self.inbox.push(link, datagram);
@@ -301,7 +301,7 @@ impl Sim {
     /// Returns true while simulation time is stopped because a lockstep peer has not responded.
     #[must_use]
     pub fn waiting(&self) -> bool {
-        !self.pending_answers.is_empty()
+        !self.pending_responses.is_empty()
     }
 
     /// Returns `None` unless the simulation is waiting for peers that have never responded; otherwise, whether data has
@@ -309,25 +309,25 @@ impl Sim {
     #[must_use]
     pub fn awaits_first_response(&self) -> Option<bool> {
         let has_received = |(link, step, has_received): (LinkId, LockstepState, bool)| {
-            (step == LockstepState::Awaited && self.pending_answers.contains_key(&link)).then_some(has_received)
+            (step == LockstepState::Awaited && self.pending_responses.contains_key(&link)).then_some(has_received)
         };
         self.endpoint.links.lockstep_states().filter_map(has_received).reduce(|a, b| a && b)
     }
 
     /// Sends heartbeats and another lockstep request to peers that have never responded. Does not change the vehicle.
-    pub fn send_first_contact(&mut self) {
+    pub fn send_first_heartbeats(&mut self) {
         self.pause(false);
         self.endpoint.links.request_lockstep(self.now);
     }
 
     /// Stops waiting for first responses. Lockstep with each peer begins with its first response.
-    pub fn skip_first_responses(&mut self) {
-        let pending: Vec<LinkId> = self.pending_answers.keys().copied().collect();
+    pub fn stop_awaiting_first_responses(&mut self) {
+        let pending: Vec<LinkId> = self.pending_responses.keys().copied().collect();
         for link in pending {
             self.endpoint.links.serve_in_real_time(link);
         }
         let peers: Vec<LinkId> = self.endpoint.links.lockstep_peers().collect();
-        self.pending_answers.retain(|link, _| peers.contains(link));
+        self.pending_responses.retain(|link, _| peers.contains(link));
     }
 
     /// Returns true while a lockstep peer has not responded yet. Simulation time follows wall time until it does.
@@ -384,8 +384,8 @@ impl Sim {
     /// Sends lockstep requests. Returns true if there are peers to wait for.
     fn send_lockstep_requests(&mut self) -> bool {
         self.endpoint.links.request_lockstep(self.now);
-        self.pending_answers = self.endpoint.links.lockstep_peers().map(|link| (link, self.now.ns())).collect();
-        !self.pending_answers.is_empty()
+        self.pending_responses = self.endpoint.links.lockstep_peers().map(|link| (link, self.now.ns())).collect();
+        !self.pending_responses.is_empty()
     }
 
     /// Processes received datagrams up to the per-tick limit of each link.
@@ -410,7 +410,7 @@ impl Sim {
     /// Restarts the autopilot on the ground. The environment is unaffected.
     fn restart_autopilot(&mut self) {
         self.backend = Backend::Builtin(Box::new(new_autopilot(&self.config)));
-        self.booted = self.now;
+        self.boot_time = self.now;
         let Interface { aircraft, autopilot, endpoint, .. } = self.interface();
         endpoint.boot(&aircraft, autopilot);
         self.scale_timeouts();
@@ -422,7 +422,7 @@ impl Sim {
         let aircraft = SimulatedAircraft {
             clock: VehicleClock {
                 now: self.now,
-                autopilot_booted: self.booted,
+                autopilot_booted: self.boot_time,
                 start_unix_s: self.config.scenario.light.start_unix_s,
                 link_kind: LinkKind::GroundStation,
             },

@@ -46,25 +46,25 @@ const MAX_KEPT_FRAMES: usize = 20_000;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MissedExpectation {
     /// The command was not accepted.
-    #[error("{command:?} was rejected with {result:?}; last status text: {said}")]
+    #[error("{command:?} was rejected with {result:?}; last status text: {last_status_text}")]
     Refused {
         /// The rejected command.
         command: MavCmd,
         /// The result that the vehicle returned.
         result: MavResult,
         /// The vehicle's latest status text.
-        said: String,
+        last_status_text: String,
     },
     /// No response within one second of simulation time.
     #[error("no response to {0:?}")]
-    Silent(MavCmd),
+    NoResponse(MavCmd),
     /// A condition was not met in time.
-    #[error("condition not met within {limit_s} s of simulation time; last status text: {said}")]
-    Late {
+    #[error("condition not met within {limit_s} s of simulation time; last status text: {last_status_text}")]
+    TimedOut {
         /// The time limit in whole seconds.
         limit_s: i64,
         /// The vehicle's latest status text.
-        said: String,
+        last_status_text: String,
     },
 }
 
@@ -281,7 +281,7 @@ impl Vehicle {
         let start = self.now();
         while !holds(self) {
             if self.now() - start >= limit {
-                return Err(MissedExpectation::Late { limit_s: limit.ms() / 1000, said: self.status_texts() });
+                return Err(MissedExpectation::TimedOut { limit_s: limit.ms() / 1000, last_status_text: self.status_texts() });
             }
             self.run(CHECK_INTERVAL);
         }
@@ -311,10 +311,12 @@ impl Vehicle {
             match answer(self.received.get(before..).unwrap_or(&self.received)) {
                 None | Some(MavResult::MAV_RESULT_IN_PROGRESS) => {}
                 Some(MavResult::MAV_RESULT_ACCEPTED) => return Ok(()),
-                Some(result) => return Err(MissedExpectation::Refused { command, result, said: self.status_texts() }),
+                Some(result) => {
+                    return Err(MissedExpectation::Refused { command, result, last_status_text: self.status_texts() });
+                }
             }
         }
-        Err(MissedExpectation::Silent(command))
+        Err(MissedExpectation::NoResponse(command))
     }
 
     /// Arms as soon as the vehicle allows it.
@@ -337,7 +339,7 @@ impl Vehicle {
     /// # Errors
     /// Returns an error if the command was rejected.
     pub fn take_off(&mut self, height_m: f64) -> Result<(), MissedExpectation> {
-        if let Some(guided) = self.flavour.errands {
+        if let Some(guided) = self.flavour.goto_mode {
             self.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, guided as f32])?;
             return self.command(MavCmd::MAV_CMD_NAV_TAKEOFF, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m as f32]);
         }
@@ -350,10 +352,10 @@ impl Vehicle {
     ///
     /// # Errors
     /// Returns an error if the command was rejected.
-    pub fn go_to(&mut self, place_m: Vec3<Enu>) -> Result<(), MissedExpectation> {
+    pub fn go_to(&mut self, position_m: Vec3<Enu>) -> Result<(), MissedExpectation> {
         let command = MavCmd::MAV_CMD_DO_REPOSITION;
         // Bit 0 of parameter 2 requests a change to a mode that can fly there.
-        self.request(command, &self.command_at(command, place_m, [-1.0, 1.0, 0.0, f32::NAN]))
+        self.request(command, &self.command_at(command, position_m, [-1.0, 1.0, 0.0, f32::NAN]))
     }
 
     /// Lands at the current position.
@@ -379,8 +381,8 @@ impl Vehicle {
     }
 
     /// Returns a command to the autopilot at a position in the scenario's frame, m.
-    fn command_at(&self, command: MavCmd, place_m: Vec3<Enu>, params: [f32; 4]) -> MavMessage {
-        let place = self.sim.site().plane().geo_from_enu(place_m);
+    fn command_at(&self, command: MavCmd, position_m: Vec3<Enu>, params: [f32; 4]) -> MavMessage {
+        let place = self.sim.site().plane().geo_from_enu(position_m);
         MavMessage::COMMAND_INT(station::command_at(1, 1, command, params, place))
     }
 }

@@ -1,4 +1,4 @@
-//! Trainees: pseudonym, role, and the optional background information collected in the TASBID study.
+//! Trainees: pseudonym, role, and optional background information, as collected in the TASBID study.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,22 +7,22 @@ pub const AGE_BANDS: &[&str] = &["18-24", "25-34", "35-44", "45-54", "55-64", "6
 /// Levels of experience with drones and with video games.
 pub const EXPERIENCE: &[&str] = &["none", "some", "regular"];
 
-/// Role of a user, which determines access rights.
+/// User role, which determines access rights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
     /// Flies sessions and sees only their own data.
     Trainee,
-    /// Sees all sessions and can act during flights.
+    /// Sees all sessions and can intervene during flights.
     Instructor,
     /// Also manages users and data retention.
     Administrator,
 }
 
-/// A user of the system, with any role.
+/// A user with any role.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Trainee {
-    /// Pseudonym. The person's identity is not stored.
+    /// Pseudonym. The user's real identity is not stored.
     pub pseudonym: String,
     /// Role, which determines access rights.
     pub role: Role,
@@ -48,7 +48,7 @@ impl Role {
         }
     }
 
-    /// Returns the role for a name used in files and databases.
+    /// Returns the role with this name, as used in files and databases.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.word() == word)

@@ -1,5 +1,5 @@
-//! Exports a session as xAPI statements (Experience API 1.0.3) for a learning record store (LRS). The id of a statement is
-//! derived from its content, so that sending it again does not duplicate it.
+//! Exports a session as xAPI statements (Experience API 1.0.3) for a learning record store (LRS). Statement IDs are
+//! derived from the content, so sending a statement again doesn't duplicate it.
 
 use super::record::{SessionOutcome, SessionRecord, TaskRecord};
 use serde_json::{Value, json};
@@ -9,18 +9,18 @@ use uuid::Uuid;
 
 /// xAPI version to send in the request header.
 pub const VERSION: &str = "1.0.3";
-/// Default home page of the accounts under which trainees' pseudonyms are reported.
+/// Default home page of the accounts that identify trainees by pseudonym.
 pub const HOME: &str = "https://spandrel.invalid/trainees";
-/// Namespace UUID for the ids of statements (RFC 9562, version 5).
+/// Namespace UUID for statement IDs (RFC 9562, version 5).
 const STATEMENT_NAMESPACE: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
-/// Key of a session result extension: completion of the job.
+/// Key of the session result extension for job completion.
 const COMPLETION: &str = "urn:spandrel:completion";
-/// Key of a task result extension: fraction of the task's path that was flown.
+/// Key of the task result extension for the flown fraction of the task's path.
 const COVERED: &str = "urn:spandrel:covered";
-/// Prefix of verb ids in ADL's vocabulary.
+/// Prefix of verb IDs in ADL's vocabulary.
 const VERB_PREFIX: &str = "http://adlnet.gov/expapi/verbs/";
 
-/// Returns all statements of a session: the flight, its scores, the attempted tasks, and the questionnaire answers.
+/// Returns all statements about a session: the flight, its scores, the attempted tasks, and the questionnaire answers.
 #[must_use]
 pub fn statements(record: &SessionRecord, home: &str) -> Vec<Value> {
     let mut out = vec![flight(record, home)];
@@ -83,7 +83,7 @@ fn score(raw: f64, max: f64) -> Value {
     json!({ "scaled": scaled, "raw": raw, "min": 0.0, "max": max.max(raw) })
 }
 
-/// Creates a statement about the job (if `below` is empty) or about a part of it.
+/// Creates a statement about the job (if `below` is empty) or a part of it.
 fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&str, &str), result: Value) -> Value {
     let slash = if below.is_empty() { "" } else { "/" };
     let activity = format!("urn:spandrel:scenario:{}{slash}{below}", record.scenario);
@@ -103,7 +103,7 @@ fn statement(record: &SessionRecord, home: &str, below: &str, (verb, name): (&st
         },
         "timestamp": utc(record.started_unix_us).0,
     });
-    // The id depends on the whole content: a changed answer gets a new id; an unchanged statement keeps its id.
+    // The ID depends on the entire content: a changed answer gets a new ID, while an unchanged statement keeps its ID.
     let id = id(&statement.to_string());
     if let Some(fields) = statement.as_object_mut() {
         fields.insert("id".to_owned(), Value::String(id));

@@ -1,4 +1,4 @@
-//! Tests of session records: the recorded causes must match the known faults in each test flight.
+//! Tests of session records: the recorded causes must match each test flight's known faults.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_model::scenario::Scenario;
@@ -7,9 +7,9 @@ use spandrel_monitor::measures::attention::SiteSurvey;
 use spandrel_testkit::job::*;
 use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
 
-/// Tolerance for a fault's duration: it can start and end anywhere within a frame (40 ms at 25 Hz), s.
+/// Tolerance for fault durations, s: a fault can start and end anywhere within a frame (40 ms at 25 Hz).
 const DURATION_TOLERANCE_S: f64 = 0.081;
-/// Tolerance for positions, which MAVLink transmits in 1e-7 degrees and millimeters, m.
+/// Tolerance for positions, m; MAVLink sends them in 1e-7 degrees and millimeters.
 const POSITION_TOLERANCE_M: f64 = 0.02;
 
 /// Creates a job with two tasks at a height of 10 m: task 1 from 10 to 60 m east, task 2 from 70 to 100 m east.
@@ -18,7 +18,7 @@ fn two_tasks() -> Scenario {
     scenario(vec![near, task(2, line((70.0, 0.0, 10.0), (100.0, 0.0, 10.0)), 3.0)])
 }
 
-/// Records a flight of task 1 that contains each fault once. Task 2 is not flown.
+/// Records a flight of task 1 that includes each fault once. Task 2 is not flown.
 fn faulty_flight() -> Tape {
     let mut tape = Tape::new();
     tape.hold(1.0);
@@ -26,7 +26,7 @@ fn faulty_flight() -> Tape {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.snapshot(1);
     tape.hold(0.2);
-    // Too high: 1.5 s above the 3 m limit while climbing at 1 m/s, 2 s of hover, 4 s along the path, 1.5 s while descending.
+    // Too high: 1.5 s above the 3 m limit while climbing at 1 m/s, 2 s hovering, 4 s along the path, 1.5 s descending.
     tape.fly((30.0, 0.0, 14.5), 1.0);
     tape.hold(1.0);
     tape.contact(1);
@@ -62,7 +62,7 @@ fn session_record(graded: &AssessedSession, scenario: &Scenario) -> SessionRecor
         vehicle: "test",
         hashes: &SourceHashes::of(b"s", b"v", b"t", b""),
         graded,
-        placed: Fence::of(10).defects(),
+        placed: TestSurvey::of(10).defects(),
         answers: None,
     })
 }
@@ -70,7 +70,7 @@ fn session_record(graded: &AssessedSession, scenario: &Scenario) -> SessionRecor
 #[test]
 fn exact_record_contains_faults_of_flight() {
     let job = two_tasks();
-    let graded = grade(&faulty_flight(), &job);
+    let graded = score_tape(&faulty_flight(), &job);
     let record = session_record(&graded, &job);
     let task = &record.tasks[0];
     assert!((task.off_path_s - 9.0).abs() < DURATION_TOLERANCE_S, "{}", task.off_path_s);
@@ -91,7 +91,7 @@ fn exact_record_contains_faults_of_flight() {
 #[test]
 fn exact_defects_belong_to_nearest_task_with_failed_conditions() {
     let job = two_tasks();
-    let record = session_record(&grade(&faulty_flight(), &job), &job);
+    let record = session_record(&score_tape(&faulty_flight(), &job), &job);
     assert_eq!(record.defects.iter().map(|defect| defect.task.unwrap()).collect::<Vec<_>>(), [1, 1, 1, 1, 1, 1, 2, 2, 2, 2]);
     assert_eq!(record.defects.iter().filter(|defect| defect.found).map(|defect| defect.id).collect::<Vec<_>>(), [5]);
     assert!(record.defects[2].lacked.iter().any(|lacked| lacked.starts_with("too dark: lamp off")), "{:?}", record.defects[2]);
@@ -103,7 +103,7 @@ fn exact_defects_belong_to_nearest_task_with_failed_conditions() {
 #[test]
 fn exact_record_round_trips() {
     let job = two_tasks();
-    let record = session_record(&grade(&faulty_flight(), &job), &job);
+    let record = session_record(&score_tape(&faulty_flight(), &job), &job);
     assert_eq!(record.check(), Ok(()));
     let again: SessionRecord = serde_json::from_str(&serde_json::to_string(&record).unwrap()).unwrap();
     assert_eq!(again, record);
@@ -117,15 +117,15 @@ fn exact_sideways_deviation_is_not_a_height_deviation() {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.fly((30.0, 5.0, 10.0), 2.0);
     tape.hold(3.0);
-    // Beyond 8 m from the path, the drone is considered to be elsewhere, not off the path.
+    // More than 8 m from the path, the drone counts as elsewhere rather than off the path.
     tape.fly((30.0, 20.0, 10.0), 4.0);
     tape.hold(5.0);
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.fly((60.0, 0.0, 10.0), 4.0);
     tape.land();
-    let record = session_record(&grade(&tape, &job), &job);
+    let record = session_record(&score_tape(&tape, &job), &job);
     let task = &record.tasks[0];
     assert!(task.off_height_m.unwrap() < POSITION_TOLERANCE_M && task.off_sideways_m.unwrap() > 4.0);
-    // 3 to 5 m at 2 m/s, 3 s of hover, 5 to 8 m at 4 m/s, 8 to 3 m at 4 m/s.
+    // 3 to 5 m at 2 m/s, 3 s hovering, 5 to 8 m at 4 m/s, 8 to 3 m at 4 m/s.
     assert!((task.off_path_s - (1.0 + 3.0 + 0.75 + 1.25)).abs() < 2.0 * DURATION_TOLERANCE_S, "{}", task.off_path_s);
 }

@@ -1,4 +1,5 @@
-//! Tests of the session report: it matches the scorer, escapes user-provided text, makes no network requests and stays small.
+//! Tests of the session report: it must match the scorer, escape user-provided text, make no network requests and stay
+//! small.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::Encoder;
@@ -7,7 +8,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 use spandrel_monitor::assess_log;
 use spandrel_monitor::sidecar::{COMPONENT, build_site};
-use spandrel_testkit::inspection::{flown, phantom, two_bridges};
+use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
 use spandrel_training::report::feedback::KINDS;
@@ -16,7 +17,7 @@ use std::sync::OnceLock;
 
 /// Maximum size of a report page, bytes.
 const MAX_PAGE_BYTES: usize = 10_000_000;
-/// Maximum flight time in the TASBID job, s.
+/// Maximum flight time for the TASBID job, s.
 const MAX_FLIGHT_S: f64 = 1500.0;
 
 fn about() -> SessionMetadata {
@@ -35,7 +36,7 @@ fn review(tape: &Tape, job: &Scenario) -> Review {
 /// Returns the review of a 240 s flight of the TASBID job, computed once for all tests.
 fn short_review() -> &'static Review {
     static SHORT: OnceLock<Review> = OnceLock::new();
-    SHORT.get_or_init(|| review(&flown(&two_bridges(), 240.0, 6), &two_bridges()))
+    SHORT.get_or_init(|| review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges()))
 }
 
 /// Inserts an instructor's note in the middle of a tape.
@@ -47,7 +48,7 @@ fn with_note(mut tape: Tape, text: &str) -> Tape {
 
 #[test]
 fn exact_instructor_note_is_in_report_but_not_among_messages() {
-    let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
+    let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
     let plain = review(&tape, &job);
     assert_eq!(plain.feedback.notes, []);
     assert!(!page::session(&plain).contains("instructor's notes"));
@@ -66,7 +67,7 @@ fn loaded_urls(page: &str) -> Vec<&str> {
     starts.into_iter().flat_map(values).collect()
 }
 
-/// Returns the page without its scripts and styles, both Spandrel's own and those of libraries.
+/// Returns the page without scripts and styles, both Spandrel's and those of libraries.
 fn without_assets(page: &str) -> String {
     use spandrel_training::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
     [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
@@ -76,7 +77,7 @@ fn without_assets(page: &str) -> String {
 
 #[test]
 fn exact_review_contains_the_scorers_assessment() {
-    let (tape, job) = (flown(&two_bridges(), 200.0, 9), two_bridges());
+    let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
     let graded = assess_log(&tape.log(0), &job, &phantom(), build_site).unwrap();
     let review = review(&tape, &job);
     assert_eq!((&review.assessment, &review.frames, review.seed), (&graded.assessment, &graded.frames, graded.seed));
@@ -100,7 +101,7 @@ fn exact_review_contains_the_scorers_assessment() {
 #[test]
 fn exact_report_is_reproducible() {
     let job = two_bridges();
-    let again = review(&flown(&job, 240.0, 6), &job);
+    let again = review(&record_inspection(&job, 240.0, 6), &job);
     assert_eq!(page::session(short_review()), page::session(&again));
 }
 
@@ -133,7 +134,7 @@ fn exact_user_text_is_escaped_everywhere() {
     };
     let mut vehicle = phantom();
     vehicle.name = HOSTILE_TEXT.into();
-    let tape = with_note(flown(&job, 200.0, 9), HOSTILE_TEXT);
+    let tape = with_note(record_inspection(&job, 200.0, 9), HOSTILE_TEXT);
     let evil = Review::of(&tape.log(0), &job, &vehicle, about).unwrap();
     assert_eq!(evil.feedback.notes.len(), 1);
     for page in [page::session(&evil), page::comparison(&evil, short_review())] {
@@ -142,7 +143,8 @@ fn exact_user_text_is_escaped_everywhere() {
         for raw in ["<script>alert", "<img src=x", "<!--"] {
             assert!(!page.contains(raw), "{raw}");
         }
-        // The data block is JSON and contains quotes. No other part of the page contains a quote that could end an attribute.
+        // The data block is JSON and contains quotes. Nothing else on the page contains a quote that could end an
+        // attribute.
         let before = page.split("<script type=\"application/json\"").next().unwrap_or_default();
         assert!(!before.contains("\"'>"));
     }
@@ -164,7 +166,7 @@ fn exact_every_surface_area_has_one_outcome() {
         }
     }
     let job = two_bridges();
-    let more = review(&flown(&job, 240.0, 2), &job);
+    let more = review(&record_inspection(&job, 240.0, 2), &job);
     assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times as many pictures show more");
 }
 
@@ -172,18 +174,19 @@ fn exact_every_surface_area_has_one_outcome() {
 fn exact_night_changes_only_light_outcomes() {
     let mut job = two_bridges();
     job.light.start_unix_s += 10 * 3600;
-    let (day, night) = (short_review().coverage.total(), review(&flown(&job, 240.0, 6), &job).coverage.total());
+    let (day, night) = (short_review().coverage.total(), review(&record_inspection(&job, 240.0, 6), &job).coverage.total());
     for fate in [SurfaceOutcome::TooOblique, SurfaceOutcome::TooFar, SurfaceOutcome::NotPhotographed, SurfaceOutcome::NeverInView]
     {
         assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
     }
-    // The remaining surface is lit by the lamp, which is on only in the dark task.
+    // The lamp lights the remaining surface; it is on only during the dark task.
     assert!(night.area_m2(SurfaceOutcome::Shown) < day.area_m2(SurfaceOutcome::Shown));
     assert!(night.area_m2(SurfaceOutcome::DarkLampOff) > day.area_m2(SurfaceOutcome::DarkLampOff));
     assert!(night.average_picture().unwrap().lux < day.average_picture().unwrap().lux);
 }
 
-/// In the tape, the forward stick moves by 0.01 of full travel per 100 ms, so a movement of 0.1 takes up to 1 s to show.
+/// On the tape, the forward stick moves by 0.01 of full travel per 100 ms, so a movement of 0.1 takes up to 1 s to
+/// show.
 #[test]
 fn exact_speeding_cue_is_reported_with_reaction_time() {
     let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);
@@ -199,7 +202,7 @@ fn exact_speeding_cue_is_reported_with_reaction_time() {
     let lift_off_s = review.frames[0].time.s();
     let speeding: Vec<_> = review.feedback.episodes.iter().filter(|e| KINDS[e.kind].name == "speeding").collect();
     assert_eq!(speeding.len(), 1, "{:?}", review.feedback.episodes);
-    // Truth messages arrive every 20 ms. After its cause has ended, the cue stays on for a hold time.
+    // Truth messages arrive every 20 ms. The cue stays on for a hold time after its cause ends.
     assert!((speeding[0].from_s + lift_off_s - fast_from_s).abs() <= 0.021, "{:?}", speeding[0]);
     assert!((-0.021..=2.5).contains(&(speeding[0].to_s + lift_off_s - fast_to_s)), "{:?}", speeding[0]);
     assert!(speeding[0].reaction_s.is_some_and(|s| s <= 1.1), "{:?}", speeding[0]);
@@ -212,7 +215,7 @@ fn exact_empty_job_has_a_report() {
     let job = scenario(Vec::new());
     let mut tape = Tape::of(&job);
     tape.fly((0.0, 0.0, 5.0), 2.0);
-    tape.silence(2500);
+    tape.hold_unrecorded(2500);
     tape.hold(1.0);
     tape.land();
     let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
@@ -232,7 +235,7 @@ fn exact_empty_job_has_a_report() {
 #[test]
 fn exact_longest_flight_report_is_below_ten_megabytes() {
     let job = two_bridges();
-    let review = review(&flown(&job, MAX_FLIGHT_S - 20.0, 17), &job);
+    let review = review(&record_inspection(&job, MAX_FLIGHT_S - 20.0, 17), &job);
     assert!(review.pictures.len() >= 100, "{}", review.pictures.len());
     let size = page::session(&review).len();
     assert!(size < MAX_PAGE_BYTES, "{size}");

@@ -1,5 +1,6 @@
-//! Tests with the example study (examples/cohort, created by `tools/cohort`): 22 synthetic trainees, eight of whom flew three
-//! sessions. Checks that Spandrel can compute the tables of the TASBID study from flights, and that the plans match the flights.
+//! Tests with the example study (examples/cohort, created by `tools/cohort`): 22 synthetic trainees, eight with three
+//! sessions. Checks that Spandrel can compute the TASBID study's tables from flights and that the plans match the
+//! flights.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
@@ -7,7 +8,7 @@ use spandrel_training::plan::{RULES, plan, read_rules};
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 
 const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
-/// Limits in the shipped rules. A flight through the interlayer is poor if it exceeds one of them or has a crash.
+/// Limits from the shipped rules. An interlayer flight is poor if it exceeds one of them or includes a crash.
 const MAX_OFF_PATH_SHARE: f64 = 0.1;
 const MAX_SPEEDING_SHARE: f64 = 0.02;
 

@@ -51,13 +51,13 @@ pub struct TextAnchor {
 
 /// Side of the inset view as a fraction of the window's width or height.
 const INSET_SIZE: f64 = 0.3;
-/// Top edge of the inset view, below the speed readout, as a fraction of the window's height; leaves room for a wide picture in a
-/// narrow window.
+/// Top edge of the inset view, as a fraction of the window's height: below the speed readout, even for a wide picture
+/// in a narrow window.
 const INSET_TOP: f64 = 0.23;
 
 impl ViewRect {
-    /// Returns the largest centered rectangle with the aspect ratio `aspect` (width over height), in a window with the aspect
-    /// ratio `window`. Keeps the view from showing more than the camera's sensor covers.
+    /// Returns the largest centered rectangle with the aspect ratio `aspect` (width over height), in a window with the
+    /// aspect ratio `window`. This way, the view never shows more than the camera's sensor covers.
     #[must_use]
     pub fn fit_aspect(self, aspect: f64, window: f64) -> Self {
         let own = self.width / self.height * window;
@@ -68,8 +68,8 @@ impl ViewRect {
     }
 }
 
-/// Returns the largest picture size with this aspect ratio (width over height) within a size, px: even, as video requires, and at
-/// least 2 px.
+/// Returns the largest picture size with this aspect ratio (width over height) that fits in a size, px. Both sides are
+/// even, as video requires, and at least 2 px.
 #[must_use]
 pub fn largest_even_size_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
     let (width, height) = ((width & !1).max(2), (height & !1).max(2));
@@ -89,7 +89,7 @@ impl ViewLayout {
         }
     }
 
-    /// Returns the position of status text in the window. It never overlaps the HUD warnings.
+    /// Returns the position of the status text in the window, which never overlaps the HUD warnings.
     #[must_use]
     pub fn words(self) -> TextAnchor {
         match self {
@@ -163,7 +163,7 @@ mod tests {
             let off = [place.left - left, place.top - top, place.width - width, place.height - height];
             assert!(off.iter().all(|off| off.abs() < 1e-12), "{place:?}");
         };
-        // Half of a 1920 x 1080 px window is taller than 4:3; the whole window is wider.
+        // Half of a 1920 x 1080 px window is narrower than 4:3; the whole window is wider.
         near(whole.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.5, 1.0 / 6.0, 0.5, 2.0 / 3.0);
         near(ViewRect { left: 0.0, width: 1.0, ..whole }.fit_aspect(4.0 / 3.0, 16.0 / 9.0), 0.125, 0.0, 0.75, 1.0);
         assert_eq!(largest_even_size_px((1280, 720), 4.0 / 3.0), (960, 720));

@@ -9,7 +9,7 @@ use spandrel_model::vehicle::Camera;
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Near plane, m.
 pub const NEAR_M: f64 = 0.05;
-/// Vertical field of view of the inspector's view, rad (60 deg: near the natural perspective of a screen; estimate).
+/// Vertical field of view of the inspector's view, rad (60 deg: close to a natural perspective on a screen; estimate).
 pub const INSPECTOR_FOV_RAD: f64 = 1.05;
 /// Eye height of the inspector above the ground, m (estimate).
 pub const EYE_HEIGHT_M: f64 = 1.65;
@@ -40,8 +40,7 @@ impl PinholeCamera {
         Self { position_m, forward, right, hfov_rad }
     }
 
-    /// Creates the view through the aircraft's camera. The horizontal field of view does not depend on the picture's
-    /// height.
+    /// Creates the view of the aircraft's camera. The horizontal field of view does not depend on the picture's height.
     #[must_use]
     pub fn of(pose: &CameraPose, camera: &Camera) -> Self {
         Self { position_m: pose.position_m, forward: pose.forward, right: pose.right, hfov_rad: camera.hfov_rad }

@@ -1,4 +1,4 @@
-//! Spatial partition for culling: a grid of square cells on the site and angular sectors for the backdrop, so that only
+//! Spatial partition for culling: a grid of square cells for the site and angular sectors for the backdrop. Only
 //! potentially visible cells are drawn.
 
 use super::matrix::Matrix;
@@ -8,12 +8,12 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use std::collections::BTreeMap;
 
-/// Side of a cell, m (estimate: some cells are in view in any picture, most are not).
+/// Side of a cell, m (estimate: most pictures show only a few cells).
 const CELL_M: f64 = 80.0;
-/// Distance from the origin beyond which geometry belongs to the backdrop, m.
+/// Minimum distance of the backdrop from the origin, m.
 const BACKDROP_M: f64 = 500.0;
-/// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. In a software renderer, a draw call
-/// costs as much as fifty triangles, a sixth of a sector of mountains.
+/// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. In a software renderer, a
+/// draw call costs as much as fifty triangles, or a sixth of a sector of mountains.
 const BACKDROP_SECTORS: f64 = 16.0;
 
 /// Bounding sphere of a cell.
@@ -42,7 +42,7 @@ impl BoundingSphere {
         Self { center_m, radius_m }
     }
 
-    /// Returns the distance from a point to the sphere's surface, m; negative inside.
+    /// Returns the distance from a point to the sphere's surface, m; negative within the sphere.
     #[must_use]
     pub fn distance_to_m(&self, point_m: Vec3<Enu>) -> f64 {
         (point_m - self.center_m).norm() - self.radius_m
@@ -159,18 +159,18 @@ impl Frustum {
         Self([sum(w, x, 1.0), sum(w, x, -1.0), sum(w, y, 1.0), sum(w, y, -1.0), sum(w, z, -1.0), z])
     }
 
-    /// Returns false if the sphere is certainly outside the frustum.
+    /// Returns false if the sphere is definitely outside the frustum.
     #[must_use]
     pub fn may_be_visible(&self, ball: &BoundingSphere) -> bool {
         self.0.iter().all(|plane| {
             let [a, b, c, _] = plane;
             let length = (a * a + b * b + c * c).sqrt();
-            // An infinite projection has no far plane.
+            // A projection with infinite depth has no far plane.
             length < 1e-12 || inside(plane, ball.center_m) >= -ball.radius_m * length
         })
     }
 
-    /// Returns false if the cell is certainly outside the frustum: all of its corners are beyond one plane.
+    /// Returns false if the cell is definitely outside the frustum, because all its corners are beyond one plane.
     #[must_use]
     pub fn cell_may_be_visible(&self, bounds: &CellBounds) -> bool {
         let corners = &bounds.corners_m;
@@ -179,7 +179,7 @@ impl Frustum {
     }
 }
 
-/// Returns the signed distance of a point from a plane, positive inside, in units of the plane's normal.
+/// Returns the signed distance of a point from a plane, positive on the inner side, in units of the plane's normal.
 fn inside([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
     let [x, y, z] = p.array();
     a * x + b * y + c * z + d
@@ -236,7 +236,7 @@ mod tests {
         let (beside, across) = (wall(-260.0), wall(-60.0));
         assert!(frustum.may_be_visible(&beside.ball) && !frustum.cell_may_be_visible(&beside));
         assert!(frustum.cell_may_be_visible(&across) && frustum.cell_may_be_visible(&CellBounds::from(across.ball)));
-        // The frustum test must keep a cell that contains the camera, although none of its corners are in view.
+        // The frustum test must keep a cell that contains the camera even though none of its corners are in view.
         let mut hall = Mesh::default();
         hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));
         assert!(frustum.cell_may_be_visible(&CellBounds::of(&hall)));

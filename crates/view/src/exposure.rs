@@ -1,4 +1,4 @@
-//! Exposure of a picture: metering, within the limits of the camera.
+//! Exposure of a picture: metering and the limits of the camera.
 
 use super::camera::PinholeCamera;
 use super::sky::Sky;
@@ -13,12 +13,11 @@ const GRID: (u32, u32) = (7, 5);
 /// Target value of the metered mean, as a fraction of white (estimate: typical outdoor setting; the tone curve accounts
 /// for a fifth of it).
 const METERING_TARGET: f64 = 0.24;
-/// Reflectance assumed for any surface that is hit (estimate: between wet concrete and grass).
+/// Reflectance assumed for every surface (estimate: between wet concrete and grass).
 const ALBEDO: f64 = 0.25;
-/// Maximum weight of a bright point, as a multiple of the middle points, so that a bright sky does not underexpose a
-/// soffit.
+/// Maximum weight of a bright point relative to the middle points; keeps a bright sky from underexposing a soffit.
 const MAX_HIGHLIGHT_WEIGHT: f64 = 5.0;
-/// Minimum illuminance to which the inspector's eyes adapt, lx (estimate: limit of color vision).
+/// Minimum illuminance for the inspector's eyes to adapt to, lx (estimate: limit of color vision).
 const MIN_EYE_ADAPTATION_LUX: f64 = 3.0;
 /// Lowest ISO sensitivity of cameras.
 const ISO_MIN: f64 = 100.0;
@@ -28,7 +27,7 @@ const METERING_RANGE_M: f64 = 600.0;
 /// Exposure of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exposure {
-    /// Illuminance at which a white surface appears white, lx.
+    /// Illuminance that makes a white surface appear white, lx.
     pub white_lux: f64,
     /// Exposure time, s.
     pub time_s: f64,
@@ -66,12 +65,13 @@ impl Exposure {
     }
 }
 
-/// Time constant with which a camera's exposure or a person's eyes adapt, s (estimate: cameras settle in about a second).
+/// Time constant of the adaptation of a camera's exposure or a person's eyes, s (estimate: cameras settle in about a
+/// second).
 const ADAPTATION_TIME_S: f64 = 0.35;
-/// Gap after which the adaptation starts over, s.
+/// Minimum gap that restarts the adaptation, s.
 const ADAPTATION_RESET_S: f64 = 2.0;
 
-/// Smoothed meter for a sequence of pictures, so that an object crossing the picture does not cause flicker.
+/// Smoothed meter for a sequence of pictures. Prevents flicker when an object crosses the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ExposureMeter(Option<(SimTime, f64)>);
 
@@ -90,7 +90,7 @@ impl ExposureMeter {
     }
 }
 
-/// Returns the illuminance, lx, for which to expose the picture.
+/// Returns the metered illuminance for exposing the picture, lx.
 #[must_use]
 pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) -> f64 {
     let mut seen: Vec<f64> = Vec::new();
@@ -123,7 +123,7 @@ fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -
     };
     let point = from + ray * hit.distance_m;
     if hit.surface == Surface::Water {
-        // Water reflects the sky, more strongly at grazing angles (Schlick), over a dark body.
+        // Water reflects the sky, more strongly at grazing angles (Schlick), and is dark below.
         let mirrored = Vec3::new(ray.east(), ray.north(), ray.up().abs());
         let glance = 1.0 - ray.up().abs();
         let fresnel = 0.02 + 0.98 * glance * glance * glance * glance * glance;
@@ -170,14 +170,15 @@ mod tests {
 
     #[test]
     fn prop_one_brightening_point_changes_the_exposure_smoothly() {
-        // From a soffit at noon to the sky near the sun.
+        // The values range from a soffit at noon to the sky near the sun.
         const DARK_LUX: f64 = 30.0;
         const RANGE: f64 = 1_000.0;
         // The middle 17 of the 35 points share the logarithm of the range. With the cap, all points together weigh at
         // least as much as 27 middle points: the 17 (whose mean is no less than their geometric mean) and the 10 above.
         // The changed point weighs at most as much as five.
         let leap = math::pow(RANGE, 1.0 / 17.0) * (1.0 + MAX_HIGHLIGHT_WEIGHT / 27.0);
-        // Changing a point by 1 % moves the result by less than that point's share of both.
+        // Changing a point by 1 % changes the result by less than 1 % of the point's shares of the geometric mean and
+        // the cap.
         let nudge = 1.0 + 0.01 * (1.0 / 17.0 + MAX_HIGHLIGHT_WEIGHT / 27.0);
         let mut stream = RandomStream::new(7, "view.exposure");
         for bright in 0..METERED_POINTS {
@@ -208,7 +209,7 @@ mod tests {
             assert_eq!(meter.smoothed_lux(100.0, SimTime::ZERO), 100.0);
             (1..=steps).fold(0.0, |_, k| meter.smoothed_lux(1e4, SimTime::from_ms(k * 700 / steps)))
         };
-        // After two time constants, e⁻² of the initial two decades remain.
+        // After two time constants, e⁻² of the initial difference of two decades remains.
         let expected = 1e4 * math::pow(1e-2, math::exp(-2.0));
         assert!(near(end(1), expected) && (end(70) / expected - 1.0).abs() < 1e-9, "{} and {}", end(1), end(70));
     }
@@ -227,7 +228,7 @@ mod tests {
         let dark = Exposure::camera(0.1 * limit, &REFERENCE_CAMERA);
         assert_eq!((dark.white_lux, dark.time_s), (limit, REFERENCE_CAMERA.exposure_max_s));
         assert!((dark.iso - REFERENCE_CAMERA.iso_max).abs() < 1e-6);
-        // 160 times the light: a tenth of the exposure time at a sixteenth of the sensitivity.
+        // 160 times the light requires a tenth of the exposure time at a sixteenth of the sensitivity.
         let bright = Exposure::camera(160.0 * limit, &REFERENCE_CAMERA);
         assert!((bright.iso - 100.0).abs() < 1e-6 && (bright.time_s - 0.1 * REFERENCE_CAMERA.exposure_max_s).abs() < 1e-9);
     }

@@ -10,9 +10,9 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// Time after which an unrepeated cue expires; the monitor repeats active cues at 5 Hz.
+/// Timeout of a cue that is not repeated; the monitor repeats active cues at 5 Hz.
 const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
-/// Time for which the shutter indicator is shown after a picture.
+/// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
 
 /// Latest values received.
@@ -76,7 +76,7 @@ impl Feed {
         self.cues = Some((now, mask));
     }
 
-    /// Processes a text from the monitor; a crash text includes the name of the object that was hit.
+    /// Processes a text from the monitor. A crash text includes the name of the object that the drone hit.
     pub fn handle_text(&mut self, words: &str) {
         if let Some(what) = words.strip_prefix("Crash: ") {
             self.hit = Some(what.to_owned());
@@ -101,7 +101,7 @@ impl Feed {
         self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUE_TIMEOUT).map_or(0, |(_, mask)| mask)
     }
 
-    /// Returns the name of the object that was hit last.
+    /// Returns the name of the last object that the drone hit.
     #[must_use]
     pub fn hit(&self) -> Option<&str> {
         self.hit.as_deref()

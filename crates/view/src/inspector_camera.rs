@@ -4,11 +4,11 @@ use super::camera::{EYE_HEIGHT_M, INSPECTOR_FOV_RAD, PinholeCamera};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Distance beyond which the view zooms in on the aircraft, m, as with binoculars.
+/// Minimum distance for zooming in on the aircraft automatically, m, as with binoculars.
 const AUTO_ZOOM_START_M: f64 = 60.0;
 /// Minimum field of view when zooming in automatically, rad.
 const MIN_AUTO_FOV_RAD: f64 = 0.22;
-/// Distance of the camera in front of the inspector's position, m, so that the inspector's body is not in the picture.
+/// Distance of the camera in front of the inspector's position, m; keeps the inspector's body out of the picture.
 const EYE_OFFSET_M: f64 = 0.45;
 /// Maximum elevation, rad.
 const MAX_PITCH_RAD: f64 = 1.4;
@@ -32,8 +32,8 @@ impl Default for InspectorCamera {
 }
 
 impl InspectorCamera {
-    /// Turns the view to the right and up, rad. Turning stops following the aircraft; `to` is the vector from the inspector to
-    /// the aircraft, m.
+    /// Turns the view to the right and up, rad. The view then no longer follows the aircraft; `to` is the vector from
+    /// the inspector to the aircraft, m.
     pub fn turn(&mut self, right_rad: f64, up_rad: f64, to: Vec3<Enu>) {
         if self.follows {
             // Keeps the magnification of the narrowed view.
@@ -47,8 +47,8 @@ impl InspectorCamera {
         self.pitch_rad = (self.pitch_rad + up_rad).clamp(-MAX_PITCH_RAD, MAX_PITCH_RAD);
     }
 
-    /// Returns the view rotation per pixel, rad, for a view `height_px` high, so that the scene follows the pointer
-    /// while dragging.
+    /// Returns the view rotation per pixel, rad, that makes the scene follow the pointer while dragging, for a view
+    /// `height_px` high.
     #[must_use]
     pub fn rad_per_px(&self, height_px: f64, to: Vec3<Enu>) -> f64 {
         self.vfov_rad(to.norm()) / height_px.max(1.0)
@@ -110,7 +110,7 @@ mod tests {
         let mut gaze = InspectorCamera::default();
         let far = Vec3::new(0.0, 150.0, EYE_HEIGHT_M);
         let before = gaze.eye(INSPECTOR_M, far, 1.0).hfov_rad;
-        // The camera is slightly closer to the aircraft than the inspector's position is.
+        // The camera is slightly closer to the aircraft than the inspector's position.
         let apart = 0.01;
         gaze.turn(0.0, 0.0, far);
         assert!((gaze.eye(INSPECTOR_M, far, 1.0).hfov_rad / before - 1.0).abs() < apart);

@@ -1,9 +1,10 @@
 //! Rendering of the inspector's view and the sound of a flight, from the scenario and telemetry only.
 //!
 //! Everything except `gpu` (feature `gpu`, wgpu) is plain data and pure functions. [`scene`] converts a
-//! [`Site`](spandrel_model::site::Site) into static meshes and per-picture instances; [`camera`] defines the projection; [`hud`]
-//! lays out the head-up display; [`flow`] leads from the start page through a flight to its scores; [`live`] tracks a live flight
-//! for drawing; [`sound`] synthesizes its sound; [`shaders`] contains the shader sources.
+//! [`Site`](spandrel_model::site::Site) into static meshes and per-picture instances; [`camera`] defines the
+//! projection; [`hud`] lays out the head-up display; [`flow`] is the state machine of the window's pages, from the
+//! start page to the scores; [`live`] tracks a live flight for drawing; [`sound`] synthesizes its sound; [`shaders`]
+//! contains the shader sources.
 //!
 //! ```
 //! use spandrel_model::frames::Vec3;

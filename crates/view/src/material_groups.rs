@@ -1,5 +1,6 @@
-//! Groups of materials and defects that share a pipeline. Software renderers execute both sides of every branch, so a shader that
-//! switches on the material pays for all of them at each pixel; one pipeline per group pays for one.
+//! Groups of materials and defects that share a pipeline. Software renderers execute both sides of every branch, so a
+//! shader that switches on the material pays for all materials at each pixel; with one pipeline per group, it pays only
+//! for its own.
 
 use super::mesh::Material;
 

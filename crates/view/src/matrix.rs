@@ -7,7 +7,8 @@ use spandrel_model::frames::{Enu, Vec3};
 pub struct Matrix(pub [[f64; 4]; 4]);
 
 impl Matrix {
-    /// Returns the view matrix from a rotation (unit vectors right, up, back) and the eye position, which becomes the origin.
+    /// Returns the view matrix for an orientation (unit vectors right, up, back) and an eye position, which becomes the
+    /// origin.
     #[must_use]
     pub fn view(eye: Vec3<Enu>, right: Vec3<Enu>, up: Vec3<Enu>, back: Vec3<Enu>) -> Self {
         let row = |axis: Vec3<Enu>| {
@@ -28,7 +29,8 @@ impl Matrix {
         ])
     }
 
-    /// Returns an orthographic projection of half size `radius` around the view axis; depth is 1 at `near` and 0 at `far`.
+    /// Returns an orthographic projection with half size `radius` around the view axis. Depth is 1 at `near` and 0 at
+    /// `far`.
     #[must_use]
     pub fn orthographic(radius: f64, near: f64, far: f64) -> Self {
         let depth = far - near;
@@ -76,7 +78,7 @@ mod tests {
         let view =
             Matrix::view(Vec3::new(1.0, 2.0, 3.0), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.0, -1.0, 0.0));
         let clip = Matrix::perspective(0.5, 0.25, 0.1).after(&view).apply(Vec3::new(3.0, 6.0, 2.0));
-        // 4 m ahead, 2 m right and 1 m below: the corner of a frustum with half sizes 0.5 and 0.25.
+        // 4 m ahead, 2 m to the right and 1 m down: the corner of a frustum with half sizes 0.5 and 0.25.
         assert!((clip[3] - 4.0).abs() < 1e-12);
         assert!((clip[0] / clip[3] - 1.0).abs() < 1e-12 && (clip[1] / clip[3] + 1.0).abs() < 1e-12);
         assert!((clip[2] / clip[3] - 0.1 / 4.0).abs() < 1e-12);

@@ -37,7 +37,7 @@ pub enum Material {
     Pad = 13,
     /// The translucent disk of a fast propeller.
     Blur = 14,
-    /// Paint whose color an instance does not override.
+    /// Paint with a color that instances do not override.
     Enamel = 15,
 }
 
@@ -50,12 +50,12 @@ pub struct Vertex {
     pub position: [f32; 3],
     /// Outward unit normal.
     pub normal: [f32; 3],
-    /// Surface coordinates, m: along the member or horizontal, and across it or up.
+    /// Surface coordinates, m: along the member or horizontally, and across it or up.
     pub uv: [f32; 2],
     /// Indirect light: fractions of the sky and sun illuminance (see `LightModel::indirect_fractions`).
     pub light: [f32; 2],
-    /// [`Material`] in the lowest eight bits; above them the AASHTO element number, or 0 for anything that is not part of a
-    /// bridge.
+    /// [`Material`] in the lowest eight bits; AASHTO element number in the bits above, or 0 for anything that is not
+    /// part of a bridge.
     pub material: u32,
     /// Color, linear RGBA in 1/255.
     pub tint: [u8; 4],
@@ -133,8 +133,8 @@ impl Mesh {
         }
     }
 
-    /// Adds a block whose top face may be smaller than its bottom: `inset` reduces it at the front, at the rear and on both
-    /// sides.
+    /// Adds a block with a top face that may be smaller than the bottom: `inset` reduces it at the front, at the rear
+    /// and on both sides.
     pub fn block(&mut self, low: [f64; 3], high: [f64; 3], inset: [f64; 3], finish: SurfaceFinish) {
         let [front, rear, side] = inset;
         let p = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);

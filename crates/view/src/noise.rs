@@ -1,5 +1,5 @@
 //! A noise tile with mipmaps for all materials. The shaders sample it at the pixel size, which avoids aliasing at a
-//! distance and costs the same for any number of octaves.
+//! distance and has the same cost for any number of octaves.
 
 use spandrel_model::random::RandomStream;
 
@@ -9,11 +9,11 @@ pub const SIDE: usize = 512;
 pub const CELLS: usize = 16;
 /// Octaves of the first channel; the finest has cells of two texels.
 const OCTAVES: usize = 5;
-/// Maximum distance in the third channel, cells; the channel stores distances as fractions of it.
+/// Maximum distance in the third channel, in cells; the channel stores distances as fractions of it.
 pub const MAX_DISTANCE: f64 = 1.28;
 
 /// A mip level: row-major texels with four channels: several octaves of noise, one octave, distance to the nearest
-/// scattered point, and a random number of that point.
+/// scattered point, and a random number for that point.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NoiseLevel {
     /// Texels per side.
@@ -117,7 +117,7 @@ mod tests {
     fn prop_tile_repeats_without_a_seam() {
         let fine = &levels()[0];
         let at = |x: usize, y: usize| f64::from(fine.rgba[4 * (y * SIDE + x)]);
-        // The step across the seam is no larger than the largest step within the tile.
+        // The step across the seam must not exceed the largest step within the tile.
         let within = (0..SIDE - 1).map(|x| (at(x + 1, 100) - at(x, 100)).abs()).fold(0.0, f64::max);
         assert!((at(0, 100) - at(SIDE - 1, 100)).abs() <= within);
     }

@@ -37,7 +37,7 @@ impl Picture {
         if count > 0.0 { sum / count } else { 0.0 }
     }
 
-    /// Scales the picture down to at most `most_px` wide by averaging; smaller pictures are returned unchanged.
+    /// Scales the picture down to a width of at most `most_px` by averaging. Returns smaller pictures unchanged.
     #[must_use]
     pub fn scaled_to_width(&self, most_px: u32) -> Self {
         if self.width <= most_px {
@@ -96,7 +96,7 @@ mod tests {
         let wide = Picture { width: 5, height: 4, rgba };
         assert_eq!(wide.scaled_to_width(5), wide);
         let small = wide.scaled_to_width(2);
-        // Columns 0 and 1 are averaged, then 2 to 4; the four rows become one.
+        // Averages columns 0 and 1, then columns 2 to 4; merges the four rows into one.
         assert_eq!((small.width, small.height), (2, 1));
         assert_eq!([small.at(0, 0), small.at(1, 0)], [[80, 0, 200], [105, 0, 200]]);
         assert_eq!(wide.scaled_to_width(0).rgba.len(), 4);

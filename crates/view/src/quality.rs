@@ -18,9 +18,9 @@ pub struct Quality {
     pub lamp_shadow: bool,
     /// Size of the water reflection relative to the picture; 0 reflects only the sky.
     pub reflection: f64,
-    /// Draws the ground and the lake with fewer triangles where the difference is not visible, and no lake bed in deep
-    /// water. The reflection omits boulders, hangers and railings, includes only nearby trees, and uses simplified
-    /// bridges and mountains.
+    /// Draws the ground and the lake with fewer triangles where the difference is invisible, and omits the lake bed in
+    /// deep water. The reflection omits boulders, hangers, railings and distant trees, and uses simplified bridges and
+    /// mountains.
     pub sparse: bool,
     /// Spacing of baked light samples on the bridges, m.
     pub light_cell_m: f64,
@@ -30,10 +30,10 @@ pub struct Quality {
     pub trees: usize,
     /// Branches per whorl of a tree; also sets the detail of boulders.
     pub branches_per_whorl: u32,
-    /// Whether to interpolate between two mip levels of noise; the nearest level costs half as much.
+    /// Whether to interpolate between two mip levels of noise; using only the nearest level halves the cost.
     pub smooth_noise: bool,
     /// Computes light and haze per vertex, takes slow patterns from precomputed tiles, and omits highlights, which cuts
-    /// the cost per pixel to a third. The sun has one shadow map.
+    /// the cost per pixel to a third. Uses one shadow map for the sun.
     pub lean: bool,
     /// Motion blur samples per pixel; 1 disables motion blur.
     pub blur_taps: u32,

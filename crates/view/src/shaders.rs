@@ -1,5 +1,4 @@
-//! Shader sources. Each consists of a common part and a specific part; tests parse and validate all of them without a
-//! GPU.
+//! Shader sources. Each has a common part and a specific part. Tests parse and validate all sources without a GPU.
 
 /// Structures, noise, shadows and shading shared by the shaders.
 const COMMON: &str = include_str!("shaders/common.wgsl");
@@ -37,7 +36,7 @@ pub fn all() -> Vec<ShaderSource> {
     sources
 }
 
-/// Returns the source of a shader; empty if the name is unknown.
+/// Returns the source of a shader, or an empty string if the name is unknown.
 #[must_use]
 pub fn source(name: &str) -> String {
     all().into_iter().find(|source| source.name == name).map_or_else(String::new, |source| source.text)

@@ -1,4 +1,4 @@
-//! Projections of the shadow maps: the sun's, over the whole site or in cascades ahead of the camera, and the lamp's.
+//! Projections of the shadow maps of the sun, over the whole site or in cascades ahead of the camera, and of the lamp.
 
 use super::camera::PinholeCamera;
 use super::matrix::Matrix;
@@ -7,9 +7,9 @@ use super::shot::LampBeam;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Range towards the sun from which objects cast shadows into a map, m.
+/// Maximum distance of shadow casters from a map's center toward the sun, m.
 const CASTER_RANGE_M: f64 = 700.0;
-/// Range beyond the map's center within which objects receive shadows, m.
+/// Maximum distance of shadow receivers beyond a map's center, m.
 const RECEIVER_RANGE_M: f64 = 400.0;
 /// Radii of the maps that follow the camera, m, by number of cascades.
 const CASCADE_RADII_3_M: [f64; 3] = [16.0, 80.0, 380.0];
@@ -44,7 +44,7 @@ fn sun_map(center_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> 
     let right = helper.cross(sun).unit();
     let up = sun.cross(right);
     let texel_m = 2.0 * radius_m / f64::from(side_px);
-    // Snaps to whole texels so that shadow edges do not shimmer when the camera moves.
+    // Snaps to whole texels to keep shadow edges from shimmering when the camera moves.
     let snap = |x: f64| (x / texel_m).round() * texel_m;
     let (x, y) = (snap(center_m.dot(right)), snap(center_m.dot(up)));
     let middle = right * x + up * y + sun * center_m.dot(sun);
@@ -73,7 +73,7 @@ mod tests {
         let low = map.projection.apply(Vec3::new(10.0, 20.0, 30.0));
         let high = map.projection.apply(Vec3::new(10.0, 20.0, 30.0) + sun * 25.0);
         assert!(high[2] > low[2] && low[2] > 0.0 && high[2] < 1.0);
-        // Both points are on one ray of the sun, so they map to the same texel.
+        // Both points are on one sun ray, so they map to the same texel.
         assert!((high[0] - low[0]).abs() < 1e-9 && (high[1] - low[1]).abs() < 1e-9);
         assert!(low[0].abs() < 2.0 / 1024.0 && low[1].abs() < 2.0 / 1024.0, "in the middle, to the texel");
     }

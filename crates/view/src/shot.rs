@@ -46,7 +46,7 @@ impl LampBeam {
     }
 }
 
-/// Response of a sensor or an eye that turns light into a picture.
+/// Response of a sensor or an eye that converts light to a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorResponse {
     /// Exposure.
@@ -94,7 +94,7 @@ pub struct Shot {
     pub finish: SensorResponse,
     /// Simulation time, s; animates waves and clouds.
     pub time_s: f64,
-    /// Wind direction over the water (towards), east and north, m/s.
+    /// Wind over the water as the direction it blows toward, east and north, m/s.
     pub wind_m_s: (f64, f64),
     /// Moving objects.
     pub moving: Vec<(MoverModel, Instance)>,

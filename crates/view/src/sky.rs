@@ -1,5 +1,5 @@
-//! Sky model: radiance and color in every direction, scaled to the horizontal illuminance of the light model. The shader
-//! `sky.wgsl` contains the same function; its clouds are visual only and cast no light.
+//! Sky model: radiance and color in every direction, scaled to the horizontal illuminance of the light model. The
+//! shader `sky.wgsl` contains the same function; its clouds are decorative and cast no light.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -11,23 +11,23 @@ const ZENITH: [f64; 3] = [0.62, 0.97, 2.0];
 const HORIZON: [f64; 3] = [0.94, 0.995, 1.24];
 /// Color of clouds, luminance 1 (estimate: about 6,500 K).
 const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
-/// Optical depths of clear air for red, green and blue light, per air mass (Rayleigh's inverse fourth power with slight haze;
-/// estimate).
+/// Optical depths of clear air for red, green and blue light, per air mass (Rayleigh scattering, inverse fourth power,
+/// with slight haze; estimate).
 const AIR_OPTICAL_DEPTH: [f64; 3] = [0.07, 0.12, 0.24];
 
-/// Fraction of the blue tint of shade that a camera's white balance removes (estimate).
+/// Fraction of the blue tint of shadows that a camera's white balance removes (estimate).
 const WHITE_BALANCE_FRACTION: f64 = 0.55;
 
 /// Sky parameters of the shaders.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sky {
-    /// Unit vector towards the sun.
+    /// Unit vector toward the sun.
     pub sun: Vec3<Enu>,
-    /// Illuminance by the sun on a surface that faces it, lx.
+    /// Illuminance of the sun on a surface that faces it, lx.
     pub direct_lux: f64,
     /// Color of the sun, luminance 1.
     pub sun_rgb: [f64; 3],
-    /// Horizontal illuminance by the sky, lx.
+    /// Horizontal illuminance of the sky, lx.
     pub sky_lux: f64,
     /// Color of the sky's total light, luminance 1.
     pub sky_rgb: [f64; 3],
@@ -107,8 +107,8 @@ mod tests {
 
     #[test]
     fn exact_sky_radiance_integrates_to_the_illuminance() {
-        // Compares with an independent quadrature over 20,000 directions; the tolerance allows for the coarser one in
-        // `Sky::new`.
+        // Compares with an independent quadrature over 20,000 directions; the tolerance allows for the coarser
+        // quadrature in `Sky::new`.
         const TOLERANCE: f64 = 0.02;
         for (up, cloud) in [(0.9, 0.0), (0.2, 0.3), (0.5, 1.0)] {
             let sun = Vec3::new((1.0_f64 - up * up).sqrt(), 0.0, up);

@@ -1,4 +1,4 @@
-//! Builds the shots of both views for a moment of a flight.
+//! Builds the shots of both views at a moment of a flight.
 
 use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
@@ -17,7 +17,7 @@ use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// Distance in front of the aircraft within which an object does not count as hiding it, m (about the size of the aircraft).
+/// Objects at most this far in front of the aircraft do not count as hiding it, m (about the size of the aircraft).
 const DRONE_CLEARANCE_M: f64 = 0.5;
 
 /// Inputs that stay constant during a session.
@@ -42,7 +42,7 @@ pub struct SceneMoment {
     pub drone: DronePose,
     /// Velocity of the aircraft, ENU, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Pose of its camera.
+    /// Pose of the aircraft's camera.
     pub camera: CameraPose,
     /// The camera's lens at its current zoom.
     pub lens: Camera,
@@ -74,7 +74,7 @@ impl Stage<'_> {
         Sky::new(&self.site.light().daylight(at), self.scenario.light.cloud_cover)
     }
 
-    /// Returns the shot of the aircraft's camera, which does not see the aircraft itself.
+    /// Returns the shot of the aircraft's camera, which does not show the aircraft itself.
     #[must_use]
     pub fn camera(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.camera_frame(moment, size_px, &mut ExposureMeter::default())
@@ -187,7 +187,7 @@ fn camera_at_shutter_open(eye: &PinholeCamera, moment: &SceneMoment, time_s: f64
     PinholeCamera { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
 }
 
-/// HUD inputs other than the moment and the feed.
+/// HUD inputs in addition to the moment and the feed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HudInputs {
     /// Battery, %, once received.
@@ -264,7 +264,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, hel
     }
 }
 
-/// Height above the pad from which flight time counts, m (docs/src/reference/assessment.md, "Frames").
+/// Height above the pad that starts the flight time, m (docs/src/reference/assessment.md, "Frames").
 pub const LIFT_OFF_M: f64 = 0.3;
 
 fn tracks(scenario: &Scenario) -> Vec<MapPath> {
@@ -326,14 +326,14 @@ mod tests {
     fn exact_turning_camera_had_another_direction_when_the_shutter_opened() {
         let (degree, fast) = (1.0_f64.to_radians(), 100.0_f64.to_radians());
         let yawed = before(&moment(0.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
-        // The camera turned clockwise, so one degree earlier it pointed west of north.
+        // The camera turned clockwise, so it pointed west of north one degree earlier.
         assert!((math::atan2(yawed.forward.east(), yawed.forward.north()) + degree).abs() < ROUNDING, "{yawed:?}");
         assert!(yawed.forward.up().abs() < ROUNDING && yawed.right.up().abs() < ROUNDING);
         assert!(
             (yawed.forward.dot(yawed.right)).abs() < ROUNDING
                 && (yawed.position_m - Vec3::new(-0.03, 0.0, 0.02)).norm() < ROUNDING
         );
-        // The camera turned up, so it pointed lower before, at any pitch.
+        // The camera turned up, so it pointed lower before, whatever its pitch.
         for pitch_deg in [0.0, -60.0, 60.0] {
             let tilted = before(&moment(pitch_deg, CameraTurnRate { heading_rad_s: 0.0, pitch_rad_s: fast }), 0.01);
             assert!((math::asin(tilted.forward.up()).to_degrees() - (pitch_deg - 1.0)).abs() < 1e-9, "{tilted:?}");

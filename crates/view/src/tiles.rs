@@ -1,5 +1,6 @@
-//! Precomputed tiles for the cheaper presets. One texture holds several slow patterns of ground or concrete, so that one lookup
-//! replaces four or five noise lookups. The tiles repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader `lean` reads them.
+//! Precomputed tiles for the cheaper presets. One texture contains several slow patterns of ground or concrete, so one
+//! lookup replaces four or five noise lookups. The tiles repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader
+//! `lean` reads them.
 
 use spandrel_model::random::RandomStream;
 
@@ -13,7 +14,7 @@ pub const CONCRETE_M: f64 = 38.4;
 const BOARD_M: (f64, f64) = (0.16, 2.4);
 /// Side of a cell that may contain bird droppings, m. The shader uses 1.7; here the cells must divide the tile evenly.
 const DROPPINGS_CELL_M: f64 = 1.6;
-/// Fraction of cells that contain droppings, and radius of the droppings, m.
+/// Fraction of cells with droppings, and radius of the droppings, m.
 const DROPPINGS: (f64, f64) = (0.07, 0.045);
 
 /// A tile and its mipmaps, finest first: side and four bytes per texel.
@@ -22,8 +23,8 @@ pub type MipLevels = Vec<(usize, Vec<u8>)>;
 /// One pattern of the tile in row-major order.
 type TilePattern = Vec<f32>;
 
-/// Returns noise with this many cells across and down in its first octave; each further octave has twice the frequency
-/// and half the amplitude. The mean is about 0.5.
+/// Returns noise with these numbers of cells across and down in its first octave; each further octave has twice the
+/// frequency and half the amplitude. The mean is about 0.5.
 fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u32) -> TilePattern {
     let mut field = vec![0.5; SIDE * SIDE];
     for octave in 0..octaves {
@@ -34,7 +35,7 @@ fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u3
     field
 }
 
-/// Returns the interpolation positions of the texels between lattice corners: previous corner, next corner, smooth
+/// Returns the interpolation positions of the texels between lattice corners: previous corner, next corner, smoothed
 /// fraction.
 fn interpolation_corners(cells: usize) -> Vec<(usize, usize, f32)> {
     let of = |k: usize| {
@@ -77,7 +78,7 @@ pub fn ground() -> MipLevels {
     levels((0..SIDE * SIDE).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
 }
 
-/// Returns the concrete tile: tone around 0.5 (blotches and boards), and as fractions rain streaks, soot and bird
+/// Returns the concrete tile: tone around 0.5 (blotches and boards), and fractions of rain streaks, soot and bird
 /// droppings.
 #[must_use]
 pub fn concrete() -> MipLevels {
@@ -89,7 +90,7 @@ pub fn concrete() -> MipLevels {
     let bird_droppings = bird_droppings(&mut stream);
     let texel = |k: usize| {
         let (x, row) = ((k % SIDE) as f64 / SIDE as f64, (k / SIDE) * boards / SIDE);
-        // Every other row of boards has its joints offset.
+        // Joints are offset in every other row of boards.
         let shift = if row % 2 == 1 { 0.37 } else { 0.0 };
         let length = (x * lengths as f64 + shift) as usize % lengths;
         let tone = 0.5 + 0.55 * (blotch[k] - 0.5) + 0.07 * board[row * lengths + length];
@@ -178,7 +179,7 @@ mod tests {
         let tile = concrete();
         let cells = whole(CONCRETE_M / DROPPINGS_CELL_M);
         let white = tile[0].1.chunks(4).filter(|texel| texel[3] > 127).count() as f64 / (SIDE * SIDE) as f64;
-        // Each dropping is an ellipse of 45 x 100 mm; randomness varies the total by up to a third.
+        // Each dropping is an ellipse of 45 x 100 mm; the total varies randomly by up to a third.
         let expected =
             DROPPINGS.0 * core::f64::consts::PI * DROPPINGS.1 * DROPPINGS.1 / 0.45 / (DROPPINGS_CELL_M * DROPPINGS_CELL_M);
         assert!((white / expected - 1.0).abs() < 0.34, "{white} of the tile, {expected} expected from {} squares", cells * cells);

@@ -6,11 +6,11 @@ use std::path::PathBuf;
 
 /// Render any moment of a recorded session, or a scenario from any viewpoint, as a PNG picture
 ///
-/// For a session: the view of the aircraft's camera at a simulation time, the inspector's view from the landing pad, or both side
-/// by side, with head-up display. For a scenario: from any point toward another. No window or graphics card is needed: a software
-/// Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers). --snapshots renders all photographs of a session into its
-/// folder as JPEG files with EXIF and XMP; --video renders the camera's view, with the photographs as chapters in a separate file
-/// (WebVTT).
+/// For a session: the view of the aircraft's camera at a simulation time, the inspector's view from the landing pad, or
+/// both side by side, with head-up display. For a scenario: the view from any point toward another point. No window or
+/// graphics card is needed: a software Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers). --snapshots
+/// renders all photographs of a session into its folder as JPEG files with EXIF and XMP; --video renders the camera's
+/// view, with the photographs as chapters in a separate file (WebVTT).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -37,22 +37,23 @@ pub struct Args {
     /// View of a session to render
     #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
     pub view: String,
-    /// Size of each view, px; the camera's view and photographs keep the sensor's aspect ratio within it [default: 1280x720; for
-    /// photographs the camera's, smaller without a graphics card]
+    /// Size of each view, px; the camera's view and photographs keep the sensor's aspect ratio within it [default:
+    /// 1280x720; for photographs the camera's, smaller without a graphics card]
     #[arg(long, value_name = "WxH")]
     pub size: Option<String>,
     /// Rendering quality: low, medium, high or ultra
     #[arg(long, value_name = "PRESET", default_value = "high")]
     pub quality: String,
-    /// Write label masks for each picture, to train detectors: NAME.elements.png (AASHTO element numbers), NAME.defects.png
-    /// (defect numbers), both 16-bit grayscale, and NAME.masks.json (kind, condition state and box of each defect)
+    /// Write label masks for each picture, to train detectors: NAME.elements.png (AASHTO element numbers),
+    /// NAME.defects.png (defect numbers), both 16-bit grayscale, and NAME.masks.json (kind, condition state and box of
+    /// each defect)
     #[arg(long, conflicts_with = "video")]
     pub masks: bool,
     /// Hide the head-up display
     #[arg(long)]
     pub no_hud: bool,
-    /// Render all photographs of a session into its folder snapshots (JPEG), with small copies for the report in its folder
-    /// small, and rewrite the report
+    /// Render all photographs of a session to its folder "snapshots" (JPEG) and small copies for the report to its
+    /// folder "small", and rewrite the report
     #[arg(long, conflicts_with_all = ["at", "out", "view", "video"])]
     pub snapshots: bool,
     /// Render a session's camera view as a video (MP4, H.264), with chapters in a .vtt file next to it
@@ -73,16 +74,16 @@ pub struct Args {
     /// Horizontal field of view, deg [default: that of the aircraft's camera]; scenarios only
     #[arg(long, value_name = "DEG")]
     pub fov: Option<f64>,
-    /// Turn on the lamp, at the viewpoint; scenarios only
+    /// Turn on the lamp at the viewpoint; scenarios only
     #[arg(long)]
     pub lamp: bool,
-    /// Start time for the position of the sun, UTC (2026-06-20T08:00:00Z); scenarios only
+    /// Start time, which sets the position of the sun, UTC (2026-06-20T08:00:00Z); scenarios only
     #[arg(long, value_name = "UTC")]
     pub utc: Option<String>,
     /// Cloud cover, 0 to 1; scenarios only
     #[arg(long, value_name = "SHARE")]
     pub cloud: Option<f64>,
-    /// Aircraft for a scenario: a file, or the name of a shipped one
+    /// Aircraft for a scenario: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
     /// Run at low CPU priority

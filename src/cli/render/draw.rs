@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     files::write(&args.out, &png(&picture)?)
 }
 
-/// Rejects options that a session determines itself.
+/// Rejects options whose values come from the session.
 fn reject_scenario_options(args: &Args) -> Result<(), AppError> {
     let given = [
         ("--from", args.from.is_some()),
@@ -123,7 +123,8 @@ fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pic
     draw(&drawing, args, &views)
 }
 
-/// Renders shots side by side, each with its overlay. Also writes the label masks if there is a single shot and they are requested.
+/// Renders shots side by side, each with its overlay. Also writes the label masks if they are requested and there is a
+/// single shot.
 fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
     let mut brush = drawing.brush();
     if let (true, [(shot, _)]) = (args.masks, views) {
@@ -133,7 +134,7 @@ fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)
     Ok(side_by_side(&pictures))
 }
 
-/// Places images side by side; lower ones are centered vertically on black.
+/// Places images side by side; shorter images are centered vertically on black.
 fn side_by_side(pictures: &[Picture]) -> Picture {
     const BLACK: [u8; 4] = [0, 0, 0, 255];
     let height = pictures.iter().map(|p| p.height).max().unwrap_or(0);

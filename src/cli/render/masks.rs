@@ -20,7 +20,8 @@ pub fn check(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Writes the label masks of a shot next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and NAME.masks.json.
+/// Writes the label masks of a shot next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and
+/// NAME.masks.json.
 pub fn write(brush: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
     let masks = brush.labels(shot)?;
     let size_px = (masks.width, masks.height);

@@ -21,7 +21,7 @@ pub use args::Args;
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files are invalid, the time is outside the session, or there is no graphics adapter.
+/// Returns an error if files are invalid, the time is outside the session, or there is no graphics adapter.
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
     if args.nice {
@@ -33,11 +33,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// Reports that the program was built without the view.
 ///
 /// # Errors
-/// Always.
+/// Always returns an error.
 #[cfg(not(feature = "view"))]
 pub fn run(args: &Args) -> Result<(), AppError> {
     Err(AppError::failed(format!(
-        "this program was built without the view, so '{}' cannot be rendered: build it with `cargo build --release --features view`",
+        "this program was built without the view, so '{}' cannot be rendered: rebuild it with `cargo build --release --features view`",
         args.what
     )))
 }

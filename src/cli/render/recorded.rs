@@ -24,29 +24,29 @@ use std::path::{Path, PathBuf};
 
 /// A recorded flight with its session folder.
 pub struct RecordedFlight {
-    /// Folder of the recorded session.
+    /// Session folder.
     pub folder: PathBuf,
     /// Contents of the session folder.
     pub stored: StoredSession,
     /// Wall time of simulation time zero, µs since the Unix epoch.
     zero_unix_us: u64,
-    /// Complete telemetry log in memory, because images can need its records in any order.
+    /// Complete telemetry log in memory, because images may need its records in any order.
     log: Vec<u8>,
-    /// The scored flight of the session, which is rendered.
+    /// Scored flight of the session, the one to render.
     pub flight: Flight,
-    /// Number of flights before it in the log, because the simulator was restarted.
+    /// Number of earlier flights in the log, from before the simulator was restarted.
     before: usize,
-    /// Total duration of these earlier flights.
+    /// Total duration of the earlier flights.
     earlier_duration: SimTime,
-    /// Number of records of these earlier flights.
+    /// Number of records of the earlier flights.
     earlier_records: usize,
 }
 
 impl RecordedFlight {
-    /// Reads the flight of a session folder.
+    /// Reads the flight from a session folder.
     ///
     /// # Errors
-    /// If it is not a session folder, a file is invalid, or it contains no flight.
+    /// Returns an error if it is not a session folder, a file is invalid, or it contains no flight.
     pub fn read(folder: &Path) -> Result<Self, AppError> {
         let stored = StoredSession::read(folder)?;
         let mut timeline = Timeline::new(LocalPlane::new(stored.scenario.scenario.origin));
@@ -78,12 +78,12 @@ impl RecordedFlight {
         self.zero_unix_us + u64::try_from((self.earlier_duration + at).us()).unwrap_or(0)
     }
 
-    /// Returns the scenario of the session.
+    /// Returns the session's scenario.
     pub fn scenario(&self) -> &Scenario {
         &self.stored.scenario.scenario
     }
 
-    /// Returns the aircraft of the session.
+    /// Returns the session's aircraft.
     pub fn vehicle(&self) -> &Vehicle {
         &self.stored.vehicle.vehicle
     }
@@ -94,7 +94,7 @@ impl RecordedFlight {
         (time(self.flight.truths.first()), time(self.flight.truths.last()))
     }
 
-    /// Returns the seed of defects and traffic.
+    /// Returns the seed for defects and traffic.
     pub fn seed(&self) -> u64 {
         self.scenario().seed.or(self.flight.seeds.all().first().map(|said| said.2)).unwrap_or_default()
     }
@@ -104,10 +104,10 @@ impl RecordedFlight {
         attention::bridge_closures(&self.flight)
     }
 
-    /// Returns the poses at a time of the flight.
+    /// Returns the poses at a given time of the flight.
     ///
     /// # Errors
-    /// If there is no telemetry for this time.
+    /// Returns an error if there is no telemetry for this time.
     pub fn moment(&self, at: SimTime) -> Result<SceneMoment, AppError> {
         let (first, last) = self.span();
         moment(&self.flight, at, self.vehicle()).ok_or_else(|| {
@@ -116,7 +116,7 @@ impl RecordedFlight {
         })
     }
 
-    /// Returns a feed of the other display values, from the start of the flight.
+    /// Returns a feed of the other display values that starts with the flight.
     pub fn heard(&self) -> RecordedFeed<'_> {
         // A session without an event log is rendered without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
@@ -134,7 +134,7 @@ impl RecordedFlight {
     }
 }
 
-/// Flight mode, satellites, cues and messages as they were received, up to a time that only increases.
+/// Flight mode, satellite count, cues and messages, replayed forward in time.
 pub struct RecordedFeed<'a> {
     feed: Feed,
     now: SimTime,
@@ -144,7 +144,7 @@ pub struct RecordedFeed<'a> {
 }
 
 impl RecordedFeed<'_> {
-    /// Advances to a time, from the telemetry and the monitor's recorded cues and messages.
+    /// Advances to a time, using the telemetry and the monitor's recorded cues and messages.
     pub fn advance_to(&mut self, at: SimTime) -> &Feed {
         while let Some(frame) = self.next.take().or_else(|| self.records.next().map(|record| record.frame)) {
             let now = truth_time(frame).unwrap_or(self.now);
@@ -169,8 +169,8 @@ impl RecordedFeed<'_> {
     }
 }
 
-/// Returns the poses at a time; `None` without telemetry. Attitude, gimbal and zoom are interpolated, as in the live view; the other values are the
-/// last ones received.
+/// Returns the poses at a time; `None` without telemetry. Attitude, gimbal and zoom are interpolated, as in the live
+/// view; the other values are the last ones received.
 fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment> {
     let state = flight.between(at)?;
     let trace = trace(flight, at);

@@ -1,4 +1,4 @@
-//! A site on a graphics device, drawn one picture after the other.
+//! A site on a graphics device, rendered one image at a time.
 
 use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
@@ -16,7 +16,7 @@ use spandrel_view::scene::Scene;
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::Stage;
 
-/// Returns width divided by height.
+/// Returns the aspect ratio (width divided by height).
 pub fn aspect((width, height): (u32, u32)) -> f64 {
     f64::from(width) / f64::from(height)
 }
@@ -30,7 +30,7 @@ pub fn instant(name: &str, seconds: f64) -> Result<SimTime, AppError> {
     }
 }
 
-/// A site with its scene and the device to render it.
+/// A site with its scene and the device that renders it.
 pub struct SceneDrawing {
     /// Graphics device or software renderer.
     pub gpu: Gpu,
@@ -40,7 +40,7 @@ pub struct SceneDrawing {
 }
 
 impl SceneDrawing {
-    /// Opens a device and builds the site, which takes seconds.
+    /// Opens a device and builds the site, which takes several seconds.
     pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
         let gpu = Gpu::open()?;
         tracing::info!("rendering with {}", gpu.name);

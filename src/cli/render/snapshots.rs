@@ -18,10 +18,11 @@ use spandrel_view::photo::{self, PhotoInfo};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::SceneMoment;
 
-/// Maximum number of pixels without a graphics card, unless a size is specified: about a second per image instead of a minute.
+/// Maximum number of pixels without a graphics card, unless a size is specified: roughly a second per image instead of
+/// a minute.
 const MAX_SOFTWARE_PX: f64 = 1280.0 * 960.0;
 
-/// Renders all of a session's photographs into its folder, and writes its report again.
+/// Renders all photographs of a session to its folder, and rewrites its report.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let preset = quality(&args.quality)?;
     let asked = args.size.as_deref().map(size).transpose()?;

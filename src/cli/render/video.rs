@@ -19,7 +19,7 @@ use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// Bits per pixel (estimate: 6 Mbit/s at 1080p30, as small cameras record).
+/// Bits per pixel (estimate: 6 Mbit/s at 1080p30, typical of small cameras).
 const BITS_PER_PIXEL: f64 = 0.1;
 /// Interval between key frames, s; players can jump to these.
 const KEY_FRAME_INTERVAL_S: f64 = 2.0;
@@ -36,7 +36,7 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let track = path.with_extension("vtt");
     if track == path {
         return Err(AppError::wrong(format!(
-            "--video {}: this file name is needed for the chapters; choose another extension, for example .mp4",
+            "--video {}: this file name is reserved for the chapters; choose another extension, for example .mp4",
             path.display()
         )));
     }
@@ -111,7 +111,7 @@ fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s
         .collect()
 }
 
-/// A video file, written under another name until it is complete, so that an existing video remains until then.
+/// A video file. It has a temporary name until it is complete, so that an existing video is kept until then.
 struct VideoFile<'a> {
     path: &'a Path,
     part: PathBuf,
@@ -139,7 +139,7 @@ impl<'a> VideoFile<'a> {
 
 impl Drop for VideoFile<'_> {
     fn drop(&mut self) {
-        // After success, the file has been renamed; otherwise it is incomplete.
+        // If the file still has its temporary name, it is incomplete.
         let _ = std::fs::remove_file(&self.part);
     }
 }

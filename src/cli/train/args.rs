@@ -9,15 +9,16 @@ use crate::io::trainee_id::TraineeId;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-/// Default scenario: the one of the TASBID paper.
+/// Default scenario, from the TASBID paper.
 pub const DEFAULT_SCENARIO: &str = "two-bridges";
 
 /// Fly a session yourself
 ///
-/// Starts simulator and monitor, prints how to connect a ground station or a script, waits for the flight, and prints the scores and the
-/// session folder. With a display it opens a window: choose trainee and job (unless a scenario is given), check the controller, take a
-/// tutorial on the first flight, fly with the keyboard or a calibrated controller in the inspector's and the camera's view, and see the
-/// scores. You can pause or restart a practice. Without a display, fly with your ground station or a script.
+/// Starts the simulator and the monitor, prints how to connect a ground station or a script, waits for the flight, and
+/// prints the scores and the session folder. With a display it opens a window: choose trainee and job (unless a
+/// scenario is given), check the controller, take a tutorial on the first flight, fly with the keyboard or a calibrated
+/// controller in the inspector's and the camera's view, and see the scores. You can pause or restart a practice flight.
+/// Without a display, fly with your ground station or a script.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -25,38 +26,39 @@ Examples:
   spandrel train --trainee anna --scenario drill-hover          start this flight; QGroundControl on this machine connects automatically
   spandrel train --scenario my-job.toml --choose  choose in the window, with this scenario in the list
   spandrel train --no-view                        don't open the window
-  spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     a ground station on another machine
+  spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     connect to a ground station on another machine
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Scenario: a file, or the name of a shipped one [default: chosen in the window; without a window, two-bridges]
+    /// Scenario file, or the name of a shipped scenario [default: chosen in the window; without a window, two-bridges]
     #[arg(long, value_name = "FILE|NAME")]
     pub scenario: Option<String>,
-    /// Aircraft: a file, or the name of a shipped one
+    /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
-    /// Seed for everything random (defects, traffic, gusts, sensor noise), 0 to 2147483647 [default: the scenario's, else a new one]
+    /// Random seed for defects, traffic, gusts and sensor noise, 0 to 2147483647 [default: the scenario's seed, or a
+    /// new one]
     #[arg(long, value_name = "N", value_parser = args::parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
-    /// Trainee: letters, digits, '-' and '_', at most 32 characters
+    /// Trainee ID: letters, digits, '-' and '_', at most 32 characters
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     pub trainee: TraineeId,
     /// Purpose of the flight
     #[arg(long, value_name = "PURPOSE", default_value = "practice")]
     pub purpose: args::Purpose,
-    /// Choose in the window even though a scenario is given
+    /// Choose in the window even if a scenario is given
     #[arg(long, conflicts_with = "no_view")]
     pub choose: bool,
-    /// Folder for session folders
+    /// Folder in which to create session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     pub sessions: PathBuf,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max; use 1 to fly by hand
     #[arg(long, value_name = "X|max", default_value = "1")]
     pub speed: SimulationSpeed,
-    /// Autopilot protocol; the flight dynamics are the same in all of them
+    /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, value_name = "NAME", default_value = "px4")]
     pub flavour: args::Flavour,
-    /// Local port for web pages of the sessions and the live flight, 0 for any free one, or none
+    /// Local port for the web pages of the sessions and the live flight, 0 for any free port, or none
     #[arg(long, value_name = "PORT|none", default_value = "0")]
     pub web: addresses::PortChoice,
     /// Don't open the window
@@ -65,23 +67,23 @@ pub struct Args {
     /// Quit when the session is scored instead of keeping the vehicle connected
     #[arg(long, conflicts_with = "choose")]
     pub once: bool,
-    /// No sound in the window
+    /// Disable sound in the window
     #[arg(long)]
     pub no_sound: bool,
     /// Graphics quality of the window: low, medium, high, ultra, or auto
     #[arg(long, value_name = "PRESET", default_value = "auto")]
     pub quality: String,
-    /// Key bindings of the window (as `spandrel view --keys`)
+    /// Key bindings of the window (same format as `spandrel view --keys`)
     #[arg(long, value_name = "FILE")]
     pub keys: Option<PathBuf>,
-    /// Controller to fly with from the window, by part of its name or ID [default: the only one connected]
+    /// Controller for flying in the window: its ID or part of its name [default: the only connected controller]
     #[arg(long, value_name = "NAME", conflicts_with = "no_view")]
     pub device: Option<String>,
-    /// Folder of calibration profiles [default: spandrel/controllers in the user's configuration folder]
+    /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_view")]
     pub profiles: Option<PathBuf>,
-    /// Stream the camera view to this address during the flight, as H.264 over RTP (as `spandrel view --stream`; QGroundControl listens on
-    /// UDP 5600)
+    /// Stream the camera view to this address during the flight, as H.264 over RTP (as `spandrel view --stream`;
+    /// QGroundControl listens on UDP 5600)
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, conflicts_with = "no_view")]
     pub stream: Option<SocketAddr>,
     #[command(flatten)]
@@ -95,13 +97,13 @@ impl Args {
     }
 }
 
-/// Returns the file to which the window saves the camera's view for the live page: in the folder of sessions, one per process, so that no one else
-/// can write to it.
+/// Returns the file to which the window saves the camera's view for the live page. Each process has its own file in the
+/// folder of sessions, where nobody else can write.
 pub fn camera_file(args: &Args) -> PathBuf {
     args.sessions.join(format!(".camera-{}.jpg", std::process::id()))
 }
 
-/// Returns the arguments of a command line.
+/// Parses a command line.
 #[cfg(test)]
 pub fn parsed(words: &[&str]) -> Args {
     use clap::Parser;

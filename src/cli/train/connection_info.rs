@@ -1,9 +1,10 @@
-//! Text that tells how to connect a ground station or a script.
+//! Instructions for connecting a ground station or a script.
 
 use crate::cli::ports::PortArgs;
 use std::path::Path;
 
-/// Returns the text for one flight; `web` is the address of the pages, and `window` is true if a window shows the flight.
+/// Returns the instructions for one flight. `web` is the address of the web pages, and `window` is true if a window
+/// shows the flight.
 pub fn connection_instructions(
     title: &str,
     args: &PortArgs,
@@ -24,7 +25,8 @@ pub fn connection_instructions(
   session folder   {}
   web pages        {}
 {}
-Take off, fly the tasks and land on the pad. The scores follow, and the vehicle stays connected. Ctrl-C ends the session early.
+Take off, fly the tasks and land on the pad. You then see your scores, and the vehicle stays connected.
+Press Ctrl-C to end the session early.
 ",
         port("gcs_port"),
         port("tcp_port"),
@@ -34,9 +36,9 @@ Take off, fly the tasks and land on the pad. The scores follow, and the vehicle 
         session.display(),
         web.unwrap_or("none"),
         if window {
-            "A window shows both views and the keys to fly with; you can also fly with a ground station or a script."
+            "A window shows both views and the flight keys; you can also fly with a ground station or a script."
         } else {
-            "No window: fly with the ground station's map and instruments, or with a script."
+            "No window: fly with the map and instruments of a ground station, or with a script."
         },
     )
 }

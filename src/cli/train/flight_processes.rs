@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::Duration;
 
-/// Interval at which the child processes are checked.
+/// Interval between checks of the child processes.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 /// Folder for the vehicle's files and flight logs inside the session folder, so that they are erased with the session.
 const VEHICLE_FILES: &str = "vehicle";
@@ -27,7 +27,7 @@ const MAX_MONITOR_RESTARTS: u32 = 10;
 pub struct FlightProcesses {
     monitor: Child,
     sim: Child,
-    /// JSON values that the simulator announced.
+    /// Ports and seed that the simulator announced, as JSON.
     pub ports: Value,
     /// Address that the simulator listens on.
     host: IpAddr,
@@ -40,9 +40,9 @@ pub struct FlightProcesses {
     monitor_restarts: u32,
 }
 
-/// Reason why waiting for a flight ended.
+/// Reason for the end of the wait for a flight.
 pub enum FlightOutcome {
-    /// The session has ended, or was ended by the user.
+    /// The session ended, or the user ended it.
     Over,
     /// The flight must be restarted.
     Restart,
@@ -54,7 +54,7 @@ impl FlightProcesses {
     /// Starts the processes.
     ///
     /// # Errors
-    /// If files or ports are invalid.
+    /// Returns an error if files or ports are invalid.
     pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level) -> Result<Self, AppError> {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
@@ -104,7 +104,7 @@ impl FlightProcesses {
         Some(SocketAddr::new(self.host, port))
     }
 
-    /// Returns the message with which the window starts to show the flight.
+    /// Returns the message that makes the window show the flight.
     pub fn started_message(&self, args: &Args) -> Option<ToWindow> {
         Some(ToWindow::Flying(FlightStarted {
             choice: self.choice.clone(),
@@ -120,7 +120,8 @@ impl FlightProcesses {
         connection_instructions(&self.title, &args.ports, &self.ports, &self.session, (web, window))
     }
 
-    /// Waits until the session ends, a stop is requested, or a process exits too early. Handles the window's requests meanwhile.
+    /// Waits until the session ends, a stop is requested, or a process exits too early. Handles the window's requests
+    /// meanwhile.
     pub fn wait(&mut self, window: &mut Option<WindowProcess>, stop: &StopRequest) -> FlightOutcome {
         loop {
             if let Some(window) = window {
@@ -131,7 +132,7 @@ impl FlightProcesses {
                     }
                 }
                 if !window.is_open() && self.paused {
-                    // Without the window, there is no way to resume.
+                    // Without the window, the user could not resume.
                     self.set_paused(false);
                 }
             }
@@ -214,7 +215,7 @@ impl FlightProcesses {
     }
 }
 
-/// Returns true if a monitor exited by its own decision, false if it was killed or crashed.
+/// Returns true if a monitor exited on its own, false if it was killed or crashed.
 fn exited_normally(status: ExitStatus) -> bool {
     status.code().is_some_and(|code| (0..=2).contains(&code))
 }

@@ -21,7 +21,7 @@ use train_run::TrainRun;
 /// Runs the subcommand.
 ///
 /// # Errors
-/// If files or ports are invalid, a process fails, or the flight cannot be scored.
+/// Returns an error if files or ports are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     // Errors in the files are reported before any process starts.
     files::scenario(args.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO))?;

@@ -62,7 +62,7 @@ fn contents_summary(scenario: &Scenario) -> String {
     parts.join(", ")
 }
 
-/// Returns the end page of a session. `trouble` is the reason why it has no scores, if known.
+/// Returns the end page of a session. `trouble` is the reason for missing scores, if known.
 pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
     let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
     let assessment: Value = serde_json::from_str(&text).unwrap_or_default();

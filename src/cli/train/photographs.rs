@@ -1,4 +1,4 @@
-//! Draws the photographs of a flight into its folder and its report in the background.
+//! Renders the photographs of a flight for its folder and its report in the background.
 
 use super::window::software_renderer_threads;
 use crate::io::stop::StopRequest;
@@ -6,15 +6,15 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// Interval at which the drawing processes are checked.
+/// Interval at which the rendering processes are checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Drawing processes that have not finished.
+/// Rendering processes that have not finished.
 #[derive(Default)]
 pub struct PhotographJobs(Vec<Child>);
 
 impl PhotographJobs {
-    /// Starts drawing a session's photographs. If that fails, the report has placeholders, as without a window.
+    /// Starts rendering a session's photographs. If that fails, the report has placeholders, as without a window.
     pub fn draw(&mut self, session: &Path) {
         let started = std::env::current_exe().and_then(|program| {
             let (threads, few) = software_renderer_threads();
@@ -24,15 +24,15 @@ impl PhotographJobs {
         });
         match started {
             Ok(child) => self.0.push(child),
-            Err(error) => tracing::warn!("cannot draw the photographs of {}: {error}", session.display()),
+            Err(error) => tracing::warn!("cannot render the photographs of {}: {error}", session.display()),
         }
     }
 
-    /// Waits until all photographs are drawn; a stop request cancels the rest.
+    /// Waits until all photographs are rendered; a stop request cancels the rest.
     pub fn finish(&mut self, stop: &StopRequest) {
         self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         if !self.0.is_empty() && !stop.is_requested() {
-            tracing::info!("drawing the photographs into the report; press Ctrl-C to skip");
+            tracing::info!("rendering the photographs for the report; press Ctrl-C to skip");
         }
         while !self.0.is_empty() && !stop.is_requested() {
             std::thread::sleep(CHECK_INTERVAL);

@@ -3,7 +3,7 @@
 use std::io::{BufRead, IsTerminal};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Input that starts another flight.
+/// Input that requests another flight.
 const AGAIN_INPUT: &str = "again";
 
 /// A line typed at the terminal.
@@ -15,7 +15,7 @@ pub enum PromptAnswer {
     Quit,
 }
 
-/// The terminal. Without one, only a signal ends the run.
+/// The terminal prompt. Without a terminal, only a signal ends the run.
 #[derive(Debug, Default)]
 pub struct TerminalPrompt {
     lines: Option<Receiver<String>>,

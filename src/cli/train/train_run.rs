@@ -20,7 +20,7 @@ use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
 
-/// Interval at which the window is checked.
+/// Interval between checks of the window.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Web server with the vehicle that its live page shows.
@@ -36,12 +36,13 @@ pub struct TrainRun<'a> {
     stop: StopRequest,
     /// The window, while it is open.
     window: Option<WindowProcess>,
-    /// True if the user closed the window; photographs can then still be drawn on this computer.
+    /// True if the user closed the window; photographs can still be rendered on this computer.
     closed: bool,
     web: Option<ServedPages>,
     web_announced: bool,
     photographs: PhotographJobs,
-    /// Vehicle of the last flight. It stays connected until the next flight or the end of the run, so that ground stations can download its logs.
+    /// Vehicle of the last flight. It stays connected until the next flight or the end of the run, so that ground
+    /// stations can download its logs.
     vehicle: Option<FlightProcesses>,
     prompt: TerminalPrompt,
 }
@@ -49,9 +50,9 @@ pub struct TrainRun<'a> {
 /// Decision after a flight.
 enum NextFlight {
     Fly(FlightChoice),
-    /// The user wants no further flight.
+    /// The user is done flying.
     Leave,
-    /// There is no window to choose in.
+    /// There is no window in which to choose.
     Nobody,
 }
 
@@ -72,10 +73,10 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Runs flights until the user leaves.
+    /// Runs flights until the user quits.
     ///
     /// # Errors
-    /// If a flight cannot be started or scored; returns the last error.
+    /// Returns an error if a flight cannot be started or scored; returns the last error.
     pub fn run(mut self) -> Result<(), AppError> {
         self.window = WindowProcess::open(self.args, self.log);
         let usual = FlightChoice {
@@ -93,7 +94,7 @@ impl<'a> TrainRun<'a> {
         while let NextFlight::Fly(choice) = next {
             let (flown, session) = match self.fly(&choice) {
                 Ok(done) => done,
-                // An error of the first flight ends the run, as without a window; later errors are shown in the window.
+                // An error in the first flight ends the run, as without a window; later errors are shown in the window.
                 Err(error) if last.is_none() && !self.is_window_in_use() => return Err(error),
                 Err(error) => {
                     tracing::warn!("cannot start the flight: {error}");
@@ -107,7 +108,7 @@ impl<'a> TrainRun<'a> {
             last = Some(session);
             next = self.next_choice(&choice);
         }
-        // A user who leaves through the window has seen the results; open questions are answered on the web pages.
+        // A user who quits in the window has seen the results; unanswered questions can be answered on the web pages.
         let seen = matches!(next, NextFlight::Leave) && !last.as_deref().is_some_and(questionnaire_state::has_unanswered);
         self.end_vehicle();
         if let Some(window) = self.window.take() {
@@ -153,7 +154,8 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Returns the command line's choice once the window is shown or known to be missing, so that no flight starts without its views.
+    /// Returns the command line's choice once the window is shown or known to be missing, so that no flight starts
+    /// without its views.
     fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
         self.wait_for_window();
         if self.stop.is_requested() { NextFlight::Leave } else { NextFlight::Fly(usual.clone()) }
@@ -168,7 +170,7 @@ impl<'a> TrainRun<'a> {
                 NextFlight::Nobody => {}
                 next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
             }
-            // Closing the window means that no flight is wanted; if it crashes, the run continues without it.
+            // If the user closes the window, no flight follows; if the window crashes, the run continues without it.
             if self.closed {
                 return NextFlight::Leave;
             }
@@ -177,7 +179,7 @@ impl<'a> TrainRun<'a> {
             return NextFlight::Leave;
         }
         tracing::info!(
-            "using the command line: {} flies {}; use --trainee, --scenario and --purpose for another choice",
+            "using the command line: {} flies {}; use --trainee, --scenario and --purpose to change this",
             usual.trainee,
             usual.scenario
         );
@@ -202,7 +204,7 @@ impl<'a> TrainRun<'a> {
                         Ok(()) => return NextFlight::Fly(choice),
                         Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
                     },
-                    // Late messages about a flight that has just ended.
+                    // Ignores late messages about a flight that has just ended.
                     FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
                 }
             }
@@ -217,7 +219,8 @@ impl<'a> TrainRun<'a> {
         self.prompt_at_terminal(last)
     }
 
-    /// Keeps the vehicle connected if there is no window, until the user answers at the terminal or a stop is requested.
+    /// Keeps the vehicle connected if there is no window, until the user answers at the terminal or a stop is
+    /// requested.
     fn prompt_at_terminal(&mut self, last: &FlightChoice) -> NextFlight {
         if self.args.once || self.closed || self.vehicle.is_none() {
             return NextFlight::Nobody;
@@ -255,7 +258,7 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Flies a choice to its end, including restarts. Returns the result and the session folder.
+    /// Runs the chosen flight to its end, including restarts. Returns the result and the session folder.
     fn fly(&mut self, choice: &FlightChoice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
         loop {
             self.end_vehicle();
@@ -269,7 +272,7 @@ impl<'a> TrainRun<'a> {
             print!("{}", flight.connection_info(self.args, web, shown));
             let outcome = flight.wait(&mut self.window, &self.stop);
             if matches!(outcome, FlightOutcome::Over) && self.stop.is_requested() {
-                // After a stop request, there is no further choice.
+                // After a stop request, no further flight can be chosen.
                 self.window.take().into_iter().for_each(WindowProcess::close);
             }
             flight.end_session();
@@ -297,7 +300,8 @@ impl<'a> TrainRun<'a> {
             FlightOutcome::Over | FlightOutcome::Restart => told,
         };
         let open = self.is_open();
-        // If the window has crashed, drawing is not possible; after a stop request, the user does not wait for photographs.
+        // If the window has crashed, rendering is impossible; after a stop request, the user does not wait for
+        // photographs.
         if (open || self.closed) && result.is_ok() && !self.stop.is_requested() {
             self.photographs.draw(session);
         }
@@ -311,7 +315,8 @@ impl<'a> TrainRun<'a> {
         result
     }
 
-    /// Serves the web pages of the sessions and of this vehicle's flight, at the same address throughout. A failure does not prevent the flight.
+    /// Serves the web pages of the sessions and of this vehicle's flight, at the same address throughout. A failure
+    /// does not prevent the flight.
     fn serve(&mut self, vehicle: Option<SocketAddr>) {
         let addresses::PortChoice::Number(mut port) = self.args.web else { return };
         match self.web.take() {
@@ -336,12 +341,13 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Keeps the web pages available until the user answers at the terminal, because the questionnaire follows the flight.
+    /// Keeps the web pages available until the user answers at the terminal, because the questionnaire follows the
+    /// flight.
     fn keep_serving(&mut self, session: &Path) {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
         let address = offers::flight_summary(session, Some(web.server.address()), None).questionnaire;
         println!("questionnaire {address}   (available until you press Enter)");
-        // Enter ends only the pages; the run still waits for the photographs.
+        // Enter only ends the web pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {
             std::thread::sleep(CHECK_INTERVAL);
         }

@@ -1,4 +1,4 @@
-//! The window as a separate process, and the pipe to it. A session continues without the window.
+//! The window as a separate process, and the pipe to it. The session continues if the window exits.
 
 use super::args::{Args, camera_file};
 use crate::io::addresses::PortChoice;
@@ -8,12 +8,12 @@ use crate::io::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
 
-/// Interval at which the window is checked.
+/// Interval between checks of the window.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 /// Time limit for the window to open on a busy machine.
 const OPEN_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// Process of the window.
+/// The window process.
 pub struct WindowProcess {
     child: Child,
     has_exited: bool,
@@ -32,7 +32,7 @@ impl WindowProcess {
             return None;
         }
         if args.ports.payload_port == Some(PortChoice::None) {
-            tracing::warn!("no window: it needs the payload port, but --payload-port is none");
+            tracing::warn!("no window: it requires the payload port, but --payload-port is none");
             return None;
         }
         let opened = Child::start_with_env("view", &window_args(args, log), &[software_renderer_threads()]);
@@ -70,7 +70,7 @@ impl WindowProcess {
         self.child.send_line(&pipe::line(message));
     }
 
-    /// Returns the next message of the window. The first invalid line is logged, further ones are ignored.
+    /// Returns the next message of the window. Only the first invalid line is logged; later ones are ignored.
     pub fn receive(&mut self) -> Option<FromWindow> {
         while let Some(line) = self.child.try_read_line() {
             match pipe::read(&line) {
@@ -80,7 +80,7 @@ impl WindowProcess {
                 }
                 Err(error) if !self.bad_line_reported => {
                     self.bad_line_reported = true;
-                    tracing::warn!("invalid message from the window: {error}; further ones are ignored");
+                    tracing::warn!("invalid message from the window: {error}; further invalid messages are ignored");
                 }
                 Err(_) => {}
             }
@@ -99,14 +99,14 @@ impl WindowProcess {
         !self.has_exited
     }
 
-    /// Ends the process; the user has asked to close the window.
+    /// Ends the process after the user has closed the window.
     pub fn close(mut self) {
         self.has_exited = true;
         self.child.finish();
     }
 }
 
-/// Returns the arguments of the window's process.
+/// Returns the command-line arguments for the window process.
 fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
     let mut words = ["--led", "--log", &log.to_string().to_lowercase(), "--quality", &args.quality].map(str::to_owned).to_vec();
     let given = [
@@ -133,8 +133,8 @@ fn exit_message(closed: bool, is_flying: bool) -> &'static str {
     }
 }
 
-/// Returns the environment variable that limits Mesa's software renderer to half of the processors; the simulator and the monitor need the other
-/// half.
+/// Returns the environment variable that limits Mesa's software renderer to half of the processors; the simulator and
+/// the monitor need the other half.
 pub fn software_renderer_threads() -> (&'static str, String) {
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     ("LP_NUM_THREADS", (all / 2).max(1).to_string())

@@ -64,7 +64,7 @@ impl CalibratedController {
     /// Opens a calibrated controller with the given profile, or with the saved profile of its device.
     ///
     /// # Errors
-    /// If the device is not calibrated, or a file is invalid.
+    /// Returns an error if the device is not calibrated, or a file is invalid.
     pub fn open(
         source: EventSource,
         profiles: &ProfileFolder,
@@ -93,8 +93,8 @@ impl CalibratedController {
         Self { source, profile, raw: RawInput::default(), log: None }
     }
 
-    /// Processes the device's events and the actions of its buttons. A recording is replayed by `flown`, the time since the first contact with the
-    /// vehicle.
+    /// Processes the device's events and its button actions. A recording is replayed according to `flown`, the time
+    /// since the first contact with the vehicle.
     pub fn poll(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> ControllerReading {
         while let Some(event) = self.source.next(flown) {
             self.record_event(flown, event);
@@ -105,7 +105,7 @@ impl CalibratedController {
                     self.profile.buttons.get(&button).into_iter().for_each(|action| link.request_action(*action, now));
                 }
                 DeviceEvent::Lost => {
-                    tracing::warn!("'{}' disconnected: sticks centered, then no longer sent", self.profile.device.name)
+                    tracing::warn!("'{}' disconnected: stick input centered, then stopped", self.profile.device.name)
                 }
                 DeviceEvent::Found => tracing::info!("'{}' connected", self.profile.device.name),
                 DeviceEvent::Axis { .. } | DeviceEvent::Button { .. } => {}
@@ -124,7 +124,7 @@ impl CalibratedController {
     }
 }
 
-/// Functions for the window's controller test and calibration.
+/// Functions for the controller test and calibration in the window.
 #[cfg(feature = "view")]
 impl CalibratedController {
     /// Returns the calibration profile in use.
@@ -142,7 +142,7 @@ impl CalibratedController {
         &self.raw
     }
 
-    /// Returns the event source without the profile.
+    /// Returns only the event source, without the profile.
     pub fn release(self) -> EventSource {
         self.source
     }
@@ -168,7 +168,7 @@ mod tests {
         let profile =
             ControllerProfile { device: device.clone(), mode: StickMode::Two, axes: BTreeMap::new(), buttons: BTreeMap::new() };
         let mut log = InputLog::begin(&path, &device).unwrap();
-        // A read-only descriptor fails like a full disk.
+        // A read-only descriptor simulates a full disk.
         log.file = File::open(&path).unwrap();
         let mut hand = CalibratedController {
             log: Some(log),

@@ -1,4 +1,4 @@
-//! Gamepads and RC transmitters over gilrs, with raw axes: their meaning comes from the calibration.
+//! Gamepads and RC transmitters, through gilrs. Axes are raw; the calibration assigns their functions.
 
 use crate::errors::AppError;
 use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
@@ -16,7 +16,7 @@ pub struct Gamepad {
 }
 
 fn system() -> Result<Gilrs, AppError> {
-    // Without gilrs' filters, because the profile defines dead bands, and without its mappings, to get raw axes.
+    // gilrs' filters are off because the profile defines dead bands, and its mappings are off to get raw axes.
     let built = GilrsBuilder::new().with_default_filters(false).add_included_mappings(false).add_env_mappings(false).build();
     built.map_err(|error| AppError::failed(format!("cannot access gamepads and transmitters on this machine: {error}")))
 }
@@ -29,14 +29,14 @@ fn describe(gamepad: gilrs::Gamepad) -> Device {
     Device { name: gamepad.os_name().to_owned(), id }
 }
 
-/// Waits for a device to be connected. The device list is read once, and updated by events.
+/// Detects newly connected devices. The device list is read once and then updated by events.
 #[cfg(feature = "view")]
 #[derive(Debug)]
 pub struct GamepadWatcher(Gilrs);
 
 #[cfg(feature = "view")]
 impl GamepadWatcher {
-    /// Starts watching for devices to be connected.
+    /// Starts watching for new devices.
     pub fn start() -> Result<Self, AppError> {
         system().map(Self)
     }
@@ -53,7 +53,7 @@ pub fn connected() -> Result<Vec<Device>, AppError> {
 }
 
 impl Gamepad {
-    /// Opens the device with this ID or name, or the only one.
+    /// Opens the device with this ID or name, or the only device.
     pub fn open(wanted: Option<&str>) -> Result<Self, AppError> {
         let system = system()?;
         let all: Vec<(GamepadId, Device)> = system.gamepads().map(|(id, gamepad)| (id, describe(gamepad))).collect();
@@ -75,7 +75,7 @@ impl Gamepad {
         &self.device
     }
 
-    /// Returns the next event of the device.
+    /// Returns the device's next event.
     pub fn next(&mut self) -> Option<DeviceEvent> {
         while let Some(event) = self.system.next_event() {
             if event.id != self.id {
@@ -85,7 +85,7 @@ impl Gamepad {
                 EventType::AxisChanged(_, value, code) => {
                     return Some(DeviceEvent::Axis { axis: code.into_u32(), value: f64::from(value) });
                 }
-                // Axis of a trigger, 0 to 1.
+                // Trigger axis, 0 to 1.
                 EventType::ButtonChanged(_, value, code) if code.into_u32() >> 16 == EV_ABS => {
                     return Some(DeviceEvent::Axis { axis: code.into_u32(), value: 2.0 * f64::from(value) - 1.0 });
                 }

@@ -1,4 +1,4 @@
-//! Sources of stick input: gamepads and transmitters (feature `gamepad`), the terminal's keyboard, and recordings.
+//! Sources of stick input: gamepads and transmitters (feature `gamepad`), the keyboard of the terminal, and recordings.
 
 mod calibrated;
 #[cfg(feature = "gamepad")]
@@ -24,15 +24,15 @@ pub enum EventSource {
     /// A device connected to this computer.
     #[cfg(feature = "gamepad")]
     Gamepad(Box<gamepad::Gamepad>),
-    /// A recording of such a device.
+    /// A recording of a device's input.
     Record(InputRecording),
 }
 
 impl EventSource {
-    /// Opens the device with this name or ID, or the only one.
+    /// Opens the device with this name or ID, or the only device.
     ///
     /// # Errors
-    /// If there is none, several match, or this build does not support gamepads.
+    /// Returns an error if there is none, several match, or this build does not support gamepads.
     pub fn device(wanted: Option<&str>) -> Result<Self, AppError> {
         #[cfg(feature = "gamepad")]
         return gamepad::Gamepad::open(wanted).map(|gamepad| Self::Gamepad(Box::new(gamepad)));
@@ -40,7 +40,7 @@ impl EventSource {
         Err(AppError::failed(format!("{}: {NO_GAMEPADS}", wanted.unwrap_or("a gamepad or transmitter"))))
     }
 
-    /// Returns the device that the events come from.
+    /// Returns the source device of the events.
     pub fn device_info(&self) -> &Device {
         match self {
             #[cfg(feature = "gamepad")]
@@ -71,7 +71,7 @@ impl EventSource {
 #[cfg(not(feature = "gamepad"))]
 const NO_GAMEPADS: &str = "this build does not support gamepads (build with --features gamepad; on Debian and Ubuntu that needs libudev-dev); use --keyboard to fly without one";
 
-/// Waits for a device to be connected.
+/// Detects newly connected devices.
 #[derive(Debug, Default)]
 #[cfg(feature = "view")]
 pub struct DeviceWatcher {
@@ -84,7 +84,7 @@ impl DeviceWatcher {
     /// Starts watching, if the system supports it.
     pub fn start() -> Self {
         Self {
-            // The error has already been reported by the search for a device.
+            // The search for a device has already reported the error.
             #[cfg(feature = "gamepad")]
             system: gamepad::GamepadWatcher::start().ok(),
         }
@@ -99,10 +99,10 @@ impl DeviceWatcher {
     }
 }
 
-/// Returns the key bindings of a file, or the default ones.
+/// Returns the key bindings from a file, or the default key bindings.
 ///
 /// # Errors
-/// If the file cannot be read or is invalid.
+/// Returns an error if the file cannot be read or is invalid.
 pub fn keys(file: Option<&Path>) -> Result<KeyBindings, AppError> {
     match file {
         Some(path) => Ok(KeyBindings::read(&path.display().to_string(), &files::read(path)?)?),
@@ -113,7 +113,7 @@ pub fn keys(file: Option<&Path>) -> Result<KeyBindings, AppError> {
 /// Returns all connected devices.
 ///
 /// # Errors
-/// If the system cannot list them, or this build does not support gamepads.
+/// Returns an error if the system cannot list them, or this build does not support gamepads.
 pub fn connected() -> Result<Vec<Device>, AppError> {
     #[cfg(feature = "gamepad")]
     return gamepad::connected();

@@ -7,14 +7,15 @@ use spandrel_clients::rc::{ControllerProfile, Device};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-const NO_HOME_FOLDER: &str = "no home folder is known: specify a folder with --profiles";
+const NO_HOME_FOLDER: &str = "no home folder found: specify a profile folder with --profiles";
 
-/// Folder of profiles; `None` if the user has no home folder. Devices then have no profiles, and everything else works.
+/// Folder of profiles; `None` if the user has no home folder. Without a folder, devices have no profiles, but
+/// everything else works.
 #[derive(Debug, Clone, Default)]
 pub struct ProfileFolder(Option<PathBuf>);
 
 impl ProfileFolder {
-    /// Uses this folder, or the user's (`spandrel/controllers` in `$XDG_CONFIG_HOME` or `~/.config`).
+    /// Uses this folder, or the user's default folder (`spandrel/controllers` in `$XDG_CONFIG_HOME` or `~/.config`).
     pub fn at(folder: Option<PathBuf>) -> Self {
         Self(folder.or_else(|| usual(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
     }
@@ -22,7 +23,7 @@ impl ProfileFolder {
     /// Returns the folder of the profiles.
     ///
     /// # Errors
-    /// If no folder was specified and the user has no home folder.
+    /// Returns an error if no folder was specified and the user has no home folder.
     pub fn folder(&self) -> Result<&Path, AppError> {
         self.0.as_deref().ok_or_else(|| AppError::wrong(NO_HOME_FOLDER))
     }
@@ -40,15 +41,15 @@ impl ProfileFolder {
     /// Returns a device's profile, if it has one.
     ///
     /// # Errors
-    /// If the file cannot be read or is invalid.
+    /// Returns an error if the file cannot be read or is invalid.
     pub fn find(&self, device: &Device) -> Result<Option<ControllerProfile>, AppError> {
         self.path(device).filter(|path| path.exists()).map(|path| read(&path)).transpose()
     }
 
-    /// Saves a profile. The old one remains until the new one is complete.
+    /// Saves a profile. The old profile remains until the new one is complete.
     ///
     /// # Errors
-    /// If there is no folder, or it cannot be written.
+    /// Returns an error if there is no folder, or it cannot be written.
     pub fn save(&self, profile: &ControllerProfile) -> Result<PathBuf, AppError> {
         let folder = self.folder()?;
         let path = folder.join(file_of(&profile.device));
@@ -58,7 +59,7 @@ impl ProfileFolder {
     }
 }
 
-/// Returns the user's default folder, from these two environment variables.
+/// Returns the user's default folder, based on these two environment variables.
 fn usual(config: Option<OsString>, home: Option<OsString>) -> Option<PathBuf> {
     let known = |place: Option<OsString>| place.filter(|place| !place.is_empty()).map(PathBuf::from);
     let config = known(config).or_else(|| known(home).map(|home| home.join(".config")));
@@ -74,7 +75,7 @@ fn file_of(device: &Device) -> String {
 /// Reads a profile from a file.
 ///
 /// # Errors
-/// If the file cannot be read or is invalid; all problems are listed.
+/// Returns an error if the file cannot be read or is invalid; all problems are listed.
 pub fn read(path: &Path) -> Result<ControllerProfile, AppError> {
     Ok(ControllerProfile::read(&path.display().to_string(), &files::read(path)?)?)
 }
@@ -113,7 +114,7 @@ mod tests {
         let nowhere = ProfileFolder::default();
         assert_eq!((nowhere.find(&device).unwrap(), nowhere.path(&device)), (None, None));
         for told in [nowhere.save(&profile(&device)).unwrap_err().to_string(), nowhere.missing(&device)] {
-            assert_eq!(told, "no home folder is known: specify a folder with --profiles");
+            assert_eq!(told, "no home folder found: specify a profile folder with --profiles");
         }
     }
 

@@ -1,5 +1,5 @@
-//! The terminal's keyboard as a controller. Terminals that report key releases (kitty's protocol) fly best; in others, a key is released after a
-//! delay.
+//! The terminal's keyboard as a controller. Terminals that report key releases (kitty keyboard protocol) work best; in
+//! others, keys are released after a delay.
 
 use crate::errors::AppError;
 use crossterm::event::{
@@ -10,20 +10,20 @@ use crossterm::{execute, terminal};
 use std::io::{IsTerminal, stderr, stdin};
 use std::time::Duration;
 
-/// A key event of the terminal.
+/// A terminal key event.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TerminalKey {
-    /// Key pressed. Repeated while the key is held if the terminal cannot tell presses from repetitions.
+    /// Key pressed. Repeated while the key is held if the terminal does not distinguish presses from repetitions.
     Down(String),
     /// Key released, with its name.
     Up(String),
-    /// The terminal lost the focus, so it no longer receives key releases.
+    /// The terminal lost focus, so it no longer receives key releases.
     FocusLost,
-    /// Ctrl-C or Escape: the user wants to quit.
+    /// Ctrl-C or Escape: quit.
     Quit,
 }
 
-/// A terminal in raw mode, restored when this is dropped.
+/// A terminal in raw mode. Dropping this restores the previous mode.
 #[derive(Debug)]
 pub struct RawTerminal {
     features_enabled: bool,
@@ -35,14 +35,15 @@ impl RawTerminal {
     /// Switches the terminal to raw mode.
     ///
     /// # Errors
-    /// If standard input is not a terminal.
+    /// Returns an error if standard input is not a terminal.
     pub fn enter() -> Result<Self, AppError> {
         if !stdin().is_terminal() {
             return Err(AppError::failed("--keyboard needs a terminal, but standard input is not one"));
         }
-        let failed = |error: std::io::Error| AppError::failed(format!("cannot read single keys from the terminal: {error}"));
+        let failed = |error: std::io::Error| AppError::failed(format!("cannot read key presses from the terminal: {error}"));
         terminal::enable_raw_mode().map_err(failed)?;
-        // The terminal's features are requested on standard error; if that is a file, there are no key releases.
+        // The terminal's features are requested on standard error; if standard error is a file, there are no key
+        // releases.
         let features_enabled = stderr().is_terminal();
         let reports_releases = features_enabled && terminal::supports_keyboard_enhancement().unwrap_or(false);
         let taken = Self { features_enabled, reports_releases };

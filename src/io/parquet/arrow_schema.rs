@@ -1,8 +1,9 @@
-//! Encodes an Arrow schema as an encapsulated IPC message, which Parquet files contain for Arrow-based readers, because Parquet's own schema cannot
-//! store units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of `Schema.fbs` and `Message.fbs`; encoding:
-//! <https://flatbuffers.dev/internals/>. Parents are written before their children, so that all offsets are positive.
+//! Encodes an Arrow schema as an encapsulated IPC message, which Parquet files contain for Arrow-based readers, because
+//! Parquet's own schema cannot store units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of
+//! `Schema.fbs` and `Message.fbs`; encoding: <https://flatbuffers.dev/internals/>. Parents are written before their
+//! children, so that all offsets are positive.
 
-/// Type of a field.
+/// Field type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Signed 64-bit integer.
@@ -18,11 +19,11 @@ pub enum Kind {
 /// A field of the schema.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field<'a> {
-    /// Name of the column.
+    /// Column name.
     pub name: &'a str,
     /// True if values may be null.
     pub nullable: bool,
-    /// Type of the values.
+    /// Value type.
     pub kind: Kind,
     /// Metadata as key-value pairs.
     pub metadata: Vec<(&'a str, &'a str)>,
@@ -59,7 +60,7 @@ enum Slot {
     Short(i16),
     Int(i32),
     Long(i64),
-    /// Placeholder of an offset that is set later.
+    /// Placeholder for an offset that is set later.
     Offset,
 }
 
@@ -135,7 +136,7 @@ impl FlatBufferWriter {
     fn field(&mut self, from: usize, field: &Field<'_>) {
         let kind = Slot::Byte(field.kind.number());
         let nullable = Slot::Byte(u8::from(field.nullable));
-        // Slots: name, nullable, type's number, type, dictionary, children, metadata.
+        // Slots: name, nullable, type number, type, dictionary, children, metadata.
         let slots = [Slot::Offset, nullable, kind, Slot::Offset, Slot::Absent, Slot::Offset, Slot::Offset];
         let (start, at) = self.table(&slots);
         self.set_offset(from, start);

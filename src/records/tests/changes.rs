@@ -1,5 +1,5 @@
-//! Concurrent changes by several stations: erased data stays erased, a rebuild deletes no sessions of other stations, and no change to a person is
-//! lost.
+//! Concurrent changes by several stations: erased data stays erased, a rebuild deletes no sessions of other stations,
+//! and no change to a person is lost.
 
 use super::record;
 use crate::records::database::Database;
@@ -9,14 +9,14 @@ use spandrel_training::trainee::Role;
 /// A time after every erasure in these tests, µs since the Unix epoch (2100).
 const LATER_US: u64 = 4_102_444_800_000_000;
 
-/// Runs all tests of this file on one database.
+/// Runs all tests in this file on one database.
 pub fn run_all(target: &str) {
     erased_sessions_are_not_imported_again(target);
     rebuild_deletes_only_the_given_sessions(target);
     concurrent_changes_of_a_person_are_kept(target);
     session_is_found_by_telemetry_hash(target);
     list_pages_are_consecutive(target);
-    // Leave an empty database for the next test.
+    // Each test leaves an empty database for the next one.
     let database = Database::open(target).unwrap();
     for trainee in database.trainees().unwrap() {
         database.erase(&trainee.pseudonym, &[]).unwrap();
@@ -27,7 +27,7 @@ fn is_deleted(database: &Database, id: &str) -> bool {
     database.record(id).unwrap().is_none()
 }
 
-/// Two stations: one erases, and the other, which still has the folders, imports what it has read before.
+/// One station erases sessions, and another, which still has their folders, imports the records that it read earlier.
 fn erased_sessions_are_not_imported_again(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     let flown = [record("erna", 1), record("erna", 2)];
@@ -56,26 +56,30 @@ fn rebuild_deletes_only_the_given_sessions(target: &str) {
     there.put(&[record("gina", 3)]).unwrap();
     let mut changed = record("gina", 1);
     changed.scores.safety = 12.0;
-    assert_eq!(here.rebuild(&[changed.clone()], &["session-gina-002".into()]), Ok(1), "the same fingerprint is made again, too");
+    assert_eq!(
+        here.rebuild(&[changed.clone()], &["session-gina-002".into()]),
+        Ok(1),
+        "a session with the same fingerprint is also rebuilt"
+    );
     assert_eq!(here.record("session-gina-001").unwrap(), Some(changed));
     assert!(is_deleted(&here, "session-gina-002") && !is_deleted(&here, "session-gina-003"));
-    assert_eq!(here.rebuild(&[record("gina", 2)], &[]), Ok(1), "what was deleted so was not erased");
+    assert_eq!(here.rebuild(&[record("gina", 2)], &[]), Ok(1), "a session deleted by a rebuild can be added again");
 }
 
 fn concurrent_changes_of_a_person_are_kept(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     here.set_login("hans", Role::Trainee, "first").unwrap();
     let none = ["", "", ""];
-    // Another station changes the role while a form is being filled in; the details also survive a new password.
+    // Another station changes the role while a user fills in a form; the details also survive a new password.
     there.set_login("hans", Role::Instructor, "first").unwrap();
     assert_eq!(here.set_details("hans", none, ["25-34", "", "some"]), Ok(true));
     there.set_login("hans", Role::Administrator, "second").unwrap();
     let person = here.account("hans").unwrap().unwrap().person;
     assert_eq!((person.role, person.age_band.as_deref()), (Role::Administrator, Some("25-34")));
     assert_eq!((person.drone_experience, person.gaming_experience.as_deref()), (None, Some("some")));
-    // The second of two users who fill in the same form is rejected.
+    // If two users fill in the same form, the second submission is rejected.
     assert_eq!(there.set_details("hans", none, ["35-44", "none", ""]), Ok(false));
-    assert_eq!(there.set_details("hans", ["25-34", "", "some"], none), Ok(true), "taking back what was said");
+    assert_eq!(there.set_details("hans", ["25-34", "", "some"], none), Ok(true), "details can be cleared");
     assert_eq!(here.account("hans").unwrap().unwrap().person.age_band, None);
     assert_eq!(here.set_details("nobody-of-this-name", none, none), Ok(false));
     // The command line sets only the details that were given.
@@ -94,7 +98,11 @@ fn concurrent_changes_of_a_person_are_kept(target: &str) {
     assert_eq!(after.hash.as_deref(), Some("third"));
     assert!(before.is_some() && after.credential().is_some() && before != after.credential());
     there.update_details("hans", Some(Role::Instructor), [None; 3]).unwrap();
-    assert_ne!(here.account("hans").unwrap().unwrap().credential(), after.credential(), "another role is another credential");
+    assert_ne!(
+        here.account("hans").unwrap().unwrap().credential(),
+        after.credential(),
+        "a change of role changes the credential"
+    );
     assert_eq!(here.erase("hans", &[]), Ok((true, 0)));
 }
 
@@ -118,6 +126,6 @@ fn list_pages_are_consecutive(target: &str) {
     expected.sort_by(|a, b| b.started_unix_us.cmp(&a.started_unix_us).then(a.id.cmp(&b.id)));
     let expected: Vec<&str> = expected.into_iter().map(|one| one.id.as_str()).collect();
     assert_eq!([page(Some("jana"), 0), page(Some("jana"), 3), page(Some("jana"), 6)].concat(), expected);
-    assert_eq!([page(None, 0), page(None, 3)].concat(), expected[..6], "of all they are the newest");
+    assert_eq!([page(None, 0), page(None, 3)].concat(), expected[..6], "these sessions are the newest of all trainees");
     database.erase("jana", &[]).unwrap();
 }

@@ -17,7 +17,7 @@ const STATION_COUNT: usize = 20;
 /// Number of sessions that each station writes.
 const SESSIONS_PER_STATION: usize = 8;
 
-/// Returns a made-up session record.
+/// Returns a fictitious session record.
 fn record(trainee: &str, number: usize) -> SessionRecord {
     let mut record = perfect_record(trainee, number);
     record.started_unix_us = 1_700_000_000_000_000 + 1_000_000 * number as u64;
@@ -54,7 +54,7 @@ fn import_is_idempotent_and_round_trips(target: &str) {
     let ids = |trainee, most, skip| -> Vec<String> {
         database.list(trainee, most, skip).unwrap().into_iter().map(|one| one.id).collect()
     };
-    assert_eq!(ids(None, 10, 0), ["session-anna-002", "session-anna-001", "session-o'brien-001"], "the newest first");
+    assert_eq!(ids(None, 10, 0), ["session-anna-002", "session-anna-001", "session-o'brien-001"], "newest first");
     assert_eq!(ids(None, 1, 1), ["session-anna-001"]);
     assert_eq!(ids(Some("o'brien"), 10, 0), ["session-o'brien-001"]);
     assert_eq!(database.list(Some("anna"), 1, 0).unwrap()[0].overall, records[1].scores.overall);
@@ -151,7 +151,7 @@ fn rebuild_is_atomic(target: &str) {
     let records = [record("ben", 1), record("ben", 2)];
     assert_eq!(database.rebuild(&records, &there), Ok(2));
     assert_eq!(database.records(None).unwrap(), records);
-    // One invalid record makes the whole change fail; the existing records stay.
+    // One invalid record fails the whole change; the existing records remain.
     let mut broken = record("ben", 3);
     broken.seconds = f64::NAN;
     let gone: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
@@ -169,7 +169,7 @@ fn concurrent_imports_lose_nothing(target: &str) {
             let target = target.to_owned();
             std::thread::spawn(move || {
                 let database = Database::open(&target).unwrap();
-                // Each trainee is known to two stations, and all stations import the same shared session.
+                // Each trainee exists on two stations, and all stations import the same shared session.
                 let trainee = format!("t{}", station / 2);
                 for number in 0..SESSIONS_PER_STATION {
                     database.put(&[record(&trainee, station * SESSIONS_PER_STATION + number), record("shared", 0)]).unwrap();
@@ -233,7 +233,7 @@ fn exact_erased_names_are_removed_from_the_file() {
     assert!(!found.into_iter().any(traces));
 }
 
-/// The last task of the web server drops the database while it must not block.
+/// The last task of the web server drops the database in a context that must not block.
 #[test]
 fn exact_dropping_the_database_does_not_block() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,11 +1,11 @@
-//! Starts a real PostgreSQL server as an unprivileged user in a temporary folder. It listens on a Unix socket in that folder, and on a TCP port only
-//! if a test requests one.
+//! Starts a real PostgreSQL server as an unprivileged user in a temporary folder. It listens on a Unix socket in that
+//! folder, and on a TCP port only if a test requests one.
 
 use std::os::unix::fs::{PermissionsExt, chown};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-/// Debian's `nobody` and `nogroup`. PostgreSQL does not run as root.
+/// Debian's `nobody` and `nogroup`, because PostgreSQL does not run as root.
 const NOBODY: u32 = 65_534;
 
 /// PostgreSQL's default port, which is also part of the name of its socket.
@@ -86,7 +86,7 @@ impl Drop for PostgresServer {
     }
 }
 
-/// Returns the folder of PostgreSQL's programs, from Debian's location or the PATH.
+/// Returns the folder of the PostgreSQL executables, from Debian's location or the PATH.
 fn programs() -> PathBuf {
     let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
     let mut found: Vec<PathBuf> =
@@ -110,7 +110,8 @@ fn unprivileged(program: &Path) -> Command {
     command
 }
 
-/// Gives a file to the user that PostgreSQL runs as, readable only by that user: PostgreSQL rejects any other private key.
+/// Transfers a file to the user that runs PostgreSQL and makes it readable only by that user; PostgreSQL rejects
+/// private keys with other permissions.
 pub fn give_to_postgres(file: &Path) {
     std::fs::set_permissions(file, std::fs::Permissions::from_mode(0o600)).unwrap();
     if is_root() {

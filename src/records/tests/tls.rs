@@ -15,7 +15,7 @@ fn openssl(folder: &Path, words: &str) {
     assert!(done.status.success(), "openssl {words}: {}", String::from_utf8_lossy(&done.stderr));
 }
 
-/// Creates an authority: `NAME.pem` and `NAME.key`.
+/// Creates a certificate authority: `NAME.pem` and `NAME.key`.
 fn authority(folder: &Path, name: &str) {
     openssl(folder, &format!("req -x509 {KEY_OPTIONS} -keyout {name}.key -out {name}.pem -days 2 -subj /CN={name}"));
 }
@@ -44,7 +44,7 @@ fn val_tls_options_in_the_postgresql_url() {
     signed(folder, "server", "localhost");
     signed(folder, "station", "station");
     give_to_postgres(&folder.join("server.key"));
-    // PostgreSQL runs as another user and has to read the files.
+    // PostgreSQL runs as another user and must be able to read the files.
     std::fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
     let at = |name: &str| folder.join(name).display().to_string();
     let port = TcpListener::bind(("127.0.0.1", 0)).unwrap().local_addr().unwrap().port();

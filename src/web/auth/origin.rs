@@ -8,14 +8,15 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 /// Trusted proxies and the host names of the server.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct AllowedOrigins {
-    /// Proxies that terminate TLS; empty without a proxy. With proxies, all requests must come from them, and only their X-Forwarded-For is trusted.
+    /// Proxies that terminate TLS; empty without a proxy. With proxies, all requests must come from them, and only
+    /// their X-Forwarded-For is trusted.
     pub proxies: Vec<IpNet>,
     /// Host names of this server, in addition to localhost and IP addresses.
     pub hosts: Vec<String>,
 }
 
 impl AllowedOrigins {
-    /// Returns the setting for a server behind these proxies, or behind a proxy on this machine if none are given.
+    /// Returns the settings for a server behind these proxies, or behind a proxy on this machine if none are given.
     pub fn behind_proxies(named: &[IpNet], hosts: &[String]) -> Self {
         let local = || vec![IpNet::from(IpAddr::from(Ipv4Addr::LOCALHOST)), IpNet::from(IpAddr::from(Ipv6Addr::LOCALHOST))];
         Self { proxies: if named.is_empty() { local() } else { named.to_vec() }, hosts: hosts.to_vec() }
@@ -25,7 +26,8 @@ impl AllowedOrigins {
         self.proxies.iter().any(|proxy| proxy.contains(&address.to_canonical()))
     }
 
-    /// Returns true for IP addresses, localhost and the configured names. Any other name may belong to another site (DNS rebinding).
+    /// Returns true for IP addresses, localhost and the configured names. Any other name may belong to another site
+    /// (DNS rebinding).
     fn is_allowed_host(&self, host: &Host<'_>) -> bool {
         match host {
             Host::Address(_) => true,
@@ -35,16 +37,17 @@ impl AllowedOrigins {
         }
     }
 
-    /// Checks that a request names this server and, if it changes anything, that it comes from one of the server's pages, as reported by the browser.
-    /// A server without passwords accepts only requests to this machine's own names, which no other site can take over (DNS rebinding).
+    /// Checks that a request names this server and, if it changes anything, that it comes from one of the server's
+    /// pages, as reported by the browser. A server without passwords accepts only requests to this machine's own names,
+    /// which other sites cannot use (DNS rebinding).
     ///
     /// # Errors
-    /// If one of these checks fails.
+    /// Returns an error if one of these checks fails.
     pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
         let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
         let authority = authority(headers);
         let host = authority.and_then(Host::parse);
-        let host = host.ok_or_else(|| WebError::Forbidden("The request needs exactly one valid Host header.".into()))?;
+        let host = host.ok_or_else(|| WebError::Forbidden("The request must have exactly one valid Host header.".into()))?;
         if open && !host.is_this_machine() {
             return Err(WebError::Forbidden("Without a password, the server responds only to localhost and 127.0.0.1.".into()));
         }
@@ -63,10 +66,11 @@ impl AllowedOrigins {
         Err(WebError::Forbidden("This request comes from another site.".into()))
     }
 
-    /// Returns the client's address: that of the socket or, behind a proxy, the last address in X-Forwarded-For that is not a trusted proxy.
+    /// Returns the client's address: that of the socket or, behind a proxy, the last address in X-Forwarded-For that is
+    /// not a trusted proxy.
     ///
     /// # Errors
-    /// If a proxy is required and the socket is not one.
+    /// Returns an error if a proxy is required and the socket is not one.
     pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
         if self.proxies.is_empty() {
             return Ok(socket);
@@ -75,7 +79,8 @@ impl AllowedOrigins {
             return Err(WebError::Forbidden("This server accepts requests only from its proxy (--trusted-proxy).".into()));
         }
         let lines = headers.get_all("x-forwarded-for").iter().rev().map(|line| line.to_str().unwrap_or_default());
-        // Each proxy appends the address that it received the request from; everything before the last untrusted address can be forged by the client.
+        // Each proxy appends the address from which it received the request; the client can forge everything before the
+        // last untrusted address.
         for entry in lines.flat_map(|line| line.rsplit(',')) {
             match entry.trim().parse::<IpAddr>() {
                 Ok(address) if self.trusts(address) => {}

@@ -19,11 +19,11 @@ pub fn show(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 /// Responds with a vehicle's image.
 ///
 /// # Errors
-/// If there is no current image.
+/// Returns an error if there is no current image.
 pub fn of(live: &LiveVehicle) -> HandlerResult {
     let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(WebError::NotFound)?;
     let bytes = std::fs::read(path).map_err(|_| WebError::NotFound)?;
-    // Only JPEG images are served, whatever the file contains.
+    // Only JPEG images are served, whatever else the file may contain.
     if !bytes.starts_with(&JPEG) {
         return Err(WebError::NotFound);
     }

@@ -1,5 +1,5 @@
-//! Queue of the instructor's commands to the vehicle. Datagrams can be lost, so each step is repeated until it is answered; a step without an answer
-//! is reported.
+//! Queue of instructor commands to the vehicle. Datagrams can be lost, so each step is repeated until it is answered; a
+//! step without an answer is reported.
 
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
@@ -12,15 +12,15 @@ use std::time::Duration;
 const RETRY_INTERVAL: Duration = Duration::from_millis(500);
 /// Maximum number of attempts per step.
 const MAX_TRIES: u32 = 20;
-/// MAVLink system ID of the live page. Its component is a companion computer, so that its loss does not trigger the vehicle's ground station
-/// failsafe.
+/// MAVLink system ID of the live page. Its component is a companion computer, so that its loss does not trigger the
+/// vehicle's ground station failsafe.
 pub const INSTRUCTOR_SYSTEM: u8 = 252;
 pub const INSTRUCTOR_COMPONENT: u8 = 192;
 /// FAILURE_TYPE_OK and FAILURE_TYPE_OFF of MAV_CMD_INJECT_FAILURE.
 const FAILURE_TYPE_OK: f32 = 0.0;
 const FAILURE_TYPE_OFF: f32 = 1.0;
 
-/// A command of an instructor.
+/// An instructor's command.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InstructorCommand {
     /// Adds a note to the monitor's event log.
@@ -41,7 +41,7 @@ pub enum InstructorCommand {
     Failure {
         /// FAILURE_UNIT of the component.
         unit: f32,
-        /// Name of the component.
+        /// Component name.
         words: &'static str,
         /// True to inject the failure, false to clear it.
         fails: bool,
@@ -64,7 +64,8 @@ enum ParamNumber {
 }
 
 impl ParamNumber {
-    /// Returns the value as sent. `cast` is true for vehicles that expect integers converted to float, false for those that expect their bits.
+    /// Returns the value as sent. `cast` is true for vehicles that expect integers converted to float, false for
+    /// vehicles that expect their bit pattern.
     fn to_wire(self, cast: bool) -> f32 {
         match self {
             Self::Real(value) => value,
@@ -119,7 +120,7 @@ impl CommandQueue {
         self.0.push_back(QueuedCommand { steps: steps.into(), description: words, last_sent: None, tries: 0 });
     }
 
-    /// Returns the frames to send now, and messages about finished commands. `cast` is explained at [`ParamNumber::to_wire`].
+    /// Returns the frames to send now, and messages about finished commands. For `cast`, see [`ParamNumber::to_wire`].
     pub fn poll_frames(&mut self, now: Duration, encoder: &mut Encoder, system: u8, cast: bool) -> (Vec<Vec<u8>>, Vec<String>) {
         let (mut frames, mut words) = (Vec::new(), Vec::new());
         while let Some(task) = self.0.front_mut() {
@@ -138,7 +139,7 @@ impl CommandQueue {
             }
             frames.push(frame(step, encoder, system, cast));
             (task.last_sent, task.tries) = (Some(now), task.tries + 1);
-            // Notes have no answer; telemetry to a monitor on the same machine is hardly ever lost.
+            // Notes are not answered; datagrams to a monitor on the same machine are hardly ever lost.
             if matches!(step, CommandStep::Note(_)) {
                 task.steps.pop_front();
             }
@@ -146,7 +147,8 @@ impl CommandQueue {
         (frames, words)
     }
 
-    /// Checks whether a frame answers the current step. Returns a message if the step was rejected, which ends the command.
+    /// Checks whether a frame answers the current step. Returns a message if the step was rejected, which ends the
+    /// command.
     pub fn handle_frame(&mut self, frame: &ReceivedFrame) -> Option<String> {
         let task = self.0.front_mut()?;
         match answer(task.steps.front()?, frame.message.as_ref()?)? {
@@ -164,7 +166,7 @@ impl CommandQueue {
     }
 }
 
-/// Returns the answer to a step: success, or rejection with a reason. Ignores answers to other systems.
+/// Returns the answer to a step: success, or rejection with a reason. Ignores answers addressed to other systems.
 fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'static str>> {
     let ours = |system: u8, component: u8| (system, component) == (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT);
     match (step, message) {
@@ -193,8 +195,8 @@ fn result(result: MavResult) -> Option<Result<(), &'static str>> {
         MavResult::MAV_RESULT_IN_PROGRESS => None,
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err("not now")),
         MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("the vehicle does not support it")),
-        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denies it")),
-        _ => Some(Err("the vehicle reports a failure")),
+        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denied it")),
+        _ => Some(Err("the vehicle reported a failure")),
     }
 }
 
@@ -205,7 +207,7 @@ fn param_error_text(error: MavParamError) -> &'static str {
         MavParamError::MAV_PARAM_ERROR_READ_ONLY | MavParamError::MAV_PARAM_ERROR_PERMISSION_DENIED => {
             "the parameter is read-only"
         }
-        _ => "the vehicle does not accept the value",
+        _ => "the vehicle rejected the value",
     }
 }
 
@@ -290,7 +292,7 @@ mod tests {
         sent(&mut orders, 1);
         assert_eq!(
             orders.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
-            Some("instructor: satellite navigation fails: rejected, the vehicle denies it".into())
+            Some("instructor: satellite navigation fails: rejected, the vehicle denied it".into())
         );
         let (frames, words) = sent(&mut orders, 2);
         assert_eq!((instructor_note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));

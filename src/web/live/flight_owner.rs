@@ -1,4 +1,5 @@
-//! Finds the trainee of a vehicle's current flight: that of the session that the monitor is writing for the same scenario and seed.
+//! Finds the trainee of a vehicle's current flight, based on the session that a monitor is recording with the same
+//! scenario and seed.
 
 use crate::io::session_folder::ongoing_session;
 use crate::records::session_folders;
@@ -9,7 +10,8 @@ use std::time::Duration;
 /// A session whose telemetry has not grown for this long is not the current flight.
 const MAX_AGE: Duration = Duration::from_secs(10);
 
-/// Returns the trainee of the only matching ongoing session. `None` if there is none or more than one, so that no trainee sees another one's camera.
+/// Returns the trainee of the only matching ongoing session. `None` if there is none or more than one, so that no
+/// trainee sees another trainee's camera view.
 pub fn current_trainee(sessions: &[PathBuf], key: JobIdentity) -> Option<String> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let folders = session_folders(&here).ok()?;

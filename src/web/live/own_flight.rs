@@ -1,4 +1,5 @@
-//! A trainee's page of the own flight: only the camera's view. The map, cues and actions are for instructors, because an assessment has none of them.
+//! A trainee's page about their own flight, with only the camera's view. The map, cues and actions are for instructors,
+//! because trainees do not have them in an assessment.
 
 use super::vehicle::LiveVehicle;
 use super::{camera_picture, picture};
@@ -15,7 +16,7 @@ fn flight<'a>(state: &'a ServerState, asked: &WebRequest) -> Option<&'a LiveVehi
     state.live.iter().find(|live| lock(&live.known.trainee).as_ref() == Some(name))
 }
 
-/// Shows the page, which fills itself as soon as the visitor flies.
+/// Shows the page, which displays the camera's view as soon as the visitor is flying.
 pub fn page(_: &ServerState, asked: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::own_flight(&asked.visitor)))
 }

@@ -1,4 +1,4 @@
-//! The instructor's page of a live flight.
+//! The instructor's page for a live flight.
 
 use super::vehicle_choice::select_vehicle;
 use crate::web::lock::lock;

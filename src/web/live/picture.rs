@@ -5,7 +5,7 @@ use std::time::{Duration, UNIX_EPOCH};
 
 /// Age above which an image is outdated.
 const MAX_AGE: Duration = Duration::from_secs(10);
-/// Maximum size of an image, bytes; a full HD view has several hundred thousand.
+/// Maximum size of an image, bytes; a full HD view takes several hundred thousand bytes.
 const MAX_BYTES: u64 = 4 * 1024 * 1024;
 /// Returns the version of the current image, so that browsers request each image only once; `None` if it is outdated.
 pub fn version(path: &Path) -> Option<u64> {

@@ -23,13 +23,13 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::sync::watch;
 
-/// Interval of updates to the pages.
+/// Interval between updates of the pages.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
 /// Maximum wait for a datagram.
 const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Heartbeat interval. The vehicle drops subscribers that stay silent.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
-/// Time without telemetry after which a vehicle counts as silent.
+/// Time without telemetry after which a vehicle is considered silent.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Maximum number of datagrams processed per cycle.
 const BATCH: usize = 256;
@@ -61,7 +61,7 @@ pub struct LiveListener {
     paths: ListenerPaths,
 }
 
-/// State of the flight that pages read.
+/// State of the flight, read by the pages.
 #[derive(Debug, Clone, Default)]
 pub struct SharedFlightInfo {
     /// Drawings of the scenario.
@@ -74,7 +74,7 @@ impl LiveListener {
     /// Opens a socket for a vehicle.
     ///
     /// # Errors
-    /// If the socket cannot be opened.
+    /// Returns an error if the socket cannot be opened.
     pub fn open(vehicle: SocketAddr, known: SharedFlightInfo, paths: ListenerPaths) -> Result<Self, AppError> {
         let ip: IpAddr = match vehicle.ip() {
             ip if ip.is_loopback() => ip,
@@ -122,14 +122,14 @@ impl LiveListener {
         moment
     }
 
-    /// Processes received datagrams. Returns true if there were any from the vehicle.
+    /// Processes received datagrams. Returns true if any of them came from the vehicle.
     fn receive(&mut self) -> bool {
         let (mut wait, mut spoke) = (MAX_WAIT, false);
         for _ in 0..BATCH {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;
             let NetEvent::Datagram { from, bytes, .. } = arrival else { continue };
-            // Data from other addresses could be forged.
+            // Datagrams from other addresses could be forged.
             if from != self.vehicle {
                 continue;
             }
@@ -176,7 +176,7 @@ impl LiveListener {
         self.flight.set_job(key, &scenario);
     }
 
-    /// Updates the trainee from time to time, because the next flight may be another trainee's.
+    /// Updates the trainee from time to time, because another trainee may fly next.
     fn find_trainee(&mut self, lives: bool, now: Duration) {
         if self.trainee_checked.is_some_and(|at| now < at + SILENCE_TIMEOUT) {
             return;
@@ -192,7 +192,7 @@ impl LiveListener {
         known.or_else(|| {
             let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
             let folders = crate::records::session_folders(&here).ok()?;
-            // The newest folders are last.
+            // The newest folders come last.
             folders.iter().rev().take(20).find_map(|folder| {
                 let scenario = crate::io::session_folder::StoredSession::read_scenario(folder).ok()?.scenario;
                 (scenario.crc == crc).then_some(scenario)

@@ -1,4 +1,4 @@
-//! A flight that is watched.
+//! A vehicle on the live page.
 
 use super::command_queue::InstructorCommand;
 use super::telemetry_listener::{ListenerPaths, LiveListener, SharedFlightInfo};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Sender, channel};
 use tokio::sync::watch;
 
-/// A vehicle to show on the live page.
+/// Settings of a vehicle on the live page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WatchedVehicle {
     /// Address of its payload port.
@@ -18,7 +18,7 @@ pub struct WatchedVehicle {
     pub picture: Option<PathBuf>,
 }
 
-/// A vehicle on the live page, with its listener thread.
+/// A vehicle on the live page and its listener thread.
 #[derive(Debug)]
 pub struct LiveVehicle {
     pub vehicle: SocketAddr,
@@ -32,7 +32,7 @@ impl LiveVehicle {
     /// Starts the listener thread.
     ///
     /// # Errors
-    /// If the socket cannot be opened.
+    /// Returns an error if the socket cannot be opened.
     pub fn start(watched: &WatchedVehicle, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
         let WatchedVehicle { vehicle, picture } = watched.clone();
         let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());

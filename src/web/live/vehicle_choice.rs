@@ -1,13 +1,13 @@
-//! Choice of a vehicle by its number in a request.
+//! Selects a vehicle by its number in a request.
 
 use super::vehicle::LiveVehicle;
 use crate::web::response::WebError;
 use crate::web::state::ServerState;
 
-/// Returns the vehicle with this number, from 1, and the number; without a number, the first one.
+/// Returns the vehicle with this number (counted from 1) and the number; without a number, returns the first vehicle.
 ///
 /// # Errors
-/// If no vehicle is configured, or the number is too large.
+/// Returns an error if no vehicle is configured, or the number is too large.
 pub fn select_vehicle<'a>(state: &'a ServerState, word: Option<&str>) -> Result<(usize, &'a LiveVehicle), WebError> {
     if state.live.is_empty() {
         return Err(WebError::BadRequest("no vehicle is configured (--vehicle)".into()));

@@ -27,9 +27,9 @@ pub struct Bench {
     pub sticks: Option<Sticks>,
     pub actuators: Actuators,
     /// Whether the GNSS receiver has no signal.
-    pub jammed: bool,
+    pub gnss_lost: bool,
     /// Whether the optical-flow sensor has no valid image.
-    pub dark: bool,
+    pub flow_lost: bool,
     /// Function that modifies the sensor readings.
     pub modify_readings: Option<fn(&mut Readings, SimTime)>,
     /// Failures injected by an instructor.
@@ -57,8 +57,8 @@ impl Bench {
             now: SimTime::ZERO,
             sticks: None,
             actuators: Actuators::default(),
-            jammed: false,
-            dark: false,
+            gnss_lost: false,
+            flow_lost: false,
             faults: Faults::new(seed),
             modify_readings: None,
             control: Schedule::new(SimTime::ZERO, CONTROL_HZ),
@@ -79,8 +79,8 @@ impl Bench {
                 let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
                 let truth = SensorInputs { rigid: &self.state.rigid, battery, lamp_on: false };
                 let mut readings = self.sensors.sample(&truth, &self.site, self.now);
-                readings.gnss = readings.gnss.filter(|_| !self.jammed);
-                readings.flow = readings.flow.filter(|_| !self.dark);
+                readings.gnss = readings.gnss.filter(|_| !self.gnss_lost);
+                readings.flow = readings.flow.filter(|_| !self.flow_lost);
                 if let Some(modify_readings) = self.modify_readings {
                     modify_readings(&mut readings, self.now);
                 }
@@ -120,7 +120,7 @@ impl Bench {
     }
 
     /// Creates a bench with the aircraft hovering in position mode with centered sticks.
-    pub fn by_hand(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
+    pub fn in_position_mode(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
         let mut bench = Self::airborne(vehicle, seed, height_m);
         bench.sticks = Some(Sticks::default());
         bench.run(0.1, |_| ());

@@ -19,7 +19,7 @@ pub fn phantom() -> spandrel_model::vehicle::Vehicle {
 
 /// Flies the tasks in turn, with the camera in the viewing directions of the paths, until `seconds` have passed; then
 /// lands on the pad.
-pub fn flown(job: &Scenario, seconds: f64, picture_every: usize) -> Tape {
+pub fn record_inspection(job: &Scenario, seconds: f64, picture_every: usize) -> Tape {
     let mut tape = Tape::of(job);
     let pad = job.ground_team.pad_m;
     tape.fly(tuple(pad + Vec3::new(0.0, 0.0, 15.0)), 2.0);

@@ -199,11 +199,11 @@ pub fn vehicle() -> Vehicle {
 
 /// A site where defect k (from 1) is visible to every camera within one meter of 10 k m east.
 #[derive(Debug)]
-pub struct Fence {
+pub struct TestSurvey {
     pub defects: Vec<PlacedDefect>,
 }
 
-impl Fence {
+impl TestSurvey {
     pub fn of(count: u32) -> Self {
         let one = |id: u32| PlacedDefect {
             id,
@@ -222,7 +222,7 @@ impl Fence {
     }
 }
 
-impl SiteSurvey for Fence {
+impl SiteSurvey for TestSurvey {
     fn defects(&self) -> &[PlacedDefect] {
         &self.defects
     }
@@ -249,8 +249,8 @@ impl SiteSurvey for Fence {
     }
 }
 
-pub fn fence_of_ten(_: &Scenario, _: u64) -> Arc<dyn SiteSurvey> {
-    Arc::new(Fence::of(10))
+pub fn test_survey(_: &Scenario, _: u64) -> Arc<dyn SiteSurvey> {
+    Arc::new(TestSurvey::of(10))
 }
 
 /// Recorded datagrams in sending order, one frame each.
@@ -414,7 +414,7 @@ impl Tape {
     }
 
     /// Holds position for `ms` without recording.
-    pub fn silence(&mut self, ms: u32) {
+    pub fn hold_unrecorded(&mut self, ms: u32) {
         self.now_ms += ms;
     }
 
@@ -470,6 +470,6 @@ pub fn clean_flight() -> Tape {
 }
 
 /// Scores a tape.
-pub fn grade(tape: &Tape, scenario: &Scenario) -> AssessedSession {
-    assess_log(&tape.log(1_000_000), scenario, &vehicle(), fence_of_ten).unwrap()
+pub fn score_tape(tape: &Tape, scenario: &Scenario) -> AssessedSession {
+    assess_log(&tape.log(1_000_000), scenario, &vehicle(), test_survey).unwrap()
 }

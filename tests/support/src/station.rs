@@ -230,12 +230,12 @@ impl Station {
     /// Creates a station with the vehicle armed and climbing under manual control to about five meters.
     pub fn airborne(scenario_name: &str, seed: u64) -> Self {
         let mut station = Self::new(scenario_name, seed);
-        station.climb_by_hand();
+        station.climb_manually();
         station
     }
 
     /// Arms the vehicle when ready and climbs to about five meters under manual control.
-    pub fn climb_by_hand(&mut self) {
+    pub fn climb_manually(&mut self) {
         self.run_ms(2500);
         self.sticks(0, 0, 500, 0);
         self.run_ms(20);

@@ -10,11 +10,11 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::math;
 
-/// Maximum spacing of task waypoints, m. Turns and changes in the line of sight also get a waypoint.
+/// Maximum spacing of task waypoints, m. Turns and line-of-sight changes also add waypoints.
 const TASK_STRIDE_M: f64 = 4.0;
 const TRANSIT_STRIDE_M: f64 = 12.0;
 const MIN_TURN_RAD: f64 = 0.15;
-/// Waypoint acceptance radius, m: the narrowest task threshold in the supplied jobs, less the expected path error
+/// Waypoint acceptance radius, m: the narrowest task threshold in the supplied jobs minus the expected path error
 /// (estimate).
 const TASK_ACCEPT_M: f64 = 0.8;
 const TRANSIT_ACCEPT_M: f64 = 1.2;
@@ -24,7 +24,7 @@ const SPEED_LIMIT_FRACTION: f64 = 0.9;
 /// Clearance added to the job's "too close" distance in transit, m (estimate: GNSS drift reaches 1 m, and corners are
 /// rounded).
 const EXTRA_CLEARANCE_M: f64 = 2.0;
-/// Smallest change of the gimbal pitch that gets a mission item, degrees.
+/// Minimum change in gimbal pitch that adds a mission item, degrees.
 const GIMBAL_STEP_DEG: f64 = 3.0;
 /// Interval between pictures during a task, s (estimate: one for every few meters of path).
 const PICTURE_INTERVAL_S: f64 = 2.0;
@@ -66,7 +66,7 @@ impl PlanWriter {
         });
         if frame == FRAME_RELATIVE_ALT {
             item["Altitude"] = json!(params[6]);
-            // 1 means an altitude relative to home.
+            // 1: altitude relative to home.
             item["AltitudeMode"] = json!(1);
             item["AMSLAltAboveTerrain"] = Value::Null;
         }
@@ -122,7 +122,7 @@ impl PlanWriter {
     }
 }
 
-/// Returns the indices of the leg's points that become waypoints: both ends, every turn, and one per stride.
+/// Returns the indices of the leg points that become waypoints: both ends, every turn, and one per stride.
 fn waypoint_indices(leg: &TrackLeg) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     for k in 0..leg.points_m.len() {
@@ -144,8 +144,8 @@ fn is_turn(leg: &TrackLeg, k: usize) -> bool {
     bent || matches!((leg.line_of_sight[k - 1], leg.line_of_sight[k]), (Some(before), Some(now)) if angle(before, now) > MIN_TURN_RAD)
 }
 
-/// Returns the plan: takeoff, all tasks in order with pictures, and return to launch. Altitudes are relative to the landing pad,
-/// which becomes home. `firmware` is the target autopilot.
+/// Returns the plan: takeoff, all tasks in order (with pictures), and return to launch. Altitudes are relative to the
+/// landing pad, which becomes home. `firmware` is the target autopilot.
 #[must_use]
 pub fn plan(map: &PlanningContext, firmware: MavAutopilot) -> Value {
     let scenario = map.scenario;

@@ -13,9 +13,9 @@ use spandrel_model::vehicle::Vehicle;
 const TRANSIT_M_S: f64 = 6.0;
 /// Transit speed near obstacles, m/s (estimate).
 const NEAR_OBSTACLE_M_S: f64 = 2.5;
-/// Distance below which an obstacle counts as near in transit, m (estimate).
+/// Maximum distance of an obstacle that counts as near in transit, m (estimate).
 const NEAR_OBSTACLE_M: f64 = 4.0;
-/// Height above the landing pad at which takeoff ends and landing begins, m (estimate).
+/// Height above the landing pad where takeoff ends and landing begins, m (estimate).
 pub const PAD_HOVER_M: f64 = 6.0;
 
 /// The next goal of the flight.
@@ -53,14 +53,14 @@ pub struct PlanningContext<'a> {
     pub site: &'a Site,
     /// The aircraft.
     pub vehicle: &'a Vehicle,
-    /// Simulation time of planning.
+    /// Simulation time used for planning.
     pub at: SimTime,
-    /// Clearance in transit, m, except near an endpoint that has less. `None` uses the pilot's default.
+    /// Transit clearance, m, except near an endpoint with less clearance. `None` uses the pilot's default.
     pub transit_clearance_m: Option<f64>,
 }
 
 impl PlanningContext<'_> {
-    /// Returns the minimum clearance for planning, m, which is the clearance that `check` requires of a path.
+    /// Returns the minimum clearance for planning, m (same as `check` requires for a path).
     fn clearance_m(&self) -> f64 {
         0.5 * self.vehicle.hull.tip_to_tip_m + 0.5
     }
@@ -130,7 +130,7 @@ impl PlanningContext<'_> {
     }
 }
 
-/// Ensures that a leg has at least two points. If it has only one, adds a second point a few centimeters away.
+/// Ensures that a leg has at least two points by adding one a few centimeters away if necessary.
 fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
     if leg.points_m.is_empty() {
         leg.push(at, 1.0, None, None);

@@ -16,20 +16,19 @@ use spandrel_model::math;
 use spandrel_model::site::DefectView;
 use spandrel_model::time::SimTime;
 
-/// Time without progress after which the aircraft counts as stuck, s.
+/// Minimum time without progress for the aircraft to count as stuck, s.
 const STUCK_TIMEOUT_S: f64 = 6.0;
-/// Duration of the back-off maneuver after the aircraft was stuck, s.
+/// Duration of the back-off maneuver after getting stuck, s.
 const BACK_OFF_DURATION_S: f64 = 2.0;
 /// Maximum duration of an approach to a noticed defect, s.
 const MAX_INSPECTION_S: f64 = 7.0;
-/// Battery level at which the pilot aborts the job, %.
+/// Minimum battery level for continuing the job, %.
 const ABORT_BATTERY_PCT: f64 = 12.0;
 /// Maximum aiming error for taking a picture, rad.
 const MAX_AIM_ERROR_RAD: f64 = 0.12;
 /// Maximum number of picture attempts per defect.
 const MAX_PICTURE_ATTEMPTS: u32 = 2;
-/// Time for which a poorly visible defect is ignored, s; it may be easier to see from a later point on the path
-/// (estimate).
+/// Time to ignore a poorly visible defect, s; it may be easier to see from farther along the path (estimate).
 const IGNORE_DEFECT_S: f64 = 15.0;
 /// Standard deviation of the incidence angle estimated by eye, trained pilot, rad (4 degrees, estimate).
 const ANGLE_JUDGMENT_SIGMA_RAD: f64 = 0.07;
@@ -47,12 +46,12 @@ impl Pilot {
         self.search_picture(belief, &mut wish);
         self.payload(&wish, belief);
         wish.velocity_m_s += self.avoid_obstacles(belief);
-        // Compensates for the pilot's wrong perception of speed by scaling the commanded velocity with the perceived speed.
+        // The pilot misjudges speed, so the actual velocity differs from the intended one.
         wish.velocity_m_s = wish.velocity_m_s / self.perception.speed_scale();
         sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
     }
 
-    /// Handles motors that stopped in flight: continues the job unless the session is over.
+    /// Handles motors stopping in flight: continues the job unless the session is over.
     fn recover_from_disarm(&mut self) -> StickAxes {
         if matches!(self.link.status.contact, ContactKind::Person | ContactKind::Vehicle) {
             self.finish("hit a person or a vehicle");
@@ -116,7 +115,7 @@ impl Pilot {
         Some(wish)
     }
 
-    /// Returns a velocity correction away from visible obstacles; backs off when the aircraft makes no progress.
+    /// Returns a velocity correction away from visible obstacles; backs off if the aircraft is stuck.
     fn avoid_obstacles(&mut self, belief: &MotionState) -> Vec3<Enu> {
         let Some(site) = &self.site else { return Vec3::zero() };
         let safe_m = 0.5 * self.config.vehicle.hull.tip_to_tip_m + 0.7;
@@ -144,7 +143,7 @@ impl Pilot {
         }
         let line = target.position_m - belief.position_m;
         wish.line_of_sight = Some(line.unit());
-        // Approaches a point along the defect's normal slowly, and no farther out than the corridor allows.
+        // Slowly approaches a point along the defect's normal, no farther out than the corridor allows.
         let threshold_m = wish.task.map_or(2.0, |t| self.config.scenario.tasks[t].threshold_m);
         let stand_m = target.normal * line.norm().clamp(2.0, 6.0);
         let shift = (target.position_m + stand_m - belief.position_m).limited(0.5 * threshold_m);
@@ -202,7 +201,7 @@ impl Pilot {
         self.guidance.target = Some(target);
     }
 
-    /// Checks whether the defect appears well framed on the screen, as this pilot judges it.
+    /// Checks whether the defect appears well framed on the screen in this pilot's judgment.
     fn is_well_framed(&self, target: &PhotoTarget) -> bool {
         let (vehicle, skill) = (&self.config.vehicle, self.config.skill);
         let (Some(site), Some(picture)) = (&self.site, self.perception.delayed_view(skill.delay_s)) else { return true };
@@ -229,7 +228,7 @@ impl Pilot {
         self.link.send_command_to(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, params);
     }
 
-    /// Controls the lamp and gimbal, and takes the picture that a distractor triggered.
+    /// Controls the lamp and gimbal, and takes a picture if a distractor triggered one.
     fn payload(&mut self, wish: &TrackCommand, _belief: &MotionState) {
         if self.guidance.distractor_trigger.is_some_and(|at| at <= self.now) {
             self.guidance.distractor_trigger = None;

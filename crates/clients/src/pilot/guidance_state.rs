@@ -47,7 +47,7 @@ impl Guidance {
         }
     }
 
-    /// Requests a route back to the leg, after the aircraft has been moved.
+    /// Requests a route back to the leg after the aircraft has been repositioned.
     pub fn replan(&mut self) {
         self.needs_plan = true;
         self.target = None;

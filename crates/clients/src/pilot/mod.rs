@@ -1,7 +1,7 @@
 //! A synthetic trainee that flies over MAVLink like a person at a ground station. It uses only MANUAL_CONTROL and the
 //! lamp, gimbal and camera commands. It has the job's data (scenario, reference paths, lines of sight) and perceives
-//! the aircraft with delay and error. Its errors arise from noise; no type of error is scripted. Sans-IO: it consumes
-//! and produces datagrams, and takes the time from the vehicle.
+//! the aircraft with delay and error. Its errors arise from noise; none are scripted. Sans-IO: it consumes and produces
+//! datagrams, and takes the time from the vehicle.
 
 mod config;
 pub mod goals;
@@ -32,23 +32,23 @@ use stick_response::StickResponse;
 use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
 
-/// Interval after which a command that has not taken effect is sent again, s.
+/// Retry interval of a command that has not taken effect, s.
 const RETRY_INTERVAL_S: f64 = 1.5;
 /// Maximum horizontal distance from the pad's center for a descent, m (estimate: within reach of the last correction).
 const MAX_PAD_OFFSET_M: f64 = 2.5;
 /// Minimum height during the approach to the pad, m (estimate: clears the truck).
 const MIN_APPROACH_HEIGHT_M: f64 = 5.0;
-/// Timeout for the vehicle to become ready and the aircraft to climb, s of simulation time.
+/// Timeout for the vehicle to become ready, and for the aircraft to climb, s of simulation time.
 const START_TIMEOUT_S: f64 = 60.0;
 
-/// Report of the end of a flight, as perceived by the pilot.
+/// End-of-flight report, as perceived by the pilot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PilotReport {
     /// Reason for the end of the flight.
     pub reason: String,
     /// Simulation time at the end.
     pub at: SimTime,
-    /// Number of tasks flown to the end.
+    /// Number of tasks flown to completion.
     pub tasks_flown: usize,
     /// Number of pictures taken.
     pub pictures: u32,
@@ -142,7 +142,7 @@ impl Pilot {
         }
     }
 
-    /// Advances the pilot's clock until the first datagram arrives, and sends heartbeats so that a vehicle waiting for a
+    /// Advances the pilot's clock until the first datagram arrives, and sends heartbeats so a vehicle that waits for a
     /// connection can find the pilot.
     pub fn handle_timeout(&mut self, now: SimTime) {
         if self.now == SimTime::ZERO {
@@ -192,7 +192,7 @@ impl Pilot {
         if put_back {
             self.respawns = self.link.status.respawns;
             if self.phase == PilotPhase::Done {
-                // The aircraft landed outside the home circle and has been put back in the air.
+                // The aircraft landed outside the home circle and was respawned in the air.
                 self.report = None;
                 self.enter(PilotPhase::Descend);
             }
@@ -227,7 +227,7 @@ impl Pilot {
         }
     }
 
-    /// Checks whether enough time has passed to send a command again.
+    /// Checks whether enough time has passed to resend a command.
     fn may_retry(&mut self) -> bool {
         let may = (self.now - self.last_attempt).s() > RETRY_INTERVAL_S;
         if may {
@@ -269,8 +269,8 @@ impl Pilot {
         [0.0, 0.0, rate / self.config.vehicle.limits.climb_m_s, 0.0]
     }
 
-    /// Descends manually: centers over the pad, slows near the ground, then holds the stick down until the vehicle reports that
-    /// it has landed. Takes off again after a landing outside the home circle.
+    /// Descends manually: centers over the pad, slows near the ground, then holds the stick down until the vehicle
+    /// reports a landing. Takes off again if it landed outside the home circle.
     fn descend(&mut self, belief: &MotionState) -> stick_response::StickAxes {
         let team = &self.config.scenario.ground_team;
         let off = team.pad_m - belief.position_m;

@@ -82,7 +82,7 @@ impl Perception {
         }
     }
 
-    /// Returns the motion `delay_s` ago without error, as it appeared on the screen.
+    /// Returns the motion from `delay_s` ago without error, as it appeared on the screen.
     #[must_use]
     pub fn delayed_view(&self, delay_s: f64) -> Option<MotionState> {
         let last = self.history.back()?;
@@ -108,7 +108,7 @@ impl Perception {
         })
     }
 
-    /// Returns the ratio of perceived to true speed. A pilot who overestimates the speed flies too slowly, and vice
+    /// Returns the ratio of perceived to true speed. A pilot who overestimates their speed flies too slowly, and vice
     /// versa.
     #[must_use]
     pub fn speed_scale(&self) -> f64 {
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn exact_drift_has_unit_variance() {
-        // Correlated samples: 40 000 s at 0.2 s with tau 4 s are equivalent to about 5 000 independent samples; the
+        // Correlated samples: 40,000 s at 0.2 s with tau 4 s are equivalent to about 5,000 independent samples; the
         // tolerance is five standard errors.
         const TOLERANCE: f64 = 0.1;
         let mut random = RandomStream::new(3, "drift");

@@ -10,12 +10,12 @@ use std::collections::{BTreeMap, BinaryHeap};
 const CELL_M: f64 = 2.0;
 /// Preferred clearance, m (typical practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
 const PREFERRED_CLEARANCE_M: f64 = 4.0;
-/// Radius around an endpoint with too little clearance within which the route may come as close to obstacles as the
-/// endpoint is, m (estimate: within a task's own "too close" distance).
+/// Radius around an endpoint with too little clearance, m; within it, the route may come as close to obstacles as the
+/// endpoint (estimate: within a task's own "too close" distance).
 const ENDPOINT_RADIUS_M: f64 = 8.0;
-/// Margin by which the route may come closer to obstacles than such an endpoint, m (estimate: stand-offs are rounded).
+/// Tolerance of the clearance at such an endpoint, m (estimate: stand-offs are rounded).
 const ENDPOINT_MARGIN_M: f64 = 0.1;
-/// Clearances to try in order, as fractions of the difference between the preferred and the minimum clearance.
+/// Clearances to try, in order, as fractions of the difference between the preferred and the minimum clearance.
 const CLEARANCE_FRACTIONS: [f64; 3] = [1.0, 0.7, 0.4];
 /// Search margin around the two endpoints, m.
 const SEARCH_MARGIN_M: f64 = 40.0;
@@ -24,9 +24,10 @@ const MAX_EXPANSIONS: usize = 400_000;
 
 type GridCell = [i32; 3];
 
-/// Returns a polyline from `from` to `to`, both included, that keeps `clearance_m` where possible. If `required_clearance_m` is
-/// given, the route keeps that clearance, also from traffic at any time, except near an endpoint that has less. Falls
-/// back to a smaller clearance if no such route exists, and to a straight line if no route is found.
+/// Returns a polyline from `from` to `to`, including both, that keeps `clearance_m` where possible. If
+/// `required_clearance_m` is given, the route keeps that clearance, including from traffic at any time, except near an
+/// endpoint that has less. Falls back to a smaller clearance if no such route exists, and to a straight line if no
+/// route is found.
 #[must_use]
 pub fn route(
     site: &Site,
@@ -93,7 +94,7 @@ impl SearchSpace<'_> {
         };
         let reach_m = keep.required_clearance_m.max(PREFERRED_CLEARANCE_M);
         let still = self.site.nearest(p, reach_m, self.at).map_or(reach_m, |near| near.distance_m);
-        self.site.traffic().min_distance_ever_m(p, still).unwrap_or(still)
+        self.site.traffic().min_distance_over_time_m(p, still).unwrap_or(still)
     }
 
     /// Returns the required clearance at a point, m.
@@ -121,7 +122,7 @@ impl SearchSpace<'_> {
         let steps = (length / 0.75).ceil().max(1.0) as usize;
         (0..=steps).all(|k| {
             let p = a.lerp(b, k as f64 / steps as f64);
-            // Near its ends the line may be as close to obstacles as the endpoints are.
+            // Near its ends, the line may be as close to obstacles as the endpoints.
             let near_end = (p - a).norm().min((p - b).norm()) < PREFERRED_CLEARANCE_M;
             let least = if near_end { self.clearance_m.min(clearance_m) } else { clearance_m };
             self.clearance(p) >= if self.keep.is_some() { self.required_clearance_at_m(p) } else { least }
@@ -150,7 +151,7 @@ fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
             if best.get(&next).is_none_or(|(known, _)| total < *known) {
                 best.insert(next, (total, cell));
                 let estimate = total + distance(next, goal);
-                // Uses millimeters as an integer key, because floats have no total order.
+                // Uses integer millimeters as the key, because floats have no total order.
                 open.push(Reverse(((estimate * 1000.0) as u64, next)));
             }
         }
@@ -197,7 +198,7 @@ fn trace(best: &BTreeMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<Grid
     cells
 }
 
-/// Removes every point that a clear straight line can skip.
+/// Removes every point that an unobstructed straight line can bypass.
 fn straighten(space: &SearchSpace, points: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
     let mut kept = vec![points[0]];
     let mut at = 0;

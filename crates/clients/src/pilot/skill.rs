@@ -1,4 +1,4 @@
-//! Human operator model with five skill parameters. Errors result from these parameters; no type of error is scripted.
+//! Human operator model with five skill parameters. Errors result from these parameters; none are scripted.
 
 use std::str::FromStr;
 
@@ -19,7 +19,7 @@ pub struct Skill {
     pub lapses_per_min: f64,
 }
 
-/// One of the five skill parameters; used to exchange a single parameter between pilots.
+/// One of the five skill parameters; used to swap a single parameter between pilots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SkillFactor {
     /// Selects [`Skill::delay_s`].
@@ -48,7 +48,7 @@ impl FromStr for SkillFactor {
             "noise" => Ok(Self::Noise),
             "preview" => Ok(Self::Preview),
             "lapses" => Ok(Self::Lapses),
-            other => Err(format!("unknown factor '{other}' (delay, gain, noise, preview, lapses)")),
+            other => Err(format!("unknown factor '{other}' (allowed: delay, gain, noise, preview, lapses)")),
         }
     }
 }
@@ -62,7 +62,7 @@ impl Skill {
     /// A professional pilot.
     pub const EXPERT: Self = Self { delay_s: 0.18, gain: 1.0, noise: 0.7, preview_s: 1.5, lapses_per_min: 0.02 };
 
-    /// Returns this skill with one parameter taken from `from`.
+    /// Returns this skill with one parameter replaced by that of `from`.
     #[must_use]
     pub fn with(mut self, factor: SkillFactor, from: Self) -> Self {
         match factor {
@@ -75,9 +75,9 @@ impl Skill {
         self
     }
 
-    /// Returns the defect length at which the probability of detection is 50 %, mm: 26 for the trained pilot (Campbell
-    /// et al. 2020), 15 for the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power
-    /// law of the noise fits these values within 10 %.
+    /// Returns the defect length with a 50 % probability of detection, mm: 26 for the trained pilot (Campbell et al.
+    /// 2020), 15 for the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power law of
+    /// the noise fits these values within 10 %.
     #[must_use]
     pub fn median_length_mm(&self) -> f64 {
         26.0 * spandrel_model::math::pow(self.noise, 1.3)
@@ -91,7 +91,7 @@ impl FromStr for Skill {
             "novice" => Ok(Self::NOVICE),
             "trained" => Ok(Self::TRAINED),
             "expert" => Ok(Self::EXPERT),
-            other => Err(format!("unknown skill '{other}' (novice, trained, expert)")),
+            other => Err(format!("unknown skill '{other}' (allowed: novice, trained, expert)")),
         }
     }
 }

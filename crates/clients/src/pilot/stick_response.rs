@@ -1,5 +1,5 @@
-//! Motor response of the pilot's hands: lag, noise proportional to the deflection, and lapses during which the sticks do not
-//! move.
+//! Motor response of the pilot's hands: lag, noise proportional to the deflection, and attention lapses, when the
+//! sticks do not move.
 
 use super::perception::DriftProcess;
 use super::skill::Skill;

@@ -12,14 +12,14 @@ const BRAKE_M_S2: f64 = 1.2;
 /// Minimum distance to the aim point, m (estimate).
 const MIN_AIM_DISTANCE_M: f64 = 1.0;
 
-/// A polyline to fly with a target speed and line of sight at each point.
+/// A polyline to fly, with a target speed and line of sight at each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrackLeg {
     /// Points, ENU, m; at least two.
     pub points_m: Vec<Vec3<Enu>>,
-    /// Target speed towards each point, m/s.
+    /// Target speed toward each point, m/s.
     pub speed_m_s: Vec<f64>,
-    /// Line of sight at each point, unit vectors; `None` looks along the path.
+    /// Line of sight at each point, unit vectors; `None` means along the path.
     pub line_of_sight: Vec<Option<Vec3<Enu>>>,
     /// Task index of each point.
     pub task: Vec<Option<usize>>,
@@ -54,7 +54,7 @@ impl TrackLeg {
         Self { points_m: Vec::new(), speed_m_s: Vec::new(), line_of_sight: Vec::new(), task: Vec::new() }
     }
 
-    /// Splits the leg at point `k` into the part before it and the part from it on.
+    /// Splits the leg into the points before `k` and the points from `k` on.
     #[must_use]
     pub fn split_at(&self, k: usize) -> (Self, Self) {
         let part = |from: usize, to: usize| Self {
@@ -96,7 +96,7 @@ impl TrackLeg {
         self.points_m[self.points_m.len() - 1]
     }
 
-    /// Moves the progress to the nearest point within a short window behind and ahead of it.
+    /// Moves the progress to the nearest point in a short window around it.
     pub fn advance(&self, progress: &mut LegProgress, position_m: Vec3<Enu>) {
         const WINDOW_M: f64 = 6.0;
         let mut start: f64 = (1..progress.next.max(1)).map(|k| self.segment_m(k)).sum();
@@ -119,7 +119,7 @@ impl TrackLeg {
         *progress = best.1;
     }
 
-    /// Returns the speed that the bends visible within the preview allow, m/s.
+    /// Returns the speed that the bends within the preview allow, m/s.
     fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64) -> f64 {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut ahead_m = start - progress.along_m;
@@ -139,7 +139,7 @@ impl TrackLeg {
         speed.max(0.3)
     }
 
-    /// Returns the speed factor for the bend at a point: 1 for straight on, 0.3 for a reversal.
+    /// Returns the speed factor for the bend at a point: 1 for straight ahead, 0.3 for a reversal.
     fn bend_speed_factor(&self, at: usize) -> f64 {
         let Some(after) = self.points_m.get(at + 1) else { return 0.0 };
         let into = (self.points_m[at] - self.points_m[at - 1]).unit();

@@ -20,8 +20,8 @@ use super::stick_response::StickAxes;
 const SYSTEM: u8 = 255;
 const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
-/// Messages that the pilot needs (ground truth, system status, landed state, battery, gimbal) and their rates, Hz,
-/// which are those that PX4 uses for a ground station.
+/// Messages that the pilot needs (ground truth, system status, landed state, battery, gimbal) and their rates, Hz
+/// (PX4's rates for a ground station).
 const STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
 
 /// Latest state reported by the vehicle.
@@ -66,12 +66,12 @@ pub struct VehicleLink {
 pub enum VehicleUpdate {
     /// Current motion of the aircraft (ground truth).
     Truth(MotionState),
-    /// Lockstep request. The pilot returns this token after it has sent all messages for this step.
+    /// Lockstep request. The pilot returns this token after sending all messages for this step.
     Timesync(i64),
 }
 
 impl VehicleLink {
-    /// Creates a link that has not sent anything yet.
+    /// Creates a link before any communication.
     #[must_use]
     pub fn new() -> Self {
         let encoder = Encoder::new(SYSTEM, COMPONENT);
@@ -131,14 +131,14 @@ impl VehicleLink {
         }
     }
 
-    /// Requests the streams, until they arrive, from a vehicle that does not send them unprompted.
+    /// Requests the streams until they arrive, because not every vehicle sends them by default.
     fn request_streams(&mut self) {
         for (id, rate_hz) in STREAMS {
             self.send_command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0]);
         }
     }
 
-    /// Requests the flight mode in which the sticks command velocity.
+    /// Requests position mode, where the sticks command velocity.
     pub fn set_position_mode(&mut self) {
         let (command, params) = station::position_mode(self.status.autopilot);
         self.send_command(command, params);

@@ -1,6 +1,6 @@
-//! Visual search: model of which objects the pilot notices in the camera picture. A defect is detected according to its
-//! size in the picture and the pilot's probability-of-detection curve; stains and shadows cause false alarms through
-//! noise (signal detection).
+//! Visual search: models what the pilot notices in the camera picture. Detection of a defect depends on its size in the
+//! picture and the pilot's probability-of-detection curve; noise makes stains and shadows cause false alarms (signal
+//! detection theory).
 
 use super::skill::Skill;
 use spandrel_model::math;
@@ -14,13 +14,13 @@ use std::collections::BTreeMap;
 const GLIMPSE_INTERVAL_S: f64 = 0.25;
 /// Spread of the lognormal detection curve (Campbell et al. 2020: 50 % at 26 mm, 90 % at 113 mm).
 const POD_SIGMA_LN: f64 = 1.147;
-/// Extent from which an object is clearly visible in a picture, px (estimate).
+/// Minimum extent of a clearly visible object, px (estimate).
 const CLEAR_PX: f64 = 40.0;
 /// Minimum extent for detection, px (a tenth of the pixels of a clear picture; estimate).
 const MIN_EXTENT_PX: f64 = 6.0;
-/// Maximum incidence angle for detection, rad (60 degrees, where inspection practice rejects pictures).
+/// Maximum incidence angle for detection, rad (60 degrees; inspection practice rejects more oblique pictures).
 const MAX_INCIDENCE_RAD: f64 = 1.05;
-/// Surface noise above which a surface is mistaken for a defect, in standard deviations of the trained pilot (estimate).
+/// Surface noise that makes a surface look like a defect, in standard deviations of the trained pilot (estimate).
 const FALSE_ALARM_SIGMAS: f64 = 4.6;
 
 /// Result of a glimpse.
@@ -44,7 +44,8 @@ pub enum Glimpse {
 pub struct VisualSearch {
     random: RandomStream,
     next_glimpse: SimTime,
-    /// Detection threshold of each defect on this flight: uniform in [0, 1], drawn at first sight.
+    /// Detection threshold of each defect on this flight: uniform in [0, 1], drawn when the defect first comes into
+    /// view.
     notice_threshold: BTreeMap<u32, f64>,
     /// Time until which each defect is ignored.
     ignored_until: BTreeMap<u32, SimTime>,
@@ -58,8 +59,8 @@ impl VisualSearch {
         Self { random, next_glimpse: SimTime::ZERO, notice_threshold: BTreeMap::new(), ignored_until: BTreeMap::new() }
     }
 
-    /// Examines the picture if a fixation is due. `surface_in_view`: whether a nearby surface fills the picture, so
-    /// that a false alarm is possible.
+    /// Examines the picture if a fixation is due. `surface_in_view`: whether a nearby surface fills the picture, which
+    /// makes a false alarm possible.
     pub fn glimpse(
         &mut self,
         views: impl FnOnce() -> Vec<DefectView>,
@@ -74,7 +75,7 @@ impl VisualSearch {
         self.next_glimpse = now + SimTime::from_s(GLIMPSE_INTERVAL_S);
         let deceived = self.random.normal() * skill.noise > FALSE_ALARM_SIGMAS;
         for view in views() {
-            // A defect that is seen edge-on, too small or in the dark cannot be noticed now, but may become detectable
+            // The pilot cannot notice a defect that is edge-on, too small or in the dark, but it may become detectable
             // later.
             let lit = view.illuminance_lux >= view.needed_lux;
             let plain = lit && view.unoccluded && view.extent_px >= MIN_EXTENT_PX && view.incidence_rad < MAX_INCIDENCE_RAD;
@@ -91,7 +92,7 @@ impl VisualSearch {
         if deceived && surface_in_view { Glimpse::Distractor } else { Glimpse::Nothing }
     }
 
-    /// Ignores a noticed defect until `until`, because it is poorly visible from here.
+    /// Ignores a noticed defect until this time, because it is poorly visible from here.
     pub fn ignore_until(&mut self, defect: u32, until: SimTime) {
         self.ignored_until.insert(defect, until);
     }

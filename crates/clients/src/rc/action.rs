@@ -19,7 +19,7 @@ pub enum ControllerAction {
     Return,
     /// Holds the current position.
     Hold,
-    /// Selects position mode, in which the sticks command velocity.
+    /// Selects position mode, where the sticks command velocity.
     Position,
     /// Tilts the camera up by one step.
     GimbalUp,
@@ -55,7 +55,7 @@ impl ControllerAction {
         ALL.iter().find(|(_, action)| *action == self).map_or("", |(name, _)| name)
     }
 
-    /// Checks whether the action moves something by one step and is usually repeated.
+    /// Checks whether the action is a single step that users usually repeat.
     #[must_use]
     pub fn is_repeatable(self) -> bool {
         matches!(self, Self::GimbalUp | Self::GimbalDown | Self::CameraZoomIn | Self::CameraZoomOut)

@@ -1,6 +1,6 @@
 //! Calibration of one raw axis: endpoints, center, dead band and expo.
 
-/// Minimum distance of each endpoint from the center, as part of the raw range of 2 (estimate: a stick axis moves
+/// Minimum distance of each endpoint from the center, in raw units (full range: 2; estimate: a stick axis moves
 /// farther).
 pub const MIN_ENDPOINT_DISTANCE: f64 = 0.1;
 
@@ -39,7 +39,7 @@ impl AxisCalibration {
 mod tests {
     use super::*;
 
-    /// Rounding error of a few products of numbers below 1.
+    /// Rounding error of a few multiplications of numbers below 1.
     const ROUNDING: f64 = 1e-15;
 
     fn full_range_axis() -> AxisCalibration {

@@ -1,7 +1,7 @@
 //! MAVLink link from a controller to a vehicle: MANUAL_CONTROL at 50 Hz, commands with retries, and a heartbeat.
 //!
-//! After a device is lost, the link sends centered sticks for [`CENTERED_DURATION_S`] and then stops sending, so that the
-//! vehicle's own failsafe responds instead of a program that pretends to be a pilot.
+//! After a device is lost, the link sends centered sticks for [`CENTERED_DURATION_S`] and then stops sending, so that
+//! the vehicle's own failsafe takes over.
 
 use super::{ControllerAction, Sticks};
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -18,29 +18,28 @@ pub const SYSTEM: u8 = 254;
 const COMPONENT: u8 = 190;
 const AUTOPILOT: u8 = 1;
 const CAMERA: u8 = 100;
-/// Interval between MANUAL_CONTROL messages, s (50 Hz, the rate at which the monitor records them).
+/// Interval between MANUAL_CONTROL messages, s (50 Hz, the monitor's recording rate).
 const STICK_INTERVAL_S: f64 = 0.02;
 const HEARTBEAT_INTERVAL_S: f64 = 1.0;
-/// Time for which centered sticks are sent after a device is lost, s (estimate: long enough to be received over a poor
-/// radio link).
+/// Duration of sending centered sticks after a device is lost, s (estimate: long enough to get through a poor radio
+/// link).
 pub const CENTERED_DURATION_S: f64 = 0.3;
 /// Retry interval of an unacknowledged command, s, and maximum number of transmissions (MAVLink command protocol;
 /// estimate).
 const RETRY_INTERVAL_S: f64 = 0.5;
 const MAX_TRANSMISSIONS: u8 = 5;
-/// Messages that button actions depend on and their rates, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
+/// Messages that button actions depend on, and their rates, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
 const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
-/// Interval after which missing streams are requested again, s, because an acknowledgment was lost or the vehicle
-/// restarted (estimate).
+/// Retry interval for missing streams, s, in case an acknowledgment was lost or the vehicle restarted (estimate).
 const STREAM_RETRY_S: f64 = 5.0;
 const STREAM_REQUEST_NAME: &str = "lamp and gimbal telemetry";
-/// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: each press zooms by one step of the camera.
+/// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: each press zooms the camera by one step.
 const ZOOM_STEP: f32 = 0.0;
 /// Gimbal step per button press, degrees.
 const GIMBAL_STEP_DEG: f32 = 10.0;
-/// Time for which a press adds to the last commanded pitch, s, because the gimbal may still be moving (estimate: two
-/// taps and a move of several steps). Later presses add to the reported pitch, because other clients also control the
-/// gimbal.
+/// Time window after a gimbal step, s, in which another press adds to the last commanded pitch, because the gimbal may
+/// still be moving (estimate: two taps and a move of several steps). Later presses add to the reported pitch, because
+/// other clients also control the gimbal.
 const AIM_HOLD_S: f64 = 2.0;
 
 /// Latest state reported by the vehicle.
@@ -114,8 +113,8 @@ impl Default for ControllerLink {
 }
 
 impl ControllerLink {
-    /// Sets the stick positions; `None` if there is no device. If there has never been a device, only heartbeats are
-    /// sent.
+    /// Sets the stick positions; `None` if there is no device. Only heartbeats are sent until a device has been
+    /// present.
     pub fn set_sticks(&mut self, sticks: Option<Sticks>, now: SimTime) {
         match sticks {
             Some(sticks) => {
@@ -157,7 +156,7 @@ impl ControllerLink {
                 }
                 Some(MavMessage::STATUSTEXT(text)) => {
                     if let Ok(words) = text.text.to_str() {
-                        // A trailing tab marks a text that is also sent as an event.
+                        // A trailing tab marks a text that the vehicle also sends as an event.
                         self.messages.push_back(words.trim_end().to_owned());
                     }
                 }
@@ -173,7 +172,7 @@ impl ControllerLink {
         if let Some(k) = self.pending.iter().position(|p| p.command.command == command) {
             let done = self.pending.remove(k);
             if command == MavCmd::MAV_CMD_COMPONENT_ARM_DISARM && result == MavResult::MAV_RESULT_ACCEPTED {
-                // Updates the state immediately, because the next heartbeat may arrive a second later.
+                // Updates the state immediately, because the next heartbeat may be a second away.
                 self.vehicle.armed = done.command.param1 == 1.0;
             }
             let known = done.description == STREAM_REQUEST_NAME && std::mem::replace(&mut self.streams_reported, true);
@@ -207,7 +206,7 @@ impl ControllerLink {
         self.pending.iter().any(|p| p.description == ControllerAction::Arm.name())
     }
 
-    /// Sets the name of the arm key for the hint shown when takeoff is requested while disarmed.
+    /// Sets the name of the arm key for the hint that appears when the user requests takeoff while disarmed.
     pub fn set_arm_key(&mut self, key: &str) {
         self.arm_hint = format!(" (key {key})");
     }
@@ -252,8 +251,7 @@ impl ControllerLink {
         }
     }
 
-    /// Returns a capture command. Pictures are numbered from 1, so that the camera can recognize a retransmitted
-    /// command.
+    /// Returns a capture command. Picture numbers start at 1 and let the camera recognize a retransmitted command.
     fn snapshot(&mut self) -> (u8, MavCmd, [f32; 7]) {
         const NAN: f32 = f32::NAN;
         self.pictures = self.pictures.checked_add(1).unwrap_or(1);
@@ -308,7 +306,7 @@ impl ControllerLink {
                 return true;
             }
             if p.sent == MAX_TRANSMISSIONS {
-                // Stream requests repeat anyway, and a vehicle that has answered once may only be paused.
+                // Stream requests repeat anyway, and a vehicle that has responded before may just be paused.
                 if p.description != STREAM_REQUEST_NAME || !std::mem::replace(&mut self.streams_reported, true) {
                     self.push_message(p.description, "no response from vehicle");
                 }
@@ -375,7 +373,7 @@ mod tests {
         link
     }
 
-    /// Returns the messages sent in a time interval, with one poll per millisecond.
+    /// Returns the messages sent during a time interval, polling every millisecond.
     fn sent(link: &mut ControllerLink, from: f64, to: f64) -> Vec<MavMessage> {
         let mut decoder = Decoder::new();
         let mut found = Vec::new();

@@ -46,8 +46,9 @@ impl InputRecording {
     /// Reports the first invalid line: file, line number, the problem, and the allowed values.
     pub fn read(file: &str, text: &str) -> Result<Self, String> {
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        let (_, first) =
-            lines.next().ok_or_else(|| format!("{file}: file is empty (allowed: a recording of `spandrel rc --record`)"))?;
+        let (_, first) = lines
+            .next()
+            .ok_or_else(|| format!("{file}: file is empty (allowed: a recording made with `spandrel rc --record`)"))?;
         let device = device(first).map_err(|what| format!("{file}:1: {what}"))?;
         let mut events: VecDeque<(SimTime, DeviceEvent)> = VecDeque::new();
         for (k, line) in lines {
@@ -60,7 +61,7 @@ impl InputRecording {
         Ok(Self { device, events })
     }
 
-    /// Returns the next event whose time is not later than `now`.
+    /// Returns the next event that is due at `now`.
     pub fn due(&mut self, now: SimTime) -> Option<DeviceEvent> {
         self.events.front().filter(|(at, _)| *at <= now)?;
         self.events.pop_front().map(|(_, event)| event)

@@ -1,4 +1,4 @@
-//! Key names, in configuration files and for display.
+//! Key names for configuration files and for display.
 
 /// Non-character keys by their names in configuration files.
 pub const SPECIAL_KEYS: [&str; 11] =
@@ -36,8 +36,7 @@ fn capitalized(name: &str) -> String {
     let mut upper = signs.next().into_iter().flat_map(char::to_uppercase);
     match (upper.next(), upper.next()) {
         (Some(first), None) => format!("{first}{}", signs.as_str()),
-        // A character whose uppercase form has two letters (ß) keeps its lowercase label, because no key has that
-        // label.
+        // If the uppercase form has two letters (ß), keeps the lowercase label, because keys have single letters.
         _ => name.to_owned(),
     }
 }

@@ -5,9 +5,9 @@ use spandrel_model::time::SimTime;
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 
-/// Stick deflection of a key (estimate: half, so that beginners do not fly at full speed).
+/// Stick deflection of a key (estimate: half, to keep beginners from flying at full speed).
 pub const DEFAULT_DEFLECTION: f64 = 0.5;
-/// Time for which a key counts as held after its last event, s. Used in terminals, which report no key releases. Longer
+/// Time that a key counts as held after its last event, s. Used in terminals, which do not report key releases. Longer
 /// than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
 pub const KEY_HOLD_TIMEOUT_S: f64 = 0.7;
 /// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than the usual
@@ -203,15 +203,15 @@ impl KeyBindings {
         self.pushes.contains_key(&key.to_lowercase())
     }
 
-    /// Returns the stick direction or vehicle action of a key, as the name used in configuration files.
+    /// Returns the configuration file name of the stick direction or vehicle action of a key.
     #[must_use]
     pub fn binding_name(&self, key: &str) -> Option<&'static str> {
         let push = self.pushes.get(key).and_then(|push| STICK_BINDINGS.iter().find(|p| p.1 == *push)).map(|p| p.0);
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
 
-    /// Returns the display name of the key that is bound to a stick direction, vehicle action or window action, given
-    /// by its name in configuration files; empty if the name is unknown.
+    /// Returns the display name of the key for a stick direction, vehicle action or window action, given by its name in
+    /// configuration files; empty if the name is unknown.
     #[must_use]
     pub fn label(&self, name: &str) -> String {
         self.of(name).map_or(String::new(), key::label)
@@ -226,8 +226,8 @@ impl KeyBindings {
         sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
     }
 
-    /// Returns the key that is bound to a stick direction, vehicle action or window action, given by its name in
-    /// configuration files.
+    /// Returns the key for a stick direction, vehicle action or window action, given by its name in configuration
+    /// files.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&str> {
         let push = STICK_BINDINGS.iter().find(|p| p.0 == name).map(|p| p.1);
@@ -302,8 +302,8 @@ impl KeyboardState {
 
     /// Handles a key press and returns its action unless the key controls a stick. If the system reports key releases
     /// (`until_released`), do not pass on the repeats of a held key. Otherwise, a stick key counts as held for
-    /// [`KEY_HOLD_TIMEOUT_S`], and repeats are ignored: an action must have been idle for that time, a gimbal or zoom step for
-    /// `MIN_TAP_INTERVAL_S`.
+    /// [`KEY_HOLD_TIMEOUT_S`], and repeats are ignored: an action key must have been idle for that time, or for
+    /// `MIN_TAP_INTERVAL_S` if it is a gimbal or zoom step.
     pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<ControllerAction> {
         let key = key.to_lowercase();
         if let Some(push) = self.keys.pushes.get(&key) {
@@ -323,7 +323,7 @@ impl KeyboardState {
         }
     }
 
-    /// Releases all keys, as when the window loses focus.
+    /// Releases all keys, such as when the window loses focus.
     pub fn release_all(&mut self) {
         self.held.clear();
     }

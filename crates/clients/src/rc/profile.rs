@@ -9,9 +9,9 @@ use std::fmt::Write;
 
 /// Newest supported format version.
 pub const FORMAT: i64 = 1;
-/// Default dead band of a new profile (estimate: the play of a worn gamepad stick).
+/// Default dead band of a new profile (estimate: play in a worn gamepad stick).
 pub const DEFAULT_DEAD_BAND: f64 = 0.05;
-/// Default expo of a new profile (estimate: between a transmitter's usual 0.2 and 0.4).
+/// Default expo of a new profile (estimate: transmitters typically use 0.2 to 0.4).
 pub const DEFAULT_EXPO: f64 = 0.3;
 /// Maximum axis or button number: the largest 32-bit unsigned integer.
 const MAX_NUMBER: i64 = u32::MAX as i64;
@@ -68,8 +68,8 @@ impl StickMode {
         }
     }
 
-    /// Returns the positions of the physical sticks for stick inputs in this mode: left up, left right, right up, right
-    /// right.
+    /// Returns the positions of the physical sticks for stick inputs in this mode: left vertical, left horizontal,
+    /// right vertical, right horizontal.
     #[must_use]
     pub fn physical_sticks(self, sticks: Sticks) -> [f64; 4] {
         let Sticks { forward, right, up, yaw } = sticks;
@@ -258,7 +258,7 @@ mod tests {
             raw.apply(DeviceEvent::Axis { axis, value });
         }
         let flown = |mode| ControllerProfile { mode, ..profile() }.sticks(&raw);
-        // Left up, left fully left (reversed axis), right down, right fully right.
+        // Left stick up and fully left (reversed axis), right stick down and fully right.
         assert_eq!(flown(StickMode::One), Sticks { forward: 1.0, yaw: -1.0, up: -1.0, right: 1.0 });
         assert_eq!(flown(StickMode::Two), Sticks { up: 1.0, yaw: -1.0, forward: -1.0, right: 1.0 });
         assert_eq!(flown(StickMode::Three), Sticks { forward: 1.0, right: -1.0, up: -1.0, yaw: 1.0 });

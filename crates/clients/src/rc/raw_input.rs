@@ -2,13 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A gamepad or transmitter, as it identifies itself.
+/// Identity of a gamepad or transmitter, as reported by the device.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Device {
     /// Display name.
     pub name: String,
-    /// Model ID. It is the same for two devices of one model and across restarts (vendor and product, or the system's
-    /// GUID).
+    /// Model ID (vendor and product, or the system's GUID). The same for all devices of a model and across restarts.
     pub id: String,
 }
 
@@ -17,19 +16,19 @@ pub struct Device {
 pub enum DeviceEvent {
     /// An axis moved.
     Axis {
-        /// Axis number as counted by the system.
+        /// Axis number assigned by the operating system.
         axis: u32,
         /// Position, -1 to 1, as a fraction of the range reported by the system.
         value: f64,
     },
     /// A button was pressed or released.
     Button {
-        /// Button number as counted by the system.
+        /// Button number assigned by the operating system.
         button: u32,
         /// Whether the button is pressed.
         pressed: bool,
     },
-    /// The device was unplugged or has no power.
+    /// The device was unplugged or lost power.
     Lost,
     /// The device is connected, for the first time or again.
     Found,

@@ -9,29 +9,28 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Duration of the rest measurement (center and noise), s (estimate).
 const REST_DURATION_S: f64 = 1.5;
-/// Minimum travel of a stick axis, as part of the raw range of 2 (estimate).
+/// Minimum travel of a stick axis, in raw units (full range: 2; estimate).
 const MIN_TRAVEL: f64 = 0.6;
-/// Fraction of the travel above which a stick counts as pushed, and [`RELEASED_FRACTION`] below which it counts as released; in
+/// Minimum deflection of a pushed stick, and maximum deflection of a released one, as fractions of the travel; in
 /// between, it counts as neither (estimates).
 const PUSHED_FRACTION: f64 = 0.8;
 const RELEASED_FRACTION: f64 = 0.3;
-/// Time for which a stick must stay pushed, s, so that a brief touch is not accepted (estimate).
+/// Minimum duration of a push, s, to ignore brief touches (estimate).
 const PUSHED_DURATION_S: f64 = 0.3;
-/// Minimum movement since the prompt as a fraction of the travel, so that an axis that was already at an end is not
-/// accepted.
+/// Minimum movement since the prompt, as a fraction of the travel, to ignore an axis that was already at an end.
 const MIN_DISPLACEMENT: f64 = 0.5;
-/// Movement below which an axis counts as still, as part of the raw range of 2 (estimate: above the noise of a worn
+/// Maximum movement of an axis that counts as still, in raw units (full range: 2; estimate: above the noise of a worn
 /// stick).
 const STILL_TOLERANCE: f64 = 0.2;
-/// Time for which sticks must be still at the center, s. An axis that stays elsewhere for [`NON_RETURNING_S`] is a trigger,
-/// switch or knob that does not return (estimates).
+/// Time that sticks must be still at the center, s. An axis that stays elsewhere for [`NON_RETURNING_S`] counts as a
+/// trigger, switch or knob that does not return (estimates).
 const STILL_DURATION_S: f64 = 0.2;
 const NON_RETURNING_S: f64 = 1.0;
 /// Dead band as a multiple of the noise at rest. It is at least the default and at most [`MAX_DEAD_BAND`].
 const NOISE_FACTOR: f64 = 2.0;
 const MAX_DEAD_BAND: f64 = 0.2;
-/// Fraction of the range from its middle beyond which a rest position cannot be a spring center, as on a throttle
-/// without a spring.
+/// Maximum distance of a spring-centered rest position from the middle, as a fraction of the range. A throttle without
+/// a spring may rest farther out.
 const MAX_CENTER_OFFSET: f64 = 0.25;
 
 /// A step of the calibration.
@@ -47,13 +46,13 @@ enum WizardStep {
     Middle(usize),
     /// Waiting for a push in this direction.
     Push(usize),
-    /// Waiting for a button for this action, or for Enter to skip it.
+    /// Waiting for the button for this action, or for Enter to skip it.
     Button(usize),
     /// Calibration is complete.
     Done,
 }
 
-/// Actions for which the wizard requests a button.
+/// Actions that the wizard assigns to buttons.
 const BUTTONS: [(ControllerAction, &str); 7] = [
     (ControllerAction::Lamp, "the lamp"),
     (ControllerAction::Snapshot, "a snapshot"),
@@ -66,16 +65,16 @@ const BUTTONS: [(ControllerAction, &str); 7] = [
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct AxisStatistics {
-    /// Sum and number of the readings at rest, for their mean.
+    /// Sum and count of the readings at rest, for their mean.
     sum: f64,
     count: u32,
     /// Minimum and maximum at rest.
     rest_range: (f64, f64),
-    /// Whether the rest position was measured while the axis was untouched, and not only between two pushes.
+    /// Whether the rest position was measured with the axis untouched, not just between two pushes.
     rested: bool,
     /// Minimum and maximum overall.
     ends: (f64, f64),
-    /// Steady value, and the time since which the axis has had it.
+    /// Steady value, and the time when the axis reached it.
     steady: (f64, SimTime),
 }
 
@@ -192,7 +191,7 @@ impl CalibrationWizard {
             }
         }
         if event == DeviceEvent::Lost {
-            self.note = Some("Device disconnected. Plug it in again.");
+            self.note = Some("Device disconnected. Reconnect it.");
             self.start_step(WizardStep::Release, now);
         }
     }
@@ -302,7 +301,7 @@ impl CalibrationWizard {
             return self.start_step(WizardStep::Range, now);
         }
         if self.is_known(axis) {
-            self.note = Some("That axis is already assigned. Push the other one.");
+            self.note = Some("That axis is already assigned. Push a different one.");
             return self.start_step(WizardStep::Middle(k), now);
         }
         self.note = None;
@@ -314,7 +313,7 @@ impl CalibrationWizard {
         }
     }
 
-    /// Accepts sticks that were still held when the push was requested and have been released since.
+    /// Resets the start of the push for sticks that have been released since the prompt.
     fn track_released_sticks(&mut self, now: SimTime) {
         for axis in &self.fully_moved {
             let Some((value, part)) = self.deflection(*axis) else { continue };
@@ -326,14 +325,14 @@ impl CalibrationWizard {
         }
     }
 
-    /// Returns the distance that an axis has moved since the push was requested, as part of the raw range of 2.
+    /// Returns the distance that an axis has moved since the push was requested, in raw units (full range: 2).
     fn displacement(&self, axis: u32) -> f64 {
         let ends = self.push_start.get(&axis).zip(self.raw.axes.get(&axis));
         ends.map_or(0.0, |(from, value)| (value - from).abs())
     }
 
-    /// Returns the only axis that has reached an end since the push was requested, and whether it is the upper end.
-    /// Returns `None` if there are several.
+    /// Returns the axis that has reached an end since the push was requested, and whether it is the upper end. Returns
+    /// `None` if there is more than one.
     fn single_pushed_axis(&self) -> Option<(u32, bool)> {
         let pushed = |axis: &u32| {
             let ends = self.statistics.get(axis)?.ends;
@@ -371,7 +370,7 @@ fn is_fully_moved(seen: &AxisStatistics) -> bool {
 }
 
 /// Returns the rest position of the stick: the measured one, or the middle of the range if the stick rests near an end,
-/// as a throttle without a spring may.
+/// like a throttle without a spring.
 fn rest_position(seen: &AxisStatistics) -> f64 {
     let middle = f64::midpoint(seen.ends.0, seen.ends.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };
@@ -457,7 +456,7 @@ mod tests {
         person.jitter_axes();
         person.confirm();
         person.wait(0.4);
-        // Left up: throttle; left right: yaw; right up: pitch, which is reversed; right right: roll.
+        // Left vertical: throttle; left horizontal: yaw; right vertical: pitch (reversed); right horizontal: roll.
         for (axis, value) in [(2, 0.9), (3, 0.8), (1, -1.0), (0, 0.95)] {
             person.hold(axis, value);
         }
@@ -501,10 +500,10 @@ mod tests {
         assert!(person.wizard.prompt().contains("Plug it in again"));
     }
 
-    /// Events of a gamepad as Linux reports it: no readings before something moves, triggers start at -1. Sticks 0, 1
-    /// and 3, 4 (up is -1), triggers 2 and 5, hat 16. Time in s, axis, value.
+    /// Gamepad events as Linux reports them: no readings before something moves; triggers start at -1. Sticks 0, 1 and
+    /// 3, 4 (up is -1), triggers 2 and 5, hat 16. Time in s, axis, value.
     const GAMEPAD_EVENTS: [(f64, u32, f64); 38] = [
-        // Both triggers and the hat move before any stick; the right trigger does not return completely.
+        // Both triggers and the hat move before any stick; the right trigger does not return all the way.
         (2.2, 2, -0.9),
         (2.3, 2, 1.0),
         (2.4, 2, -1.0),
@@ -513,7 +512,7 @@ mod tests {
         (2.7, 16, 1.0),
         (2.8, 16, -1.0),
         (2.9, 16, 0.0),
-        // The sticks move through their full range; they rest off the center of the range.
+        // The sticks move through their full range; their rest position is not the center of the range.
         (3.0, 0, -1.0),
         (3.1, 0, 1.0),
         (3.2, 0, 0.06),
@@ -526,7 +525,7 @@ mod tests {
         (3.9, 4, 1.0),
         (4.0, 4, -1.0),
         (4.1, 4, 0.0),
-        // Push up with the left stick, passing over left; meanwhile the trigger is squeezed and released.
+        // Push the left stick up, passing through left; at the same time, squeeze and release the trigger.
         (6.0, 0, -0.5),
         (6.05, 1, -1.0),
         (6.1, 0, 0.0),

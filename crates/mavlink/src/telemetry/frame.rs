@@ -100,7 +100,11 @@ impl Flight {
             return Some(held(false));
         }
         let t = (time - before.time).ns() as f64 / span.ns() as f64;
-        Some(InterpolatedState { motion: before.motion.lerp_held(&next.motion, t), interpolated: span > MIN_GAP, ..held(false) })
+        Some(InterpolatedState {
+            motion: before.motion.lerp_with_held_attitude(&next.motion, t),
+            interpolated: span > MIN_GAP,
+            ..held(false)
+        })
     }
 
     fn respawned_between(&self, before: &Truth, next: &Truth) -> bool {

@@ -1,12 +1,12 @@
 //! Reads a telemetry log in chunks, which bounds memory use for logs of any length.
 
 use super::sample::FrameHeader;
-use super::tlog::{STAMP_BYTES, TlogReader, TlogRecord, record_at};
+use super::tlog::{TIMESTAMP_LEN, TlogReader, TlogRecord, record_at};
 use std::ops::ControlFlow;
 
 /// Maximum length of a record: timestamp and a MAVLink 2 frame with maximum payload and signature (MAVLink guide,
 /// "Serialization").
-const MAX_RECORD_LEN: usize = STAMP_BYTES + 10 + 255 + 2 + 13;
+const MAX_RECORD_LEN: usize = TIMESTAMP_LEN + 10 + 255 + 2 + 13;
 
 /// A telemetry log that can be read repeatedly.
 pub trait TelemetryLog {

@@ -77,7 +77,7 @@ pub struct Sample {
     /// Checksum of the frame. It distinguishes a duplicate from a later frame with the same sequence number.
     pub checksum: u16,
     /// Timestamp in the message, if it has one.
-    pub own_time: Option<SimTime>,
+    pub message_time: Option<SimTime>,
     /// Decoded value or ground truth.
     pub content: SampleContent,
 }
@@ -182,7 +182,13 @@ pub fn read(frame: &[u8], plane: &LocalPlane) -> Option<Sample> {
     }
     let payload = frame.get(header.payload_at..header.payload_end)?;
     let (own_time, said) = decode(&header, payload, plane)?;
-    Some(Sample { sender: header.sender, sequence: header.sequence, checksum: header.checksum(frame)?, own_time, content: said })
+    Some(Sample {
+        sender: header.sender,
+        sequence: header.sequence,
+        checksum: header.checksum(frame)?,
+        message_time: own_time,
+        content: said,
+    })
 }
 
 fn body<T: MessageData>(payload: &[u8]) -> Option<T> {

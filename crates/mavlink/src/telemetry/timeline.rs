@@ -103,7 +103,7 @@ struct TimedSample {
     order: i64,
     /// Latest truth time when the sample arrived.
     arrival: OptionalTime,
-    own_time: OptionalTime,
+    message_time: OptionalTime,
     epoch: u32,
     sender: (u8, u8),
 }
@@ -268,10 +268,10 @@ impl Timeline {
         let truth = match sample.content {
             SampleContent::Truth(truth) => truth,
             SampleContent::Value(value) => {
-                let own_time = sample.own_time.map(|own| self.newest.map_or(own, |newest| unwrap_timestamp(own, newest)));
+                let own_time = sample.message_time.map(|own| self.newest.map_or(own, |newest| unwrap_timestamp(own, newest)));
                 let (arrival, stamp) = (OptionalTime::of(self.newest), OptionalTime::of(own_time));
-                self.entries.push(TimedSample { value, order, arrival, own_time: stamp, epoch, sender });
-                return FrameDisposition::Stored(Sample { own_time, ..sample });
+                self.entries.push(TimedSample { value, order, arrival, message_time: stamp, epoch, sender });
+                return FrameDisposition::Stored(Sample { message_time: own_time, ..sample });
             }
         };
         let entry = TruthEntry { truth, order, epoch, sender };
@@ -331,7 +331,7 @@ fn sequence_key(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
 fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
     let arrival = entry.arrival.get();
-    if let Some(own) = entry.own_time.get() {
+    if let Some(own) = entry.message_time.get() {
         // The message for a lost photo is sent again much later, with the original timestamp.
         let late = matches!(entry.value, SampleValue::Snapshot(_)) && arrival.is_some_and(|arrival| own <= arrival);
         if late || arrival.is_none_or(|arrival| near(own, arrival, MAX_CLOCK_DIFFERENCE)) {
@@ -413,7 +413,7 @@ impl Flight {
             SampleValue::Snapshot(v) => {
                 // A repeated message has the same index and timestamp; the time of the first report is kept. The timestamp is
                 // needed because formatting the card resets the index.
-                let picture = (v, entry.own_time.get());
+                let picture = (v, entry.message_time.get());
                 match self.snapshots.all_mut().iter_mut().find(|known| known.2 == picture) {
                     Some(known) => known.0 = known.0.min(time),
                     None => self.snapshots.push(time, order, picture),

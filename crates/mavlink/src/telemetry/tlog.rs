@@ -7,22 +7,22 @@
 use super::sample::FrameHeader;
 
 /// Length of the timestamp before each frame, bytes.
-pub const STAMP_BYTES: usize = 8;
+pub const TIMESTAMP_LEN: usize = 8;
 
 /// A record of a telemetry log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TlogRecord<'a> {
     /// Timestamp: session start plus simulation time, µs since the Unix epoch.
-    pub stamp_us: u64,
+    pub timestamp_us: u64,
     /// MAVLink frame as received.
     pub frame: &'a [u8],
 }
 
 /// Encodes a record.
 #[must_use]
-pub fn record(stamp_us: u64, frame: &[u8]) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(STAMP_BYTES + frame.len());
-    bytes.extend_from_slice(&stamp_us.to_be_bytes());
+pub fn record(timestamp_us: u64, frame: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(TIMESTAMP_LEN + frame.len());
+    bytes.extend_from_slice(&timestamp_us.to_be_bytes());
     bytes.extend_from_slice(frame);
     bytes
 }
@@ -69,12 +69,12 @@ impl<'a> TlogReader<'a> {
 
 /// Parses the record at offset `at`. Returns the record and its end offset.
 pub(super) fn record_at(bytes: &[u8], at: usize) -> Option<(TlogRecord<'_>, usize)> {
-    let stamp = bytes.get(at..at + STAMP_BYTES)?;
-    let rest = &bytes[at + STAMP_BYTES..];
+    let stamp = bytes.get(at..at + TIMESTAMP_LEN)?;
+    let rest = &bytes[at + TIMESTAMP_LEN..];
     let header = FrameHeader::peek(rest)?;
     let frame = rest.get(..header.total)?;
-    let stamp_us = stamp.iter().fold(0u64, |sum, byte| sum << 8 | u64::from(*byte));
-    Some((TlogRecord { stamp_us, frame }, at + STAMP_BYTES + header.total))
+    let timestamp_us = stamp.iter().fold(0u64, |sum, byte| sum << 8 | u64::from(*byte));
+    Some((TlogRecord { timestamp_us, frame }, at + TIMESTAMP_LEN + header.total))
 }
 
 impl<'a> Iterator for TlogReader<'a> {
@@ -113,7 +113,7 @@ pub fn complete_len(bytes: &[u8]) -> usize {
 /// Returns the Unix time of the first record of a log, µs; `None` for an empty log.
 #[must_use]
 pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
-    TlogReader::new(bytes).next().map(|first| first.stamp_us)
+    TlogReader::new(bytes).next().map(|first| first.timestamp_us)
 }
 
 /// Returns the Unix time of simulation time zero, µs: the timestamp of the first truth message minus its simulation time. `None`
@@ -128,7 +128,7 @@ pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
 #[must_use]
 pub fn zero_of_record_us(record: &TlogRecord<'_>) -> Option<u64> {
     let time = super::sample::truth_time(record.frame)?;
-    Some(record.stamp_us.saturating_sub(u64::try_from(time.us()).unwrap_or(0)))
+    Some(record.timestamp_us.saturating_sub(u64::try_from(time.us()).unwrap_or(0)))
 }
 
 #[cfg(test)]
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn exact_timestamps_round_trip() {
         let (bytes, _) = log(3);
-        assert_eq!(TlogReader::new(&bytes).map(|r| r.stamp_us).collect::<Vec<_>>(), [1_000, 1_001, 1_002]);
+        assert_eq!(TlogReader::new(&bytes).map(|r| r.timestamp_us).collect::<Vec<_>>(), [1_000, 1_001, 1_002]);
         assert_eq!(session_start_us(&bytes), Some(1_000));
     }
 }

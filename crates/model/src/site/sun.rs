@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn val_nrel_spa_worked_example() {
+    fn val_sun_position_matches_the_nrel_spa_example() {
         // Reda and Andreas, NREL/TP-560-34302, Table A5.1: 2003-10-17 19:30:30 UTC, 39.742476 N 105.1786 W: zenith 50.11162
         // (with 0.0159 deg of refraction, removed here), azimuth 194.34024.
         let golden = Geo { latitude_deg: 39.742_476, longitude_deg: -105.1786, altitude_m: 1830.14 };
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn val_meeus_example_25a() {
+    fn val_sun_coordinates_match_meeus_example_25a() {
         // 1992 October 13, 0 h TD: right ascension 198.38083 deg, declination -7.78507 deg.
         let sun = equatorial(718_934_400.0);
         assert!((sun.right_ascension_rad.to_degrees().rem_euclid(360.0) - 198.38083).abs() < TOLERANCE_DEG);
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn val_equinox_and_solstice_of_2024() {
+    fn val_sun_declination_matches_the_2024_equinox_and_solstice() {
         // Published times: equinox 2024-03-20 03:06 UTC, solstice 2024-06-20 20:51 UTC (obliquity 23.436 deg).
         assert!(equatorial(1_710_903_960.0).declination_rad.to_degrees().abs() < TOLERANCE_DEG);
         assert!((equatorial(1_718_916_660.0).declination_rad.to_degrees() - 23.436).abs() < TOLERANCE_DEG);

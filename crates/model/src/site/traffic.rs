@@ -178,7 +178,7 @@ impl TrafficPlan {
     /// Returns the minimum distance of traffic from a point at any time, m, if it is below `max_m`. Assumes that every vehicle
     /// type of the plan uses every lane, and that pedestrians use every walkway.
     #[must_use]
-    pub fn min_distance_ever_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
+    pub fn min_distance_over_time_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let mut least: Option<f64> = None;
         let tracks = self.tracks.iter().filter(|track| track.count > 0);
         for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + MoverKind::MAX_REACH_M) {

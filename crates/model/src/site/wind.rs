@@ -120,7 +120,7 @@ impl WindField {
         if self.wind.model == WindModel::Physical {
             return Vec3::zero();
         }
-        let horizontal = direction_towards(self.wind.from_deg.to_radians());
+        let horizontal = direction_toward(self.wind.from_deg.to_radians());
         let tilted = horizontal * self.wind.speed_m_s + Vec3::new(0.0, 0.0, -self.wind.up_m_s);
         let direction = if tilted.norm() > 0.0 { tilted.unit() } else { horizontal };
         direction * self.wind.paper_force_n
@@ -130,7 +130,7 @@ impl WindField {
     #[must_use]
     pub fn mean_velocity(&self, at: SimTime, height_m: f64) -> Vec3<Ned> {
         let mean = mean_at(&self.wind, at);
-        direction_towards(mean.from_rad) * (mean.speed_m_s * self.profile(height_m))
+        direction_toward(mean.from_rad) * (mean.speed_m_s * self.profile(height_m))
             + gusts_at(&self.wind, at)
             + Vec3::new(0.0, 0.0, -self.wind.up_m_s)
     }
@@ -154,7 +154,7 @@ impl WindField {
         let u = self.along.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
         let v = self.across.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
         let w = self.vertical.step(travelled_m / dryden.length_vertical_m, &mut self.stream);
-        let along = direction_towards(mean.from_rad);
+        let along = direction_toward(mean.from_rad);
         let across = Vec3::new(-along.east(), along.north(), 0.0);
         let near_surface = (self.profile(height_m) / self.profile(MIN_TURBULENCE_HEIGHT_M)).min(1.0);
         let horizontal = dryden.sigma_horizontal_m_s * self.wind.turbulence * near_surface;
@@ -164,7 +164,7 @@ impl WindField {
 }
 
 /// Returns the unit vector in the direction of air motion, for wind from `from_rad` (clockwise from north).
-fn direction_towards(from_rad: f64) -> Vec3<Ned> {
+fn direction_toward(from_rad: f64) -> Vec3<Ned> {
     let (s, c) = math::sin_cos(from_rad);
     Vec3::new(-c, -s, 0.0)
 }
@@ -203,7 +203,7 @@ fn gusts_at(wind: &WindSpec, at: SimTime) -> Vec3<Ned> {
             let since = (at - *start).s();
             let inside = since > 0.0 && since < duration.s();
             let speed = if inside { 0.5 * peak_m_s * (1.0 - math::cos(math::TAU * since / duration.s())) } else { 0.0 };
-            sum + direction_towards(from_deg.to_radians()) * speed
+            sum + direction_toward(from_deg.to_radians()) * speed
         }
         WindEvent::Change { .. } => sum,
     })

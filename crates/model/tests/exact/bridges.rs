@@ -193,7 +193,7 @@ fn exact_suspension_bridge_member_counts_match_the_formulas() {
 }
 
 #[test]
-fn exact_volumes_of_slab_ribs_cables_and_hangers() {
+fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
     let sum = |members: &[Member], part: &str| members_named(members, part).map(|m| volume(&m.solid)).sum::<f64>();
     let close = |got: f64, want: f64| assert!((got - want).abs() < VOLUME_TOLERANCE * want, "{got} m3, expected {want} m3");
     for bridge in random_bridges() {
@@ -377,7 +377,7 @@ fn prop_viewing_directions_point_at_the_bridge() {
 }
 
 #[test]
-fn exact_inconsistent_dimensions_are_refused_with_their_line() {
+fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
     let text = spandrel_model::shipped::DRILL_GAP;
     let wide = text.replacen("heading_deg = 90.0\n\n", "heading_deg = 90.0\n[bridges.arch]\nrib_width_m = 5.5\n\n", 1);
     assert_ne!(text, wide);

@@ -127,7 +127,7 @@ fn assert_rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut Rando
 }
 
 #[test]
-fn val_rays_hit_the_site_and_the_exported_file_alike() {
+fn val_rays_hit_the_site_and_the_exported_file_at_the_same_points() {
     let site = site();
     let nodes = exported_nodes(&site);
     let faces: Vec<&Triangle> = nodes.values().flat_map(|n| &n.triangles).collect();

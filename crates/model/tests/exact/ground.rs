@@ -141,7 +141,7 @@ fn prop_rays_end_at_the_first_ground_hit() {
 }
 
 #[test]
-fn exact_vertical_and_horizontal_rays() {
+fn exact_vertical_and_horizontal_rays_hit_the_ground() {
     let grid = HeightGrid::new(vec![2.0; 9], 10.0);
     let down = grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(0.0, 0.0, -1.0), 50.0).unwrap();
     assert!((down.0 - 5.0).abs() < ROUNDING_M && down.1 == Vec3::new(0.0, 0.0, 1.0));

@@ -264,7 +264,7 @@ fn exact_pier_path_is_two_to_four_meters_above_the_water() {
 }
 
 #[test]
-fn regress_two_builds_give_bit_identical_results() {
+fn regress_two_builds_of_a_site_are_bit_identical() {
     let (one, other) = (Geometry::new(&two_bridges()), Geometry::new(&two_bridges()));
     for p in random_points(&one, 300) {
         assert_eq!(one.nearest(p, 50.0), other.nearest(p, 50.0));

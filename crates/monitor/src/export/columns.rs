@@ -4,34 +4,34 @@ use super::FrameRow;
 use spandrel_model::frames::{Enu, Vec3};
 use std::fmt::Write;
 
-/// Data type of a column, and the function that reads its value from a row. The function returns `None` if the telemetry does not
-/// contain the value.
+/// Data type of a column and the function that reads its value from a row. The function returns `None` if the telemetry
+/// has no such value.
 #[derive(Debug, Clone, Copy)]
 pub enum Read {
-    /// Column of integers.
+    /// Integer column.
     Integer(fn(&FrameRow) -> Option<i64>),
-    /// Column of floating-point numbers.
+    /// Floating-point column.
     Float(fn(&FrameRow) -> Option<f64>),
-    /// Column of Booleans; 1 or 0 in CSV.
+    /// Boolean column; 1 or 0 in CSV.
     Boolean(fn(&FrameRow) -> bool),
-    /// Column of strings from a fixed set of values.
+    /// String column with a fixed set of values.
     Text(fn(&FrameRow) -> &'static str),
 }
 
 /// A column of the frames export.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Column name. If the value has a unit, the name ends with it.
+    /// Column name, ending in the unit if there is one.
     pub name: &'static str,
     /// Unit symbol; empty for counts, fractions, flags and strings.
     pub unit: &'static str,
     /// Coordinate frame or positive direction; empty if none applies.
     pub frame: &'static str,
-    /// Definition of the value, in one sentence.
+    /// One-sentence definition of the value.
     pub description: &'static str,
     /// Whether values may be missing. A missing value is empty in CSV and null in Parquet.
     pub optional: bool,
-    /// Data type of the column, and the function that reads its value.
+    /// Data type and the function that reads the value.
     pub read: Read,
 }
 
@@ -68,47 +68,53 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
 pub const COLUMNS: &[Column] = &[
     column("frame", "", "", "Frame number; 1 is lift-off.", Read::Integer(|r| Some(i64::from(r.frame.index)))),
     column("t_s", "s", "", "Simulation time since lift-off.", Read::Float(|r| Some(r.since_lift_off_s))),
-    column("fb", "", STICK, "Stick, forward positive.", Read::Float(|r| Some(r.frame.sticks[0]))),
-    column("rl", "", STICK, "Stick, right positive.", Read::Float(|r| Some(r.frame.sticks[1]))),
-    column("ud", "", STICK, "Stick, up positive.", Read::Float(|r| Some(r.frame.sticks[2]))),
-    column("rt", "", STICK, "Stick, clockwise positive.", Read::Float(|r| Some(r.frame.sticks[3]))),
+    column("fb", "", STICK, "Stick position, forward positive.", Read::Float(|r| Some(r.frame.sticks[0]))),
+    column("rl", "", STICK, "Stick position, right positive.", Read::Float(|r| Some(r.frame.sticks[1]))),
+    column("ud", "", STICK, "Stick position, up positive.", Read::Float(|r| Some(r.frame.sticks[2]))),
+    column("rt", "", STICK, "Stick position, clockwise positive.", Read::Float(|r| Some(r.frame.sticks[3]))),
     column("light", "", "", "Whether the lamp is on.", Read::Boolean(|r| r.frame.light)),
     column("snapshot", "", "", "Whether a picture was taken since the previous frame.", Read::Boolean(|r| r.frame.snapshot)),
-    column("east_m", "m", ENU, "True position, east.", Read::Float(|r| Some(r.frame.position_m.east()))),
-    column("north_m", "m", ENU, "True position, north.", Read::Float(|r| Some(r.frame.position_m.north()))),
-    column("up_m", "m", ENU, "True position, up.", Read::Float(|r| Some(r.frame.position_m.up()))),
+    column("east_m", "m", ENU, "True east position.", Read::Float(|r| Some(r.frame.position_m.east()))),
+    column("north_m", "m", ENU, "True north position.", Read::Float(|r| Some(r.frame.position_m.north()))),
+    column("up_m", "m", ENU, "True height above the origin.", Read::Float(|r| Some(r.frame.position_m.up()))),
+    column("speed_m_s", "m/s", "", "Magnitude of the true 3D velocity over ground.", Read::Float(|r| Some(r.frame.speed_m_s()))),
     column(
-        "speed_m_s",
-        "m/s",
+        "battery_pct",
+        "%",
         "",
-        "Magnitude of the true velocity over ground, in three dimensions.",
-        Read::Float(|r| Some(r.frame.speed_m_s())),
+        "Remaining battery charge; 100 before the first report.",
+        Read::Float(|r| Some(r.frame.battery_pct)),
     ),
-    column("battery_pct", "%", "", "Remaining battery; 100 before the first report.", Read::Float(|r| Some(r.frame.battery_pct))),
     column(
         "contact",
         "",
         "",
-        "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Landing and \
-         takeoff at home count as none.",
+        "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Landings \
+         and takeoffs at home are reported as none.",
         Read::Text(|r| r.frame.contact.label()),
     ),
     column(
         "missing",
         "",
         "",
-        "Whether the frame is in a telemetry gap of more than 1 s; position and velocity then repeat the last values.",
+        "Whether the frame is in a telemetry gap longer than 1 s; if so, position and velocity repeat the last received values.",
         Read::Boolean(|r| r.frame.missing),
     ),
-    column("velocity_east_m_s", "m/s", ENU_VELOCITY, "True velocity, east.", Read::Float(|r| Some(r.frame.velocity_m_s.east()))),
+    column("velocity_east_m_s", "m/s", ENU_VELOCITY, "True east velocity.", Read::Float(|r| Some(r.frame.velocity_m_s.east()))),
     column(
         "velocity_north_m_s",
         "m/s",
         ENU_VELOCITY,
-        "True velocity, north.",
+        "True north velocity.",
         Read::Float(|r| Some(r.frame.velocity_m_s.north())),
     ),
-    column("velocity_up_m_s", "m/s", ENU_VELOCITY, "True velocity, up.", Read::Float(|r| Some(r.frame.velocity_m_s.up()))),
+    column(
+        "velocity_up_m_s",
+        "m/s",
+        ENU_VELOCITY,
+        "True vertical velocity, up positive.",
+        Read::Float(|r| Some(r.frame.velocity_m_s.up())),
+    ),
     optional("roll_deg", "deg", BODY_FROM_NED, "True roll, right side down positive.", Read::Float(|r| attitude_deg(r, 0))),
     optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch, nose up positive.", Read::Float(|r| attitude_deg(r, 1))),
     optional(
@@ -122,50 +128,74 @@ pub const COLUMNS: &[Column] = &[
         "gimbal_pitch_deg",
         "deg",
         "horizon",
-        "Pitch of the camera relative to the horizon, up positive.",
+        "Camera pitch relative to the horizon, up positive.",
         Read::Float(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
     ),
     optional(
         "task",
         "",
         "",
-        "Task whose path the drone is on, otherwise the last task entered; empty before the first.",
+        "Task whose path the drone is on, or else the last task entered; empty until a task is entered.",
         Read::Integer(|r| r.task.map(|task| i64::from(task.id))),
     ),
-    column("on_path", "", "", "Whether the drone is on the path of a task.", Read::Boolean(|r| r.on_path)),
+    column("on_path", "", "", "Whether the drone is on a task's path.", Read::Boolean(|r| r.on_path)),
     optional(
         "path_distance_m",
         "m",
         "",
-        "Distance to the path of `task`, measured by the scenario's path rule.",
+        "Distance to the path of `task`, measured with the scenario's path rule.",
         Read::Float(|r| r.task.and_then(|task| task.distance_m)),
     ),
     optional(
         "clearance_m",
         "m",
         "",
-        "Distance from the drone's center to the nearest surface, except the pad.",
+        "Distance from the drone's center to the nearest surface, excluding the pad.",
         Read::Float(|r| r.clearance_m),
     ),
-    optional("wind_east_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, east.", Read::Float(|r| east(r.wind_m_s))),
-    optional("wind_north_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, north.", Read::Float(|r| north(r.wind_m_s))),
-    optional("wind_up_m_s", "m/s", ENU_VELOCITY, "Wind velocity over ground, up.", Read::Float(|r| up(r.wind_m_s))),
-    optional("estimated_east_m", "m", ENU, "Position estimated by the autopilot, east.", Read::Float(|r| east(r.estimate_m))),
-    optional("estimated_north_m", "m", ENU, "Position estimated by the autopilot, north.", Read::Float(|r| north(r.estimate_m))),
-    optional("estimated_up_m", "m", ENU, "Position estimated by the autopilot, up.", Read::Float(|r| up(r.estimate_m))),
+    optional(
+        "wind_east_m_s",
+        "m/s",
+        ENU_VELOCITY,
+        "East wind component, relative to the ground.",
+        Read::Float(|r| east(r.wind_m_s)),
+    ),
+    optional(
+        "wind_north_m_s",
+        "m/s",
+        ENU_VELOCITY,
+        "North wind component, relative to the ground.",
+        Read::Float(|r| north(r.wind_m_s)),
+    ),
+    optional(
+        "wind_up_m_s",
+        "m/s",
+        ENU_VELOCITY,
+        "Vertical wind component, up positive, relative to the ground.",
+        Read::Float(|r| up(r.wind_m_s)),
+    ),
+    optional("estimated_east_m", "m", ENU, "East position estimated by the autopilot.", Read::Float(|r| east(r.estimate_m))),
+    optional("estimated_north_m", "m", ENU, "North position estimated by the autopilot.", Read::Float(|r| north(r.estimate_m))),
+    optional(
+        "estimated_up_m",
+        "m",
+        ENU,
+        "Height above the origin estimated by the autopilot.",
+        Read::Float(|r| up(r.estimate_m)),
+    ),
     column(
         "interpolated",
         "",
         "",
-        "Whether the frame is in a telemetry gap of 0.2 to 1 s; position and velocity are then interpolated.",
+        "Whether the frame is in a telemetry gap of 0.2 to 1 s; if so, position and velocity are interpolated.",
         Read::Boolean(|r| r.frame.interpolated),
     ),
 ];
 
-/// Typical length of a CSV line, bytes. Determines the initial size of the output buffer.
+/// Typical CSV line length, bytes, used to size the output buffer.
 const LINE_BYTES: usize = 360;
 
-/// Returns frames as CSV: a header line, then one line per frame.
+/// Returns the frames as CSV: a header line followed by one line per frame.
 #[must_use]
 pub fn frames_csv(rows: &[FrameRow]) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
@@ -184,7 +214,7 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
     csv
 }
 
-/// Appends one cell to the CSV text. Ignores the result of the write, because writing to a string cannot fail.
+/// Appends one cell to the CSV text. The write result is ignored because writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
     let _ = match read {
         Read::Integer(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),

@@ -11,16 +11,16 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use std::ops::ControlFlow;
 
-/// Distance from the drone to a task's path.
+/// The drone's distance from a task's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskDistance {
-    /// Number of the task in the scenario.
+    /// Task number in the scenario.
     pub id: u32,
-    /// Distance to its path, m.
+    /// Distance to the task's path, m.
     pub distance_m: Option<f64>,
 }
 
-/// One row of the frames export. `None` means that the telemetry has no value for this frame.
+/// One row of the frames export. `None` means that telemetry has no value for this frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameRow {
     /// The scored frame.
@@ -31,7 +31,7 @@ pub struct FrameRow {
     pub roll_pitch_yaw_rad: Option<[f64; 3]>,
     /// Camera pitch relative to the horizon, rad, up positive.
     pub gimbal_pitch_rad: Option<f64>,
-    /// Task whose path the drone is on, otherwise the last task entered.
+    /// Task whose path the drone is on, or else the last task entered.
     pub task: Option<TaskDistance>,
     /// Whether the drone is on a task's path.
     pub on_path: bool,
@@ -43,7 +43,7 @@ pub struct FrameRow {
     pub estimate_m: Option<Vec3<Enu>>,
 }
 
-/// Reads the scored frames of a telemetry log and adds the data for all export columns.
+/// Reads the scored frames from a telemetry log and adds the data for all export columns.
 ///
 /// # Errors
 /// Fails if the log cannot be read, belongs to a different scenario or seed, or contains no session.
@@ -85,8 +85,8 @@ pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenar
         });
         let attitude = flight.between(frame.time).filter(|_| known).map(|between| between.motion.ned_from_frd.euler());
         FrameRow {
-            // Dividing by 1e9 gives the double closest to the decimal value, which prints with few digits. Multiplying by 1e-9
-            // does not.
+            // Dividing by 1e9 gives the double nearest to the decimal value, which prints with few digits. Multiplying
+            // by 1e-9 doesn't.
             since_lift_off_s: (frame.time - start).ns() as f64 / 1e9,
             roll_pitch_yaw_rad: attitude.map(|(roll, pitch, yaw)| [roll, pitch, yaw]),
             gimbal_pitch_rad: flight.gimbal.at(frame.time).filter(|_| known),

@@ -1,11 +1,11 @@
-//! Battery cue: green, yellow or red. A text is sent only when the color becomes worse.
+//! Battery cue: green, yellow or red. A text is sent only when the color gets worse.
 
 use super::input::FeedbackInput;
 use super::pilot_text::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// Color of the battery display; limits are in the scenario.
+/// Battery display color; the scenario sets the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum BatteryColor {
     /// At or above `battery_green_pct`.
@@ -17,7 +17,7 @@ pub enum BatteryColor {
     Red,
 }
 
-/// Returns the display color for a battery level, %.
+/// Returns the display color for a battery charge, %.
 #[must_use]
 pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     if battery_pct >= limits.battery_green_pct {
@@ -29,14 +29,14 @@ pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     }
 }
 
-/// The battery rule. The color never improves during a session, because the battery cannot charge in flight.
+/// Battery rule. The color never improves during a session because the battery cannot charge in flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BatteryCue {
     worst_color: BatteryColor,
 }
 
 impl BatteryCue {
-    /// Updates the rule. Returns the cue bits, and the text to send, if any.
+    /// Updates the rule and returns the cue bits and any text to send.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.battery_pct.map_or(BatteryColor::Green, |pct| color(pct, limits));
         let worse = now > self.worst_color;

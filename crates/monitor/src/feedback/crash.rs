@@ -1,5 +1,5 @@
-//! Crash cue: raised at the start of a contact. Its text names the object that was hit and is sent before all other texts.
-//! Contacts in quick succession produce only one text.
+//! Crash cue: raised at first contact. Its text names the object hit and takes priority over all other texts. Contacts
+//! in quick succession produce only one text.
 
 use super::input::FeedbackInput;
 use super::pilot_text::{CoolDown, PilotText};
@@ -8,13 +8,13 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
-/// Time that the cue stays on after the last contact (estimate: long enough to read it).
+/// How long the cue stays on after the last contact (estimate: long enough to read it).
 const CUE_HOLD: SimTime = SimTime::from_ms(2_000);
 /// Contacts within this interval count as one crash (docs/src/reference/assessment.md, "Certification": contacts less than a
 /// second apart).
 const SAME_CRASH_INTERVAL: SimTime = SimTime::from_ms(1_000);
 
-/// The crash rule.
+/// Crash rule.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CrashCue {
     before: ContactKind,
@@ -23,7 +23,7 @@ pub struct CrashCue {
 }
 
 impl CrashCue {
-    /// Updates the rule. Returns the cue bits, and the text to send, if any.
+    /// Updates the rule and returns the cue bits and any text to send.
     pub fn update(&mut self, moment: &FeedbackInput, _limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let contact = if moment.in_session { moment.contact } else { ContactKind::None };
         let worse = contact.severity() > self.before.severity();

@@ -3,7 +3,7 @@
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::time::SimTime;
 
-/// Position of the drone relative to one task.
+/// The drone's position relative to one task.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskProximity {
     /// Distance to the task's path (l*), m.
@@ -12,32 +12,32 @@ pub struct TaskProximity {
     pub threshold_m: f64,
     /// Minimum clearance in this task, m; `None` to use the scenario's value.
     pub too_close_m: Option<f64>,
-    /// Number of the task in the scenario.
+    /// Task number in the scenario.
     pub id: u32,
-    /// Whether the trainee may leave the task, because its path was flown or because the drone is nearest to an end of the path.
+    /// Whether the trainee may leave the task: its path was flown, or the drone is nearest to an end of the path.
     pub may_leave_task: bool,
 }
 
-/// Inputs to the feedback rules at one point in time.
+/// Inputs to the feedback rules at one time step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedbackInput {
     /// Current simulation time.
     pub time: SimTime,
-    /// Whether the session is running, from lift-off to its end.
+    /// Whether the session is running (from lift-off to its end).
     pub in_session: bool,
     /// Whether the drone is airborne. Proximity warnings are suppressed on the ground.
     pub airborne: bool,
-    /// Magnitude of the velocity, m/s.
+    /// Speed (magnitude of the velocity), m/s.
     pub speed_m_s: f64,
-    /// Remaining battery charge, 0 to 100 %.
+    /// Remaining battery charge, %.
     pub battery_pct: Option<f64>,
     /// Distance to the nearest surface, m.
     pub clearance_m: Option<f64>,
-    /// Kind of object in contact, after touchdowns on the pad are removed.
+    /// Kind of object in contact, excluding touchdowns on the pad.
     pub contact: ContactKind,
-    /// Name of the object in contact, if the site provides one.
+    /// Name of the object in contact, if known to the site.
     pub touched: Option<String>,
-    /// Proximity to each task, in scenario order.
+    /// The drone's proximity to each task, in scenario order.
     pub tasks: Vec<TaskProximity>,
     /// Index of the task whose path the drone is on, if any.
     pub current_task: Option<usize>,

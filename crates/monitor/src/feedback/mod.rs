@@ -1,5 +1,5 @@
-//! Feedback during the task, with one file per rule. Each rule processes the same [`FeedbackInput`] and returns whether its cue
-//! is on and, when the cue turns on, a text. Thresholds come from the scenario. All times are simulation times.
+//! In-flight feedback, with one file per rule. Each rule processes the same [`FeedbackInput`], returns whether its cue
+//! is on, and returns a text when the cue turns on. Thresholds come from the scenario. All times are simulation times.
 
 pub mod battery;
 pub mod crash;
@@ -43,7 +43,7 @@ impl FeedbackRules {
         }
     }
 
-    /// Updates all rules. Returns the mask of active cues, and the texts to send, most urgent first.
+    /// Updates all rules and returns the active cue mask and the texts to send, most urgent first.
     pub fn update(&mut self, moment: &FeedbackInput) -> (i32, Vec<PilotText>) {
         let mut mask = 0;
         let mut texts = Vec::new();

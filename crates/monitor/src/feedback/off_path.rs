@@ -1,6 +1,6 @@
-//! Off-path cue: the drone is beyond the path threshold, but within the maximum distance of the last task entered. The cue is off
-//! while the drone is in transit: before the first task, and after leaving a task whose path was flown, or at an end of its path
-//! (docs/src/reference/assessment.md, "Feedback during the flight").
+//! Off-path cue: the drone is beyond the path threshold but within the maximum distance of the last task entered. The
+//! cue is off in transit: before the first task, and after the drone leaves a task with its path flown or from an end
+//! of the path (docs/src/reference/assessment.md, "Feedback during the flight").
 
 use super::input::{FeedbackInput, TaskProximity};
 use super::pilot_text::{CoolDown, PilotText};
@@ -8,15 +8,15 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
 
-/// The drone has left a task once it has been moving away from it for this long (docs/src/reference/assessment.md, "Feedback
-/// during the flight").
+/// Time that the drone must move away from a task before it counts as having left (docs/src/reference/assessment.md,
+/// "Feedback during the flight").
 const LEAVE_CONFIRM_TIME: SimTime = SimTime::from_ms(2_000);
 /// Minimum change in distance that counts as movement, m (estimate: half the slowest inspection speed; MAVLink rounds to 1 cm).
 /// A change no longer counts once it is older than `MAX_MOVEMENT_AGE`.
 const MIN_MOVEMENT_M: f64 = 0.15;
 const MAX_MOVEMENT_AGE: SimTime = SimTime::from_ms(600);
 
-/// The off-path rule. The cue turns on after a delay and then stays on for a minimum time.
+/// Off-path rule. The cue turns on after a delay and then stays on for a minimum time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OffPathCue {
     since: Option<SimTime>,
@@ -28,9 +28,9 @@ pub struct OffPathCue {
 /// Detects when the drone leaves a task.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Transit {
-    /// Task id, distance (m) and time of the last change, and whether the distance increased.
+    /// Task ID, distance (m), time of the last change, and whether the distance increased.
     change: Option<(u32, f64, SimTime, bool)>,
-    /// Time at which the drone started to leave the task; `None` if it is not leaving.
+    /// Time when the drone started to leave the task; `None` if it is not leaving.
     leaving: Option<SimTime>,
     /// Whether the drone has left the task.
     left: bool,
@@ -60,7 +60,7 @@ impl Transit {
 }
 
 impl OffPathCue {
-    /// Updates the rule. Returns the cue bits, and the text to send, if any.
+    /// Updates the rule and returns the cue bits and any text to send.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.time;
         if !moment.in_session {
@@ -75,7 +75,7 @@ impl OffPathCue {
             if self.shown_since.is_none() {
                 self.shown_since = Some(now);
             }
-            let words = || format!("Off path of task {id}: {distance_m:.1} m away");
+            let words = || format!("Task {id}: {distance_m:.1} m off path");
             text = self.cool_down.limited_text(now, limits.text_interval, cue::OFF_PATH, words);
         }
         let held = self.shown_since.is_some_and(|shown| now - shown < limits.off_path_hold);
@@ -85,7 +85,7 @@ impl OffPathCue {
         (if self.shown_since.is_some() { cue::OFF_PATH } else { 0 }, text)
     }
 
-    /// Returns task id and distance, m, if the drone is off the path.
+    /// Returns the task ID and distance, m, if the drone is off the path.
     fn off_path_distance(&mut self, moment: &FeedbackInput, reach_m: f64) -> Option<(u32, f64)> {
         let task = &moment.tasks[moment.last?];
         let between = self.transit.update(moment.time, task);

@@ -1,4 +1,4 @@
-//! Texts for the pilot, and the rate limit for the texts of one rule.
+//! Texts for the pilot and the per-rule rate limit.
 
 use spandrel_model::time::SimTime;
 
@@ -11,7 +11,7 @@ pub struct PilotText {
     pub text: String,
 }
 
-/// Rate limit for a rule's texts: after a text, none is sent until the interval has passed.
+/// Rate limit for one rule's texts: after a text, no further text is sent until the interval has passed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct CoolDown {
     last_sent: Option<SimTime>,

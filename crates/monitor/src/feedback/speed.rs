@@ -1,4 +1,4 @@
-//! Speed display, always visible at the upper left. It never produces a text.
+//! Speed display, always visible at the upper left; never produces a text.
 
 /// Formats a speed in m/s for display.
 #[must_use]

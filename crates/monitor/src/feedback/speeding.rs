@@ -1,5 +1,5 @@
-//! Speeding cue: the drone is over the speed limit while on any path or near the last task entered. The scorer counts only
-//! speeding inside task windows, but the end of a window is not known during the flight.
+//! Speeding cue: the drone exceeds the speed limit on any path or near the last task entered. The scorer counts
+//! speeding only inside task windows, but a window's end is not known during the flight.
 
 use super::input::FeedbackInput;
 use super::pilot_text::{CoolDown, PilotText};
@@ -8,18 +8,19 @@ use spandrel_model::math::M_S_PER_MPH;
 use spandrel_model::numbers::{format_limit, format_with_limit};
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// The speeding rule. To avoid flicker, the cue turns off only after the speed has stayed at or below the limit for `CUE_OFF_DELAY_MS`.
+/// Speeding rule. To avoid flicker, the cue turns off only after the speed has stayed at or below the limit for
+/// `CUE_OFF_DELAY_MS`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpeedingCue {
     over_limit_since: Option<spandrel_model::time::SimTime>,
     cool_down: CoolDown,
 }
 
-/// Delay before the cue turns off, ms (estimate: after half a second, the cue still seems current).
+/// Delay before the cue turns off, ms (estimate: half a second later, the cue still seems current).
 const CUE_OFF_DELAY_MS: i64 = 500;
 
 impl SpeedingCue {
-    /// Updates the rule. Returns the cue bits, and the text to send, if any.
+    /// Updates the rule and returns the cue bits and any text to send.
     pub fn update(&mut self, moment: &FeedbackInput, limit_m_s: f64, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let near_last = moment.last.is_some_and(|task| moment.tasks[task].distance_m <= limits.off_path_max_m);
         let speeding = moment.in_session && moment.speed_m_s > limit_m_s && (moment.current_task.is_some() || near_last);

@@ -1,16 +1,16 @@
-//! Queue of texts for the pilot: one is sent at a time, crashes first. Texts that have waited too long are dropped.
+//! Queue of texts for the pilot: sent one at a time, crashes first. Texts that wait too long are dropped.
 
 use super::pilot_text::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Minimum interval between two texts, except for crashes (estimate: time to read one; docs/src/reference/wire.md, "The
+/// Minimum interval between texts, except for crashes (estimate: time to read one; docs/src/reference/wire.md, "The
 /// monitor").
 const MIN_TEXT_INTERVAL: SimTime = SimTime::from_ms(1_000);
-/// Maximum time that a text waits in the queue; afterward, it is dropped.
+/// Maximum time that a text waits in the queue before it is dropped.
 const MAX_TEXT_AGE: SimTime = SimTime::from_ms(2_000);
-/// Maximum length of the queue. A crash text displaces others.
+/// Maximum queue length. Crash texts displace others.
 const MAX_QUEUE_LEN: usize = 4;
 
 /// Queue of texts to send.
@@ -21,7 +21,7 @@ pub struct TextQueue {
 }
 
 impl TextQueue {
-    /// Adds texts, most urgent first. A new text replaces a queued text of the same rule.
+    /// Adds texts, most urgent first. A new text replaces any queued text from the same rule.
     pub fn enqueue(&mut self, now: SimTime, texts: Vec<PilotText>) {
         for text in texts {
             self.waiting.retain(|(_, waiting)| waiting.cue != text.cue);
@@ -34,7 +34,7 @@ impl TextQueue {
         self.waiting.truncate(MAX_QUEUE_LEN);
     }
 
-    /// Returns the next text if one may be sent now.
+    /// Returns the next text if it may be sent now.
     pub fn next(&mut self, now: SimTime) -> Option<PilotText> {
         self.waiting.retain(|(put, _)| now - *put < MAX_TEXT_AGE);
         let crash = self.waiting.front()?.1.cue == cue::CRASH;

@@ -6,7 +6,7 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::numbers::format_with_limit;
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// The too-close rule.
+/// Too-close rule.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TooCloseCue {
     on: bool,
@@ -14,14 +14,14 @@ pub struct TooCloseCue {
 }
 
 impl TooCloseCue {
-    /// Updates the rule. Returns the cue bits, and the text to send, if any.
+    /// Updates the rule and returns the cue bits and any text to send.
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let Some(clearance) = moment.clearance_m.filter(|_| moment.in_session && moment.airborne) else {
             self.on = false;
             return (0, None);
         };
-        // A task's own limit applies while the drone is on that task's path, or near it and on no other path. This prevents a
-        // warning when the drone enters or leaves a confined space.
+        // A task's own limit applies on its path, or near it and on no other path. This prevents warnings when the
+        // drone enters or leaves a confined space.
         let near = moment.tasks.iter().filter(|task| task.distance_m <= limits.off_path_max_m);
         let own = match moment.current_task {
             Some(task) => moment.tasks[task].too_close_m,

@@ -15,11 +15,11 @@ use std::sync::Arc;
 pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
     /// Returns the session's defects.
     fn defects(&self) -> &[PlacedDefect];
-    /// Returns the visibility of each defect within range in a picture with these settings.
+    /// Returns the visibility of each in-range defect in a picture taken with these settings.
     fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
     /// Returns the name of the nearest object within `max_m`, for messages to the pilot.
     fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
-    /// Returns a copy of the site with these bridge closures; `None` if the site has no moving traffic.
+    /// Returns a copy of the site with these bridge closures; `None` if it has no moving traffic.
     fn with_closures(&self, _: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
         None
     }
@@ -53,36 +53,36 @@ impl SiteSurvey for Site {
     }
 }
 
-/// Difference below which two fields of view count as equal, rad. Telemetry transmits degrees with 24-bit precision.
+/// Difference below which two fields of view count as equal, rad. Telemetry sends degrees with 24-bit precision.
 const FOV_TOLERANCE_RAD: f64 = 1e-6;
 
-/// Result of evaluating one picture.
+/// Evaluation of one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Snapshot {
-    /// Frame in which the picture was taken, from 1.
+    /// Frame number of the picture, from 1.
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
-    /// Whether the picture shows at least one defect that no earlier picture shows.
+    /// Whether the picture shows at least one new defect.
     pub hit: bool,
-    /// Ids of the defects in this picture that no earlier picture shows.
+    /// IDs of the defects first shown in this picture.
     pub found: Vec<u32>,
-    /// All defects in view, each with the conditions that failed.
+    /// All defects in view, each with its failed conditions.
     pub views: Vec<DefectSighting>,
 }
 
 /// Visibility of one defect in one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DefectSighting {
-    /// Number of the defect, from 1.
+    /// Defect number, from 1.
     pub defect: u32,
-    /// Whether all conditions are met.
+    /// Whether all conditions for a hit are met.
     pub shown: bool,
-    /// Conditions that are not met, as text.
+    /// Unmet conditions, as text.
     pub fails: Vec<String>,
 }
 
-/// Evaluates all pictures taken in `frames`. Several pictures within one frame count as one.
+/// Evaluates all pictures taken in `frames`. Multiple pictures in one frame count as one.
 #[must_use]
 pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &dyn SiteSurvey) -> Vec<Snapshot> {
     let Some(first) = frames.first() else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Coverage: the fraction of each reference path's length that was flown.
+//! Coverage: the flown fraction of each reference path's length.
 
 use super::on_path::{OnPath, ReferencePath, ReferencePaths};
 
@@ -11,8 +11,7 @@ const MAX_JOIN_M: f64 = 5.0;
 pub struct PathCoverage {
     /// Length of the path, m; 0 for a single point.
     pub length_m: f64,
-    /// Fraction of the length that was flown, 0 to 1. A path that is not longer than its threshold counts as flown once it is
-    /// reached.
+    /// Flown fraction of the length, 0 to 1. A path no longer than its threshold counts as flown once reached.
     pub share: f64,
 }
 
@@ -30,10 +29,10 @@ fn task_coverage(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &
     flown.coverage()
 }
 
-/// The part of one path flown so far, updated frame by frame.
+/// The flown part of a path, updated frame by frame.
 ///
-/// A point represents half of each adjacent segment. It is covered if it was the nearest point in an on-path frame, or if it is
-/// between the nearest points of two consecutive on-path frames.
+/// A point represents half of each adjacent segment. It is covered if it was the nearest point in an on-path frame or
+/// lies between the nearest points of two consecutive on-path frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlownPath {
     along_m: Vec<f64>,
@@ -44,15 +43,15 @@ pub struct FlownPath {
 }
 
 impl FlownPath {
-    /// Creates a tracker for a path on which nothing has been flown yet.
+    /// Creates a tracker for a path that has not been flown yet.
     #[must_use]
     pub fn new(path: &ReferencePath, threshold_m: f64) -> Self {
         let covered = vec![false; path.points_m().len()];
         Self { along_m: path.along_m(), weights_m: path.lengths_by_point_m(), threshold_m, covered, before: None }
     }
 
-    /// Adds a frame. `point` is the index of the nearest path point, or `None` while the drone is off the path. An index out of
-    /// range counts as `None`.
+    /// Adds a frame. `point` is the index of the nearest path point, or `None` while the drone is off the path. An
+    /// out-of-range index counts as `None`.
     pub fn note(&mut self, point: Option<usize>) {
         let point = point.filter(|point| *point < self.covered.len());
         if let Some(point) = point {
@@ -69,15 +68,15 @@ impl FlownPath {
         &self.covered
     }
 
-    /// Returns the length and the flown fraction of the path.
+    /// Returns the path's length and flown fraction.
     #[must_use]
     pub fn coverage(&self) -> PathCoverage {
         let length_m: f64 = self.weights_m.iter().sum();
         let flown = self.weights_m.iter().zip(&self.covered).filter(|(_, covered)| **covered);
         let covered_m = flown.fold(0.0, |sum, (weight, _)| sum + weight);
         let any = f64::from(u8::from(self.covered.iter().any(|covered| *covered)));
-        // A path that is not longer than its threshold is a hold position: reaching it covers all of it. If every point is
-        // covered, the share is exactly 1 in spite of rounding.
+        // A path no longer than its threshold is a hold position: reaching it covers all of it. If every point is
+        // covered, the share is exactly 1 despite rounding.
         let whole = length_m <= self.threshold_m || self.covered.iter().all(|covered| *covered);
         let share = if whole { any } else { covered_m / length_m };
         PathCoverage { length_m, share }

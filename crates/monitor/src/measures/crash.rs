@@ -1,4 +1,4 @@
-//! Crash analysis: touchdowns on the pad, lost contact messages, start of contacts, and assignment of crashes to tasks.
+//! Crash analysis: pad touchdowns, lost contact messages, contact onsets, and assignment of crashes to tasks.
 
 use super::on_path::OnPath;
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -8,30 +8,30 @@ use spandrel_model::scenario::GroundTeam;
 
 /// Maximum vertical speed at which contact with the pad is not a crash, m/s (docs/src/reference/assessment.md, "Crashes").
 const MAX_SOFT_TOUCH_M_S: f64 = 1.0;
-/// Maximum height above the pad at which a contact may be a contact with the ground around the pad, m (estimate: height of the
-/// center of any aircraft that is tilted).
+/// Maximum height above the pad at which a contact may be with the ground around the pad, m (estimate: center height of
+/// any tilted aircraft).
 const MAX_PAD_CONTACT_HEIGHT_M: f64 = 1.0;
-/// Number of preceding frames that are searched for the impact speed, because the drone may already have stopped when the contact
-/// is reported.
+/// Number of preceding frames searched for the impact speed, because the drone may already have stopped when the
+/// contact is reported.
 const LOOK_BACK_FRAMES: usize = 2;
 
-/// The start of a contact.
+/// Start of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crash {
-    /// Index of the first frame of the contact, from 0.
+    /// Index of the contact's first frame, from 0.
     pub frame: usize,
-    /// Index of the last frame of the same contact, from 0.
+    /// Index of the contact's last frame, from 0.
     pub last: usize,
     /// Kind of object hit.
     pub with: ContactKind,
-    /// Maximum speed around the start of the contact, m/s.
+    /// Maximum speed around the time of first contact, m/s.
     pub speed_m_s: f64,
     /// Index of the task whose window contains the crash, if any.
     pub task: Option<usize>,
 }
 
-/// Restores contacts whose messages were lost, then removes touchdowns and lift-offs on the pad. Changes only the frames'
-/// `contact` field.
+/// Restores contacts whose messages were lost, then removes pad touchdowns and lift-offs. Changes only the `contact`
+/// field of the frames.
 pub fn clean_up_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTeam) {
     for time in flight.missed_contacts() {
         let i = frames.partition_point(|frame| frame.time < time);
@@ -58,7 +58,8 @@ fn is_soft_touch(frames: &[Frame], onset: usize, team: &GroundTeam) -> bool {
     may_touch_pad(frames[onset].position_m, vertical.fold(0.0, f64::max), team)
 }
 
-/// Returns whether contact with the ground or pad at this position and vertical speed is a touchdown or lift-off, not a crash.
+/// Returns whether ground or pad contact at this position and vertical speed is a touchdown or lift-off rather than a
+/// crash.
 #[must_use]
 pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam) -> bool {
     let from_pad = position_m - team.pad_m;
@@ -67,7 +68,7 @@ pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam
         && vertical_m_s.abs() < MAX_SOFT_TOUCH_M_S
 }
 
-/// Returns all crashes: frames in which a contact starts, or escalates to a vehicle or person.
+/// Returns all crashes: frames in which a contact starts or escalates to a vehicle or person.
 #[must_use]
 pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     let mut found: Vec<Crash> = Vec::new();
@@ -88,8 +89,8 @@ pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     found
 }
 
-/// Returns the task whose window contains frame `i`. If several do, returns the task being flown, otherwise the last one flown,
-/// otherwise the one with the lowest index.
+/// Returns the task whose window contains frame `i`. If several do, prefers the task being flown, then the last one
+/// flown, then the lowest index.
 fn task_at_frame(i: usize, on_path: &OnPath) -> Option<usize> {
     let holds = |task: usize| on_path.windows[task].is_some_and(|window| window.contains(i));
     let open: Vec<usize> = (0..on_path.windows.len()).filter(|task| holds(*task)).collect();

@@ -3,10 +3,10 @@
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 
-/// Number of points per search block. Blocks whose bounding box is farther away than the best point so far are skipped; the
-/// result is still exact.
+/// Number of points per search block. Blocks with a bounding box farther away than the best point so far are skipped;
+/// the result stays exact.
 const BLOCK_POINTS: usize = 16;
-/// Margin for rounding errors in the test whether a box can be skipped.
+/// Margin for rounding errors when testing whether a box can be skipped.
 const BOX_TOLERANCE: f64 = 1.0 + 1e-9;
 
 /// A reference path indexed for nearest-point queries.
@@ -43,7 +43,7 @@ impl BoundingBox {
 /// Nearest point on a reference path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestOnPath {
-    /// Index of the nearest reference point (n*); in `exact` mode, the index of the first point of the nearest segment.
+    /// Index of the nearest reference point (n*); in `exact` mode, the first point of the nearest segment.
     pub point: usize,
     /// Distance to the path (l*), m.
     pub distance_m: f64,
@@ -54,7 +54,7 @@ impl ReferencePath {
     #[must_use]
     pub fn new(points_m: &[Vec3<Enu>], closed: bool) -> Self {
         let count = points_m.len();
-        // Each block includes the end of its last segment, so that the same boxes can be used for points and segments.
+        // Each block includes the end of its last segment, so the same boxes serve points and segments.
         let block = |start: usize| BoundingBox::around((start..=(start + BLOCK_POINTS).min(count)).map(|k| &points_m[k % count]));
         Self { points_m: points_m.to_vec(), closed, blocks: (0..count).step_by(BLOCK_POINTS).map(block).collect() }
     }
@@ -65,8 +65,8 @@ impl ReferencePath {
         &self.points_m
     }
 
-    /// Applies the rule of the TASBID paper: finds the nearest reference point (in a tie, the one with the lowest index), then
-    /// measures the distance to the adjacent segments.
+    /// Applies the TASBID rule: finds the nearest reference point (lowest index in a tie), then measures the distance
+    /// to the adjacent segments.
     #[must_use]
     pub fn paper(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let point = self.search(position_m, |k| (position_m - self.points_m[k]).norm_squared())?;
@@ -97,14 +97,14 @@ impl ReferencePath {
         Some(a.lerp(b, along(position_m, a, b)))
     }
 
-    /// Returns whether the whole path is farther away than `distance_m`.
+    /// Returns whether the entire path is farther away than `distance_m`.
     #[must_use]
     pub fn is_beyond(&self, position_m: Vec3<Enu>, distance_m: f64) -> bool {
         let limit = distance_m * distance_m * BOX_TOLERANCE;
         self.blocks.iter().all(|block| block.distance_squared(position_m.array()) > limit)
     }
 
-    /// Returns the distance along the path from its first point to each point, m.
+    /// Returns each point's distance along the path from the first point, m.
     #[must_use]
     pub fn along_m(&self) -> Vec<f64> {
         let steps = self.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm());
@@ -116,7 +116,7 @@ impl ReferencePath {
         self.points_m.first().map(|_| 0.0).into_iter().chain(later).collect()
     }
 
-    /// Returns the length that each point represents, m: half of each adjacent segment.
+    /// Returns the length represented by each point, m: half of each adjacent segment.
     #[must_use]
     pub fn lengths_by_point_m(&self) -> Vec<f64> {
         let mut lengths_m = vec![0.0; self.points_m.len()];
@@ -135,7 +135,7 @@ impl ReferencePath {
         Some((self.points_m[k], self.points_m[next]))
     }
 
-    /// Returns the index with the lowest cost (in a tie, the lowest index). The cost of a point must not be less than the squared
+    /// Returns the index with the lowest cost (the lowest index in a tie). A point's cost must be at least the squared
     /// distance to its block's box.
     fn search(&self, position_m: Vec3<Enu>, cost: impl Fn(usize) -> f64) -> Option<usize> {
         let point = position_m.array();
@@ -159,7 +159,7 @@ fn distance_to_segment_squared(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 
     (p - (a + (b - a) * along(p, a, b))).norm_squared()
 }
 
-/// Returns the position of the point nearest to `p` on the segment from `a` (0) to `b` (1).
+/// Returns the position on the segment from `a` (0) to `b` (1) that is nearest to `p`.
 fn along(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
     let way = b - a;
     let length_squared = way.norm_squared();
@@ -209,14 +209,14 @@ impl ReferencePaths {
         self.thresholds_m[task]
     }
 
-    /// Returns the nearest point of a task's path and the distance to it (n* and l*).
+    /// Returns the nearest point on a task's path and its distance (n* and l*).
     #[must_use]
     pub fn nearest(&self, task: usize, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         if self.exact { self.paths[task].exact(position_m) } else { self.paths[task].paper(position_m) }
     }
 
-    /// Returns the task whose path the drone is on: of the tasks within their threshold, the one with the smallest l*/threshold.
-    /// In a tie, `current` is preferred, then the lowest index.
+    /// Returns the task whose path the drone is on: of the tasks within their threshold, the one with the smallest
+    /// l*/threshold. Ties go to `current`, then to the lowest index.
     #[must_use]
     pub fn on(&self, position_m: Vec3<Enu>, current: Option<usize>) -> Option<(usize, NearestOnPath)> {
         let mut best: Option<(f64, usize, NearestOnPath)> = None;
@@ -241,12 +241,12 @@ impl ReferencePaths {
     }
 }
 
-/// First and last on-path frame of a task, as indices from 0.
+/// A task's first and last on-path frames, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TaskWindow {
-    /// Index of the first frame.
+    /// First frame index.
     pub first: usize,
-    /// Index of the last frame, inclusive.
+    /// Last frame index, inclusive.
     pub last: usize,
 }
 
@@ -264,12 +264,12 @@ impl TaskWindow {
     }
 }
 
-/// On-path state of all frames (X_t,i). A frame is on the path of at most one task.
+/// On-path state of all frames (X_t,i). A frame is on at most one task's path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnPath {
     /// For each frame, the task whose path the drone is on and the index of the nearest path point.
     pub task: Vec<Option<(usize, usize)>>,
-    /// Window of each task; `None` if its path was never entered.
+    /// Each task's window; `None` if its path was never entered.
     pub windows: Vec<Option<TaskWindow>>,
 }
 
@@ -291,7 +291,7 @@ impl OnPath {
         Self { task, windows }
     }
 
-    /// Returns the fraction of a task window's frames that are on the path (P_p,t); 0 if the path was never entered.
+    /// Returns the fraction of frames in a task's window that are on the path (P_p,t); 0 if the path was never entered.
     #[must_use]
     pub fn share(&self, task: usize) -> f64 {
         let Some(window) = self.windows[task] else { return 0.0 };

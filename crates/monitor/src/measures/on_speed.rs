@@ -2,7 +2,7 @@
 
 use super::on_path::TaskWindow;
 
-/// Returns for each frame whether it is inside any task window and the speed exceeds the limit (X_s,i).
+/// Returns, for each frame, whether it is inside a task window and exceeds the speed limit (X_s,i).
 #[must_use]
 pub fn speeding(speeds_m_s: &[f64], windows: &[Option<TaskWindow>], limit_m_s: f64) -> Vec<bool> {
     let mut inside = vec![false; speeds_m_s.len()];
@@ -12,14 +12,14 @@ pub fn speeding(speeds_m_s: &[f64], windows: &[Option<TaskWindow>], limit_m_s: f
     speeds_m_s.iter().zip(inside).map(|(speed, inside)| inside && *speed > limit_m_s).collect()
 }
 
-/// Returns the speeding loss (P_s,t): the sum of speed / limit over the speeding frames, divided by the number of all frames in
-/// the window; 0 without a window.
+/// Returns the speeding loss (P_s,t): the sum of speed / limit over the speeding frames, divided by the total number of
+/// frames in the window; 0 without a window.
 #[must_use]
 pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<TaskWindow>, limit_m_s: f64) -> f64 {
     let Some(window) = window else { return 0.0 };
     let range = window.first..=window.last;
     let weights = speeds_m_s[range.clone()].iter().zip(&speeding[range]).filter(|(_, on)| **on).map(|(v, _)| v / limit_m_s);
-    // The sum of an empty list of floats is -0.0. Adding 0.0 changes it to +0.0.
+    // Summing an empty list of floats gives -0.0. Adding 0.0 turns it into +0.0.
     (weights.sum::<f64>() + 0.0) / window.frames() as f64
 }
 

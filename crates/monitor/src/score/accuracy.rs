@@ -7,9 +7,9 @@ use super::Score;
 pub struct DetectionTally {
     /// Number of pictures taken.
     pub taken: usize,
-    /// Number of pictures that show at least one defect not shown in any earlier picture.
+    /// Number of pictures that show at least one new defect.
     pub hits: usize,
-    /// Number of different defects that the pictures show.
+    /// Number of distinct defects shown.
     pub found: usize,
     /// Number of defects placed in the scene.
     pub placed: usize,
@@ -28,7 +28,8 @@ impl DetectionTally {
         (self.placed > 0).then(|| self.found as f64 / self.placed as f64)
     }
 
-    /// Returns the F-measure; `None` if no defect was placed. It equals precision for `beta` 0 and recall for an infinite `beta`.
+    /// Returns the F-measure; `None` if no defect was placed. Equals precision for `beta` = 0 and recall for infinite
+    /// `beta`.
     #[must_use]
     pub fn f_beta(&self, beta: f64) -> Option<f64> {
         let recall = self.recall()?;

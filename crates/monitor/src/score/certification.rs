@@ -1,5 +1,5 @@
-//! The certification profile, computed in addition to the four TASBID scores. It adds pass/fail requirements, counts only the
-//! part of a path that was flown, and weights crashes by speed. Its weights are this project's estimates.
+//! The certification profile, computed in addition to the four TASBID scores. It adds pass/fail requirements, counts
+//! only the flown part of a path, and weights crashes by speed. The weights are this project's estimates.
 
 use crate::measures::coverage::PathCoverage;
 use crate::measures::crash::{self, Crash};
@@ -23,12 +23,12 @@ const CRASH_MERGE_GAP_S: f64 = 1.0;
 const MIN_LANDING_BATTERY_PCT: f64 = 20.0;
 /// Minimum loss per crash, points (equal to TASBID's fixed loss per crash).
 const MIN_CRASH_LOSS: f64 = 3.0;
-/// Speed at which a crash costs twice the minimum loss, m/s (estimate). The energy increases with the square of the speed, so
-/// that at twice this speed the loss is five times the minimum.
+/// Speed at which a crash costs twice the minimum loss, m/s (estimate). Energy increases with the square of the speed,
+/// so at twice this speed the loss is five times the minimum.
 const CRASH_REFERENCE_SPEED_M_S: f64 = 2.0;
 /// Maximum loss per crash, points (estimate).
 const MAX_CRASH_LOSS: f64 = 30.0;
-/// Points lost per second below the minimum clearance (estimate: a minute costs as much as two crashes with the minimum loss).
+/// Points lost per second below the minimum clearance (estimate: one minute costs as much as two minimum-loss crashes).
 const EXPOSURE_LOSS_PER_S: f64 = 0.1;
 /// Maximum loss for low clearance, points (estimate).
 const MAX_EXPOSURE_LOSS: f64 = 50.0;
@@ -36,31 +36,31 @@ const MAX_EXPOSURE_LOSS: f64 = 50.0;
 /// Results of the certification profile.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certification {
-    /// Whether all requirements are met.
+    /// Whether all requirements were met.
     pub passed: bool,
     /// Result of each requirement.
     pub gates: Requirements,
-    /// Unmet requirements as text, each with the value reached and the value required.
+    /// Unmet requirements as text, each with its actual and required value.
     pub unmet: Vec<String>,
     /// Scores from 0 to 100. Conformity is absent if no path was entered, and accuracy if no defect was placed.
     pub scores: CertificationScores,
-    /// Flags: `not_attempted:ID` for each task that was not attempted; `no_evidence` if no path was entered.
+    /// Flags: `not_attempted:ID` for each task not attempted; `no_evidence` if no path was entered.
     pub flags: Vec<String>,
-    /// Results of each task, based on its visits.
+    /// Per-task results, based on visits.
     pub tasks: Vec<TaskVisits>,
-    /// Crashes; those less than a second apart are merged.
+    /// Crashes, merged if they are less than a second apart.
     pub crashes: Vec<MergedCrash>,
     /// Number of contacts before merging.
     pub crash_onsets: usize,
     /// Time spent below the scenario's minimum clearance, s.
     pub exposure_s: f64,
-    /// Battery at the last frame, %.
+    /// Battery charge in the last frame, %.
     pub battery_at_end_pct: f64,
     /// Defects found and placed, by element, kind and condition state.
     pub detection: Detection,
 }
 
-/// Requirements for certification.
+/// Certification requirements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Requirements {
     /// Whether every task is done and the session ended with a landing at home.
@@ -75,44 +75,44 @@ pub struct Requirements {
     pub battery_reserve: bool,
 }
 
-/// Scores of the certification profile, 0 to 100 each.
+/// Certification profile scores, each from 0 to 100.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CertificationScores {
     /// Conformity, weighted by the coverage of the paths.
     pub conformity: Option<f64>,
     /// Efficiency; 0 if the session ended early or a task was skipped.
     pub efficiency: f64,
-    /// Safety, from contact speed and clearance.
+    /// Safety, based on contact speed and clearance.
     pub safety: f64,
-    /// Accuracy of detection; kinds of defects are not graded.
+    /// Detection accuracy; the kind of defect is not graded.
     pub accuracy: Option<f64>,
 }
 
-/// Visits to one task and their results.
+/// Visits to one task, with results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskVisits {
-    /// Number of the task in the scenario.
+    /// Task number in the scenario.
     pub id: u32,
     /// First and last frame of each visit.
     pub visits: Vec<(u32, u32)>,
-    /// Fraction of the reference path that was flown, 0 to 1.
+    /// Flown fraction of the reference path, 0 to 1.
     pub coverage: f64,
-    /// Fraction of the visits' frames that are on the path, 0 to 1.
+    /// Fraction of the visits' frames on the path, 0 to 1.
     pub on_path: f64,
-    /// Speeding loss of TASBID, computed over the visits' frames.
+    /// TASBID speeding loss, computed over the frames in the visits.
     pub speeding: f64,
 }
 
-/// A crash. Contacts that are close together in time are merged into one crash.
+/// A crash. Contacts close together in time are merged into one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MergedCrash {
-    /// Number of the first frame.
+    /// First frame number.
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
     /// Most severe object hit.
     pub with: ContactKind,
-    /// Maximum speed around the start of the contact, m/s.
+    /// Maximum speed around the time of first contact, m/s.
     pub speed_m_s: f64,
     /// Points lost by this crash.
     pub loss: f64,
@@ -132,8 +132,7 @@ pub struct DetectionCounts {
 /// Number of defects found and placed, by element, kind and condition state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Detection {
-    /// Always true: only detection is graded, because trainees cannot report the kind and condition state of a defect in this
-    /// version.
+    /// Always true: only detection is graded, because trainees cannot yet report a defect's kind and condition state.
     pub detection_only: bool,
     /// Counts by AASHTO MBEI element number.
     pub by_element: BTreeMap<Element, DetectionCounts>,
@@ -143,22 +142,22 @@ pub struct Detection {
     pub by_condition_state: BTreeMap<u8, DetectionCounts>,
 }
 
-/// Inputs of the certification profile.
+/// Inputs to the certification profile.
 #[derive(Debug)]
 pub struct CertificationInputs<'a> {
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: &'a Scenario,
     /// Reference paths of the scenario's tasks.
     pub paths: &'a ReferencePaths,
     /// Session to evaluate.
     pub session: &'a Session,
-    /// On-path state of the session's frames.
+    /// On-path state of each session frame.
     pub on_path: &'a OnPath,
-    /// Coverage of each task's path, in task order.
+    /// Path coverage of each task, in task order.
     pub covered: &'a [PathCoverage],
-    /// State of each task, in task order.
+    /// Each task's state, in task order.
     pub states: &'a [TaskState],
-    /// Completion of the session.
+    /// Session completion.
     pub completion: Completion,
     /// Crashes before merging.
     pub crashes: &'a [Crash],
@@ -166,7 +165,7 @@ pub struct CertificationInputs<'a> {
     pub counts: accuracy::DetectionTally,
     /// Defects placed in the session.
     pub defects: &'a [PlacedDefect],
-    /// Ids of the defects found.
+    /// IDs of the defects found.
     pub found: &'a BTreeSet<u32>,
 }
 
@@ -217,7 +216,7 @@ fn check_requirements(evidence: &CertificationInputs<'_>, all_tasks_attempted: b
     }
 }
 
-/// Returns the unmet requirements as text. The battery reserve is omitted if the drone did not land.
+/// Returns the unmet requirements as text. Omits the battery reserve if the drone did not land.
 fn unmet(evidence: &CertificationInputs<'_>, gates: &Requirements, battery_pct: f64) -> Vec<String> {
     let done_share = evidence.completion.done_share;
     let tasks = evidence.scenario.tasks.iter().zip(evidence.states).zip(evidence.covered);
@@ -313,8 +312,8 @@ fn merge_crashes(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
         .collect()
 }
 
-/// Returns the time spent below the minimum clearance, s. The limit is the scenario's or, if lower, that of the last task
-/// entered. The too-close cue uses the same limit.
+/// Returns the time spent below the minimum clearance, s. The limit is the scenario's or, if lower, the limit of the
+/// last task entered, as in the too-close cue.
 fn exposure_s(evidence: &CertificationInputs<'_>) -> f64 {
     let scenario = evidence.scenario;
     let mut current: Option<usize> = None;

@@ -1,11 +1,10 @@
-//! Completion of the job. It is shown with every score, so that the scores of an incomplete flight are not mistaken for those of
-//! a complete one.
+//! Job completion. It is shown with every score so that an incomplete flight is not mistaken for a complete one.
 
 use crate::measures::coverage::PathCoverage;
 use serde::{Deserialize, Serialize};
 use spandrel_model::numbers::{format_limit, format_with_limit};
 
-/// Completion state of a task.
+/// Task completion state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TaskState {
@@ -18,7 +17,7 @@ pub enum TaskState {
 }
 
 impl TaskState {
-    /// Determines the state from whether the path was entered and from the fraction that was flown.
+    /// Derives the state from whether the path was entered and how much of it was flown.
     #[must_use]
     pub fn of(attempted: bool, covered: f64, done_share: f64) -> Self {
         match (attempted, covered >= done_share) {
@@ -28,27 +27,27 @@ impl TaskState {
         }
     }
 
-    /// Returns the state as text, with the percentage of the path that was flown.
+    /// Returns the state as text, with the percentage of the path flown.
     #[must_use]
     pub fn words(self, covered: f64, done_share: f64) -> String {
         match self {
-            Self::Done => format!("done, {} % of its path", percent(covered, done_share)),
-            Self::Part => format!("partly flown, {} % of its path", percent(covered, done_share)),
+            Self::Done => format!("done ({} % of path)", percent(covered, done_share)),
+            Self::Part => format!("partly flown ({} % of path)", percent(covered, done_share)),
             Self::NotAttempted => "not attempted".to_owned(),
         }
     }
 }
 
-/// Completion of a session.
+/// Session completion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Completion {
     /// Whether every task is done and the session ended with a landing at home.
     pub complete: bool,
-    /// Number of tasks done.
+    /// Number of completed tasks.
     pub tasks_done: usize,
     /// Number of tasks in the job.
     pub tasks: usize,
-    /// Fraction of the total path length that was flown, 0 to 1.
+    /// Flown fraction of the total path length, 0 to 1.
     pub path_share: f64,
     /// Whether the session ended with a landing at home.
     pub landed_at_home: bool,
@@ -57,14 +56,14 @@ pub struct Completion {
 }
 
 impl Completion {
-    /// Computes the completion of a session from the states and coverage of all tasks.
+    /// Computes session completion from the states and coverage of all tasks.
     #[must_use]
     pub fn of(states: &[TaskState], covered: &[PathCoverage], landed_at_home: bool, done_share: f64) -> Self {
         let tasks_done = states.iter().filter(|state| **state == TaskState::Done).count();
         let length_m: f64 = covered.iter().map(|one| one.length_m).sum();
         let flown_m = covered.iter().fold(0.0, |sum, one| sum + one.length_m * one.share);
         let count = states.len().max(1) as f64;
-        // Paths that consist of a single point have no length, so all paths have the same weight.
+        // Single-point paths have no length, so if all paths are single points, they are weighted equally.
         let by_count = covered.iter().fold(0.0, |sum, one| sum + one.share) / count;
         Self {
             complete: landed_at_home && tasks_done == states.len(),
@@ -80,8 +79,8 @@ impl Completion {
     #[must_use]
     pub fn short(&self) -> String {
         let word = if self.complete { "Complete" } else { "Incomplete" };
-        // With a single task, its share decides whether the job is complete, so the text needs enough digits to show why. With
-        // several tasks, a rounded share is enough.
+        // With a single task, its share decides whether the job is complete, so the text needs enough digits to show
+        // why. With multiple tasks, a rounded share is enough.
         let share =
             if self.tasks == 1 { percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) };
         let tasks = if self.tasks == 1 { "task" } else { "tasks" };
@@ -116,7 +115,7 @@ pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Opti
     }
 }
 
-/// Returns the certification verdict as text. If the session is not certified, it includes the first unmet requirement.
+/// Returns the certification verdict as text, including the first unmet requirement if the session is not certified.
 #[must_use]
 pub fn verdict(certified: bool, unmet: &[String]) -> String {
     match (certified, unmet) {

@@ -9,11 +9,11 @@ pub mod safety;
 
 use serde::Serialize;
 
-/// Version of the scorer. Increase it with every change that could give the same flight a different score. Scores are compared
-/// only if they have the same version.
+/// Scorer version. Increment it with every change that could give the same flight a different score. Scores are
+/// compared only within the same version.
 pub const SCORER_VERSION: u32 = 2;
 
-/// A score, on its own scale and as a percentage, at full precision. Scores are rounded only for display.
+/// A score, on its own scale and as a percentage, in full precision. Scores are rounded only for display.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Score {
     /// Result of the formula, clamped to its scale.
@@ -26,7 +26,7 @@ impl Score {
     /// Creates a score from a raw value, clamped to the range from `least` to `greatest`.
     #[must_use]
     pub fn on_scale(raw: f64, least: f64, greatest: f64) -> Self {
-        // Adding 0.0 changes -0.0 to +0.0.
+        // Adding 0.0 turns -0.0 into +0.0.
         let raw = raw.clamp(least, greatest) + 0.0;
         Self { raw, pct: (raw - least) / (greatest - least) * 100.0 }
     }

@@ -2,12 +2,12 @@
 
 use super::Score;
 
-/// Points lost if a person was hit. If a vehicle was hit, the same number of points is lost.
+/// Points lost if a person or vehicle was hit.
 const TRAFFIC_LOSS: f64 = 100.0;
-/// Points lost for each other crash.
+/// Points lost for any other crash.
 const OTHER_LOSS: f64 = 3.0;
 
-/// Computes safety. `others` is the number of contacts with bridge, terrain, water or anything else.
+/// Computes safety. `others` is the number of contacts with anything except people and vehicles.
 #[must_use]
 pub fn score(person: bool, vehicle: bool, others: usize) -> Score {
     let traffic = f64::from(u8::from(person)) + f64::from(u8::from(vehicle));

@@ -1,4 +1,4 @@
-//! Outgoing messages: cues, texts, replies, and events for the log.
+//! Outgoing messages: cues, texts, replies, and log events.
 
 use super::{AUTOPILOT_COMPONENT, COMPONENT, CUES_INTERVAL, Monitor, SessionOutput};
 use crate::feedback::{FeedbackInput, TaskProximity};
@@ -77,8 +77,8 @@ impl Monitor {
         at_end || passed as f64 >= MIN_FLOWN_SHARE * count as f64
     }
 
-    /// Returns whether the drone is low over the pad. Away from the pad, heights are not checked, because a job can be flown
-    /// below the pad.
+    /// Returns whether the drone is low over the pad. Heights elsewhere are not checked, because a job can take the
+    /// drone below the pad.
     fn is_down_at_home(&self, truth: &Truth) -> bool {
         let team = &self.config.scenario.ground_team;
         let at_home = (truth.motion.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
@@ -116,7 +116,7 @@ impl Monitor {
         }
     }
 
-    /// Adopts the vehicle's system id: that of the scored flight or, until there is one, of the last heartbeat received.
+    /// Adopts the system ID of the scored flight or, until there is one, of the last heartbeat received.
     fn adopt_system(&mut self, system: u8) {
         let system = self.timeline.system().unwrap_or(system);
         if system != self.encoder.system_id() {

@@ -1,5 +1,5 @@
-//! The live monitor. Processes datagrams and clock updates, and returns datagrams and file contents. Performs no I/O; the
-//! application manages sockets and files.
+//! The live monitor processes datagrams and clock updates and returns datagrams and file contents. It performs no I/O;
+//! the application manages sockets and files.
 //!
 //! ```text
 //! monitor.handle_datagram(bytes)   then, until both return None: poll_transmit(), poll_record()
@@ -34,23 +34,24 @@ use std::sync::Arc;
 mod messages;
 mod telemetry_intake;
 
-/// Component id of the monitor (MAV_COMP_ID_ONBOARD_COMPUTER).
+/// The monitor's component ID (MAV_COMP_ID_ONBOARD_COMPUTER).
 pub const COMPONENT: u8 = 191;
-/// Component id of the autopilot (MAV_COMP_ID_AUTOPILOT1).
+/// The autopilot's component ID (MAV_COMP_ID_AUTOPILOT1).
 const AUTOPILOT_COMPONENT: u8 = 1;
 /// Interval at which `cues` is repeated, 5 Hz (docs/src/reference/wire.md, "Scoring data").
 const CUES_INTERVAL: SimTime = SimTime::from_ms(200);
-/// Heartbeat interval in simulation time, so that runs at any simulation speed are reproducible.
+/// Heartbeat interval in simulation time, which keeps runs reproducible at any simulation speed.
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
-/// Heartbeat interval in wall-clock time while no simulation time is received.
+/// Heartbeat interval in wall-clock time, used while no simulation time is received.
 const HEARTBEAT_WALL_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// Time to wait for late datagrams before scoring.
 const SCORING_DELAY: SimTime = SimTime::from_ms(500);
-/// Delay before scoring is retried if the live rule detected an end of the session, but the scorer did not.
+/// Delay before scoring is retried if the live rule detected the session's end but the scorer did not.
 const END_RETRY_DELAY: SimTime = SimTime::from_ms(5_000);
-/// Wall-clock time without telemetry after which the session is closed, if its end was already detected.
+/// Wall-clock time without telemetry after which an ended session is closed.
 const SILENCE_TIMEOUT: SimTime = SimTime::from_ms(3_000);
-/// Search radius around the drone's center for the object in contact, m (estimate: half the size of the largest aircraft).
+/// Radius around the drone's center to search for the object in contact, m (estimate: half the size of the largest
+/// aircraft).
 const CONTACT_SEARCH_RADIUS_M: f64 = 1.5;
 
 /// Function that builds the site for a seed.
@@ -62,21 +63,20 @@ pub fn build_site(scenario: &Scenario, seed: u64) -> Arc<dyn SiteSurvey> {
     Arc::new(Site::build(scenario, seed))
 }
 
-/// Configuration of a monitor.
+/// Monitor configuration.
 #[derive(Debug, Clone)]
 pub struct MonitorConfig {
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: Scenario,
     /// Aircraft flown in the session.
     pub vehicle: Vehicle,
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<String>,
-    /// Wall-clock time at which the session started, µs since the Unix epoch. After a restart of the monitor, the time of the
-    /// first start.
+    /// Wall-clock time of the session's first start, µs since the Unix epoch. Unchanged if the monitor restarts.
     pub started_unix_us: u64,
-    /// System id used until the vehicle is detected (1 + instance number).
+    /// System ID used until the vehicle is detected (1 + instance number).
     pub system_id: u8,
     /// Seed specified on the command line. Telemetry with a different seed is rejected.
     pub seed: Option<u64>,
@@ -93,7 +93,7 @@ pub enum SessionOutput {
     Event(String),
 }
 
-/// State of the flight that is being monitored.
+/// State of the monitored flight.
 #[derive(Debug, Clone, PartialEq)]
 struct LiveState {
     truth: Option<Truth>,
@@ -108,7 +108,7 @@ struct LiveState {
     lift_off: Option<SimTime>,
     current_task: Option<usize>,
     last_task: Option<usize>,
-    /// For each task, whether each path point was the nearest one while the drone was on the path.
+    /// For each task and path point, whether it was ever the nearest point while the drone was on the path.
     visited_points: Vec<Vec<bool>>,
     rule: EndRule,
     end: Option<(SimTime, EndReason)>,
@@ -127,7 +127,7 @@ pub struct Monitor {
     decoder: Decoder,
     encoder: Encoder,
     timeline: Timeline,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch; `None` until a truth message was received.
+    /// Wall-clock time at simulation time zero, µs since the Unix epoch; `None` until a truth message is received.
     zero_unix_us: Option<u64>,
     feedback: FeedbackRules,
     texts: TextQueue,
@@ -195,8 +195,8 @@ impl Monitor {
         Ok(monitor)
     }
 
-    /// Returns whether a datagram comes from the vehicle: it contains a frame of the autopilot component and, once there is a
-    /// scored flight, of the same system.
+    /// Returns whether a datagram comes from the vehicle: it contains a frame from the autopilot component and, once
+    /// there is a scored flight, from the same system.
     #[must_use]
     pub fn is_from_vehicle(&self, bytes: &[u8]) -> bool {
         let system = self.timeline.system();
@@ -224,7 +224,8 @@ impl Monitor {
         }
     }
 
-    /// Updates the wall-clock time, measured from any fixed instant. Needed only while simulation time does not advance.
+    /// Updates the wall-clock time, measured from an arbitrary fixed instant. Needed only while simulation time does
+    /// not advance.
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if std::mem::take(&mut self.vehicle_received) || self.last_received_wall.is_none() {
             self.last_received_wall = Some(wall);
@@ -249,19 +250,19 @@ impl Monitor {
         self.records.pop_front()
     }
 
-    /// Returns the result; `None` while the session is running.
+    /// Returns the result; `None` while the session is still running.
     #[must_use]
     pub fn finished(&self) -> Option<&Result<AssessedSession, AssessError>> {
         self.outcome.as_ref()
     }
 
-    /// Returns the reason why the telemetry was rejected, if it was.
+    /// Returns the reason that the telemetry was rejected, if it was.
     #[must_use]
     pub fn refused(&self) -> Option<&AssessError> {
         self.refusal.as_ref()
     }
 
-    /// Ends the session immediately (aborted by the user, or link closed) and scores the flight up to this point.
+    /// Ends the session immediately (user abort or closed link) and scores the flight up to this point.
     pub fn close(&mut self) {
         if self.outcome.is_none() {
             let outcome = self.score();
@@ -274,7 +275,7 @@ impl Monitor {
         self.text(words, severity);
     }
 
-    /// Frees the memory of the flight data after the session was written. The assessment remains available.
+    /// Frees the flight data after the session has been written. The assessment remains available.
     pub fn release_flight(&mut self) {
         self.timeline = Timeline::new(LocalPlane::new(self.config.scenario.origin));
         self.survey = None;
@@ -314,7 +315,7 @@ impl Monitor {
         self.live.battery_pct
     }
 
-    /// Returns the statistics of the telemetry link.
+    /// Returns the telemetry link statistics.
     #[must_use]
     pub fn link(&self) -> LinkCounts {
         self.timeline.counts()

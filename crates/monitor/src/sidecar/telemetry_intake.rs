@@ -1,4 +1,4 @@
-//! Processing of received telemetry frames: log timestamps, live state, events, and the end of the session.
+//! Processing of received telemetry frames: log timestamps, live state, events and session end.
 
 use super::{COMPONENT, CONTACT_SEARCH_RADIUS_M, END_RETRY_DELAY, HEARTBEAT_INTERVAL, LiveState, Monitor, SCORING_DELAY};
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
@@ -19,8 +19,8 @@ use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 impl Monitor {
-    /// Returns the log timestamp of a frame, µs: the session's start plus the simulation time since the first truth message. It
-    /// keeps increasing after a restart of the simulator.
+    /// Returns the log timestamp of a frame, µs: the session's start plus the simulation time since the first truth
+    /// message. It keeps increasing when the simulator restarts.
     pub(super) fn stamp_us(&mut self, received: &ReceivedFrame) -> u64 {
         let own = spandrel_mavlink::telemetry::sample::truth_time(&received.bytes);
         let since_zero = |own: SimTime| u64::try_from(own.us()).unwrap_or(0);
@@ -123,7 +123,7 @@ impl Monitor {
         }
     }
 
-    /// Applies the closing or opening of bridges, so that the names of nearby objects match the simulator's traffic.
+    /// Applies bridge closures and openings so that the names of nearby objects match the simulator's traffic.
     fn handle_traffic(&mut self, code: i32) {
         let before = self.live.closures.clone();
         self.live.closures.apply_code(code);
@@ -241,8 +241,8 @@ impl Monitor {
         }
     }
 
-    /// Scores the session. The live rule evaluates messages, but the scorer evaluates frames. If the scorer finds no end yet,
-    /// monitoring continues.
+    /// Scores the session. The live rule evaluates messages, while the scorer evaluates frames. If the scorer finds no
+    /// end yet, monitoring continues.
     fn try_to_finish(&mut self, now: SimTime) {
         let outcome = self.score();
         match &outcome {

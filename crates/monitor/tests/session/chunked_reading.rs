@@ -1,4 +1,4 @@
-//! Checks that reading a telemetry log in chunks gives the same records as reading it in one piece.
+//! Checks that reading a telemetry log in chunks yields the same records as reading it whole.
 
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavMessage};
@@ -28,21 +28,21 @@ fn damaged_log() -> Vec<u8> {
 #[test]
 fn exact_chunked_reading_matches_whole_log() {
     let log = damaged_log();
-    let whole: Vec<(u64, Vec<u8>)> = TlogReader::new(&log).map(|r| (r.stamp_us, r.frame.to_vec())).collect();
-    assert!((20..40).contains(&whole.len()), "{} records are readable", whole.len());
+    let whole: Vec<(u64, Vec<u8>)> = TlogReader::new(&log).map(|r| (r.timestamp_us, r.frame.to_vec())).collect();
+    assert!((20..40).contains(&whole.len()), "read {} records", whole.len());
     let mut reader = TlogReader::new(&log);
     while reader.next().is_some() {}
     for size in [1, 2, 7, 29, 300, 10_000] {
         let (mut splitter, mut found) = (RecordSplitter::default(), Vec::new());
         let mut take = |r: TlogRecord<'_>| {
-            found.push((r.stamp_us, r.frame.to_vec()));
+            found.push((r.timestamp_us, r.frame.to_vec()));
             ControlFlow::Continue(())
         };
         for piece in log.chunks(size) {
             assert!(splitter.feed(piece, &mut take).is_continue());
         }
         assert!(splitter.end(&mut take).is_continue());
-        assert_eq!(found, whole, "pieces of {size} bytes");
-        assert_eq!(splitter.complete_bytes(), reader.complete_bytes() as u64, "pieces of {size} bytes");
+        assert_eq!(found, whole, "chunks of {size} bytes");
+        assert_eq!(splitter.complete_bytes(), reader.complete_bytes() as u64, "chunks of {size} bytes");
     }
 }

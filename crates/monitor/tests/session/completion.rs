@@ -1,4 +1,4 @@
-//! Tests of job completion: coverage by length, the resulting headline, and the certification requirements.
+//! Tests of job completion: coverage by length, the headline, and the certification requirements.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
@@ -8,8 +8,8 @@ use spandrel_monitor::score::completion::TaskState;
 use spandrel_monitor::session::EndReason;
 use spandrel_testkit::job::*;
 
-/// Tolerance for the end of a flown stretch, as a fraction of a 100 m path: the nearest point changes half a point spacing (1 m)
-/// before or after it.
+/// Tolerance for the end of a flown section, as a fraction of a 100 m path: the nearest point changes up to half a
+/// point spacing (1 m) early or late.
 const HALF_POINT_SPACING: f64 = 0.01;
 
 /// Creates a job with one path of 100 m at a height of 10 m, from 10 to 110 m east.
@@ -17,8 +17,8 @@ fn scenario_with_long_task() -> Scenario {
     scenario(vec![task(1, line((10.0, 0.0, 10.0), (110.0, 0.0, 10.0)), 3.0)])
 }
 
-/// Records a flight of the first `to_m` meters of the path, then either returns home at a distance of 20 m from the path or stops
-/// there.
+/// Records a flight along the first `to_m` meters of the path. The drone then either returns home, 20 m from the path,
+/// or stops there.
 fn flown(to_m: f64, home: bool) -> Tape {
     let mut tape = Tape::new();
     tape.hold(1.0);
@@ -36,7 +36,7 @@ fn flown(to_m: f64, home: bool) -> Tape {
 #[test]
 fn regress_task_is_done_at_80_percent_coverage() {
     for (to_m, state) in [(78.0, TaskState::Part), (82.0, TaskState::Done)] {
-        let assessment = grade(&flown(to_m, true), &scenario_with_long_task()).assessment;
+        let assessment = score_tape(&flown(to_m, true), &scenario_with_long_task()).assessment;
         let task = &assessment.tasks[0];
         assert!((task.covered - to_m / 100.0).abs() <= HALF_POINT_SPACING, "{} of {to_m} m", task.covered);
         assert_eq!((task.state, assessment.completion.complete), (state, state == TaskState::Done));
@@ -47,7 +47,7 @@ fn regress_task_is_done_at_80_percent_coverage() {
     }
     let mut easier = scenario_with_long_task();
     easier.scoring.task_completion_fraction = 0.5;
-    assert!(grade(&flown(60.0, true), &easier).assessment.completion.complete, "the required share is set in the scenario");
+    assert!(score_tape(&flown(60.0, true), &easier).assessment.completion.complete, "the scenario sets the required coverage");
 }
 
 #[test]
@@ -60,9 +60,9 @@ fn regress_session_without_tasks_flown_is_incomplete() {
     tape.fly((0.0, 0.0, 5.0), 2.0);
     tape.hold(5.0);
     tape.land();
-    let assessment = grade(&tape, &job).assessment;
+    let assessment = score_tape(&tape, &job).assessment;
     let scores = &assessment.scores;
-    // By the TASBID formulas, conformity is 50 and efficiency and safety are 100.
+    // The TASBID formulas give a conformity of 50 and an efficiency and safety of 100.
     assert_eq!((scores.conformity.map(|score| score.pct), scores.efficiency.pct, scores.safety.pct), (Some(50.0), 100.0, 100.0));
     let completion = assessment.completion;
     assert_eq!((completion.complete, completion.tasks_done, completion.tasks, completion.path_share), (false, 0, 2, 0.0));
@@ -74,7 +74,7 @@ fn regress_session_without_tasks_flown_is_incomplete() {
 
 #[test]
 fn regress_session_without_landing_at_home_is_incomplete() {
-    let graded = grade(&flown(100.0, false), &scenario_with_long_task());
+    let graded = score_tape(&flown(100.0, false), &scenario_with_long_task());
     let assessment = &graded.assessment;
     assert_eq!((assessment.end.reason, assessment.tasks[0].state), (EndReason::Abort, TaskState::Done));
     assert!(!assessment.completion.complete);
@@ -86,7 +86,7 @@ fn regress_session_without_landing_at_home_is_incomplete() {
 fn regress_half_a_path_is_not_certified() {
     let mut job = scenario_with_long_task();
     job.scoring.task_completion_fraction = 0.8;
-    let assessment = grade(&flown(49.0, true), &job).assessment;
+    let assessment = score_tape(&flown(49.0, true), &job).assessment;
     assert!(assessment.certification.gates.all_tasks_attempted, "the task counts as attempted");
     let [only] = assessment.certification.unmet.as_slice() else { panic!("{:?}", assessment.certification.unmet) };
     assert!(only.starts_with("task 1 not done: ") && only.ends_with(" % of its path, 80 % needed"), "{only}");
@@ -103,11 +103,11 @@ fn regress_hold_position_task_is_done_by_reaching_it() {
     tape.fly((0.0, 14.5, 10.0), 2.0);
     tape.hold(5.0);
     tape.land();
-    let assessment = grade(&tape, &job).assessment;
+    let assessment = score_tape(&tape, &job).assessment;
     assert_eq!((assessment.tasks[0].state, assessment.completion.complete), (TaskState::Done, true));
 }
 
-/// Flies along every path of all shipped jobs from end to end.
+/// Flies every path of all shipped jobs from end to end.
 #[test]
 fn prop_flying_all_shipped_paths_completes_all_tasks() {
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios");

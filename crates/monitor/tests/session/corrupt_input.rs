@@ -80,7 +80,7 @@ fn prop_scorer_survives_corrupt_logs() {
             let at = stream.below(log.len());
             log[at] = stream.bits() as u8;
         }
-        scored += usize::from(assess_log(&log, &one_task(), &vehicle(), fence_of_ten).is_ok());
+        scored += usize::from(assess_log(&log, &one_task(), &vehicle(), test_survey).is_ok());
     }
-    assert!(scored > 50, "most damage loses only a record, not the session: {scored} of 100 scored");
+    assert!(scored > 50, "most damage costs a record, not the session: {scored} of 100 logs scored");
 }

@@ -1,4 +1,4 @@
-//! Tests of the frames export: compares every column with the known values of a recorded flight.
+//! Tests of the frames export: compares every column with known values from a recorded flight.
 
 use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, MavMessage, WIND_COV_DATA};
 use spandrel_model::frames::{Enu, Vec3};
@@ -6,14 +6,14 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_monitor::export::{COLUMNS, FrameRow, frame_rows, frames_csv};
 use spandrel_testkit::job::*;
 
-/// Tolerance for positions, m: truth and estimate have steps of 1e-7 deg (1.1 cm) in latitude and longitude.
+/// Position tolerance, m: truth and estimate have a resolution of 1e-7 deg (1.1 cm) in latitude and longitude.
 const POSITION_TOLERANCE_M: f64 = 0.025;
-/// Tolerance for angles, rad; attitudes are sent as 32-bit floats.
+/// Angle tolerance, rad; attitudes are sent as 32-bit floats.
 const ANGLE_TOLERANCE_RAD: f64 = 1e-6;
-/// Error of the autopilot's position estimate in the flight below; east, north, up, m.
+/// Error of the autopilot's position estimate in the flight below: east, north, up, m.
 const ESTIMATE_ERROR_M: [f64; 3] = [0.5, -0.25, 0.125];
 
-/// Sends the position that the autopilot estimates.
+/// Sends the autopilot's position estimate.
 fn send_estimate(tape: &mut Tape) {
     let geo = LocalPlane::new(one_task().origin)
         .geo_from_enu(tape.at_m + Vec3::<Enu>::new(ESTIMATE_ERROR_M[0], ESTIMATE_ERROR_M[1], ESTIMATE_ERROR_M[2]));
@@ -36,8 +36,8 @@ fn wind(tape: &mut Tape, [north, east, down]: [f32; 3]) {
     }));
 }
 
-/// Records a flight that follows the path for 30 m, with a wind report at 15 m. The drone then flies 5 m north, sends no telemetry
-/// for 3 s, and lands.
+/// Records a flight along 30 m of the path, with a wind report at 15 m. The drone then flies 5 m north, sends no
+/// telemetry for 3 s, and lands.
 fn flight() -> Tape {
     let mut tape = Tape::new();
     tape.yaw_rad = 0.5;
@@ -53,7 +53,7 @@ fn flight() -> Tape {
     }
     tape.clearance(2.5);
     tape.fly((30.0, 5.0, 10.0), 4.0);
-    tape.silence(3_000);
+    tape.hold_unrecorded(3_000);
     tape.land();
     tape
 }
@@ -79,7 +79,7 @@ fn exact_velocity_attitude_and_gimbal_match_telemetry() {
         "{roll} {pitch} {yaw}"
     );
     assert!((cruise.gimbal_pitch_rad.unwrap() + 0.25).abs() < ANGLE_TOLERANCE_RAD);
-    assert_eq!(rows[0].gimbal_pitch_rad, None, "no report was received yet");
+    assert_eq!(rows[0].gimbal_pitch_rad, None, "no wind report was received yet");
     let csv = frames_csv(&rows);
     assert_eq!(cells(&csv, "gimbal_pitch_deg")[0], "");
     let k = cruise.frame.index as usize - 1;
@@ -93,7 +93,7 @@ fn exact_task_and_distance_follow_the_path() {
     assert_eq!((rows[0].task, rows[0].on_path), (None, false), "no task was entered yet");
     let on = rows.iter().find(|row| row.frame.position_m.east() > 20.0).unwrap();
     assert!(on.on_path && on.task.unwrap().id == 1 && on.task.unwrap().distance_m.unwrap() < POSITION_TOLERANCE_M);
-    // Beyond the threshold of 3 m, the drone is off the path.
+    // The drone is off the path beyond the 3 m threshold.
     let off = rows.iter().find(|row| row.frame.position_m.north() > 4.0).unwrap();
     let task = off.task.unwrap();
     assert_eq!((task.id, off.on_path), (1, false));
@@ -106,8 +106,11 @@ fn exact_wind_persists_and_estimate_is_interpolated() {
     let rows = rows(&flight());
     let reported = rows.iter().position(|row| row.wind_m_s.is_some()).unwrap();
     let windy: Vec<&FrameRow> = rows.iter().filter(|row| row.wind_m_s.is_some()).collect();
-    assert!(windy.iter().all(|row| row.wind_m_s.unwrap().array() == [2.0, 1.0, 0.5]), "the order is east, north, up");
-    assert!((rows[reported].frame.position_m.east() - 14.0).abs() < 0.2, "the report arrives one frame earlier, at 4 m/s");
+    assert!(
+        windy.iter().all(|row| row.wind_m_s.unwrap().array() == [2.0, 1.0, 0.5]),
+        "wrong axis order; expected east, north, up"
+    );
+    assert!((rows[reported].frame.position_m.east() - 14.0).abs() < 0.2, "the wind report arrives one frame earlier, at 4 m/s");
     let lasting = 2.5 * one_task().scoring.frame_rate_hz;
     assert!((windy.len() as f64 - lasting).abs() <= 1.0, "{} frames", windy.len());
     let between =
@@ -154,7 +157,7 @@ fn exact_estimate_is_not_interpolated_across_respawn() {
     let rows = rows(&tape);
     let known: Vec<f64> = rows.iter().filter_map(|row| row.estimate_m).map(|estimate_m| estimate_m.east()).collect();
     assert!(!known.is_empty());
-    // Estimates exist only between the two reports after the respawn.
+    // After the respawn, estimates exist only between two reports.
     assert!(known.iter().all(|east| (east - 20.0 - ESTIMATE_ERROR_M[0]).abs() < POSITION_TOLERANCE_M), "{known:?}");
 }
 
@@ -170,7 +173,7 @@ fn exact_column_names_are_unique_and_end_with_unit() {
             "deg" => "_deg",
             "m" => "_m",
             "s" => "_s",
-            other => panic!("{}: no ending for {other}", column.name),
+            other => panic!("{}: no name suffix for unit {other}", column.name),
         };
         assert!(column.name.ends_with(ending), "{}", column.name);
     }

@@ -1,4 +1,4 @@
-//! Tests of the six kinds of feedback sent over MAVLink, with their thresholds and timing.
+//! Tests of the six kinds of MAVLink feedback, with their thresholds and timing.
 
 use crate::live::{monitor_of, sent};
 use spandrel_mavlink::contract::cue;
@@ -24,7 +24,7 @@ impl MonitoredFlight {
         watch
     }
 
-    /// Sends the tape's datagrams to the monitor. Returns the time and the active cues after each datagram.
+    /// Sends the tape's datagrams to the monitor and returns the time and active cues after each one.
     fn run(&mut self) -> Vec<(u32, i32)> {
         let mut cues = Vec::new();
         for datagram in std::mem::take(&mut self.tape.datagrams) {
@@ -49,15 +49,15 @@ fn exact_off_path_cue_has_delay_and_hold_time() {
     let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
     watch.run();
-    // Moves to the side at 10 m/s. A distance of 5 m is beyond the threshold of 3 m, but within 8 m.
+    // Moves sideways at 10 m/s. A distance of 5 m is beyond the 3 m threshold but within 8 m.
     watch.tape.fly((30.0, 5.0, 10.0), 10.0);
     let left = watch.tape.now_ms;
     watch.tape.hold(3.0);
     let cues = watch.run();
     let on = cues.iter().find(|(_, cues)| cues & cue::OFF_PATH != 0).unwrap().0;
-    // The drone passed a distance of 3 m about 0.2 s before it reached 5 m. Messages are 20 ms apart.
-    assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left {left}, on {on}");
-    // The drone is back on the path within half a second, but the cue stays on for two seconds.
+    // The drone passed 3 m about 0.2 s before it reached 5 m. Messages are 20 ms apart.
+    assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left path at {left}, cue on at {on}");
+    // The drone returns to the path within half a second, but the cue stays on for two seconds.
     let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
     watch.tape.fly((30.0, 5.0, 10.0), 10.0);
@@ -93,7 +93,7 @@ fn regress_entering_or_leaving_at_path_end_is_not_off_path() {
     watch.tape.fly((60.0, 0.0, 10.0), 4.0);
     watch.tape.fly((80.0, 0.0, 10.0), 1.0);
     assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
-    // Once the drone has left the task, passing near its path on the way home does not raise the cue.
+    // Once the drone has left the task, passing near its path on the way home doesn't raise the cue.
     watch.tape.fly((70.0, 6.0, 10.0), 4.0);
     watch.tape.fly((0.0, 6.0, 10.0), 4.0);
     assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
@@ -151,7 +151,7 @@ fn regress_task_clearance_limit_applies_near_its_path() {
     assert!(!watch.has(cue::TOO_CLOSE));
     watch.tape.fly((30.0, 12.0, 10.0), 4.0);
     watch.run();
-    assert!(watch.has(cue::TOO_CLOSE), "away from the task, the scenario's distance applies");
+    assert!(watch.has(cue::TOO_CLOSE), "away from the task, the scenario's limit applies");
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn exact_crash_is_reported_immediately_and_first() {
     watch.tape.hold(0.02);
     watch.tape.contact(1);
     let cues = watch.run();
-    assert!(cues.last().unwrap().1 & cue::CRASH != 0, "the cue is on after the datagram with the contact");
+    assert!(cues.last().unwrap().1 & cue::CRASH != 0, "the cue is not on after the datagram with the contact");
     assert_eq!(watch.texts, ["Too close: 2.0 m", "Crash: fence"]);
     watch.tape.contact(0);
     watch.tape.hold(1.9);
@@ -240,7 +240,7 @@ fn exact_cues_are_repeated_at_five_hertz() {
 
 #[test]
 fn exact_too_close_cue_works_below_pad_height() {
-    // In the TASBID job, the circle around the pier is 2 m lower than the pad.
+    // In the TASBID job, the circle around the pier is 2 m below the pad.
     let mut watch = MonitoredFlight::of(one_task());
     watch.tape.fly((30.0, 0.0, 10.0), 10.0);
     watch.tape.fly((30.0, 0.0, -2.0), 4.0);

@@ -1,4 +1,4 @@
-//! Tests with a bad link: lost, duplicated, reordered and truncated datagrams.
+//! Tests of bad links: lost, duplicated, reordered and truncated datagrams.
 
 use spandrel_mavlink::telemetry::{Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
@@ -6,8 +6,8 @@ use spandrel_model::random::RandomStream;
 use spandrel_monitor::assessment::{AssessError, AssessedSession, assess_log};
 use spandrel_testkit::job::*;
 
-fn grade(datagrams: &[Vec<u8>]) -> AssessedSession {
-    assess_log(&log_of(datagrams, 5_000_000), &one_task(), &vehicle(), fence_of_ten).unwrap()
+fn score_tape(datagrams: &[Vec<u8>]) -> AssessedSession {
+    assess_log(&log_of(datagrams, 5_000_000), &one_task(), &vehicle(), test_survey).unwrap()
 }
 
 fn busy_flight() -> Tape {
@@ -40,7 +40,7 @@ fn counts(datagrams: &[Vec<u8>]) -> spandrel_mavlink::telemetry::timeline::LinkC
     timeline.counts()
 }
 
-/// Simulation time at which a 32-bit counter of milliseconds wraps to zero.
+/// Simulation time at which a 32-bit millisecond counter wraps to zero.
 const WRAP_MS: u64 = 1 << 32;
 
 #[test]
@@ -67,7 +67,7 @@ fn regress_flight_continues_across_32_bit_millisecond_wrap() {
 #[test]
 fn prop_reordered_and_duplicate_datagrams_change_no_frame() {
     let tape = busy_flight();
-    let clean = grade(&tape.datagrams);
+    let clean = score_tape(&tape.datagrams);
     for seed in 0..20 {
         let mut stream = RandomStream::new(seed, "link");
         let mut datagrams = Vec::new();
@@ -81,7 +81,7 @@ fn prop_reordered_and_duplicate_datagrams_change_no_frame() {
             let at = stream.below(datagrams.len() - 8);
             datagrams.swap(at, at + 1 + stream.below(7));
         }
-        let graded = grade(&datagrams);
+        let graded = score_tape(&datagrams);
         let first = graded.frames.iter().zip(&clean.frames).find(|(a, b)| a != b);
         assert_eq!(first, None, "seed {seed}");
         assert_eq!(graded.frames.len(), clean.frames.len(), "seed {seed}");
@@ -112,15 +112,16 @@ fn exact_link_statistics_are_counted() {
 
 #[test]
 fn exact_long_loss_is_not_counted_as_reordering() {
-    // Sequence numbers wrap at 256. However many datagrams are lost, the next datagram received is not treated as an old one.
+    // Sequence numbers wrap at 256. No matter how many datagrams are lost, the next one received must not be treated as
+    // old.
     let tape = busy_flight();
-    let whole = grade(&tape.datagrams).frames;
+    let whole = score_tape(&tape.datagrams).frames;
     for lost in [60, 100, 129, 200, 255, 256, 300] {
         let mut datagrams = tape.datagrams.clone();
         datagrams.drain(700..700 + lost);
         let counts = counts(&datagrams);
         assert_eq!((counts.duplicated, counts.reordered), (0, 0), "{lost} lost");
-        assert_eq!(grade(&datagrams).frames.len(), whole.len(), "{lost} lost");
+        assert_eq!(score_tape(&datagrams).frames.len(), whole.len(), "{lost} lost");
     }
 }
 
@@ -129,8 +130,8 @@ fn exact_truncated_log_scores_its_complete_records() {
     let log = busy_flight().log(5_000_000);
     for cut in log.len() - 120..log.len() {
         let whole = tlog::complete_len(&log[..cut]);
-        let a = assess_log(&log[..cut], &one_task(), &vehicle(), fence_of_ten).unwrap();
-        let b = assess_log(&log[..whole], &one_task(), &vehicle(), fence_of_ten).unwrap();
+        let a = assess_log(&log[..cut], &one_task(), &vehicle(), test_survey).unwrap();
+        let b = assess_log(&log[..whole], &one_task(), &vehicle(), test_survey).unwrap();
         assert!(a == b, "cut at {cut}");
     }
 }
@@ -140,18 +141,18 @@ fn exact_wrong_scenario_or_seed_is_rejected() {
     let tape = clean_flight();
     let mut other = one_task();
     other.crc = 1;
-    let refused = assess_log(&tape.log(0), &other, &vehicle(), fence_of_ten).unwrap_err();
+    let refused = assess_log(&tape.log(0), &other, &vehicle(), test_survey).unwrap_err();
     assert_eq!(refused, AssessError::OtherScenario { name: "test-job".to_owned(), heard: CRC, ours: 1 });
     let mut seeded = one_task();
     seeded.seed = Some(8);
-    let refused = assess_log(&tape.log(0), &seeded, &vehicle(), fence_of_ten).unwrap_err();
+    let refused = assess_log(&tape.log(0), &seeded, &vehicle(), test_survey).unwrap_err();
     assert_eq!(refused, AssessError::OtherSeed { heard: SEED, ours: 8 });
     assert!(refused.to_string().contains("uses seed 7"));
 }
 
 #[test]
 fn exact_empty_log_and_log_without_flight_have_distinct_errors() {
-    let refused = |log: &[u8]| assess_log(log, &one_task(), &vehicle(), fence_of_ten).unwrap_err();
+    let refused = |log: &[u8]| assess_log(log, &one_task(), &vehicle(), test_survey).unwrap_err();
     assert_eq!(refused(&[]), AssessError::NoTruth);
     let mut parked = Tape::new();
     parked.hold(3.0);
@@ -180,5 +181,5 @@ fn exact_messages_of_other_systems_are_ignored() {
     }
     let outcome = monitor.finished().expect("landed").clone().expect("scored");
     assert_eq!(outcome.assessment.end.reason, spandrel_monitor::session::EndReason::Landed);
-    assert_eq!((monitor.link().restarts, outcome.frames.len()), (0, grade(&tape.datagrams).frames.len()));
+    assert_eq!((monitor.link().restarts, outcome.frames.len()), (0, score_tape(&tape.datagrams).frames.len()));
 }

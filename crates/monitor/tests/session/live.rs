@@ -1,4 +1,4 @@
-//! Tests of the live monitor: its replies, its output files, and a replay that must give the same results.
+//! Tests of the live monitor: replies, output files, and a replay with identical results.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
@@ -23,7 +23,7 @@ fn config(scenario: Scenario) -> MonitorConfig {
         started_unix_us: START_US,
         system_id: 1,
         seed: None,
-        survey_builder: fence_of_ten,
+        survey_builder: test_survey,
     }
 }
 
@@ -58,9 +58,9 @@ fn exact_live_session_and_replay_are_identical() {
     }
     let live = monitor.finished().expect("landed").clone().expect("scored");
     let (log, events) = written(&mut monitor);
-    let replayed = assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap();
+    let replayed = assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap();
     assert_eq!(export::json_text(&live.assessment), export::json_text(&replayed.assessment));
-    assert!(live.frames == replayed.frames, "the frames differ");
+    assert!(live.frames == replayed.frames, "live and offline frames differ");
     let kinds: Vec<String> = events
         .iter()
         .map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap()["event"].as_str().unwrap().to_owned())
@@ -77,14 +77,14 @@ fn exact_timestamps_are_session_start_plus_simulation_time() {
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (log, _) = written(&mut monitor);
-    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.stamp_us).collect();
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.timestamp_us).collect();
     assert_eq!(stamps.first(), Some(&START_US));
     assert_eq!(stamps.last(), Some(&(START_US + 2_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
     assert_eq!(spandrel_mavlink::telemetry::tlog::session_start_us(&log), Some(START_US));
 }
 
-/// A monitor that starts an hour after the vehicle must still use the current simulation time in its messages.
+/// A monitor that starts an hour after the vehicle must still send the current simulation time.
 #[test]
 fn regress_timestamps_of_late_monitor_start_at_session_start() {
     let mut tape = Tape::new();
@@ -94,7 +94,7 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     tape.datagrams[late..].iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (mut log, _) = written(&mut monitor);
     let stamps = |log: &[u8]| -> Vec<u64> {
-        spandrel_mavlink::telemetry::tlog::TlogReader::new(log).map(|record| record.stamp_us).collect()
+        spandrel_mavlink::telemetry::tlog::TlogReader::new(log).map(|record| record.timestamp_us).collect()
     };
     let (first, last) = (stamps(&log)[0], *stamps(&log).last().unwrap());
     assert_eq!(first, START_US);
@@ -102,7 +102,7 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     let zero = spandrel_mavlink::telemetry::tlog::simulation_zero_us(&log).unwrap();
     assert!((59_900_000..=60_100_000).contains(&(START_US - zero)), "{} us", START_US - zero);
     assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, START_US);
-    // A monitor that was killed and resumed continues with the same clock.
+    // A killed and resumed monitor continues with the same clock.
     let mut second = Monitor::resume(config(one_task()), &log).unwrap();
     let mut more = Tape::new();
     more.hold(65.0);
@@ -113,7 +113,8 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     assert!((START_US + 4_900_000..=START_US + 5_100_000).contains(&last), "{} us", last - START_US);
 }
 
-/// The monitor accepts only datagrams from an autopilot. Once a scored flight exists, it accepts only that vehicle's datagrams.
+/// The monitor accepts only datagrams from an autopilot. Once there is a scored flight, it accepts only that vehicle's
+/// datagrams.
 #[test]
 fn regress_monitor_accepts_only_its_vehicle() {
     let beat = |system: u8, component: u8, autopilot| {
@@ -130,7 +131,8 @@ fn regress_monitor_accepts_only_its_vehicle() {
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     assert!(monitor.is_from_vehicle(&beat(1, 1, px4)) && !monitor.is_from_vehicle(&beat(9, 1, px4)));
-    // A forwarded heartbeat of another vehicle does not change the monitor's system id; `sent` checks the ids of its messages.
+    // A forwarded heartbeat from another vehicle doesn't change the monitor's system ID; `sent` checks the IDs in its
+    // messages.
     sent(&mut monitor);
     monitor.handle_datagram(&beat(9, 1, px4));
     tape.datagrams.clear();
@@ -148,7 +150,7 @@ fn exact_timestamps_increase_after_simulator_restart() {
         tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     }
     let (log, _) = written(&mut monitor);
-    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.stamp_us).collect();
+    let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.timestamp_us).collect();
     assert_eq!(stamps.last(), Some(&(START_US + 22_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
 }
@@ -169,8 +171,8 @@ fn exact_killed_monitor_resumes_at_end_of_log() {
     let (rest, events) = written(&mut second);
     assert!(events[0].contains("monitor_restarted"));
     log.extend(rest);
-    let replayed = assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap();
-    assert!(outcome == replayed, "the outcomes differ");
+    let replayed = assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap();
+    assert!(outcome == replayed, "live and resumed results differ");
     assert_eq!(outcome.assessment.scores.conformity.unwrap().pct, 100.0);
 }
 
@@ -187,8 +189,8 @@ fn exact_timesync_reply_is_last_and_addressed_to_sender() {
     tape.send(&MavMessage::TIMESYNC(sync));
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let messages = sent(&mut monitor);
-    assert!(messages.len() > 1, "a heartbeat and cues are sent, too");
-    let Some(MavMessage::TIMESYNC(answer)) = messages.last() else { panic!("last is {:?}", messages.last()) };
+    assert!(messages.len() > 1, "heartbeat and cues are missing");
+    let Some(MavMessage::TIMESYNC(answer)) = messages.last() else { panic!("last message is {:?}", messages.last()) };
     assert_eq!((answer.ts1, answer.target_system, answer.target_component), (4242, 1, 1));
     assert_eq!(answer.tc1, 2_100_000_000);
 }
@@ -267,5 +269,5 @@ fn exact_closing_in_flight_is_scored_as_abort() {
     assert_eq!(graded.assessment.end.reason, spandrel_monitor::session::EndReason::Abort);
     assert!(!graded.assessment.certification.passed);
     let (log, _) = written(&mut monitor);
-    assert!(assess_log(&log, &one_task(), &vehicle(), fence_of_ten).unwrap() == graded, "the replay differs");
+    assert!(assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap() == graded, "the replay gave different results");
 }

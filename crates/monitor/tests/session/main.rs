@@ -1,4 +1,4 @@
-//! Tests that process whole sessions from their datagrams: frames, measures, session ends, the live monitor and its replay.
+//! End-to-end tests of sessions from datagrams: frames, measures, session ends, the live monitor and its replay.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod chunked_reading;

@@ -8,7 +8,7 @@ fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
-/// Checks that all of these keys exist and are in this order.
+/// Checks that these keys exist, in this order.
 fn check_keys(value: &Value, wanted: &[&str]) {
     let kept: Vec<&str> = keys(value).into_iter().filter(|key| wanted.contains(key)).collect();
     assert_eq!(kept, wanted);
@@ -18,7 +18,7 @@ fn check_keys(value: &Value, wanted: &[&str]) {
 fn exact_assessment_json_keys_are_stable() {
     let mut tape = clean_flight();
     tape.contact(0);
-    let value = serde_json::to_value(&grade(&tape, &one_task()).assessment).unwrap();
+    let value = serde_json::to_value(&score_tape(&tape, &one_task()).assessment).unwrap();
     assert_eq!(
         keys(&value),
         ["profile", "scores", "completion", "tasks", "crashes", "snapshots", "end", "telemetry", "flown_by", "certification"]
@@ -42,8 +42,8 @@ fn exact_assessment_json_keys_are_stable() {
     assert_eq!(value["end"]["reason"], "landed");
 }
 
-/// The intervals are in order, and each frame is in exactly one of them. A frame's control source is that of the last heartbeat
-/// before it.
+/// The intervals are in order, and each frame is in exactly one of them. A frame's control source is that of the last
+/// preceding heartbeat.
 #[test]
 fn exact_assessment_lists_control_source_intervals() {
     let mut tape = Tape::new();
@@ -54,7 +54,7 @@ fn exact_assessment_lists_control_source_intervals() {
     tape.beat(true, 3 << 16);
     tape.hold(1.0);
     tape.land();
-    let value = serde_json::to_value(&grade(&tape, &one_task()).assessment).unwrap();
+    let value = serde_json::to_value(&score_tape(&tape, &one_task()).assessment).unwrap();
     let stretches = value["flown_by"].as_array().unwrap();
     let by: Vec<&str> = stretches.iter().map(|s| s["by"].as_str().unwrap()).collect();
     assert_eq!(by, ["pilot", "mission", "pilot"]);
@@ -69,10 +69,11 @@ fn exact_assessment_lists_control_source_intervals() {
 
 #[test]
 fn exact_job_without_defects_is_scored_out_of_300() {
-    let empty =
-        |_: &spandrel_model::scenario::Scenario,
-         _: u64|
-         -> std::sync::Arc<dyn spandrel_monitor::measures::attention::SiteSurvey> { std::sync::Arc::new(Fence::of(0)) };
+    let empty = |_: &spandrel_model::scenario::Scenario,
+                 _: u64|
+     -> std::sync::Arc<dyn spandrel_monitor::measures::attention::SiteSurvey> {
+        std::sync::Arc::new(TestSurvey::of(0))
+    };
     let log = clean_flight().log(0);
     let graded = spandrel_monitor::assess_log(&log, &one_task(), &vehicle(), empty).unwrap();
     let value = serde_json::to_value(&graded.assessment).unwrap();
@@ -91,11 +92,11 @@ fn exact_frames_csv_columns_are_stable_and_numbers_round_trip() {
     tape.contact(0);
     tape.land();
     let rows = export::frame_rows(&tape.log(0), &one_task(), &vehicle()).unwrap();
-    let frames = grade(&tape, &one_task()).frames;
+    let frames = score_tape(&tape, &one_task()).frames;
     assert!(rows.iter().map(|row| &row.frame).eq(&frames), "the exported frames equal the scored frames");
     let csv = export::frames_csv(&rows);
     let mut lines = csv.lines();
-    // Names and order of the released columns never change, because other tools read them by position.
+    // The names and order of released columns never change, because other tools read them by position.
     let released = "frame,t_s,fb,rl,ud,rt,light,snapshot,east_m,north_m,up_m,speed_m_s,battery_pct,contact,missing,";
     assert!(lines.next().unwrap().starts_with(released));
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
@@ -116,7 +117,7 @@ fn exact_frames_csv_columns_are_stable_and_numbers_round_trip() {
 fn exact_scenario_export_json_keys_are_stable() {
     let mut scenario = one_task();
     scenario.scoring.beta = f64::INFINITY;
-    let value = serde_json::to_value(ScenarioExport::new(&scenario, &Fence::of(2).defects)).unwrap();
+    let value = serde_json::to_value(ScenarioExport::new(&scenario, &TestSurvey::of(2).defects)).unwrap();
     let top =
         ["name", "frame_rate_hz", "speed_limit_m_s", "max_speed_m_s", "time_best_s", "time_max_s", "beta", "tasks", "defects"];
     assert_eq!(keys(&value), top);

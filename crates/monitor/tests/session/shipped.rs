@@ -1,4 +1,4 @@
-//! The shipped job with its real site: checks paths, defects, light and camera geometry from datagrams to scores.
+//! Tests of the shipped job on its real site: paths, defects, light and camera geometry, from datagrams to scores.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -18,8 +18,7 @@ fn shipped() -> (Scenario, Vehicle) {
     (scenario, spandrel_model::vehicle::read("phantom2.toml", text).unwrap())
 }
 
-/// Returns a position (m), heading and gimbal pitch (rad) from which a defect can be photographed within the threshold of a
-/// task's path.
+/// Returns a position (m), heading and gimbal pitch (rad) for photographing a defect within a task's path threshold.
 fn viewpoint(
     defect: &PlacedDefect,
     scenario: &Scenario,
@@ -50,7 +49,7 @@ fn flight_pictures_of_shipped_defects_are_hits() {
     let defects = site.defects().to_vec();
     assert_eq!(defects.len(), scenario.defects.count);
     let stands: Vec<_> = defects.iter().filter_map(|defect| viewpoint(defect, &scenario, &vehicle, site.as_ref())).collect();
-    assert!(stands.len() >= 8, "positions were found for only {} of {} defects", stands.len(), defects.len());
+    assert!(stands.len() >= 8, "found viewpoints for only {} of {} defects", stands.len(), defects.len());
     let mut tape = Tape::of(&scenario);
     let pad = tape.at_m;
     tape.fly((pad.east(), pad.north(), pad.up() + 5.0), 2.0);
@@ -67,7 +66,7 @@ fn flight_pictures_of_shipped_defects_are_hits() {
     let graded = assess_log(&log, &scenario, &vehicle, |_, _| site.clone()).unwrap();
     let snapshots = &graded.assessment.snapshots;
     assert_eq!(snapshots.taken, stands.len());
-    // Positions are sent with a resolution of 1 cm, so one picture at the limit of a condition may fail.
+    // Positions are sent with a resolution of 1 cm, so one picture near a limit may fail.
     assert!(snapshots.defects_found + 1 >= stands.len(), "{} found, {:#?}", snapshots.defects_found, snapshots.each);
     let exported = serde_json::to_value(export::ScenarioExport::new(&scenario, &defects)).unwrap();
     assert_eq!(exported["tasks"].as_array().unwrap().len(), 4);
@@ -85,7 +84,7 @@ fn flight_exact_flight_of_shipped_paths_has_full_conformity() {
         for point in task.path_m.iter().chain(around) {
             tape.fly((point.east(), point.north(), point.up()), 4.0);
         }
-        // Flies sideways and up first, so that no transit crosses a task's path.
+        // Flies sideways and up first so that no transit crosses a task's path.
         let [e, n, u] = tape.at_m.array();
         let side = if n < -5.0 || task.closed { -40.0 } else { 40.0 };
         tape.fly((e, n + side, u), 4.0);
@@ -111,7 +110,7 @@ fn flight_exact_flight_of_shipped_paths_has_full_conformity() {
 #[test]
 fn regress_defects_are_placed_on_free_tasks_at_a_bridge() {
     let (mut scenario, _) = shipped();
-    // Specifies the path of the slab task point by point. Such a task has no bridge and no viewing direction.
+    // Specifies the slab task's path point by point. Such a task has no bridge or viewing direction.
     let mut free = scenario.tasks[0].clone();
     (free.kind, free.bridge, free.look) =
         (spandrel_model::scenario::TaskKind::Free, None, vec![Vec3::new(1.0, 0.0, 0.0); free.path_m.len()]);

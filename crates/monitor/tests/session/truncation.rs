@@ -1,4 +1,4 @@
-//! Tests that convert datagrams to frames and scores: gaps, respawns, contacts, windows and ends of sessions.
+//! Tests of the conversion from datagrams to frames and scores: gaps, respawns, contacts, windows and session ends.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Timeline;
@@ -15,7 +15,7 @@ use spandrel_testkit::job::*;
 
 #[test]
 fn exact_clean_flight_has_full_score_and_ends_at_touchdown() {
-    let graded = grade(&clean_flight(), &one_task());
+    let graded = score_tape(&clean_flight(), &one_task());
     let assessment = &graded.assessment;
     assert_eq!(assessment.end.reason, EndReason::Landed);
     assert!(!assessment.end.battery_failed);
@@ -35,20 +35,21 @@ fn exact_clean_flight_has_full_score_and_ends_at_touchdown() {
 
 #[test]
 fn exact_short_gaps_are_interpolated_and_long_gaps_stay_missing() {
-    // Each case lists the gap in ms, the interpolated frames and the missing frames. Frames are 40 ms apart, truth messages 20 ms.
+    // Each case lists the gap (ms), interpolated frames and missing frames. Frames are 40 ms apart; truth messages, 20
+    // ms.
     for (ms, interpolated, missing) in [(200, 0, 0), (240, 5, 0), (1_000, 24, 0), (1_040, 0, 25)] {
         let mut tape = Tape::new();
         tape.fly((0.0, 0.0, 10.0), 2.0);
         while !(u64::from(tape.now_ms) - 80).is_multiple_of(40) {
             tape.hold(0.02);
         }
-        tape.silence(ms - 20);
+        tape.hold_unrecorded(ms - 20);
         tape.hold(0.5);
         tape.land();
-        let graded = grade(&tape, &one_task());
+        let graded = score_tape(&tape, &one_task());
         let telemetry = graded.assessment.telemetry;
         let got = (telemetry.interpolated_frames, telemetry.missing_frames);
-        // The lift-off time determines when frames are sampled, so the gap may contain one frame more or less.
+        // Frame sampling starts at lift-off, so the gap may contain one frame more or less.
         assert!(got.0.abs_diff(interpolated) <= 1 && got.1.abs_diff(missing) <= 1, "{ms} ms: {got:?}");
         assert_eq!(telemetry.gaps, usize::from(ms > 200));
         assert_eq!(got.0 == 0, interpolated == 0, "{ms} ms");
@@ -63,11 +64,11 @@ fn exact_missing_frames_repeat_position_without_contact() {
     tape.contact(1);
     tape.hold(0.2);
     let held = tape.at_m;
-    tape.silence(3_000);
+    tape.hold_unrecorded(3_000);
     tape.at_m = held + spandrel_model::frames::Vec3::new(4.0, 0.0, 0.0);
     tape.contact(0);
     tape.hold(1.0);
-    let graded = grade(&tape, &one_task());
+    let graded = score_tape(&tape, &one_task());
     let missing: Vec<_> = graded.frames.iter().filter(|frame| frame.missing).collect();
     assert!(missing.len() >= 74);
     for frame in missing {
@@ -82,12 +83,12 @@ fn exact_frames_are_not_interpolated_across_respawn() {
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((30.0, 0.0, 10.0), 4.0);
     let crashed = tape.at_m;
-    tape.silence(400);
+    tape.hold_unrecorded(400);
     tape.int("respawns", 1);
     tape.at_m = spandrel_model::frames::Vec3::new(28.0, 0.0, 12.0);
     let put_back = tape.at_m;
     tape.hold(1.0);
-    let graded = grade(&tape, &one_task());
+    let graded = score_tape(&tape, &one_task());
     let near = |p: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>, q| (p - q).norm() < 0.02;
     let between = graded.frames.iter().filter(|f| f.time.ms() > i64::from(tape.now_ms) - 1_400);
     for frame in between {
@@ -108,7 +109,7 @@ fn exact_empty_battery_ends_session_before_respawn() {
     tape.contact(0);
     tape.at_m = spandrel_model::frames::Vec3::new(28.0, 0.0, 12.0);
     tape.hold(5.0);
-    let graded = grade(&tape, &one_task());
+    let graded = score_tape(&tape, &one_task());
     assert_eq!(graded.assessment.end.reason, EndReason::Battery);
     assert!(graded.assessment.end.battery_failed);
     assert_eq!(graded.assessment.scores.efficiency.pct, 0.0);
@@ -123,7 +124,7 @@ fn exact_empty_battery_after_landing_does_not_count() {
     tape.hold(1.0);
     tape.battery(0);
     tape.hold(4.0);
-    assert_eq!(grade(&tape, &one_task()).assessment.end.reason, EndReason::Landed);
+    assert_eq!(score_tape(&tape, &one_task()).assessment.end.reason, EndReason::Landed);
 }
 
 #[test]
@@ -131,7 +132,7 @@ fn exact_session_ends_at_time_limit() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.hold(1_510.0);
-    let end = grade(&tape, &one_task()).assessment.end;
+    let end = score_tape(&tape, &one_task()).assessment.end;
     assert_eq!(end.reason, EndReason::TimeLimit);
     assert_eq!(end.frames, (1_500.0 * RATE_HZ) as usize + 1);
     assert!(end.battery_failed);
@@ -146,7 +147,7 @@ fn exact_hitting_a_person_or_vehicle_ends_the_session() {
         tape.hold(2.0);
         tape.contact(0);
         tape.land();
-        let assessment = grade(&tape, &one_task()).assessment;
+        let assessment = score_tape(&tape, &one_task()).assessment;
         assert_eq!(assessment.end.reason, reason);
         assert_eq!((assessment.crashes.person, assessment.crashes.vehicle), (person, car));
         assert_eq!(assessment.scores.safety.pct, 0.0);
@@ -167,10 +168,10 @@ fn exact_long_contact_is_one_crash_and_short_contact_counts() {
     tape.int("hits", 2);
     tape.contact(0);
     tape.hold(1.0);
-    // Both messages about a contact are lost. Only the contact count shows that it happened.
+    // Both messages for a contact are lost. Only the contact count shows that it happened.
     tape.int("hits", 3);
     tape.land();
-    let graded = grade(&tape, &one_task());
+    let graded = score_tape(&tape, &one_task());
     assert_eq!(graded.assessment.crashes.other, 3);
     assert_eq!(graded.assessment.scores.safety.pct, 91.0);
     let with = |contact| graded.frames.iter().filter(|frame| frame.contact == contact).count();
@@ -186,7 +187,7 @@ fn exact_only_hard_pad_contact_is_a_crash() {
         tape.fly((0.0, 0.0, 0.15), speed);
         tape.contact(2);
         tape.hold(4.0);
-        let graded = grade(&tape, &one_task());
+        let graded = score_tape(&tape, &one_task());
         assert_eq!(graded.assessment.crashes.other, crashes, "{speed} m/s");
         assert_eq!(graded.assessment.end.reason, EndReason::Landed);
         if crashes == 0 {
@@ -203,7 +204,7 @@ fn exact_soft_ground_contact_away_from_home_is_a_crash() {
     tape.fly((20.0, 0.0, 0.15), 0.5);
     tape.contact(2);
     tape.hold(5.0);
-    let assessment = grade(&tape, &one_task()).assessment;
+    let assessment = score_tape(&tape, &one_task()).assessment;
     assert_eq!(assessment.crashes.other, 1);
     assert_eq!(assessment.end.reason, EndReason::Abort, "resting elsewhere is not a landing");
 }
@@ -219,7 +220,7 @@ fn exact_overlapping_paths_count_once_for_the_relatively_nearer_task() {
     tape.fly((60.0, 2.0, 10.0), 1.0);
     tape.fly((10.0, 2.0, 10.0), 4.0);
     tape.land();
-    let assessment = grade(&tape, &scenario).assessment;
+    let assessment = score_tape(&tape, &scenario).assessment;
     let [one, two] = assessment.tasks[..] else { panic!("two tasks") };
     assert!(one.attempted && two.attempted);
     assert!(one.on_path < 1.0, "task 1's window contains frames that belong to task 2");
@@ -230,7 +231,7 @@ fn exact_overlapping_paths_count_once_for_the_relatively_nearer_task() {
 fn exact_task_never_entered_has_no_window() {
     let mut scenario = one_task();
     scenario.tasks.push(task(2, line((10.0, 90.0, 10.0), (60.0, 90.0, 10.0)), 3.0));
-    let assessment = grade(&clean_flight(), &scenario).assessment;
+    let assessment = score_tape(&clean_flight(), &scenario).assessment;
     let skipped = assessment.tasks[1];
     assert_eq!((skipped.attempted, skipped.first_frame, skipped.last_frame), (false, None, None));
     assert_eq!((skipped.on_path, skipped.speeding), (0.0, 0.0));
@@ -244,7 +245,7 @@ fn exact_no_task_entered_is_no_evidence_in_certification() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 3.0), 2.0);
     tape.land();
-    let assessment = grade(&tape, &one_task()).assessment;
+    let assessment = score_tape(&tape, &one_task()).assessment;
     assert_eq!(assessment.scores.conformity.unwrap().pct, 50.0);
     assert_eq!(assessment.certification.scores.conformity, None);
     assert!(assessment.certification.flags.contains(&"no_evidence".to_owned()));
@@ -257,7 +258,7 @@ fn exact_short_path_visit_is_not_rewarded_in_certification() {
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((9.0, 0.0, 10.0), 4.0);
     tape.land();
-    let assessment = grade(&tape, &one_task()).assessment;
+    let assessment = score_tape(&tape, &one_task()).assessment;
     assert_eq!(assessment.scores.conformity.unwrap().pct, 100.0);
     let covered = &assessment.certification.tasks[0];
     assert!(covered.coverage < 0.1, "{}", covered.coverage);
@@ -279,10 +280,10 @@ fn exact_pictures_count_once_and_dark_picture_has_reason() {
     tape.snapshot(2);
     tape.fly((25.0, 0.0, 10.0), 4.0);
     tape.snapshot(3);
-    // Much later, the camera resends the message about a picture whose first message was lost.
+    // Much later, the camera resends the message for a picture whose first message was lost.
     tape.snapshot_at(1, taken_ms);
     tape.land();
-    let snapshots = grade(&tape, &one_task()).assessment.snapshots;
+    let snapshots = score_tape(&tape, &one_task()).assessment.snapshots;
     assert_eq!((snapshots.taken, snapshots.hits, snapshots.defects_found, snapshots.defects_placed), (4, 1, 1, 10));
     let [why] = &snapshots.each[0].views[0].fails[..] else { panic!("{:?}", snapshots.each[0]) };
     assert!(why.starts_with("too dark: lamp off"), "{why}");
@@ -304,15 +305,15 @@ fn exact_simulator_restart_in_flight_ends_session_and_keeps_frames() {
     assert_eq!((timeline.epoch_count(), timeline.counts().restarts), (2, 1));
     let flown_before = [0, 1].map(|epoch| timeline.elapsed_before_epoch(epoch).ms());
     assert_eq!(flown_before, [0, i64::from(flown)]);
-    let graded = grade(&tape, &one_task());
+    let graded = score_tape(&tape, &one_task());
     assert_eq!(graded.assessment.end.reason, EndReason::Restart);
     assert_eq!(graded.frames.last().unwrap().time.ms() / 40, i64::from(flown) / 40);
     assert_eq!(graded.assessment.tasks[0].on_path, 1.0);
 }
 
-/// A site whose defects are visible only in pictures with a narrow field of view.
+/// A site with defects visible only in pictures with a narrow field of view.
 #[derive(Debug)]
-struct NarrowViewSite(Fence);
+struct NarrowViewSite(TestSurvey);
 
 impl SiteSurvey for NarrowViewSite {
     fn defects(&self) -> &[PlacedDefect] {
@@ -352,7 +353,8 @@ fn exact_pictures_use_reported_field_of_view() {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.snapshot(3);
     tape.land();
-    let build = |_: &Scenario, _: u64| -> std::sync::Arc<dyn SiteSurvey> { std::sync::Arc::new(NarrowViewSite(Fence::of(10))) };
+    let build =
+        |_: &Scenario, _: u64| -> std::sync::Arc<dyn SiteSurvey> { std::sync::Arc::new(NarrowViewSite(TestSurvey::of(10))) };
     let graded = assess_log(&tape.log(1_000_000), &one_task(), &vehicle(), build).unwrap();
     let hits: Vec<bool> = graded.assessment.snapshots.each.iter().map(|snapshot| snapshot.hit).collect();
     assert_eq!(hits, [false, true, true, false]);
@@ -391,6 +393,6 @@ fn exact_pictures_with_reused_numbers_after_formatting_are_new() {
     tape.hold(1.0);
     tape.snapshot_at(0, taken_ms);
     tape.land();
-    let snapshots = grade(&tape, &one_task()).assessment.snapshots;
+    let snapshots = score_tape(&tape, &one_task()).assessment.snapshots;
     assert_eq!((snapshots.taken, snapshots.hits), (2, 2));
 }

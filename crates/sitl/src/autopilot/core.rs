@@ -12,7 +12,7 @@ use super::failsafe::Failsafe;
 use super::failsafe::fence::FenceZone;
 use super::failsafe::input::{FailsafeInput, FlightSummary};
 use super::failsafe::losses::{Loss, LossResponse};
-use super::failsafe::operator_rules::{FenceSwitching, FlightEnvelope, SCENARIO_BATTERY_ACTIONS};
+use super::failsafe::operator_rules::{FenceAutoEnable, FlightEnvelope, SCENARIO_BATTERY_ACTIONS};
 use super::failsafe::response::FailsafeRequest;
 use super::flight_state::FlightMode;
 use super::navigator::Navigator;
@@ -202,7 +202,7 @@ impl Autopilot {
     /// Processes an external setpoint.
     pub fn offboard(&mut self, setpoint: OffboardSetpoint, now: SimTime) {
         self.failsafe.links.offboard = Some((setpoint, now));
-        self.navigator.note_external_setpoint();
+        self.navigator.record_external_setpoint();
     }
 
     /// Records a heartbeat from a ground station.
@@ -229,8 +229,8 @@ impl Autopilot {
 
     /// Marks the mission items whose heights are relative to home. Call it immediately after setting the mission, with
     /// heights computed from the home position at that time.
-    pub fn set_home_relative_steps(&mut self, over_home: Vec<bool>) {
-        self.navigator.mission.set_home_relative(over_home);
+    pub fn set_home_relative_steps(&mut self, home_relative: Vec<bool>) {
+        self.navigator.mission.set_home_relative(home_relative);
     }
 
     /// Sets the fields that mission items take from the vehicle position when they start. Call it immediately after
@@ -239,9 +239,9 @@ impl Autopilot {
         self.navigator.mission.set_deferred(deferred);
     }
 
-    /// Jumps to a mission item. If `anew` is true, resets the mission's progress first. Returns false if the item does not exist.
-    pub fn set_mission_current(&mut self, index: usize, anew: bool) -> bool {
-        let known = self.navigator.set_mission_current(index, anew);
+    /// Jumps to a mission item. If `restart` is true, resets the mission's progress first. Returns false if the item does not exist.
+    pub fn set_mission_current(&mut self, index: usize, restart: bool) -> bool {
+        let known = self.navigator.set_mission_current(index, restart);
         self.update_status();
         known
     }
@@ -318,7 +318,7 @@ impl Autopilot {
     fn update_estimate(&mut self, readings: &Readings, now: SimTime) {
         let readings = &self.failsafe.sensors.filter(readings, now);
         let rules = &self.tuning.rules;
-        self.estimator.configure(rules.no_aid_s, rules.height_reference, !self.armed);
+        self.estimator.configure(rules.dead_reckoning_limit_s, rules.height_reference, !self.armed);
         self.estimator.step(readings, now);
         self.estimate = self.estimator.estimate();
         if let Some(step_m) = self.estimator.take_position_reset() {
@@ -354,7 +354,7 @@ impl Autopilot {
             return RequestOutcome::TemporarilyRejected(format!("Arming denied: {}", reasons.join(", ")));
         }
         self.armed = true;
-        self.tuning.fence_enabled |= self.tuning.rules.fence.auto == FenceSwitching::AtArming;
+        self.tuning.fence_enabled |= self.tuning.rules.fence.auto == FenceAutoEnable::OnArming;
         self.failsafe.begin_flight();
         self.control.begin_flight(tick.now);
         self.navigate(tick, Navigator::begin_flight);
@@ -376,8 +376,8 @@ impl Autopilot {
         self.armed = false;
         self.control.landing.disarm();
         self.failsafe.end_flight();
-        self.tuning.fence_enabled |= !self.tuning.fence_switch_stays;
-        self.tuning.fence_enabled &= self.tuning.rules.fence.auto == FenceSwitching::Never;
+        self.tuning.fence_enabled |= !self.tuning.fence_switch_persists;
+        self.tuning.fence_enabled &= self.tuning.rules.fence.auto == FenceAutoEnable::Never;
         self.events.push(Severity::Info, why);
         self.navigate(tick, Navigator::end_flight);
     }
@@ -425,9 +425,9 @@ impl Autopilot {
             intended: modes.intended,
             overridden: modes.overridden,
             sticks_at_mode_start: modes.sticks_at_start,
-            home_m: self.navigator.home.place_m,
+            home_m: self.navigator.home.position_m,
             mission_is_empty: self.navigator.mission.is_empty(),
-            located: self.estimator.located(),
+            global_position_known: self.estimator.located(),
             attitude_error_cosine: self.control.attitude_error_cosine,
             battery: self.unfused.battery,
             range_up_m: self.unfused.range_up_m,
@@ -500,15 +500,15 @@ impl Autopilot {
         let phase = self.control.landing.phase;
         let mission = self.navigator.modes.active == FlightMode::Mission;
         if phase == FlightPhase::OnGround && mission && self.navigate(tick, Navigator::wait_on_ground) {
-            self.control.landing.standing_since = tick.now;
+            self.control.landing.on_ground_since = tick.now;
         }
-        let wants_to_fly = phase != FlightPhase::InAir && self.navigate(tick, |n, input| n.wants_to_fly(input));
+        let wants_to_fly = phase != FlightPhase::InAir && self.navigate(tick, |n, input| n.commands_takeoff(input));
         let input = LandingInput {
             estimate: &self.estimate,
             range_down_m: self.unfused.range_down_m,
-            standing_m: self.airframe.standing_m,
+            resting_height_m: self.airframe.resting_height_m,
             wants_to_fly,
-            standing_limit_s: [self.tuning.disarm_before_flight_s, self.tuning.disarm_after_landing_s],
+            ground_time_limits_s: [self.tuning.disarm_before_flight_s, self.tuning.disarm_after_landing_s],
             now: tick.now,
             dt_s: tick.dt_s,
         };
@@ -519,7 +519,7 @@ impl Autopilot {
                 self.navigate(tick, Navigator::lift_off);
             }
             Some(PhaseChange::TakenOff) => {
-                self.tuning.fence_enabled |= self.tuning.rules.fence.auto == FenceSwitching::InTheAir;
+                self.tuning.fence_enabled |= self.tuning.rules.fence.auto == FenceAutoEnable::InFlight;
                 self.events.push(Severity::Info, "Takeoff detected");
             }
             Some(PhaseChange::TakeoffAbandoned) => self.touch_down(tick),
@@ -527,7 +527,7 @@ impl Autopilot {
                 self.events.push(Severity::Info, "Landing detected");
                 self.touch_down(tick);
             }
-            Some(PhaseChange::StandingTimeout { flown }) => {
+            Some(PhaseChange::GroundTimeout { flown }) => {
                 self.disarm(if flown { "Disarmed by landing" } else { "Disarmed: no takeoff" }, tick);
             }
         }
@@ -544,7 +544,7 @@ impl Autopilot {
         status.armed = self.armed;
         status.mode = navigator.modes.active;
         status.landed = navigator.landed_state(self.control.landing.phase);
-        status.home_m = navigator.home.place_m;
+        status.home_m = navigator.home.position_m;
         status.mission_current = navigator.mission_status.current;
         status.mission_reached = navigator.mission_status.reached;
         status.mission_finished = navigator.mission_status.finished;

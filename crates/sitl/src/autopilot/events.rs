@@ -48,7 +48,7 @@ impl EventQueue {
 
     /// Adds an event about a sensor.
     pub fn push_sensor_change(&mut self, severity: Severity, change: SensorChange) {
-        self.0.push(AutopilotEvent { severity, text: change.words(), sensor: Some(change) });
+        self.0.push(AutopilotEvent { severity, text: change.status_text(), sensor: Some(change) });
     }
 
     /// Moves all events from another queue to the end of this one.

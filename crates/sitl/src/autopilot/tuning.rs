@@ -83,7 +83,7 @@ pub struct Tuning {
     /// `COM_OF_LOSS_T`: external setpoint timeout, s.
     pub offboard_loss_s: f64,
     /// Simulation seconds per second of the clients' clocks without lockstep. Client timeouts scale with it.
-    pub client_pace: f64,
+    pub client_speed_factor: f64,
     /// `BAT_LOW_THR`: low battery level, %.
     pub battery_low_pct: f64,
     /// `BAT_CRIT_THR`: critical battery level, %.
@@ -98,7 +98,7 @@ pub struct Tuning {
     pub fence_enabled: bool,
     /// The fence switch is a persistent parameter visible to ground stations. Otherwise, the fence is re-enabled after
     /// the flight (ArduPilot).
-    pub fence_switch_stays: bool,
+    pub fence_switch_persists: bool,
     /// `GF_MAX_HOR_DIST`: maximum distance from home, m; 0: no limit.
     pub fence_distance_m: f64,
     /// `GF_MAX_VER_DIST`: maximum height above home, m; 0: no limit.
@@ -107,13 +107,13 @@ pub struct Tuning {
     pub stick_takeover: bool,
     /// When external setpoints end, the vehicle continues to the last target or stops. Otherwise, their end is treated
     /// as a failure (ArduPilot).
-    pub setpoints_end: bool,
+    pub setpoint_end_is_normal: bool,
     /// Arming requires stick input and a position only if the mode needs them. Stick checks run when motors are armed,
     /// not before (ArduPilot).
-    pub arms_by_mode: bool,
+    pub arming_depends_on_mode: bool,
     /// After a completed mission, the vehicle stays in mission mode and takes off again once the throttle is raised
     /// (ArduPilot).
-    pub mission_mode_stays: bool,
+    pub keeps_mission_mode: bool,
     /// Displayed number of the first mission item: 1 if home is item 0 (ArduPilot).
     pub first_item: usize,
     /// `CIRCLE_RATE` (ArduPilot): angular rate of a circle entered by a mode change, rad/s, clockwise positive. Not
@@ -133,19 +133,19 @@ impl Tuning {
     /// Manual control timeout, s of simulation time.
     #[must_use]
     pub fn manual_timeout_s(&self) -> f64 {
-        self.manual_loss_s * self.client_pace
+        self.manual_loss_s * self.client_speed_factor
     }
 
     /// External setpoint timeout, s of simulation time.
     #[must_use]
     pub fn offboard_timeout_s(&self) -> f64 {
-        self.offboard_loss_s * self.client_pace
+        self.offboard_loss_s * self.client_speed_factor
     }
 
     /// Ground station link timeout, s of simulation time.
     #[must_use]
     pub fn data_link_timeout_s(&self) -> f64 {
-        self.data_link_loss_s * self.client_pace
+        self.data_link_loss_s * self.client_speed_factor
     }
 }
 
@@ -169,20 +169,20 @@ impl Default for Tuning {
             data_link_loss_s: 10.0,
             data_link_loss: LinkLossAction::Ignore,
             offboard_loss_s: 1.0,
-            client_pace: 1.0,
+            client_speed_factor: 1.0,
             battery_low_pct: 15.0,
             battery_critical_pct: 7.0,
             disarm_after_landing_s: 2.0,
             disarm_before_flight_s: 10.0,
             fence_action: FenceAction::Hold,
             fence_enabled: true,
-            fence_switch_stays: false,
+            fence_switch_persists: false,
             fence_distance_m: 0.0,
             fence_height_m: 0.0,
             stick_takeover: true,
-            setpoints_end: false,
-            arms_by_mode: false,
-            mission_mode_stays: false,
+            setpoint_end_is_normal: false,
+            arming_depends_on_mode: false,
+            keeps_mission_mode: false,
             first_item: 0,
             // ArduCopter's defaults: 10 m, 20 deg/s.
             circle_rate_rad_s: 0.349,

@@ -27,7 +27,7 @@ const IMAGE_CAPTURED: u32 = 263;
 const STREAM_INFORMATION: u32 = 269;
 const STREAM_STATUS: u32 = 270;
 /// Messages sent once for each card or stream, requested by its number.
-const COUNTED: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
+const INDEXED_MESSAGES: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
@@ -54,7 +54,7 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavRe
     };
     if let Some(message) = legacy {
         // If the message has an index, it is the command's first parameter.
-        let index = if COUNTED.contains(&message) || message == IMAGE_CAPTURED { c.p[0] } else { 0.0 };
+        let index = if INDEXED_MESSAGES.contains(&message) || message == IMAGE_CAPTURED { c.p[0] } else { 0.0 };
         return Some(request(message, (index, 0.0), c.component, x));
     }
     match c.number {
@@ -89,7 +89,7 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut MessageReq
         return x.payload.resend_images((index, last), x.link, x.links);
     }
     // There is one card and one stream; 0 means all.
-    if COUNTED.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
+    if INDEXED_MESSAGES.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
         return DENIED;
     }
     let flavour = x.vehicle.flavour();
@@ -100,8 +100,8 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut MessageReq
     for row in addressed(id, component).filter(|row| STREAMS[*row].is_sent(flavour)) {
         let Some(message) = STREAMS[row].build(&inputs) else { continue };
         is_available = true;
-        if flavour.answers_after_acknowledgement {
-            link.after_acknowledgement.push(row);
+        if flavour.sends_message_after_ack {
+            link.after_acknowledgment.push(row);
         } else {
             link.send(STREAMS[row].component, &message);
         }

@@ -61,7 +61,7 @@ impl Endpoint {
 
     /// Adds a link to a peer.
     pub fn open(&mut self, id: LinkId, kind: LinkKind, lockstep: bool, now: SimTime) {
-        let must_ask = self.vehicle.flavour().is_silent_until_asked(kind);
+        let must_ask = self.vehicle.flavour().must_request_streams(kind);
         let schedule = streams::schedule(kind, must_ask, now);
         self.links.open(id, PeerLink::new(kind, lockstep, self.links.system_id(), must_ask, schedule, now));
     }

@@ -51,7 +51,7 @@ impl Endpoint {
         self.payload.send_files(&mut self.links);
         self.vehicle.send_logs(&mut self.links);
         self.payload.send_requested_images(&mut self.links);
-        self.vehicle.repeat_plan_request(&inputs.vehicle, &mut self.links);
+        self.vehicle.retry_plan_request(&inputs.vehicle, &mut self.links);
     }
 
     /// Sends only heartbeats and texts, while simulation time is paused. The camera's heartbeat is sent only on links

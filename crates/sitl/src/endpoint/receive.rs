@@ -120,7 +120,7 @@ impl Endpoint {
         // Encoded manually because the command number may be unknown to the dialect.
         let payload = [number[0], number[1], result as u8, 0, 0, 0, 0, 0, command.from.0, command.from.1];
         link.send_payload(component, COMMAND_ACK, &payload);
-        let rows = std::mem::take(&mut link.after_acknowledgement);
+        let rows = std::mem::take(&mut link.after_acknowledgment);
         if rows.is_empty() {
             return;
         }

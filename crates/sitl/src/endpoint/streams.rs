@@ -24,7 +24,7 @@ pub struct StreamSpec {
     /// Component that sends it.
     pub component: u8,
     /// Whether only the ArduPilot flavor sends it, regardless of the dialect that defines it.
-    of_ardupilot: bool,
+    ardupilot_only: bool,
     source: MessageSource,
 }
 
@@ -79,7 +79,7 @@ impl StreamSpec {
     /// Checks whether a flavor sends this message.
     #[must_use]
     pub fn is_sent(&self, flavour: &Flavour) -> bool {
-        flavour.dialect_of_ardupilot || !self.of_ardupilot
+        flavour.ardupilot_dialect || !self.ardupilot_only
     }
 
     /// Returns the rate for a kind of link, Hz.
@@ -94,15 +94,15 @@ impl StreamSpec {
 }
 
 const fn row(id: u32, rates_hz: [f64; 3], source: MessageSource) -> StreamSpec {
-    StreamSpec { id, rates_hz, component: AUTOPILOT, of_ardupilot: false, source }
+    StreamSpec { id, rates_hz, component: AUTOPILOT, ardupilot_only: false, source }
 }
 
 const fn camera_row(id: u32, rates_hz: [f64; 3], source: MessageSource) -> StreamSpec {
-    StreamSpec { id, rates_hz, component: CAMERA, of_ardupilot: false, source }
+    StreamSpec { id, rates_hz, component: CAMERA, ardupilot_only: false, source }
 }
 
 const fn ardupilot_row(id: u32, source: MessageSource) -> StreamSpec {
-    StreamSpec { id, rates_hz: [0.0; 3], component: AUTOPILOT, of_ardupilot: true, source }
+    StreamSpec { id, rates_hz: [0.0; 3], component: AUTOPILOT, ardupilot_only: true, source }
 }
 
 /// All streams. HIL_STATE_QUATERNION comes first, so that later messages in the same datagram belong to the same
@@ -174,7 +174,7 @@ pub const STREAMS: &[StreamSpec] = &[
     camera_row(271, [0.0, 0.0, 5.0], MessageSource::Payload(|v| Some(camera::field_of_view(v)))),
     row(27, [0.0, 0.0, 0.0], MessageSource::Vehicle(sensors::raw_imu)),
     row(62, [0.0, 0.0, 0.0], MessageSource::Vehicle(position::navigation)),
-    ardupilot_row(108, MessageSource::Vehicle(ardupilot::simulated)),
+    ardupilot_row(108, MessageSource::Vehicle(ardupilot::sim_state)),
     ardupilot_row(125, MessageSource::Vehicle(ardupilot::power)),
     ardupilot_row(152, MessageSource::ArduPilot(ardupilot::memory)),
     ardupilot_row(163, MessageSource::ArduPilot(ardupilot::ahrs)),
@@ -190,10 +190,10 @@ pub fn rows_of(id: u32) -> impl Iterator<Item = (usize, &'static StreamSpec)> {
 
 /// Returns the default schedule for a kind of link, or heartbeats only if the peer must request its streams.
 #[must_use]
-pub fn schedule(kind: LinkKind, must_ask: bool, now: SimTime) -> StreamSchedule {
+pub fn schedule(kind: LinkKind, must_request_streams: bool, now: SimTime) -> StreamSchedule {
     let scheduled = |row: &StreamSpec| {
         let stream = ScheduledStream::new(row.id, row.component, row.rate_hz(kind), now);
-        if must_ask { stream.only_on_request() } else { stream }
+        if must_request_streams { stream.only_on_request() } else { stream }
     };
     StreamSchedule::new(STREAMS.iter().map(scheduled).collect(), now)
 }

@@ -4,7 +4,7 @@ use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::MISSION_ITEM_INT_DATA;
 
 /// Coordinates that mean "not set", in degrees E7; none is a valid position.
-const NOT_GIVEN: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
+const UNSET: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
 
 /// A command from COMMAND_LONG, COMMAND_INT or a mission item.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +52,7 @@ impl VehicleCommand {
             let whole = i32::from_le_bytes(four(at));
             // INT32_MAX means "not set" (MAVLink: COMMAND_INT); the other values result from clients that convert NaN
             // to an integer.
-            if NOT_GIVEN.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
+            if UNSET.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
         };
         (p[4], p[5]) = (scaled(16), scaled(20));
         Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from, whole: true, own: false })

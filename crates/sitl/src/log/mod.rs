@@ -101,7 +101,7 @@ pub enum LogOutput {
 /// Records a log from arming to disarming, while logging is enabled.
 #[derive(Debug, Clone, Default)]
 pub struct FlightRecorder {
-    on: bool,
+    enabled: bool,
     log: Option<(FlightLogEncoder, FoxgloveScene)>,
     out: VecDeque<LogOutput>,
 }
@@ -112,13 +112,13 @@ const CHUNK_BYTES: usize = 16_384;
 impl FlightRecorder {
     /// Enables logging.
     pub fn enable(&mut self) {
-        self.on = true;
+        self.enabled = true;
     }
 
     /// Returns true if logging is enabled.
     #[must_use]
     pub fn is_enabled(&self) -> bool {
-        self.on
+        self.enabled
     }
 
     /// Records one snapshot of the vehicle and the text messages sent at that instant.
@@ -126,7 +126,7 @@ impl FlightRecorder {
     where
         P: Iterator<Item = (&'a str, UlogValue<'a>)>,
     {
-        if !self.on {
+        if !self.enabled {
             return;
         }
         if self.log.is_none() && view.status.armed {
@@ -152,7 +152,7 @@ impl FlightRecorder {
 
     /// Stops logging and completes an open log, even if the motors are running. Call it at program exit.
     pub fn stop(&mut self) {
-        self.on = false;
+        self.enabled = false;
         if let Some((mut log, _)) = self.log.take() {
             self.out.extend([LogOutput::Bytes(log.take()), LogOutput::End]);
         }

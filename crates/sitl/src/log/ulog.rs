@@ -53,12 +53,12 @@ impl UlogWriter {
 
     /// Writes an information message about the log.
     pub fn information(&mut self, name: &str, value: UlogValue) {
-        self.keyed(b'I', name, value);
+        self.write_key_value(b'I', name, value);
     }
 
     /// Writes the initial value of a parameter. Must precede the first data row.
     pub fn parameter(&mut self, name: &str, value: UlogValue) {
-        self.keyed(b'P', name, value);
+        self.write_key_value(b'P', name, value);
     }
 
     /// Assigns a message ID to a topic. The format must be written first.
@@ -87,7 +87,7 @@ impl UlogWriter {
         std::mem::take(&mut self.out)
     }
 
-    fn keyed(&mut self, kind: u8, name: &str, value: UlogValue) {
+    fn write_key_value(&mut self, kind: u8, name: &str, value: UlogValue) {
         let key = format!("{} {name}", value.kind());
         // All names are internal and short; a longer name would overflow the length byte.
         let length = key.len().min(255);
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_message_layout_follows_the_ulog_format() {
+    fn exact_message_layout_matches_ulog_format() {
         let mut log = UlogWriter::default();
         log.begin(5);
         assert_eq!(log.take(), [&MAGIC[..], &[5, 0, 0, 0, 0, 0, 0, 0, 40, 0, b'B'], &[0; 40]].concat());

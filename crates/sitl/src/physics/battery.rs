@@ -32,7 +32,7 @@ pub fn advance(model: &AirframeModel, physics: &mut Physics, load: PowerLoad, dt
     let power = power_w(model, physics, load);
     let state = &mut physics.battery;
     let whole = open_circuit_v(battery, state.charge);
-    let live = state.live_cells(battery.cells);
+    let live = state.working_cells(battery.cells);
     let open = if live < battery.cells { whole * f64::from(live) / f64::from(battery.cells) } else { whole };
     let r = battery.internal_resistance_ohm;
     // P = (OCV - I R) I has no real solution above the maximum power of the pack; the pack then delivers that maximum.

@@ -9,7 +9,7 @@ use spandrel_model::site::{Contact, ObjectId, Surface};
 use spandrel_model::time::SimTime;
 
 /// Search margin for near-contacts beyond the travel of one step, m.
-pub const MARGIN_M: f64 = 0.01;
+pub const CONTACT_SEARCH_MARGIN_M: f64 = 0.01;
 /// Approach speed below which contacts do not bounce, m/s (keeps a resting body at rest).
 const MIN_BOUNCE_SPEED_M_S: f64 = 0.3;
 /// Gap below which bodies count as touching, m.
@@ -55,15 +55,15 @@ pub fn resolve(
 ) {
     let travel = state.rigid.velocity_m_s.norm() * dt_s + model.hull_radius_m * state.rigid.rates_rad_s.norm() * dt_s;
     // Contacts are queried at the start of the step, before the body can pass through an obstacle.
-    let mut constraints = gather(model, start, obstacles, at, travel + MARGIN_M);
+    let mut constraints = gather(model, start, obstacles, at, travel + CONTACT_SEARCH_MARGIN_M);
     if constraints.is_empty() {
         state.contact = ContactReport::default();
-        state.warm.impulses.clear();
+        state.initial_guess.impulses.clear();
         return;
     }
     let body = ContactBody::new(model, &state.rigid);
     prepare(&mut constraints, &body, &state.rigid, model.restitution, dt_s);
-    warm_start(&mut constraints, &state.warm);
+    warm_start(&mut constraints, &state.initial_guess);
     let (velocity, spin) = solve(&mut constraints, &body, &state.rigid, model, dt_s);
     if constraints.iter().any(|c| c.active) {
         // FRAME: the solver works in NED; the body's rates are in body axes.
@@ -75,7 +75,7 @@ pub fn resolve(
         strike_rotors(&constraints, &mut state.rigid, dt_s);
     }
     state.contact = report(&constraints, dt_s);
-    state.warm.impulses = constraints.iter().filter(|c| c.active).map(|c| (c.key, c.impulse)).collect();
+    state.initial_guess.impulses = constraints.iter().filter(|c| c.active).map(|c| (c.key, c.impulse)).collect();
 }
 
 struct ContactBody {
@@ -94,7 +94,7 @@ impl ContactBody {
     fn impulse_response(&self, arm: &Vector3<f64>) -> ImpulseResponse {
         let cross = arm.cross_matrix();
         let spin = self.inverse_inertia * cross;
-        ImpulseResponse { spin, place: Matrix3::identity() * self.inverse_mass - cross * spin }
+        ImpulseResponse { angular: spin, linear: Matrix3::identity() * self.inverse_mass - cross * spin }
     }
 }
 
@@ -102,9 +102,9 @@ impl ContactBody {
 #[derive(Debug, Clone, Copy, Default)]
 struct ImpulseResponse {
     /// Change of angular velocity per unit impulse.
-    spin: Matrix3<f64>,
+    angular: Matrix3<f64>,
     /// Change of the contact point's velocity per unit impulse.
-    place: Matrix3<f64>,
+    linear: Matrix3<f64>,
 }
 
 fn gather(
@@ -118,7 +118,7 @@ fn gather(
     let mut out: Vec<ContactConstraint> = Vec::new();
     for (index, probe) in model.probes.iter().enumerate() {
         found.clear();
-        obstacles.contacts(&probe.placed(pose), margin_m, at, &mut found);
+        obstacles.contacts(&probe.transformed(pose), margin_m, at, &mut found);
         for contact in &found {
             let same = |c: &&ContactConstraint| c.key.0 == index && c.key.1 == contact.object.0;
             let key = (index, contact.object.0, out.iter().filter(same).count());
@@ -152,13 +152,13 @@ fn prepare(constraints: &mut [ContactConstraint], body: &ContactBody, rigid: &Ri
         let allowed = c.gap.max(0.0) / dt_s;
         c.target = if c.approach > allowed && c.approach > MIN_BOUNCE_SPEED_M_S { restitution * c.approach } else { -allowed };
         c.response = body.impulse_response(&c.arm);
-        c.inverse_effective = 1.0 / c.normal.dot(&(c.response.place * c.normal));
+        c.inverse_effective = 1.0 / c.normal.dot(&(c.response.linear * c.normal));
     }
 }
 
-fn warm_start(constraints: &mut [ContactConstraint], warm: &WarmStart) {
+fn warm_start(constraints: &mut [ContactConstraint], initial_guess: &WarmStart) {
     for c in constraints {
-        if let Some((_, impulse)) = warm.impulses.iter().find(|(key, _)| *key == c.key)
+        if let Some((_, impulse)) = initial_guess.impulses.iter().find(|(key, _)| *key == c.key)
             && c.approach <= MIN_BOUNCE_SPEED_M_S
         {
             c.impulse = *impulse;
@@ -178,7 +178,7 @@ fn solve(
     let mut w = (rigid.attitude * rigid.rates_rad_s).raw();
     for c in constraints.iter() {
         v += c.impulse * body.inverse_mass;
-        w += c.response.spin * c.impulse;
+        w += c.response.angular * c.impulse;
     }
     let settled = CONVERGENCE_THRESHOLD * model.mass_kg * spandrel_model::math::GRAVITY_M_S2 * dt_s;
     for _ in 0..MAX_ITERATIONS {
@@ -208,14 +208,14 @@ fn solve_contact(
     let relative = *v + w.cross(&c.arm) - c.object_velocity;
     let normal_old = old.dot(&c.normal);
     let normal_new = (normal_old + (c.target - relative.dot(&c.normal)) * c.inverse_effective).max(0.0);
-    let relative = relative + c.response.place * (c.normal * (normal_new - normal_old));
+    let relative = relative + c.response.linear * (c.normal * (normal_new - normal_old));
     let slide = relative - c.normal * relative.dot(&c.normal);
     let tangent_old = old - c.normal * normal_old;
     let speed = slide.norm();
     let mut tangent_new = tangent_old;
     if speed > 0.0 {
         let direction = slide / speed;
-        tangent_new -= direction * (speed / direction.dot(&(c.response.place * direction)));
+        tangent_new -= direction * (speed / direction.dot(&(c.response.linear * direction)));
     }
     let limit = friction * normal_new;
     let size = tangent_new.norm();
@@ -225,7 +225,7 @@ fn solve_contact(
     c.impulse = c.normal * normal_new + tangent_new;
     let change = c.impulse - old;
     *v += change * body.inverse_mass;
-    *w += c.response.spin * change;
+    *w += c.response.angular * change;
     change.norm()
 }
 

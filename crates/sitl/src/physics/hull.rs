@@ -35,7 +35,7 @@ impl BodyProbe {
 
     /// Returns the probe transformed to the pose of the aircraft.
     #[must_use]
-    pub fn placed(&self, rigid: &RigidState) -> HullProbe {
+    pub fn transformed(&self, rigid: &RigidState) -> HullProbe {
         let place = |p: Vec3<Frd>| -> Vec3<Enu> { (rigid.position_m + rigid.attitude * p).enu() };
         if self.a_m == self.b_m {
             HullProbe::Ball { center_m: place(self.a_m), radius_m: self.radius_m }

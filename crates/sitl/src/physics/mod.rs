@@ -47,12 +47,13 @@ impl AirframeModel {
         let start = state.rigid;
         let before = start.velocity_m_s;
         rigid::advance(self, &mut state.rigid, &target_rotor_speeds, air, &state.effect, dt_s);
-        let reach = self.hull_radius_m + state.rigid.velocity_m_s.norm().max(before.norm()) * dt_s + contact::MARGIN_M;
+        let reach =
+            self.hull_radius_m + state.rigid.velocity_m_s.norm().max(before.norm()) * dt_s + contact::CONTACT_SEARCH_MARGIN_M;
         if state.clear_sphere.remaining_radius_m(state.rigid.position_m.enu(), now + dt) <= reach {
             contact::resolve(self, state, &start, obstacles, now + dt, dt_s);
         } else if state.contact.touching() {
             state.contact = ContactReport::default();
-            state.warm = WarmStart::default();
+            state.initial_guess = WarmStart::default();
         }
         let gravity = Vec3::<Ned>::new(0.0, 0.0, math::GRAVITY_M_S2 * self.gravity_scale);
         let felt = (state.rigid.velocity_m_s - before) / dt_s - gravity;

@@ -75,12 +75,13 @@ pub struct BatteryState {
     /// Fraction of the maximum rotor speed available at the current voltage.
     pub speed_factor: f64,
     /// Failed cells that deliver no voltage, as a bit mask; bit 0 is the first cell.
-    pub dead_cells: u16,
+    pub failed_cells: u16,
 }
 
 impl BatteryState {
     /// A fully charged pack.
-    pub const FULL: Self = Self { charge: 1.0, voltage_v: 0.0, current_a: 0.0, energy_j: 0.0, speed_factor: 1.0, dead_cells: 0 };
+    pub const FULL: Self =
+        Self { charge: 1.0, voltage_v: 0.0, current_a: 0.0, energy_j: 0.0, speed_factor: 1.0, failed_cells: 0 };
 
     /// Returns true if the pack has no charge left.
     #[must_use]
@@ -91,19 +92,19 @@ impl BatteryState {
     /// Returns true if the cell with this zero-based index has failed.
     #[must_use]
     pub fn cell_failed(&self, cell: usize) -> bool {
-        cell < 16 && self.dead_cells & (1 << cell) != 0
+        cell < 16 && self.failed_cells & (1 << cell) != 0
     }
 
     /// Sets or clears the failure of one cell.
     pub fn fail_cell(&mut self, cell: usize, dead: bool) {
         let bit = if cell < 16 { 1 << cell } else { 0 };
-        self.dead_cells = if dead { self.dead_cells | bit } else { self.dead_cells & !bit };
+        self.failed_cells = if dead { self.failed_cells | bit } else { self.failed_cells & !bit };
     }
 
     /// Returns the number of working cells in a pack of `cells` cells.
     #[must_use]
-    pub fn live_cells(&self, cells: u32) -> u32 {
-        cells.saturating_sub(self.dead_cells.count_ones())
+    pub fn working_cells(&self, cells: u32) -> u32 {
+        cells.saturating_sub(self.failed_cells.count_ones())
     }
 
     /// Returns the remaining charge, %.
@@ -152,7 +153,7 @@ pub struct PhysicsState {
     pub specific_force_m_s2: Vec3<Frd>,
     /// Contacts of the last step.
     pub contact: ContactReport,
-    pub(super) warm: WarmStart,
+    pub(super) initial_guess: WarmStart,
     pub(super) effect: [f64; MAX_ROTORS],
     pub(super) effect_due: SimTime,
     pub(super) clear_sphere: ClearSphere,
@@ -189,7 +190,7 @@ impl PhysicsState {
             battery: BatteryState::FULL,
             specific_force_m_s2: Vec3::new(0.0, 0.0, -math::GRAVITY_M_S2),
             contact: ContactReport::default(),
-            warm: WarmStart::default(),
+            initial_guess: WarmStart::default(),
             effect: [1.0; MAX_ROTORS],
             effect_due: SimTime::ZERO,
             clear_sphere: ClearSphere { center_m: Vec3::zero(), radius_m: -1.0, since: SimTime::ZERO },
@@ -202,7 +203,7 @@ impl PhysicsState {
         let rotor_rad_s = self.rigid.rotor_rad_s;
         self.rigid = RigidState { rotor_rad_s, ..fresh.rigid };
         self.clear_sphere = fresh.clear_sphere;
-        self.warm = fresh.warm;
+        self.initial_guess = fresh.initial_guess;
         self.contact = fresh.contact;
     }
 }

@@ -21,11 +21,11 @@ const MIN_SATELLITES: usize = 5;
 /// Maximum horizontal dilution of precision for a fix (estimate: receivers flag larger values as unusable).
 const MAX_HDOP: f64 = 8.0;
 /// Range within which structures hide satellites, m (larger than any site).
-const REACH_M: f64 = 400.0;
+const BLOCKING_RANGE_M: f64 = 400.0;
 /// Slowly drifting fraction of the position noise; the white fraction accounts for the remaining variance.
-pub const DRIFT_SHARE: f64 = 0.8;
-/// White fraction of the position noise: `DRIFT_SHARE`² + `WHITE_SHARE`² = 1.
-pub const WHITE_SHARE: f64 = 0.6;
+pub const DRIFT_FRACTION: f64 = 0.8;
+/// White fraction of the position noise: `DRIFT_FRACTION`² + `WHITE_FRACTION`² = 1.
+pub const WHITE_FRACTION: f64 = 0.6;
 /// Time constant of the drift, s (estimate: ionosphere and orbit errors at one receiver change over minutes).
 pub const DRIFT_TIME_S: f64 = 120.0;
 /// Multipath error with nearly all satellites hidden, m (estimate), and its time constant, s.
@@ -70,7 +70,7 @@ impl GnssReceiver {
             multipath_m2: 0.0,
             stream: stream.clone(),
         };
-        gnss.drift = gnss.scaled(&mut stream, DRIFT_SHARE);
+        gnss.drift = gnss.scaled(&mut stream, DRIFT_FRACTION);
         gnss.stream = stream;
         gnss
     }
@@ -88,13 +88,13 @@ impl GnssReceiver {
     }
 
     fn is_visible<S: Surroundings>(&self, position_m: Vec3<Enu>, direction: Vec3<Enu>, site: &S, now: SimTime) -> bool {
-        !self.shadow || site.ray_m(position_m, direction, REACH_M, now).is_none()
+        !self.shadow || site.ray_m(position_m, direction, BLOCKING_RANGE_M, now).is_none()
     }
 
     fn step_errors(&mut self, hidden: f64) {
         let mut stream = self.stream.clone();
         let keep = math::exp(-self.period_s / DRIFT_TIME_S);
-        self.drift = self.drift * keep + self.scaled(&mut stream, DRIFT_SHARE * (1.0 - keep * keep).sqrt());
+        self.drift = self.drift * keep + self.scaled(&mut stream, DRIFT_FRACTION * (1.0 - keep * keep).sqrt());
         let keep = math::exp(-self.period_s / MULTIPATH_TIME_S);
         let push = MULTIPATH_M * hidden * (1.0 - keep * keep).sqrt();
         self.multipath = self.multipath * keep + normal3(&mut stream) * push;
@@ -110,7 +110,7 @@ impl GnssReceiver {
 
     fn fix(&mut self, rigid: &RigidState, visible: &[Vec3<Enu>]) -> GnssReading {
         let mut stream = self.stream.clone();
-        let white = self.scaled(&mut stream, WHITE_SHARE);
+        let white = self.scaled(&mut stream, WHITE_FRACTION);
         let speed = normal3(&mut stream) * self.velocity_m_s;
         self.stream = stream;
         let satellites = u8::try_from(visible.len()).unwrap_or(u8::MAX);
@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_four_satellites_have_the_textbook_dilution() {
+    fn exact_four_satellites_have_textbook_dilution() {
         // One at the zenith and three at 120 degrees on the horizon: HDOP² = 4/3 and VDOP² = 4/3.
         let third = math::TAU / 3.0;
         let low = (0..3).map(|i| Vec3::new(math::sin(third * f64::from(i)), math::cos(third * f64::from(i)), 0.0));
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn prop_covered_sky_prevents_a_fix_only_with_shadowing() {
+    fn prop_covered_sky_prevents_fix_only_with_shadowing() {
         let sensors = crate::sensors::tests::error_free_sensors();
         let rigid = crate::sensors::tests::still();
         let fix = |shadow| GnssReceiver::new(&sensors, shadow, 1).read(&rigid, &CoveredSky, SimTime::ZERO).map(|r| r.fix);

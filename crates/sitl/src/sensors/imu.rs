@@ -8,7 +8,7 @@ use spandrel_model::vehicle;
 
 /// Bias random walk per √s as a fraction of the initial bias (estimate: consumer inertial sensors drift by a few
 /// percent of their bias per minute).
-pub const BIAS_WALK_SHARE: f64 = 0.005;
+pub const BIAS_WALK_FRACTION: f64 = 0.005;
 
 /// Number of samples between updates of the bias random walk.
 const BIAS_WALK_SAMPLES: u32 = 40;
@@ -23,7 +23,7 @@ pub struct Imu {
     gyro_walk: f64,
     accel_bias: Vec3<Frd>,
     gyro_bias: Vec3<Frd>,
-    until_walk: u32,
+    samples_until_walk: u32,
     force_sum: Vec3<Frd>,
     rate_sum: Vec3<Frd>,
     time_s: f64,
@@ -35,7 +35,7 @@ impl Imu {
     pub fn new(sensors: &vehicle::SensorSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "imu");
         let period_s = 1.0 / sensors.imu_rate_hz;
-        let walk = BIAS_WALK_SHARE * (period_s * f64::from(BIAS_WALK_SAMPLES)).sqrt();
+        let walk = BIAS_WALK_FRACTION * (period_s * f64::from(BIAS_WALK_SAMPLES)).sqrt();
         let (accel, gyro) = normal_pair_3d(&mut stream);
         Self {
             accel_sigma: sensors.accel_noise_density / period_s.sqrt(),
@@ -44,7 +44,7 @@ impl Imu {
             gyro_walk: sensors.gyro_bias_rad_s * walk,
             accel_bias: accel * sensors.accel_bias_m_s2,
             gyro_bias: gyro * sensors.gyro_bias_rad_s,
-            until_walk: BIAS_WALK_SAMPLES,
+            samples_until_walk: BIAS_WALK_SAMPLES,
             stream,
             force_sum: Vec3::zero(),
             rate_sum: Vec3::zero(),
@@ -66,13 +66,13 @@ impl Imu {
         if self.time_s <= 0.0 {
             return None;
         }
-        if self.until_walk == 0 {
-            self.until_walk = BIAS_WALK_SAMPLES;
+        if self.samples_until_walk == 0 {
+            self.samples_until_walk = BIAS_WALK_SAMPLES;
             let (accel, gyro) = normal_pair_3d(&mut self.stream);
             self.accel_bias += accel * self.accel_walk;
             self.gyro_bias += gyro * self.gyro_walk;
         }
-        self.until_walk -= 1;
+        self.samples_until_walk -= 1;
         let (accel, gyro) = normal_pair_3d(&mut self.stream);
         let force = self.force_sum / self.time_s + self.accel_bias + accel * self.accel_sigma;
         let rates = self.rate_sum / self.time_s + self.gyro_bias + gyro * self.gyro_sigma;

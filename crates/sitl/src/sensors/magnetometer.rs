@@ -66,7 +66,7 @@ mod tests {
     use crate::sensors::tests::{error_free_sensors, still};
 
     #[test]
-    fn exact_bias_rotates_with_the_body_and_has_the_specified_spread() {
+    fn exact_bias_rotates_with_body_and_has_specified_spread() {
         let spec = vehicle::SensorSpec { mag_bias_gauss: 0.01, ..error_free_sensors() };
         let place = Geo { latitude_deg: 46.5, longitude_deg: 8.0, altitude_m: 0.0 };
         let mut squares = 0.0;
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn val_field_inclination_matches_the_magnetic_model() {
+    fn val_field_inclination_matches_magnetic_model() {
         let alps = earth_field_gauss(Geo { latitude_deg: 46.5, longitude_deg: 8.0, altitude_m: 0.0 });
         // World Magnetic Model 2020 at this location: 0.47 G total, dip 62 degrees. The dipole is within 0.06 G and 6
         // degrees of that.

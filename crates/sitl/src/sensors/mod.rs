@@ -99,7 +99,7 @@ impl Sensors {
             out.range_down_m = Some(ranges.down_m);
             out.range_up_m = Some(ranges.up_m);
             out.range_around_m = Some(ranges.around_m);
-            self.nearest_m = ranges.shortest_m();
+            self.nearest_m = ranges.min_range_m();
         }
         if self.light_due.fire(now) {
             self.ambient_lux = site.lux(position_m, now);
@@ -187,7 +187,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn exact_range_finders_measure_the_ground_distance() {
+    fn exact_range_finders_measure_ground_distance() {
         let mut finders = rangefinder::RangeFinders::new(&error_free_sensors(), 1);
         let ranges = finders.read(&still(), &FlatGround { up_m: 2.0 }, SimTime::ZERO);
         assert!(ranges.is_some_and(|r| (r.down_m - 8.0).abs() < 1e-12 && r.up_m.is_infinite()), "{ranges:?}");

@@ -22,7 +22,7 @@ pub struct RangeReadings {
 impl RangeReadings {
     /// Returns the shortest range, m.
     #[must_use]
-    pub fn shortest_m(&self) -> f64 {
+    pub fn min_range_m(&self) -> f64 {
         self.around_m.iter().fold(self.down_m.min(self.up_m), |a, b| a.min(*b))
     }
 }
@@ -64,7 +64,7 @@ impl RangeFinders {
         if !self.due.fire(now) {
             return None;
         }
-        if site.nothing_within(rigid.position_m.enu(), self.max_m, now) {
+        if site.is_clear_within(rigid.position_m.enu(), self.max_m, now) {
             let far = f64::INFINITY;
             return Some(RangeReadings { down_m: far, up_m: far, around_m: [far; 8] });
         }

@@ -10,7 +10,7 @@ pub trait Surroundings {
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
     /// Returns true only if there is nothing solid within `max_m` in any direction, including the landing pad.
     /// Returning false is always safe and only costs time.
-    fn nothing_within(&self, _position_m: Vec3<Enu>, _max_m: f64, _at: SimTime) -> bool {
+    fn is_clear_within(&self, _position_m: Vec3<Enu>, _max_m: f64, _at: SimTime) -> bool {
         false
     }
     /// Returns the mean ambient light at a point, lx.
@@ -21,7 +21,7 @@ impl Surroundings for Site {
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64> {
         self.ray(origin_m, direction, max_m, at).map(|hit| hit.distance_m)
     }
-    fn nothing_within(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> bool {
+    fn is_clear_within(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> bool {
         // `nearest` excludes the landing pad; the ground height below covers it.
         position_m.up() - self.ground_up_m(position_m.east(), position_m.north()) > max_m
             && self.nearest(position_m, max_m, at).is_none()

@@ -10,7 +10,7 @@ use spandrel_model::scenario::AfterCrash;
 use spandrel_model::site::Surface;
 
 /// Height above the start position that counts as liftoff, m (docs/src/reference/assessment.md, "Frames").
-const LIFT_OFF_M: f64 = 0.3;
+const LIFTOFF_HEIGHT_M: f64 = 0.3;
 /// Minimum clearance of a safe hover, m.
 const SAFE_CLEARANCE_M: f64 = 1.0;
 /// Speed below which the vehicle counts as motionless, m/s.
@@ -26,11 +26,11 @@ impl Sim {
     /// Handles liftoff, contact, empty battery and respawn.
     pub(super) fn handle_crash_and_respawn(&mut self) {
         let up = -self.state.rigid.position_m.down();
-        if !self.has_lifted_off && up > self.standing_up_m + LIFT_OFF_M {
+        if !self.has_lifted_off && up > self.start_height_m + LIFTOFF_HEIGHT_M {
             self.has_lifted_off = true;
             self.events.push_back(SimEvent::LiftOff);
         }
-        self.note_contact();
+        self.record_contact();
         if self.state.battery.empty() && !self.battery_empty_reported {
             self.battery_empty_reported = true;
             self.events.push_back(SimEvent::BatteryEmpty);
@@ -49,7 +49,7 @@ impl Sim {
 
     /// Updates the current contact and counts new ones. Gentle contact with the landing pad, near home or before
     /// liftoff does not count.
-    fn note_contact(&mut self) {
+    fn record_contact(&mut self) {
         let report = self.state.contact;
         let contact = match report.surface {
             Some((surface, _)) if self.has_lifted_off && !self.is_gentle_touch(surface, report.impact_m_s) => {
@@ -205,7 +205,7 @@ mod tests {
     const SAFE: (f64, f64, f64) = (3.0, 4.0, -6.0);
 
     /// A vehicle that has flown and is now 50 m from the landing pad, level and at rest.
-    fn flown(change: impl Fn(&mut Scenario)) -> Sim {
+    fn airborne_sim(change: impl Fn(&mut Scenario)) -> Sim {
         let text = include_str!("../../../../scenarios/drill-hover.toml");
         let mut scenario = spandrel_model::scenario::read("drill-hover.toml", text, &|_| Err("none".into())).expect("shipped");
         change(&mut scenario);
@@ -226,12 +226,12 @@ mod tests {
         sim.state = physics::PhysicsState::at_rest(place.ned(), 0.0);
     }
 
-    fn touches(sim: &mut Sim, surface: Option<Surface>, impact_m_s: f64) {
+    fn set_contact(sim: &mut Sim, surface: Option<Surface>, impact_m_s: f64) {
         sim.state.contact = ContactReport { surface: surface.map(|s| (s, ObjectId(0))), impact_m_s, normal_n: 1.0 };
     }
 
     /// Runs crash handling for `ms` ticks on an unchanging physical state.
-    fn pass(sim: &mut Sim, ms: i64) -> Vec<SimEvent> {
+    fn run_ticks(sim: &mut Sim, ms: i64) -> Vec<SimEvent> {
         for _ in 0..ms {
             sim.now += MS;
             sim.handle_crash_and_respawn();
@@ -253,13 +253,13 @@ mod tests {
             (Surface::Water, going, true),
             (Surface::Bridge, going, false),
         ] {
-            let mut sim = flown(|_| ());
-            touches(&mut sim, Some(surface), 2.0);
+            let mut sim = airborne_sim(|_| ());
+            set_contact(&mut sim, Some(surface), 2.0);
             sim.state.rigid.velocity_m_s = velocity;
             // The crash counts from the first tick.
-            assert_eq!(crashes(&pass(&mut sim, 3_000)), 1, "{surface:?}");
+            assert_eq!(crashes(&run_ticks(&mut sim, 3_000)), 1, "{surface:?}");
             assert_eq!(sim.scoring.respawns, 0, "{surface:?}: too early");
-            let events = pass(&mut sim, 1);
+            let events = run_ticks(&mut sim, 1);
             assert_eq!(events.contains(&SimEvent::Respawn), back, "{surface:?} {events:?}");
             assert_eq!(sim.scoring.respawns, i32::from(back));
             if back {
@@ -279,25 +279,25 @@ mod tests {
             (Surface::Terrain, 0.7, Some(tipped), true),
             (Surface::Water, 0.7, None, true),
         ] {
-            let mut sim = flown(|_| ());
+            let mut sim = airborne_sim(|_| ());
             sim.state.rigid.attitude = attitude.unwrap_or(sim.state.rigid.attitude);
-            touches(&mut sim, Some(surface), impact_m_s);
-            pass(&mut sim, 1);
-            touches(&mut sim, Some(surface), 0.0);
-            let events = pass(&mut sim, 10_000);
+            set_contact(&mut sim, Some(surface), impact_m_s);
+            run_ticks(&mut sim, 1);
+            set_contact(&mut sim, Some(surface), 0.0);
+            let events = run_ticks(&mut sim, 10_000);
             assert_eq!(events.contains(&SimEvent::Respawn), back, "{surface:?} at {impact_m_s} m/s, {attitude:?}");
         }
     }
 
     #[test]
     fn exact_other_crash_rules_leave_vehicle_or_end_session() {
-        let mut sim = flown(|s| s.rules.after_crash = AfterCrash::Continue);
-        touches(&mut sim, Some(Surface::Bridge), 2.0);
-        let events = pass(&mut sim, 20_000);
+        let mut sim = airborne_sim(|s| s.rules.after_crash = AfterCrash::Continue);
+        set_contact(&mut sim, Some(Surface::Bridge), 2.0);
+        let events = run_ticks(&mut sim, 20_000);
         assert!(crashes(&events) == 1 && events.len() == 1 && sim.ended().is_none(), "{events:?}");
-        let mut sim = flown(|s| s.rules.after_crash = AfterCrash::End);
-        touches(&mut sim, Some(Surface::Bridge), 2.0);
-        let events = pass(&mut sim, 1);
+        let mut sim = airborne_sim(|s| s.rules.after_crash = AfterCrash::End);
+        set_contact(&mut sim, Some(Surface::Bridge), 2.0);
+        let events = run_ticks(&mut sim, 1);
         assert!(sim.ended().is_some_and(|why| why.starts_with("crashed into")), "{events:?}");
     }
 
@@ -305,14 +305,14 @@ mod tests {
     fn exact_hitting_person_or_vehicle_always_ends_session() {
         for rule in [AfterCrash::Continue, AfterCrash::Respawn, AfterCrash::End] {
             for surface in [Surface::Person, Surface::Vehicle] {
-                let mut sim = flown(|s| s.rules.after_crash = rule);
+                let mut sim = airborne_sim(|s| s.rules.after_crash = rule);
                 if rule != AfterCrash::End {
-                    touches(&mut sim, Some(Surface::Bridge), 1.0);
-                    pass(&mut sim, 10);
+                    set_contact(&mut sim, Some(Surface::Bridge), 1.0);
+                    run_ticks(&mut sim, 10);
                     assert!(sim.ended().is_none());
                 }
-                touches(&mut sim, Some(surface), 0.1);
-                let events = pass(&mut sim, 5_000);
+                set_contact(&mut sim, Some(surface), 0.1);
+                let events = run_ticks(&mut sim, 5_000);
                 assert!(sim.ended().is_some_and(|why| why.starts_with("hit ")), "{rule:?} {surface:?} {events:?}");
                 assert!(!events.contains(&SimEvent::Respawn));
             }
@@ -323,11 +323,11 @@ mod tests {
     fn exact_empty_battery_prevents_respawn() {
         // One millisecond before the respawn, and exactly at the respawn.
         for ms in [2_999, 3_000] {
-            let mut sim = flown(|_| ());
-            touches(&mut sim, Some(Surface::Bridge), 2.0);
-            pass(&mut sim, ms);
+            let mut sim = airborne_sim(|_| ());
+            set_contact(&mut sim, Some(Surface::Bridge), 2.0);
+            run_ticks(&mut sim, ms);
             sim.state.battery.charge = 0.0;
-            let events = pass(&mut sim, 10_000);
+            let events = run_ticks(&mut sim, 10_000);
             assert_eq!(sim.ended(), Some("battery empty"), "{events:?}");
             assert!(events.contains(&SimEvent::BatteryEmpty) && !events.contains(&SimEvent::Respawn), "{events:?}");
         }
@@ -335,30 +335,30 @@ mod tests {
 
     #[test]
     fn exact_vehicle_still_flying_after_contact_is_not_respawned() {
-        let mut sim = flown(|_| ());
-        touches(&mut sim, Some(Surface::Bridge), 0.2);
-        pass(&mut sim, 100);
+        let mut sim = airborne_sim(|_| ());
+        set_contact(&mut sim, Some(Surface::Bridge), 0.2);
+        run_ticks(&mut sim, 100);
         // Below the motionless threshold, but in the air.
-        touches(&mut sim, None, 0.0);
+        set_contact(&mut sim, None, 0.0);
         sim.state.rigid.velocity_m_s = Vec3::new(0.1, 0.0, 0.0);
-        pass(&mut sim, 10_000);
-        touches(&mut sim, Some(Surface::Bridge), 0.2);
-        let events = pass(&mut sim, 100);
+        run_ticks(&mut sim, 10_000);
+        set_contact(&mut sim, Some(Surface::Bridge), 0.2);
+        let events = run_ticks(&mut sim, 100);
         assert!(crashes(&events) == 1 && !events.contains(&SimEvent::Respawn), "{events:?}");
     }
 
     #[test]
-    fn exact_pad_contact_is_a_crash_only_above_1_m_s() {
+    fn exact_pad_contact_is_crash_only_above_1_m_s() {
         for (impact_m_s, expected) in [(0.99, 0), (1.01, 1), (6.0, 1)] {
             for surface in [Surface::Pad, Surface::Terrain] {
-                let mut sim = flown(|_| ());
+                let mut sim = airborne_sim(|_| ());
                 let pad = sim.config.scenario.ground_team.pad_m;
                 put(&mut sim, pad + Vec3::new(0.3, 0.0, 0.1));
-                touches(&mut sim, Some(surface), impact_m_s);
-                let mut events = pass(&mut sim, 1);
+                set_contact(&mut sim, Some(surface), impact_m_s);
+                let mut events = run_ticks(&mut sim, 1);
                 // The vehicle then remains at that position.
-                touches(&mut sim, Some(surface), 0.0);
-                events.extend(pass(&mut sim, 10_000));
+                set_contact(&mut sim, Some(surface), 0.0);
+                events.extend(run_ticks(&mut sim, 10_000));
                 assert_eq!(crashes(&events), expected, "{surface:?} at {impact_m_s} m/s: {events:?}");
                 assert!(!events.contains(&SimEvent::Respawn) && sim.ended().is_none(), "{events:?}");
                 assert_eq!(sim.scoring.contact, ContactKind::None, "resting on the pad does not count as a contact");

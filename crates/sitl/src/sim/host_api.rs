@@ -36,19 +36,19 @@ impl Sim {
 
     /// Stops the heartbeats of the camera component.
     pub fn mute_camera_heartbeat(&mut self) {
-        self.endpoint.payload.equipment.camera.announced.silenced = true;
+        self.endpoint.payload.equipment.camera.announced.disabled_at_start = true;
     }
 
     /// Signs all outgoing frames and ignores incoming frames that are not signed with this key, except unsigned frames on trusted
     /// link kinds. `stamp` is the current signing timestamp.
-    pub fn demand_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
-        self.endpoint.links.demand_signatures(key, stamp, trusted);
+    pub fn require_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
+        self.endpoint.links.require_signatures(key, stamp, trusted);
     }
 
     /// Returns the signing state to restore at the next start with the same key, which prevents replays. `None` without a key.
     #[must_use]
-    pub fn signing_memory(&self) -> Option<String> {
-        self.endpoint.links.signing_memory()
+    pub fn signing_state(&self) -> Option<String> {
+        self.endpoint.links.signing_state()
     }
 
     /// Restores the signing state of an earlier run.
@@ -91,14 +91,14 @@ impl Sim {
         self.endpoint.read_parameters(text, autopilot)
     }
 
-    /// Enables parameter storage by the host ([`Sim::poll_storage`]).
+    /// Enables parameter storage by the host ([`Sim::take_storage_request`]).
     pub fn enable_param_storage(&mut self) {
-        self.endpoint.vehicle.keep_parameters();
+        self.endpoint.vehicle.enable_parameter_storage();
     }
 
     /// Returns the next storage request from a client.
-    pub fn poll_storage(&mut self) -> Option<StorageRequest> {
-        self.endpoint.vehicle.poll_storage()
+    pub fn take_storage_request(&mut self) -> Option<StorageRequest> {
+        self.endpoint.vehicle.take_storage_request()
     }
 
     /// Enables file jobs by the host ([`Sim::poll_file_job`]).

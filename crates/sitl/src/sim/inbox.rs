@@ -27,7 +27,7 @@ pub struct Inbox {
 struct LinkQueue {
     datagrams: VecDeque<ReceivedDatagram>,
     bytes: usize,
-    spent: (usize, usize),
+    processed_this_tick: (usize, usize),
 }
 
 impl LinkQueue {
@@ -38,11 +38,11 @@ impl LinkQueue {
     /// Returns the next datagram if it fits in the limits of this tick.
     fn next(&mut self) -> Option<ReceivedDatagram> {
         let len = self.datagrams.front()?.len();
-        let (count, bytes) = self.spent;
+        let (count, bytes) = self.processed_this_tick;
         if count >= MAX_DATAGRAMS_PER_TICK || bytes + len > MAX_BYTES_PER_TICK {
             return None;
         }
-        self.spent = (count + 1, bytes + len);
+        self.processed_this_tick = (count + 1, bytes + len);
         self.bytes -= len;
         self.datagrams.pop_front()
     }
@@ -76,7 +76,7 @@ impl Inbox {
         }
         if self.tick != now {
             self.tick = now;
-            self.links.values_mut().for_each(|queue| queue.spent = (0, 0));
+            self.links.values_mut().for_each(|queue| queue.processed_this_tick = (0, 0));
         }
         let mut out = Vec::new();
         for (link, queue) in &mut self.links {
@@ -97,8 +97,8 @@ impl Inbox {
 mod tests {
     use super::*;
 
-    const FLOOD: LinkId = LinkId(1);
-    const CALM: LinkId = LinkId(2);
+    const FLOODING_LINK: LinkId = LinkId(1);
+    const QUIET_LINK: LinkId = LinkId(2);
 
     fn datagram(bytes: &[u8]) -> ReceivedDatagram {
         ReceivedDatagram::new(bytes)
@@ -107,32 +107,32 @@ mod tests {
     #[test]
     fn exact_flooding_link_does_not_delay_other_links() {
         let mut inbox = Inbox::default();
-        (0..50).for_each(|k| inbox.push(FLOOD, datagram(&[k; 20])));
-        inbox.push(CALM, datagram(&[99]));
+        (0..50).for_each(|k| inbox.push(FLOODING_LINK, datagram(&[k; 20])));
+        inbox.push(QUIET_LINK, datagram(&[99]));
         let taken = inbox.take(SimTime::from_ms(1));
-        assert_eq!(taken.iter().filter(|(link, _)| *link == FLOOD).count(), MAX_DATAGRAMS_PER_TICK);
-        assert_eq!(taken.last(), Some(&(CALM, datagram(&[99]))));
+        assert_eq!(taken.iter().filter(|(link, _)| *link == FLOODING_LINK).count(), MAX_DATAGRAMS_PER_TICK);
+        assert_eq!(taken.last(), Some(&(QUIET_LINK, datagram(&[99]))));
         assert!(inbox.take(SimTime::from_ms(1)).is_empty(), "the same tick again");
-        assert_eq!(inbox.take(SimTime::from_ms(2))[0], (FLOOD, datagram(&[8; 20])), "in order");
+        assert_eq!(inbox.take(SimTime::from_ms(2))[0], (FLOODING_LINK, datagram(&[8; 20])), "in order");
     }
 
     #[test]
     fn exact_queue_is_bounded_and_drops_are_counted() {
         let mut inbox = Inbox::default();
-        (0..MAX_QUEUED_DATAGRAMS + 7).for_each(|_| inbox.push(FLOOD, datagram(&[0])));
+        (0..MAX_QUEUED_DATAGRAMS + 7).for_each(|_| inbox.push(FLOODING_LINK, datagram(&[0])));
         assert_eq!(inbox.dropped(), 7);
-        (0..MAX_QUEUED_BYTES / MAX_BYTES_PER_TICK + 3).for_each(|_| inbox.push(CALM, datagram(&[0; MAX_BYTES_PER_TICK])));
+        (0..MAX_QUEUED_BYTES / MAX_BYTES_PER_TICK + 3).for_each(|_| inbox.push(QUIET_LINK, datagram(&[0; MAX_BYTES_PER_TICK])));
         assert_eq!(inbox.dropped(), 7 + 3);
         inbox.push(LinkId(3), datagram(&[0; MAX_BYTES_PER_TICK + 1]));
         assert_eq!(inbox.dropped(), 7 + 3 + 1, "longer than any client's");
-        inbox.close(FLOOD);
-        assert!(inbox.take(SimTime::from_ms(1)).iter().all(|(link, _)| *link == CALM));
+        inbox.close(FLOODING_LINK);
+        assert!(inbox.take(SimTime::from_ms(1)).iter().all(|(link, _)| *link == QUIET_LINK));
     }
 
     #[test]
     fn exact_large_datagrams_are_processed_one_per_tick() {
         let mut inbox = Inbox::default();
-        (0..3).for_each(|_| inbox.push(FLOOD, datagram(&[0; MAX_BYTES_PER_TICK])));
+        (0..3).for_each(|_| inbox.push(FLOODING_LINK, datagram(&[0; MAX_BYTES_PER_TICK])));
         let each: Vec<usize> = (1..=4).map(|ms| inbox.take(SimTime::from_ms(ms)).len()).collect();
         assert_eq!(each, [1, 1, 1, 0]);
     }

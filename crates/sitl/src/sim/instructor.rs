@@ -19,14 +19,14 @@ impl Sim {
 
     /// Applies failures and weather set by commands and parameters.
     pub(super) fn apply_instructor_inputs(&mut self) {
-        while let Some(FailureInjection { unit, kind, instance }) = self.endpoint.vehicle.poll_injection() {
+        while let Some(FailureInjection { unit, kind, instance }) = self.endpoint.vehicle.next_injection() {
             self.faults.inject(unit, kind, instance, self.config.vehicle.rotors.len());
             let battery = &mut self.state.battery;
             match instance.checked_sub(1) {
                 _ if unit != FailureUnit::Battery => {}
                 Some(cell) => battery.fail_cell(cell, kind.is_some()),
                 None if kind.is_some() => battery.charge = Faults::charge(battery.charge),
-                None => battery.dead_cells = 0,
+                None => battery.failed_cells = 0,
             }
         }
         let changes = self.endpoint.vehicle.parameter_changes();

@@ -13,7 +13,7 @@ impl Sim {
     pub(super) fn tick(&mut self) {
         let start = self.now;
         self.apply_instructor_inputs();
-        self.endpoint.vehicle.accepts_sticks = self.faults.passes_sticks(start);
+        self.endpoint.vehicle.accepts_sticks = self.faults.passes_manual_control(start);
         self.step_wind(start);
         if self.control_due.fire(start) {
             self.step_control(start);

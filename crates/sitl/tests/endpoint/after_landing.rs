@@ -48,7 +48,7 @@ fn regress_vehicle_takes_off_again_after_a_soft_landing_away_from_home() {
 /// Falls from 5 m with the motors stopped and returns the number of respawns within 15 s.
 fn respawns_after_a_fall(rule: Option<AfterCrash>) -> usize {
     let mut station = Station::with_crash_rule("drill-hover", 7, rule);
-    station.climb_by_hand();
+    station.climb_manually();
     fly_away(&mut station);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, p(&[0.0, 21196.0])), MavResult::MAV_RESULT_ACCEPTED);
     station.received.clear();

@@ -17,7 +17,7 @@ const NAN: f32 = f32::NAN;
 const PICTURE_MIB: f32 = 6.0;
 const VIDEO_MIB_S: f32 = 60e6 / 8.0 / 1_048_576.0;
 /// Tolerance for the ticks between a command and its effect, s of recording.
-const TICKS_S: f32 = 0.01;
+const TIMING_TOLERANCE_S: f32 = 0.01;
 
 /// The only shipped aircraft with a zoom lens.
 const ZOOMS: &str = "m30";
@@ -75,10 +75,10 @@ fn wire_camera_records_only_in_video_mode_and_reports_the_duration() {
     let running = status(&mut station);
     assert_eq!((running.video_status, running.image_count), (1, 1));
     let recorded_s = running.recording_time_ms as f32 / 1000.0;
-    assert!((recorded_s - 3.0).abs() < TICKS_S, "{recorded_s}");
+    assert!((recorded_s - 3.0).abs() < TIMING_TOLERANCE_S, "{recorded_s}");
     assert_eq!(station.command(CAMERA, MavCmd::MAV_CMD_VIDEO_STOP_CAPTURE, p(&[])), OK);
     let card = used_mib(&mut station);
-    assert!((card - PICTURE_MIB - 3.0 * VIDEO_MIB_S).abs() < 2.0 * TICKS_S * VIDEO_MIB_S, "{card}");
+    assert!((card - PICTURE_MIB - 3.0 * VIDEO_MIB_S).abs() < 2.0 * TIMING_TOLERANCE_S * VIDEO_MIB_S, "{card}");
     station.run_ms(5_000);
     assert_eq!(used_mib(&mut station), card, "recording must have stopped");
     assert_eq!(status(&mut station).video_status, 0);

@@ -38,7 +38,7 @@ pub(super) fn beat(station: &Station) -> HEARTBEAT_DATA {
         .unwrap()
 }
 
-pub(super) fn next_beat(station: &mut Station) -> HEARTBEAT_DATA {
+pub(super) fn next_heartbeat(station: &mut Station) -> HEARTBEAT_DATA {
     station.received.clear();
     station.run_ms(1_100);
     beat(station)
@@ -80,7 +80,7 @@ fn wire_mode_rejections_match_copter() {
     let switch = SET_MODE_DATA { custom_mode: 0, target_system: 1, base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED };
     station.send(&MavMessage::SET_MODE(switch));
     assert_eq!(
-        next_beat(&mut station).custom_mode,
+        next_heartbeat(&mut station).custom_mode,
         LOITER as u32,
         "MAVProxy's encoding of the safety switch must not change the mode"
     );
@@ -122,7 +122,7 @@ fn wire_low_throttle_does_not_prevent_arming() {
         assert_eq!(station.command(1, ARM, one(1.0)), result, "throttle {pulse}");
     }
     station.send(&low(1_000));
-    assert_eq!(next_beat(&mut station).custom_mode, ALT_HOLD as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, ALT_HOLD as u32);
     let mut px4 = Station::new("drill-hover", 7);
     px4.run_ms(2_500);
     px4.send(&low(1_000));
@@ -139,7 +139,7 @@ fn flight_guided_takeoff_is_relative_to_home_and_stays_in_guided() {
     station.command(1, SET_MODE, mode(GUIDED));
     assert_eq!(station.command(1, command, take_off(6.0)), FAILED, "takeoff requires armed motors");
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
-    let on_ground = next_beat(&mut station);
+    let on_ground = next_heartbeat(&mut station);
     assert_eq!(
         (on_ground.custom_mode, on_ground.system_status),
         (GUIDED as u32, MavState::MAV_STATE_STANDBY),
@@ -148,7 +148,7 @@ fn flight_guided_takeoff_is_relative_to_home_and_stays_in_guided() {
     assert_eq!(station.command(1, command, take_off(0.0)), FAILED);
     assert_eq!(station.command(1, command, take_off(f32::NAN)), FAILED);
     assert_eq!(station.command(1, command, take_off(6.0)), ACCEPTED);
-    let flying = next_beat(&mut station);
+    let flying = next_heartbeat(&mut station);
     assert!(station.run_until(5.0, |s| beat(s).system_status == MavState::MAV_STATE_ACTIVE));
     assert_eq!(flying.custom_mode, GUIDED as u32, "the mode must stay GUIDED during takeoff");
     let ground = 0.0;
@@ -156,7 +156,7 @@ fn flight_guided_takeoff_is_relative_to_home_and_stays_in_guided() {
     station.run_ms(2_000);
     let height = -station.local_position_after(100)[2];
     assert!((height - 6.0).abs() < 2.0 * HEIGHT_M, "the height must count from home, not from sea level: {height}");
-    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32, "the mode must stay GUIDED after takeoff");
+    assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32, "the mode must stay GUIDED after takeoff");
     assert_eq!(station.command(1, command, take_off(9.0)), FAILED, "a second takeoff in the air must be rejected");
     assert_eq!(station.command(1, ARM, one(0.0)), FAILED, "disarming in the air must be rejected");
 }
@@ -181,7 +181,7 @@ fn flight_guided_follows_setpoints_and_single_positions() {
     station.send(&target(0x0DF8, north + 12.0, east, down, 0.0));
     let there = |s: &mut Station| (s.place()[0] - north - 12.0).abs() < 0.6;
     assert!(station.run_until(20.0, there), "{:?}", station.place());
-    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
     for _ in 0..30 {
         station.send(&target(0x0DC7, 0.0, 0.0, 0.0, -2.0));
         station.run_ms(100);
@@ -192,7 +192,7 @@ fn flight_guided_follows_setpoints_and_single_positions() {
     let [first, ..] = station.place();
     let [second, ..] = station.local_position_after(2_000);
     assert!((first - second).abs() < 0.2, "the vehicle must stop when setpoints end: {first} {second}");
-    let status = next_beat(&mut station);
+    let status = next_heartbeat(&mut station);
     assert_eq!(
         (status.custom_mode, status.system_status),
         (GUIDED as u32, MavState::MAV_STATE_ACTIVE),
@@ -229,14 +229,14 @@ fn flight_goto_requires_or_enters_guided_and_brake_stops_it() {
     station.command(1, SET_MODE, mode(BRAKE));
     assert_eq!(station.ask(&place(0.0), result), Some(DENIED));
     assert_eq!(station.ask(&place(1.0), result), Some(ACCEPTED));
-    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
     station.run_ms(2_000);
     assert_eq!(station.command(1, SET_MODE, mode(BRAKE)), ACCEPTED);
     station.run_ms(5_000);
     let [first, ..] = station.place();
     let [second, ..] = station.local_position_after(2_000);
     assert!((first - second).abs() < 0.3 && first < 39.0, "the vehicle must have stopped before the target: {first} {second}");
-    assert_eq!(next_beat(&mut station).custom_mode, BRAKE as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, BRAKE as u32);
     // The single-item message that MAVProxy and older ground stations use.
     station.command(1, SET_MODE, mode(GUIDED));
     let errand = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 6.0);
@@ -267,7 +267,7 @@ fn flight_stick_input_takes_over_and_stick_modes_keep_their_number() {
     }
     assert_eq!(beat(&station).custom_mode, POSHOLD as u32);
     station.run_ms(5_000);
-    let lost = next_beat(&mut station);
+    let lost = next_heartbeat(&mut station);
     assert_eq!(
         (lost.custom_mode, lost.system_status),
         (BRAKE as u32, MavState::MAV_STATE_CRITICAL),

@@ -1,6 +1,6 @@
 //! ArduCopter's GUIDED mode: effects of GUID_OPTIONS, reported targets, and pause.
 
-use super::copter::{ARM, BRAKE, GUIDED, M_PER_E7, SET_MODE, copter, copter_at, mode, next_beat};
+use super::copter::{ARM, BRAKE, GUIDED, M_PER_E7, SET_MODE, copter, copter_at, mode, next_heartbeat};
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::station::{Station, one};
 
@@ -54,7 +54,7 @@ fn regress_rc_arming_in_guided_requires_guid_options() {
         station.send(&transmitter(1500, 1000));
         station.run_ms(50);
         station.send(&transmitter(1500, 2000));
-        next_beat(station).base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
+        next_heartbeat(station).base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
     };
     assert!(!armed_by_switch(&mut station));
     assert!(station.has_text("Arm: GUIDED mode not armable"), "{:?}", station.texts());
@@ -76,12 +76,12 @@ fn regress_yaw_stick_in_guided_follows_guid_options() {
     assert!(turned_deg(before, after) > 20.0, "{before} to {after} deg");
     hold_yaw(&mut station, 1500, 2_000);
     assert!(turned_deg(after, heading_deg(&mut station)).abs() < HEADING_DEG, "the heading must stay where the pilot left it");
-    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
     set_options(&mut station, 4.0);
     hold_yaw(&mut station, 1900, 2_000);
     let ignored = turned_deg(after, heading_deg(&mut station));
     assert!(ignored.abs() < HEADING_DEG, "{ignored} deg");
-    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
 }
 
 #[test]
@@ -116,10 +116,10 @@ fn regress_attitude_thrust_in_guided_follows_guid_options() {
 /// Tolerance within which a speed counts as reached, m/s (ArduPilot's autotest: 0.5).
 const SPEED_M_S: f32 = 0.5;
 /// Bits of a type mask that mark values to ignore, three bits each (MAVLink: POSITION_TARGET_TYPEMASK).
-const NO_PLACE: u16 = 0o7;
-const NO_VELOCITY: u16 = 0o70;
-const NO_ACCELERATION: u16 = 0o700;
-const NO_HEADING: u16 = 0xC00;
+const IGNORE_POSITION: u16 = 0o7;
+const IGNORE_VELOCITY: u16 = 0o70;
+const IGNORE_ACCELERATION: u16 = 0o700;
+const IGNORE_HEADING: u16 = 0xC00;
 
 fn target(ignored: u16, place: [f32; 3], velocity: [f32; 3], acceleration: [f32; 3]) -> MavMessage {
     let ([x, y, z], [vx, vy, vz], [afx, afy, afz]) = (place, velocity, acceleration);
@@ -127,7 +127,7 @@ fn target(ignored: u16, place: [f32; 3], velocity: [f32; 3], acceleration: [f32;
         target_system: 1,
         target_component: 1,
         coordinate_frame: MavFrame::MAV_FRAME_LOCAL_NED,
-        type_mask: PositionTargetTypemask::from_bits_retain(ignored | NO_HEADING),
+        type_mask: PositionTargetTypemask::from_bits_retain(ignored | IGNORE_HEADING),
         x,
         y,
         z,
@@ -159,11 +159,11 @@ fn regress_guided_reports_targets_with_arducopters_masks() {
     let place = [north + 30.0, east, down];
     let (velocity, acceleration, still) = ([1.5, -0.5, 0.0], [0.2, 0.1, 0.0], [0.0; 3]);
     let asked = [
-        (NO_VELOCITY | NO_ACCELERATION, [place, still, still], 0xDF8),
-        (NO_PLACE | NO_ACCELERATION, [still, velocity, still], 0xC07),
-        (NO_PLACE, [still, velocity, acceleration], 0xC07),
-        (NO_ACCELERATION, [place, velocity, still], 0xC00),
-        (NO_PLACE | NO_VELOCITY, [still, still, acceleration], 0xC3F),
+        (IGNORE_VELOCITY | IGNORE_ACCELERATION, [place, still, still], 0xDF8),
+        (IGNORE_POSITION | IGNORE_ACCELERATION, [still, velocity, still], 0xC07),
+        (IGNORE_POSITION, [still, velocity, acceleration], 0xC07),
+        (IGNORE_ACCELERATION, [place, velocity, still], 0xC00),
+        (IGNORE_POSITION | IGNORE_VELOCITY, [still, still, acceleration], 0xC3F),
     ];
     for (ignored, wanted, mask) in asked {
         station.send(&target(ignored, wanted[0], wanted[1], wanted[2]));
@@ -190,15 +190,15 @@ fn regress_global_target_is_reported_only_for_positions() {
             if let MavMessage::POSITION_TARGET_GLOBAL_INT(t) = m { Some((t.lat_int, t.type_mask.bits())) } else { None }
         })
     };
-    station.send(&target(NO_VELOCITY | NO_ACCELERATION, [north, east, down], [0.0; 3], [0.0; 3]));
+    station.send(&target(IGNORE_VELOCITY | IGNORE_ACCELERATION, [north, east, down], [0.0; 3], [0.0; 3]));
     station.run_ms(200);
     let (here, mask) = shown(&mut station).expect("a place");
     assert_eq!(mask, 0xFDF8);
-    station.send(&target(NO_VELOCITY | NO_ACCELERATION, [north + 10.0, east, down], [0.0; 3], [0.0; 3]));
+    station.send(&target(IGNORE_VELOCITY | IGNORE_ACCELERATION, [north + 10.0, east, down], [0.0; 3], [0.0; 3]));
     station.run_ms(200);
     let (there, _) = shown(&mut station).expect("a place");
     assert!((f64::from(there - here) * M_PER_E7 - 10.0).abs() < 0.1, "{here} to {there}");
-    station.send(&target(NO_PLACE | NO_ACCELERATION, [0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]));
+    station.send(&target(IGNORE_POSITION | IGNORE_ACCELERATION, [0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]));
     station.run_ms(200);
     assert_eq!(shown(&mut station), None, "a velocity target must not have a position");
 }
@@ -209,7 +209,7 @@ fn regress_guided_velocity_can_be_paused_and_continued() {
     let mut station = copter_at(5.0);
     assert_eq!(station.set("GUID_TIMEOUT", 120.0, MavParamType::MAV_PARAM_TYPE_REAL32), Some(120.0));
     let velocity = [2.0, 1.0, 0.0];
-    station.send(&target(NO_PLACE | NO_ACCELERATION, [0.0; 3], velocity, [0.0; 3]));
+    station.send(&target(IGNORE_POSITION | IGNORE_ACCELERATION, [0.0; 3], velocity, [0.0; 3]));
     let flies = |wanted: [f32; 3]| {
         move |station: &mut Station| {
             let at =
@@ -224,5 +224,5 @@ fn regress_guided_velocity_can_be_paused_and_continued() {
         station.run_ms(3_000);
         assert!(flies(wanted)(&mut station), "the state must persist: {go}");
     }
-    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
 }

@@ -2,7 +2,7 @@
 //! landing sequence, pause, mode switch, and the streams of ArduPilot's dialect.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
-use super::copter::{ARM, AUTO, BRAKE, GUIDED, LOITER, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
+use super::copter::{ARM, AUTO, BRAKE, GUIDED, LOITER, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_heartbeat};
 use super::copter_plans::item;
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::upload;
@@ -103,7 +103,7 @@ fn regress_smart_rtl_retraces_its_path_and_lands_at_the_start() {
         assert!(station.run_until(40.0, there), "{:?}", station.place());
     }
     assert_eq!(station.command(1, SET_MODE, mode(SMART_RTL)), ACCEPTED);
-    assert_eq!(next_beat(&mut station).custom_mode, SMART_RTL as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, SMART_RTL as u32);
     let mut nearest = f32::INFINITY;
     let mut path_back = Vec::new();
     let landed = station.run_until(120.0, |s| {
@@ -170,7 +170,7 @@ fn regress_circle_mode_orbits_a_point_ahead() {
     let turned = (bearing(&station) - before).rem_euclid(std::f32::consts::TAU).to_degrees();
     // CIRCLE_RATE is 20 deg/s, clockwise.
     assert!((turned - 80.0).abs() < 15.0, "{turned} deg in 4 s");
-    assert_eq!(next_beat(&mut station).custom_mode, CIRCLE as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, CIRCLE as u32);
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn regress_loiter_without_sticks_holds_and_reports_loiter() {
         let start = station.local_position_after(100);
         assert_eq!(station.command(1, command, p), ACCEPTED);
         station.run_ms(8_000);
-        let beat = next_beat(&mut station);
+        let beat = next_heartbeat(&mut station);
         assert_eq!((beat.custom_mode, beat.system_status), (LOITER as u32, MavState::MAV_STATE_ACTIVE), "{:?}", station.texts());
         assert!(distance(start, station.local_position_after(100)) < NEAR_M);
         // Centered sticks must have no effect.
@@ -191,7 +191,7 @@ fn regress_loiter_without_sticks_holds_and_reports_loiter() {
             station.sticks(0, 0, 500, 0);
             station.run_ms(50);
         }
-        assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32);
+        assert_eq!(next_heartbeat(&mut station).custom_mode, LOITER as u32);
         assert!(distance(start, station.local_position_after(100)) < NEAR_M);
     }
 }
@@ -259,7 +259,7 @@ fn regress_pause_holds_and_continue_resumes_in_guided() {
     assert!(distance(first, second) < 0.4 && distance(second, target) > 2.0, "{first:?} {second:?}");
     let stopping_m = speed * speed / (2.0 * BRAKING_M_S2);
     assert!(first[0] - from[0] < stopping_m, "paused at {from:?}, {speed} m/s: {first:?}");
-    assert_eq!(next_beat(&mut station).custom_mode, GUIDED as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
     assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
     assert!(station.run_until(20.0, |s| distance(s.place(), target) < 1.0), "{:?}", station.place());
     assert_eq!(station.command(1, SET_MODE, mode(BRAKE)), ACCEPTED);
@@ -308,11 +308,11 @@ fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
     let state = station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state, Some(MissionState::MISSION_STATE_PAUSED));
-    assert_eq!(next_beat(&mut station).custom_mode, AUTO as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, AUTO as u32);
     assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
     assert!(station.run_until(20.0, |s| s.place()[0] > home + 30.0), "resumed: {:?}", station.place());
     assert_eq!(station.command(1, SET_MODE, mode(27.0)), ACCEPTED);
-    assert_eq!(next_beat(&mut station).custom_mode, 27);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, 27);
     assert!(station.run_until(60.0, |s| s.has_text("Landing detected")), "{:?} {:?}", station.place(), station.texts());
     assert!((station.place()[0] - home - 10.0).abs() < 1.5, "{:?}", station.place());
 }
@@ -339,7 +339,7 @@ fn regress_acro_follows_stick_rates_and_levels_on_release() {
     }
     let level = roll(&mut station);
     assert!(level.abs() < 4.0, "{level} deg after release");
-    assert_eq!(next_beat(&mut station).custom_mode, 1);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, 1);
 }
 
 #[test]
@@ -379,7 +379,7 @@ fn regress_follow_mode_keeps_its_offset() {
     // The target is 8 m south of the person and 4 m above.
     let (n, e) = (here[0] - home[0] - 2.0, f64::from(here[1] - home[1]) - east);
     assert!(n.abs() < 1.5 && e.abs() < 2.5, "{n} m north and {e} m east of the target");
-    assert_eq!(next_beat(&mut station).custom_mode, 23);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, 23);
 }
 
 #[test]
@@ -406,7 +406,7 @@ fn regress_rc_channels_and_mode_switch_work_without_sticks() {
             target_component: 1,
             ..Default::default()
         }));
-        assert_eq!(next_beat(&mut station).custom_mode, number, "channel 5 at {chan5_raw}");
+        assert_eq!(next_heartbeat(&mut station).custom_mode, number, "channel 5 at {chan5_raw}");
         let shown = channels(&mut station);
         assert_eq!((shown.chan5_raw, shown.chan10_raw), (chan5_raw, 1700));
     }

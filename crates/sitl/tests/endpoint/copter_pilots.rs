@@ -2,7 +2,7 @@
 //! and the order of responses (all used by ArduPilot's autotest).
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
-use super::copter::{ARM, AUTO, GUIDED, LOITER, SET_MODE, copter, copter_at, mode, next_beat};
+use super::copter::{ARM, AUTO, GUIDED, LOITER, SET_MODE, copter, copter_at, mode, next_heartbeat};
 use super::copter_plans::item;
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::upload;
@@ -43,11 +43,11 @@ fn switches(throttle: u16, chan5_raw: u16, chan8_raw: u16, chan9_raw: u16) -> Ma
 
 fn turn(station: &mut Station, switches: &MavMessage) -> u32 {
     station.send(switches);
-    next_beat(station).custom_mode
+    next_heartbeat(station).custom_mode
 }
 
 fn is_armed(station: &mut Station) -> bool {
-    next_beat(station).base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
+    next_heartbeat(station).base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
 }
 
 /// Returns the result of a command that the dialect does not contain.
@@ -79,7 +79,7 @@ fn wire_mode_option_switch_overrides_the_mode_switch() {
     assert_eq!(turn(&mut station, &switches(1000, 1000, 1500, 1000)), ALT_HOLD as u32);
     let [accepted, denied, failed, unsupported] = [0, 2, 4, 3];
     assert_eq!(unknown_command(&mut station, DO_AUX_FUNCTION, [56.0, 2.0]), accepted);
-    assert_eq!(next_beat(&mut station).custom_mode, LOITER as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, LOITER as u32);
     assert_eq!(unknown_command(&mut station, DO_AUX_FUNCTION, [56.0, 3.0]), denied, "a fourth position must be rejected");
     assert_eq!(unknown_command(&mut station, DO_AUX_FUNCTION, [299.0, 2.0]), failed);
     let mut px4 = Station::new("drill-hover", 7);
@@ -181,7 +181,7 @@ fn flight_mission_ends_in_auto_and_can_be_repeated() {
         assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED, "flight {flight}: {:?}", station.texts());
         assert!(station.run_until(20.0, |s| s.place()[2] < -2.0), "flight {flight} takes off: {:?}", station.texts());
         assert!(station.run_until(90.0, |s| s.has_text("Disarmed by landing")), "flight {flight}: {:?}", station.texts());
-        assert_eq!(next_beat(&mut station).custom_mode, AUTO as u32, "flight {flight}");
+        assert_eq!(next_heartbeat(&mut station).custom_mode, AUTO as u32, "flight {flight}");
     }
 }
 
@@ -264,7 +264,7 @@ fn wire_rejections_match_copter() {
     assert_eq!(unknown_command(&mut station, DO_JUMP_TAG, [65_535.0, 0.0]), failed);
     assert_eq!(unknown_command(&mut station, DO_JUMP_TAG, [65_536.0, 0.0]), denied);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_VTOL_LAND, p(&[])), ACCEPTED);
-    assert_eq!(next_beat(&mut station).custom_mode, LAND);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, LAND);
 }
 
 #[test]

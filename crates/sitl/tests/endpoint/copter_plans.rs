@@ -2,7 +2,7 @@
 //! it.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
-use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_beat};
+use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_heartbeat};
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::upload;
 use spandrel_testkit::station::{Station, one};
@@ -84,7 +84,7 @@ fn flight_fence_breach_ends_guided_flight() {
         station.run_ms(100);
     }
     assert!(station.has_text("Geofence breached: out of bounds, holding"), "{:?}", station.texts());
-    assert_eq!(next_beat(&mut station).custom_mode, BRAKE as u32);
+    assert_eq!(next_heartbeat(&mut station).custom_mode, BRAKE as u32);
     let [away, ..] = station.local_position_after(100);
     assert!((13.0..20.0).contains(&away), "{away} m north of the pad");
 }

@@ -103,10 +103,10 @@ fn flight_gnss_loss_and_recovery_are_reported() {
 /// collision.
 #[test]
 fn flight_gnss_jump_does_not_cause_a_crash() {
-    const WRONG: f32 = 4.0;
+    const INCONSISTENT: f32 = 4.0;
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m;
-    assert_eq!(inject(&mut station, GNSS, WRONG, 0.0), MavResult::MAV_RESULT_ACCEPTED);
+    assert_eq!(inject(&mut station, GNSS, INCONSISTENT, 0.0), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(15_000);
     let now = station.sim.truth().rigid;
     assert!((now.position_m.down() - before.down()).abs() < 3.0, "{:?}", now.position_m);

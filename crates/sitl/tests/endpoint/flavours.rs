@@ -1,7 +1,7 @@
 //! The vehicle as an emulation of three autopilots: identification, modes, parameters, files, streams.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
-use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_beat};
+use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_heartbeat};
 use spandrel_mavlink::dialect::*;
 use spandrel_mavlink::ftp::{ACK, FtpPacket, Opcode};
 use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
@@ -62,7 +62,13 @@ fn wire_every_available_mode_can_be_entered_by_each_message() {
             let target_system = 1;
             let base_mode = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED;
             station.send(&MavMessage::SET_MODE(SET_MODE_DATA { custom_mode: mode.custom_mode, target_system, base_mode }));
-            assert_eq!(next_beat(&mut station).custom_mode, mode.custom_mode, "{}: SET_MODE {:?}", flavour.name, mode.mode_name);
+            assert_eq!(
+                next_heartbeat(&mut station).custom_mode,
+                mode.custom_mode,
+                "{}: SET_MODE {:?}",
+                flavour.name,
+                mode.mode_name
+            );
             if mode.standard_mode != MavStandardMode::MAV_STANDARD_MODE_NON_STANDARD {
                 let standard = one(mode.standard_mode as u32 as f32);
                 assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, standard), ACCEPTED);
@@ -77,7 +83,11 @@ fn wire_every_available_mode_can_be_entered_by_each_message() {
             let standard = |m: &AVAILABLE_MODES_DATA| m.standard_mode != MavStandardMode::MAV_STANDARD_MODE_NON_STANDARD;
             assert!(modes.iter().filter(|mode| offered(mode)).all(standard), "only standard modes must be offered");
             assert_eq!(station.command(1, SET_MODE, mode(f32::from(4u8) * 65_536.0 + 5.0 * 16_777_216.0)), ACCEPTED);
-            assert_eq!(next_beat(&mut station).custom_mode, 4 << 16 | 5 << 24, "parameter 2 must accept a complete custom mode");
+            assert_eq!(
+                next_heartbeat(&mut station).custom_mode,
+                4 << 16 | 5 << 24,
+                "parameter 2 must accept a complete custom mode"
+            );
         }
     }
 }

@@ -126,16 +126,16 @@ fn count(count: u16) -> MavMessage {
 
 #[test]
 fn wire_mission_transfers_survive_a_bad_link() {
-    up_and_down(&mut Client::new(1), 40);
+    upload_and_download(&mut Client::new(1), 40);
 }
 
 /// The case of MAVLink's testing suite: 500 items with a quarter of all datagrams lost.
 #[test]
 fn wire_500_items_are_transferred_despite_25_percent_loss() {
-    up_and_down(&mut Client::with_loss(5, 0.25), 500);
+    upload_and_download(&mut Client::with_loss(5, 0.25), 500);
 }
 
-fn up_and_down(client: &mut Client, number: u16) {
+fn upload_and_download(client: &mut Client, number: u16) {
     let home = home_north(&client.station);
     let waypoint = |k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0 * f64::from(k), 6.0);
     let items: Vec<_> = (0..number).map(waypoint).collect();

@@ -169,20 +169,20 @@ fn continued(station: &mut Station, go_on: bool) {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_PAUSE_CONTINUE, wish), OK);
 }
 
-fn fly_by_hand(station: &mut Station, right: i16, z: i16, ms: i64) {
+fn fly_manually(station: &mut Station, right: i16, z: i16, ms: i64) {
     for _ in 0..ms / 20 {
         station.sticks(0, right, z, 0);
         station.run_ms(20);
     }
 }
 
-fn flat_m(a: [f32; 3], b: [f32; 3]) -> f32 {
+fn horizontal_distance_m(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// Maximum horizontal and vertical distance between the interruption point and the point where a step resumes, m (error
 /// of the estimate, and 0.8 m within which it counts as reached).
-const BACK_M: f32 = 1.5;
+const RESUME_TOLERANCE_M: f32 = 1.5;
 
 #[test]
 fn flight_interrupted_takeoff_resumes_at_its_position() {
@@ -194,19 +194,19 @@ fn flight_interrupted_takeoff_resumes_at_its_position() {
     assert_eq!(station.command(1, ARM, one(1.0)), OK);
     let over = station.local_position_after(25);
     assert!(station.run_until(30.0, |s| s.place()[2] < -8.0));
-    fly_by_hand(&mut station, 1000, 500, 4_000);
-    fly_by_hand(&mut station, 0, 500, 2_000);
-    assert!(flat_m(station.place(), over) > 8.0, "the pilot must have flown away");
+    fly_manually(&mut station, 1000, 500, 4_000);
+    fly_manually(&mut station, 0, 500, 2_000);
+    assert!(horizontal_distance_m(station.place(), over) > 8.0, "the pilot must have flown away");
     continued(&mut station, true);
     let mut up = f32::INFINITY;
     assert!(station.run_until(60.0, |s| {
         up = up.min(s.place()[2]);
         has_text(s, "Mission resumed from interruption point")
     }));
-    assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
+    assert!(horizontal_distance_m(station.place(), over) < RESUME_TOLERANCE_M, "{:?} not over {over:?}", station.place());
     assert!(up > -14.0, "the vehicle must return before it climbs: {up}");
     assert!(station.run_until(60.0, |s| s.place()[2] < -27.0));
-    assert!(flat_m(station.place(), over) < BACK_M, "{:?} not over {over:?}", station.place());
+    assert!(horizontal_distance_m(station.place(), over) < RESUME_TOLERANCE_M, "{:?} not over {over:?}", station.place());
     assert!(station.run_until(60.0, |s| has_text(s, "Mission finished")));
 }
 
@@ -222,8 +222,8 @@ fn flight_landing_paused_twice_resumes_its_descent() {
         |s: &mut Station| s.last_message(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.landed_state) } else { None });
     assert!(station.run_until(90.0, |s| sinking(s) == Some(MavLandedState::MAV_LANDED_STATE_LANDING) && s.place()[2] > -12.0));
     let left = station.place();
-    fly_by_hand(&mut station, 1000, 500, 3_000);
-    fly_by_hand(&mut station, 0, 500, 1_500);
+    fly_manually(&mut station, 1000, 500, 3_000);
+    fly_manually(&mut station, 0, 500, 1_500);
     let state =
         |s: &Station| s.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.mission_state) } else { None });
     assert_eq!(state(&station), Some(MissionState::MISSION_STATE_PAUSED), "the mission must be paused during landing");
@@ -235,11 +235,14 @@ fn flight_landing_paused_twice_resumes_its_descent() {
     continued(&mut station, true);
     assert!(station.run_until(60.0, |s| has_text(s, "Mission resumed from interruption point")));
     let back = station.place();
-    assert!(flat_m(back, left) < BACK_M && (back[2] - left[2]).abs() < BACK_M, "{left:?} {back:?}");
+    assert!(
+        horizontal_distance_m(back, left) < RESUME_TOLERANCE_M && (back[2] - left[2]).abs() < RESUME_TOLERANCE_M,
+        "{left:?} {back:?}"
+    );
     station.run_ms(1_500);
     assert!(station.place()[2] > back[2] + 0.5, "the vehicle must descend immediately: {back:?} to {:?}", station.place());
     assert!(station.run_until(90.0, |s| has_text(s, "Disarmed by landing")));
-    assert!(flat_m(station.place(), left) < BACK_M, "{left:?} {:?}", station.place());
+    assert!(horizontal_distance_m(station.place(), left) < RESUME_TOLERANCE_M, "{left:?} {:?}", station.place());
 }
 
 #[test]
@@ -259,9 +262,9 @@ fn flight_return_interrupted_during_descent_does_not_climb() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), OK);
     assert!(station.run_until(180.0, |s| has_text(s, "Home reached, landing") && s.place()[2] > -8.0), "{:?}", station.place());
     let left = station.place();
-    fly_by_hand(&mut station, 1000, 500, 6_000);
-    fly_by_hand(&mut station, 0, 500, 2_000);
-    assert!(flat_m(station.place(), left) > 10.0, "the pilot must have flown away");
+    fly_manually(&mut station, 1000, 500, 6_000);
+    fly_manually(&mut station, 0, 500, 2_000);
+    assert!(horizontal_distance_m(station.place(), left) > 10.0, "the pilot must have flown away");
     continued(&mut station, true);
     let mut highest = f32::INFINITY;
     assert!(station.run_until(120.0, |s| {

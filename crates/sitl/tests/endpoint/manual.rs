@@ -42,7 +42,7 @@ fn wire_rc_override_acts_like_sticks_with_transmitter_pitch() {
 }
 
 /// Returns the echoed channels 1 to 4 on each link after `send`.
-fn echoes(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(LinkId, [u16; 4])> {
+fn echoed_channels(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(LinkId, [u16; 4])> {
     let mut out = Vec::new();
     for _ in 0..4 {
         send(station);
@@ -68,14 +68,14 @@ fn wire_stick_echo_matches_the_input_on_each_link() {
         station.sim.open_link(SDK, LinkKind::Sdk, false);
         station.sim.open_link(SIDECAR, LinkKind::Payload, false);
         station.run_ms(1_000);
-        if flavour.asks_first {
+        if flavour.streams_on_request_only {
             let rate = [65.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
             assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, rate), MavResult::MAV_RESULT_ACCEPTED);
         }
         let wait = |station: &mut Station, sent: fn(&mut Station), [others, sidecar]: [[u16; 4]; 2]| {
-            let heard = echoes(station, sent);
+            let heard = echoed_channels(station, sent);
             assert!(heard.contains(&(GCS, others)) && heard.contains(&(SIDECAR, sidecar)), "{}: {heard:?}", flavour.name);
-            assert!(flavour.asks_first || heard.contains(&(SDK, others)), "{}: {heard:?}", flavour.name);
+            assert!(flavour.streams_on_request_only || heard.contains(&(SDK, others)), "{}: {heard:?}", flavour.name);
         };
         wait(&mut station, |s| channels(s, 1300, 1600), [[1500, 1300, 1600, 1500], [1500, 1700, 1600, 1500]]);
         // Values beyond full deflection must be clamped.
@@ -323,7 +323,7 @@ fn wire_first_sender_keeps_the_sticks_until_its_timeout() {
 }
 
 #[test]
-fn wire_parameter_gives_the_sticks_to_the_last_mover() {
+fn wire_parameter_gives_control_to_the_last_moved_sticks() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.open_link(OTHER_LINK, LinkKind::GroundStation, false);
     set(&mut station, "SPAN_STICKS", 1);

@@ -63,13 +63,17 @@ fn wire_region_of_interest_height_follows_the_flavor() {
                 ..Default::default()
             }));
             let steep = home.altitude as f32 / 1_000.0 + 50.0;
-            let wanted = if over_sea || flavour.looks_over_sea { 45.0 } else { steep.atan2(50.0).to_degrees() };
+            let wanted = if over_sea || flavour.roi_altitude_above_sea_level { 45.0 } else { steep.atan2(50.0).to_degrees() };
             let pitch = pitch_deg(&mut station);
             // The drone's estimate of its position is accurate to a meter.
             assert!((pitch - wanted).abs() < 1.5, "{} {frame:?}: {pitch} not {wanted}", flavour.name);
         }
     }
-    assert!(px4::FLAVOUR.looks_over_sea && !ardupilot::FLAVOUR.looks_over_sea && !generic::FLAVOUR.looks_over_sea);
+    assert!(
+        px4::FLAVOUR.roi_altitude_above_sea_level
+            && !ardupilot::FLAVOUR.roi_altitude_above_sea_level
+            && !generic::FLAVOUR.roi_altitude_above_sea_level
+    );
 }
 
 #[test]

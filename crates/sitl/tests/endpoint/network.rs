@@ -91,7 +91,7 @@ fn own(frames: &[ReceivedFrame]) -> Vec<(u32, u8)> {
 }
 
 /// Returns the maximum number of responses and forwarded frames of one link in a tick.
-fn share_of_a_tick(first: bool) -> usize {
+fn max_frames_per_tick(first: bool) -> usize {
     // The first call processes datagrams at its beginning and at its end.
     if first { 2 * MAX_DATAGRAMS_PER_TICK } else { MAX_DATAGRAMS_PER_TICK }
 }
@@ -125,7 +125,7 @@ fn wire_flood_is_bounded_per_tick_and_does_not_affect_fifty_peers() {
         let (quiet, loud) = (run_ms(&mut calm, 1), run_ms(&mut flooded, 1));
         let heard = |link: &LinkId| loud.get(link).map_or(&[][..], Vec::as_slice);
         let answers = heard(&FLOOD).iter().filter(|f| f.message_id == 111 && f.system_id == 1).count();
-        let most = share_of_a_tick(tick == 0);
+        let most = max_frames_per_tick(tick == 0);
         for link in peers.iter().chain([&GCS]) {
             let passed = heard(link).iter().filter(|f| f.system_id == 77 && f.message_id == 253).count();
             assert!(passed + answers <= most, "{passed} forwarded to {link:?} and {answers} answered in tick {tick}");
@@ -150,7 +150,7 @@ fn wire_flood_is_bounded_per_tick_and_does_not_affect_fifty_peers() {
 }
 
 #[test]
-fn wire_fifty_peers_receive_the_same_as_one() {
+fn wire_fifty_peers_receive_the_same_streams_as_one() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     let peers: Vec<LinkId> = (10..60).map(LinkId).collect();
     peers.iter().for_each(|peer| sim.open_link(*peer, LinkKind::GroundStation, false));

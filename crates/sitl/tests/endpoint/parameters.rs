@@ -2,10 +2,10 @@
 //! described, and take effect.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
-use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_beat};
+use super::copter::{ARM, AUTO, SET_MODE, copter, copter_at, mode, next_heartbeat};
 use spandrel_mavlink::dialect::*;
 use spandrel_sitl::autopilot::operator_rules::{
-    FailsafeResponse, HeadingRule, HeightReference, LinkLossExceptions, MissionNeeds, OffboardLoss, ReturnTargets,
+    FailsafeResponse, HeadingRule, HeightReference, LinkLossExceptions, MissionRequirement, OffboardLoss, ReturnTargets,
 };
 use spandrel_sitl::autopilot::{FlightMode, LinkLossAction, OperatorRules, Tuning};
 use spandrel_sitl::endpoint::params::param_view::{COPTER, PX4, ParamView};
@@ -25,7 +25,7 @@ const SUITE_PX4: &str = include_str!("names/suite-px4.tsv");
 const SUITE_COPTER: &str = include_str!("names/suite-copter.tsv");
 
 fn params(face: &'static ParamView) -> Params {
-    Params::new(1, AircraftValues::SMALL, face)
+    Params::new(1, AircraftValues::SMALL_AIRCRAFT, face)
 }
 
 /// Returns the names of a list, each with the fields of the autopilot's own description.
@@ -117,8 +117,8 @@ fn exact_default_parameters_give_the_default_tuning() {
     let mut expected = OperatorRules::default();
     // The parameter is transmitted with 32 bits.
     expected.responses.battery_emergency_pct = 100.0 * f64::from(0.05f32);
-    expected.responses.takeover_share = tuning.rules.responses.takeover_share;
-    assert!((tuning.rules.responses.takeover_share - 0.3).abs() < 1e-6);
+    expected.responses.takeover_deflection = tuning.rules.responses.takeover_deflection;
+    assert!((tuning.rules.responses.takeover_deflection - 0.3).abs() < 1e-6);
     assert_eq!(tuning.rules, expected);
 }
 
@@ -138,22 +138,22 @@ fn exact_px4_parameters_change_their_settings() {
             t.rules.responses.battery == [None, Some(FailsafeResponse::Return), Some(FailsafeResponse::Land)]
         }),
         ("COM_FAIL_ACT_T", 2.0, |t| t.failsafe_delay_s == 2.0),
-        ("COM_RC_OVERRIDE", 2.0, |t| !t.stick_takeover && t.rules.responses.takeover_offboard),
-        ("COM_RC_STICK_OV", 50.0, |t| t.rules.responses.takeover_share == 0.5),
-        ("COM_ARM_MIS_REQ", 1.0, |t| t.rules.responses.arm_needs_mission),
+        ("COM_RC_OVERRIDE", 2.0, |t| !t.stick_takeover && t.rules.responses.takeover_in_offboard),
+        ("COM_RC_STICK_OV", 50.0, |t| t.rules.responses.takeover_deflection == 0.5),
+        ("COM_ARM_MIS_REQ", 1.0, |t| t.rules.responses.arming_requires_mission),
         ("COM_ARM_BAT_MIN", 0.5, |t| t.rules.responses.arm_charge_pct == 50.0),
-        ("COM_POSCTL_NAVL", 1.0, |t| t.rules.responses.blind_lands),
+        ("COM_POSCTL_NAVL", 1.0, |t| t.rules.responses.lands_without_position),
         ("NAV_RCL_ACT", 5.0, |t| t.manual_loss == LinkLossAction::Terminate),
-        ("RTL_TYPE", 1.0, |t| t.rules.homeward.places == ReturnTargets { home: false, rally: true, mission_landing: true }),
-        ("RTL_LAND_DELAY", 12.0, |t| t.rules.homeward.wait_s == 12.0),
-        ("RTL_DESCEND_ALT", 7.0, |t| t.rules.homeward.loiter_height_m == Some(7.0)),
-        ("RTL_CONE_ANG", 45.0, |t| (t.rules.homeward.cone_slope - 1.0).abs() < 1e-9),
+        ("RTL_TYPE", 1.0, |t| t.rules.return_rules.places == ReturnTargets { home: false, rally: true, mission_landing: true }),
+        ("RTL_LAND_DELAY", 12.0, |t| t.rules.return_rules.wait_s == 12.0),
+        ("RTL_DESCEND_ALT", 7.0, |t| t.rules.return_rules.loiter_height_m == Some(7.0)),
+        ("RTL_CONE_ANG", 45.0, |t| (t.rules.return_rules.cone_slope - 1.0).abs() < 1e-9),
         ("MPC_ACC_HOR", 2.0, |t| t.rules.envelope.acceleration_m_s2 == 2.0),
         ("MPC_VEL_MANUAL", 3.0, |t| t.rules.envelope.manual_m_s == 3.0),
         ("MPC_MAN_Y_MAX", 90.0, |t| (t.rules.envelope.manual_yaw_rad_s - 90f64.to_radians()).abs() < 1e-12),
         ("MPC_YAW_MODE", 5.0, |t| t.rules.heading == HeadingRule::Fixed),
         ("MPC_Z_V_AUTO_UP", 1.0, |t| t.climb_m_s == 1.0),
-        ("MIS_TKO_LAND_REQ", 4.0, |t| t.rules.mission_needs == MissionNeeds::BothOrNeither),
+        ("MIS_TKO_LAND_REQ", 4.0, |t| t.rules.mission_requirement == MissionRequirement::BothOrNeither),
         ("MIS_TAKEOFF_ALT", 100.0, |t| t.takeoff_height_m == 100.0),
     ];
     for (name, value, holds) in checks {
@@ -173,14 +173,14 @@ fn exact_copter_parameters_change_their_settings() {
         ("BATT_FS_CRT_ACT", 5.0, |t| t.rules.responses.battery[1] == Some(FailsafeResponse::Terminate)),
         ("BATT_LOW_VOLT", 10.5, |t| t.rules.responses.battery_low_v == [10.5, 0.0]),
         ("BATT_ARM_VOLT", 11.0, |t| t.rules.responses.arm_voltage_v == 11.0),
-        ("FS_EKF_ACTION", 1.0, |t| t.rules.responses.blind_lands),
+        ("FS_EKF_ACTION", 1.0, |t| t.rules.responses.lands_without_position),
         ("FS_CRASH_CHECK", 0.0, |t| !t.rules.responses.crash_check),
-        ("RTL_SPEED", 250.0, |t| t.rules.homeward.speed_m_s == Some(2.5)),
-        ("RTL_ALT_FINAL", 300.0, |t| t.rules.homeward.final_height_m == 3.0),
-        ("RTL_LOIT_TIME", 2_000.0, |t| t.rules.homeward.wait_s == 2.0),
-        ("RTL_CLIMB_MIN", 400.0, |t| t.rules.homeward.climb_min_m == 4.0),
-        ("RTL_CONE_SLOPE", 3.0, |t| t.rules.homeward.cone_slope == 3.0),
-        ("RALLY_INCL_HOME", 0.0, |t| !t.rules.homeward.places.home),
+        ("RTL_SPEED", 250.0, |t| t.rules.return_rules.speed_m_s == Some(2.5)),
+        ("RTL_ALT_FINAL", 300.0, |t| t.rules.return_rules.final_height_m == 3.0),
+        ("RTL_LOIT_TIME", 2_000.0, |t| t.rules.return_rules.wait_s == 2.0),
+        ("RTL_CLIMB_MIN", 400.0, |t| t.rules.return_rules.climb_min_m == 4.0),
+        ("RTL_CONE_SLOPE", 3.0, |t| t.rules.return_rules.cone_slope == 3.0),
+        ("RALLY_INCL_HOME", 0.0, |t| !t.rules.return_rules.places.home),
         ("WP_YAW_BEHAVIOR", 0.0, |t| t.rules.heading == HeadingRule::Fixed),
         ("MIS_RESTART", 1.0, |t| t.rules.mission_restarts),
         ("CIRCLE_RADIUS", 1_200.0, |t| t.rules.orbit_radius_m == 12.0),
@@ -270,7 +270,7 @@ fn wire_throttle_below_fs_thr_value_counts_as_rc_loss() {
             station.send(&pulses([1_500, 1_500, throttle, 1_500]));
             station.run_ms(100);
         }
-        assert_eq!(next_beat(&mut station).custom_mode, number, "throttle {throttle} us: {:?}", station.texts());
+        assert_eq!(next_heartbeat(&mut station).custom_mode, number, "throttle {throttle} us: {:?}", station.texts());
         station.send(&pulses([1_500; 4]));
         station.run_ms(50);
     }
@@ -329,10 +329,11 @@ fn flight_com_act_fail_act_terminates_on_a_failed_motor() {
 #[test]
 fn exact_rc_loss_exceptions_cover_the_right_modes() {
     for mode in [FlightMode::Land, FlightMode::Return] {
-        assert!(LinkLossExceptions::default().cover(mode), "{mode:?}");
+        assert!(LinkLossExceptions::default().includes(mode), "{mode:?}");
     }
     assert!(
-        !LinkLossExceptions::default().cover(FlightMode::Mission) && LinkLossExceptions::from_bits(1).cover(FlightMode::Mission)
+        !LinkLossExceptions::default().includes(FlightMode::Mission)
+            && LinkLossExceptions::from_bits(1).includes(FlightMode::Mission)
     );
 }
 

@@ -56,7 +56,7 @@ fn regress_rejections_takeoff_landing_and_rc_loss_are_defined_events() {
     assert_shown(&station, "Arming denied", 2);
     station.sticks(0, 0, 500, 0);
     station.run_ms(60);
-    station.climb_by_hand();
+    station.climb_manually();
     assert_shown(&station, "Takeoff detected", 6);
     // The pilot stops sending.
     station.run_ms(2_000);

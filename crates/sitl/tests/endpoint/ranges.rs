@@ -41,10 +41,10 @@ fn finders() -> Vec<(MavSensorOrientation, Vec3<Frd>)> {
 }
 
 /// Returns the job with its pad at a position and the drone at a heading, without traffic.
-fn placed_at(base: &Scenario, place_m: Vec3<Enu>, heading_deg: f64) -> Scenario {
+fn placed_at(base: &Scenario, position_m: Vec3<Enu>, heading_deg: f64) -> Scenario {
     let mut job = base.clone();
     (job.traffic.cars, job.traffic.trucks, job.traffic.pedestrians) = (0, 0, 0);
-    job.ground_team.pad_m = place_m;
+    job.ground_team.pad_m = position_m;
     job.ground_team.pad_heading_deg = heading_deg;
     job
 }

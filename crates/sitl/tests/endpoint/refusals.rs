@@ -98,7 +98,7 @@ fn wire_lockstep_response_must_be_addressed_and_signed() {
     let mut encoder = Encoder::new(1, 191);
     sim.handle_datagram(SIDECAR, &timesync(&mut encoder, token, 200));
     assert!(sim.waiting(), "a response to another client must not advance time");
-    sim.demand_signatures(SigningKey::from_passphrase("bridge over water"), STAMP, &[]);
+    sim.require_signatures(SigningKey::from_passphrase("bridge over water"), STAMP, &[]);
     sim.set_signing_time(STAMP);
     let bare = timesync(&mut encoder, token, 0);
     sim.handle_datagram(SIDECAR, &bare);

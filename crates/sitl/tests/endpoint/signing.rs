@@ -17,7 +17,7 @@ fn key() -> SigningKey {
 fn signed_vehicle() -> Sim {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(SIDECAR, LinkKind::Payload, false);
-    sim.demand_signatures(key(), NOW, &[]);
+    sim.require_signatures(key(), NOW, &[]);
     sim.set_signing_time(NOW);
     sim
 }
@@ -105,7 +105,7 @@ fn wire_unsigned_sidecar_is_forwarded_but_cannot_command() {
 fn wire_unsigned_frames_require_a_trusted_link() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(SIDECAR, LinkKind::Sdk, false);
-    sim.demand_signatures(key(), NOW, &[LinkKind::Sdk]);
+    sim.require_signatures(key(), NOW, &[LinkKind::Sdk]);
     let mut encoder = Encoder::new(255, 190);
     sim.handle_datagram(SIDECAR, &lamp_on(&mut encoder));
     assert_eq!(messages(&mut sim), [(SIDECAR, "ack")]);

@@ -276,12 +276,12 @@ fn regress_lockstep_starts_with_the_first_response() {
         "time must not advance before the first response"
     );
     heard(&mut sim);
-    sim.send_first_contact();
+    sim.send_first_heartbeats();
     let knocked = heard(&mut sim);
     let beats = knocked.iter().filter(|m| matches!(m, MavMessage::HEARTBEAT(_))).count();
     let asks = knocked.iter().filter(|m| matches!(m, MavMessage::TIMESYNC(t) if t.ts1 == 20_000_000)).count();
     assert!(beats > 0 && asks == 1, "the vehicle must be discoverable and repeat its request: {knocked:?}");
-    sim.skip_first_responses();
+    sim.stop_awaiting_first_responses();
     assert!(sim.runs_in_real_time() && !sim.waiting());
     sim.handle_timeout(SimTime::from_ms(1_000));
     assert_eq!(sim.now(), SimTime::from_ms(1_000), "a peer without lockstep must not stop time");

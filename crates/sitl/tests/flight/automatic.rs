@@ -26,7 +26,7 @@ fn flight_every_aircraft_can_arm_within_2_s() {
 #[test]
 fn flight_arming_rejection_lists_all_reasons() {
     let mut bench = Bench::new(&vehicle("phantom2"), 1);
-    bench.jammed = true;
+    bench.gnss_lost = true;
     bench.run(2.0, |_| ());
     bench.sticks = Some(Sticks { forward: 0.5, ..Sticks::default() });
     bench.run(0.1, |_| ());

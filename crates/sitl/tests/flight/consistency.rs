@@ -72,7 +72,7 @@ pub(super) struct Run {
 
 impl Run {
     /// Creates a run under an open sky, without optical flow, with the ground always within the range finder's reach.
-    pub(super) fn in_the_open(seed: u64, ground_up_m: fn(SimTime) -> f64) -> Self {
+    pub(super) fn under_open_sky(seed: u64, ground_up_m: fn(SimTime) -> f64) -> Self {
         let mut vehicle = vehicle("phantom2");
         vehicle.sensors.flow_velocity_m_s = 0.0;
         vehicle.sensors.range_max_m = 30.0;
@@ -202,7 +202,7 @@ fn prop_normalized_error_is_within_its_95_percent_band() {
 }
 
 #[test]
-fn prop_normalized_error_is_within_its_band_for_every_supplied_aircraft() {
+fn prop_normalized_error_is_within_its_band_for_every_shipped_aircraft() {
     for name in VEHICLES {
         let vehicle = vehicle(name);
         assert!(vehicle.sensors.flow_velocity_m_s > 0.0, "{name} has no optical flow, so the test is pointless");

@@ -8,7 +8,7 @@ use spandrel_testkit::shipped::vehicle;
 
 #[test]
 fn flight_stick_loss_holds_and_recovery_restores_the_mode() {
-    let mut bench = Bench::by_hand(&vehicle("phantom2"), 5, 6.0);
+    let mut bench = Bench::in_position_mode(&vehicle("phantom2"), 5, 6.0);
     bench.sticks = Some(Sticks { forward: 0.3, ..Sticks::default() });
     bench.run(2.0, |_| ());
     bench.sticks = None;
@@ -27,7 +27,7 @@ fn flight_stick_loss_holds_and_recovery_restores_the_mode() {
 #[test]
 fn flight_lost_sticks_return_or_land_if_enabled() {
     for (action, mode) in [(LinkLossAction::Return, FlightMode::Return), (LinkLossAction::Land, FlightMode::Land)] {
-        let mut bench = Bench::by_hand(&vehicle("phantom2"), 5, 6.0);
+        let mut bench = Bench::in_position_mode(&vehicle("phantom2"), 5, 6.0);
         bench.autopilot.tuning.manual_loss = action;
         bench.sticks = None;
         bench.run(4.0, |_| ());
@@ -40,7 +40,7 @@ fn flight_lost_sticks_return_or_land_if_enabled() {
 }
 
 #[test]
-fn flight_a_lost_ground_station_acts_if_enabled() {
+fn flight_ground_station_loss_acts_if_enabled() {
     for (action, mode) in [(LinkLossAction::Ignore, FlightMode::Hold), (LinkLossAction::Return, FlightMode::Return)] {
         let mut bench = Bench::airborne(&vehicle("phantom2"), 6, 6.0);
         bench.autopilot.tuning.data_link_loss = action;
@@ -53,13 +53,13 @@ fn flight_a_lost_ground_station_acts_if_enabled() {
 }
 
 #[test]
-fn flight_without_satellites_is_controllable_with_optical_flow() {
+fn flight_without_gnss_is_controllable_with_optical_flow() {
     // Maximum drift in two minutes, m.
     const DRIFT_M: f64 = 2.0;
     for name in VEHICLES {
-        let mut bench = Bench::by_hand(&vehicle(name), 7, 6.0);
+        let mut bench = Bench::in_position_mode(&vehicle(name), 7, 6.0);
         let start = bench.position();
-        bench.jammed = true;
+        bench.gnss_lost = true;
         bench.run(120.0, |_| ());
         let status = bench.autopilot.status();
         assert_eq!((status.mode, status.failsafe.clone()), (FlightMode::Position, None), "{name}");
@@ -73,9 +73,9 @@ fn flight_without_position_keeps_height_and_tilt_control() {
     // Maximum change of height in two minutes, m: drift of the barometer.
     const HEIGHT_M: f64 = 1.0;
     for name in VEHICLES {
-        let mut bench = Bench::by_hand(&vehicle(name), 8, 8.0);
+        let mut bench = Bench::in_position_mode(&vehicle(name), 8, 8.0);
         let height = bench.position().down();
-        (bench.jammed, bench.dark) = (true, true);
+        (bench.gnss_lost, bench.flow_lost) = (true, true);
         bench.run(120.0, |_| ());
         let status = bench.autopilot.status().clone();
         assert_eq!(status.mode, FlightMode::Altitude, "{name}");
@@ -87,7 +87,7 @@ fn flight_without_position_keeps_height_and_tilt_control() {
         let (_, pitch, _) = bench.state.rigid.attitude.euler();
         assert!(pitch < -0.05, "{name}: the stick has no effect on tilt: {pitch}");
         bench.sticks = Some(Sticks::default());
-        (bench.jammed, bench.dark) = (false, false);
+        (bench.gnss_lost, bench.flow_lost) = (false, false);
         bench.run(20.0, |_| ());
         let status = bench.autopilot.status().clone();
         assert_eq!((status.mode, status.failsafe), (FlightMode::Position, None), "{name}");
@@ -98,14 +98,14 @@ fn flight_without_position_keeps_height_and_tilt_control() {
 #[test]
 fn flight_without_position_and_pilot_lands() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 9, 4.0);
-    (bench.jammed, bench.dark) = (true, true);
+    (bench.gnss_lost, bench.flow_lost) = (true, true);
     bench.run(90.0, |_| ());
     let status = bench.autopilot.status();
     assert!(!status.armed && status.landed == LandedState::OnGround, "{status:?} {:?}", bench.position());
 }
 
 #[test]
-fn flight_a_low_battery_returns_if_enabled() {
+fn flight_low_battery_returns_if_enabled() {
     for (returns, mode) in [(false, FlightMode::Hold), (true, FlightMode::Return)] {
         let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = returns);
         bench.take_off(6.0);
@@ -122,7 +122,7 @@ fn flight_a_low_battery_returns_if_enabled() {
 }
 
 #[test]
-fn flight_a_critical_battery_lands_if_enabled() {
+fn flight_critical_battery_lands_if_enabled() {
     for (returns, mode) in [(false, FlightMode::Hold), (true, FlightMode::Land)] {
         let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = returns);
         bench.take_off(6.0);
@@ -140,7 +140,7 @@ fn flight_a_critical_battery_lands_if_enabled() {
 }
 
 #[test]
-fn flight_a_takeoff_with_a_low_battery_returns_once() {
+fn flight_takeoff_with_low_battery_returns_once() {
     let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = true);
     bench.state.battery.charge = 0.01 * (bench.autopilot.tuning.battery_low_pct - 0.5);
     bench.run(2.0, |_| ());
@@ -178,7 +178,7 @@ fn flight_recovers_from_an_upset() {
 }
 
 #[test]
-fn flight_upside_down_on_the_ground_stops_the_motors() {
+fn flight_flipped_vehicle_on_the_ground_stops_its_motors() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 13, 3.0);
     bench.state.rigid.attitude = Rotation::from_euler(math::PI, 0.0, 0.0);
     bench.state.rigid.position_m = Vec3::<Ned>::new(0.0, 0.0, -0.15);
@@ -191,7 +191,7 @@ fn flight_upside_down_on_the_ground_stops_the_motors() {
 #[test]
 fn flight_respawned_vehicle_hovers() {
     for name in VEHICLES {
-        let mut bench = Bench::by_hand(&vehicle(name), 14, 5.0);
+        let mut bench = Bench::in_position_mode(&vehicle(name), 14, 5.0);
         bench.ask(AutopilotRequest::Disarm { force: true });
         bench.run(4.0, |_| ());
         let place = Vec3::<Ned>::new(6.0, -4.0, -7.0);

@@ -29,8 +29,8 @@ struct Case {
 impl Case {
     /// Returns the error of the estimated height, m, and whether all sensors were used until the end.
     fn height_off_m(&self) -> (f64, bool) {
-        let mut run = Run::in_the_open(3, self.ground_up_m);
-        run.filter.wanted_reference = self.reference;
+        let mut run = Run::under_open_sky(3, self.ground_up_m);
+        run.filter.configured_reference = self.reference;
         let mut used = true;
         while run.now < SimTime::from_s(100.0) {
             run.tick_with(self.change);
@@ -41,17 +41,17 @@ impl Case {
     }
 }
 
-fn nothing_changes(_: &mut Readings, _: SimTime) {}
+fn no_change(_: &mut Readings, _: SimTime) {}
 
-fn ground_sinks(now: SimTime) -> f64 {
+fn lower_ground(now: SimTime) -> f64 {
     -error_at_m(now)
 }
 
-fn barometer_rises(readings: &mut Readings, now: SimTime) {
+fn raise_barometer(readings: &mut Readings, now: SimTime) {
     readings.baro_up_m = readings.baro_up_m.map(|up| up + error_at_m(now));
 }
 
-fn receiver_rises(readings: &mut Readings, now: SimTime) {
+fn raise_receiver(readings: &mut Readings, now: SimTime) {
     if let Some(fix) = &mut readings.gnss {
         fix.position_m += Vec3::new(0.0, 0.0, -error_at_m(now));
     }
@@ -62,12 +62,12 @@ fn regress_height_follows_its_reference_sensor() {
     use HeightReference::{Barometer, Gnss, RangeFinder};
     let case = |reference, change, ground_up_m, wanted_m| Case { reference, change, ground_up_m, wanted_m };
     let cases = [
-        case(Barometer, barometer_rises, flat, ERROR_M),
-        case(Gnss, barometer_rises, flat, 0.0),
-        case(Barometer, receiver_rises, flat, 0.0),
-        case(RangeFinder, nothing_changes, ground_sinks, ERROR_M),
-        case(RangeFinder, barometer_rises, flat, 0.0),
-        case(Gnss, nothing_changes, ground_sinks, 0.0),
+        case(Barometer, raise_barometer, flat, ERROR_M),
+        case(Gnss, raise_barometer, flat, 0.0),
+        case(Barometer, raise_receiver, flat, 0.0),
+        case(RangeFinder, no_change, lower_ground, ERROR_M),
+        case(RangeFinder, raise_barometer, flat, 0.0),
+        case(Gnss, no_change, lower_ground, 0.0),
     ];
     for (k, case) in cases.iter().enumerate() {
         let (off, used) = case.height_off_m();
@@ -79,13 +79,13 @@ fn regress_height_follows_its_reference_sensor() {
 #[test]
 fn regress_gnss_replaces_a_lost_height_reference() {
     let silent = |readings: &mut Readings, now: SimTime| {
-        barometer_rises(readings, now);
+        raise_barometer(readings, now);
         if now > SimTime::from_s(90.0) {
             readings.baro_up_m = None;
         }
     };
-    let mut run = Run::in_the_open(4, flat);
-    run.filter.wanted_reference = HeightReference::Barometer;
+    let mut run = Run::under_open_sky(4, flat);
+    run.filter.configured_reference = HeightReference::Barometer;
     let mut largest_step: f64 = 0.0;
     let mut before = run.filter.estimate().position_m.down();
     while run.now < SimTime::from_s(400.0) {

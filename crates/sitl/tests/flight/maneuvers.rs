@@ -19,11 +19,11 @@ fn flight_hover_is_steady() {
     // Maximum deviation, m: the receiver's slow drift of 0.4 m (1 sigma) over half a minute.
     const MAX_DEVIATION_M: f64 = 0.8;
     // Maximum tilt, rad: one and a half degrees.
-    const LEAN_RAD: f64 = 0.026;
+    const MAX_TILT_RAD: f64 = 0.026;
     // Maximum speed, m/s.
     const SPEED_M_S: f64 = 0.25;
     for name in VEHICLES {
-        let mut bench = Bench::by_hand(&vehicle(name), 1, 6.0);
+        let mut bench = Bench::in_position_mode(&vehicle(name), 1, 6.0);
         let start = bench.position();
         let (mut stray, mut lean, mut speed): (f64, f64, f64) = (0.0, 0.0, 0.0);
         bench.run(30.0, |b| {
@@ -32,7 +32,10 @@ fn flight_hover_is_steady() {
             lean = lean.max(roll.abs()).max(pitch.abs());
             speed = speed.max(b.state.rigid.velocity_m_s.norm());
         });
-        assert!(stray < MAX_DEVIATION_M && lean < LEAN_RAD && speed < SPEED_M_S, "{name}: {stray} m, {lean} rad, {speed} m/s");
+        assert!(
+            stray < MAX_DEVIATION_M && lean < MAX_TILT_RAD && speed < SPEED_M_S,
+            "{name}: {stray} m, {lean} rad, {speed} m/s"
+        );
     }
 }
 
@@ -44,7 +47,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
     const OVERSHOOT: f64 = 0.08;
     const STOPPED: f64 = 0.1;
     // Maximum backward speed after the stop, m/s.
-    const BACK_M_S: f64 = 0.2;
+    const MAX_BACKWARD_M_S: f64 = 0.2;
     // Maximum change of height during the maneuver, m.
     const HEIGHT_M: f64 = 0.3;
     // The highest speed that inspection requires: 4.5 m/s, the job's speed limit.
@@ -52,7 +55,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
     for name in VEHICLES {
         let aircraft = vehicle(name);
         let wanted = INSPECTION_M_S.min(0.5 * aircraft.limits.forward_m_s);
-        let mut bench = Bench::by_hand(&aircraft, 2, 8.0);
+        let mut bench = Bench::in_position_mode(&aircraft, 2, 8.0);
         let height = bench.position().down();
         bench.sticks = Some(Sticks { forward: stick(wanted / aircraft.limits.forward_m_s), ..Sticks::default() });
         let (mut peak, mut sag): (f64, f64) = (0.0, 0.0);
@@ -74,23 +77,23 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
             back = back.min(b.state.rigid.velocity_m_s.north());
             sag = sag.max((b.position().down() - height).abs());
         });
-        assert!(back > -BACK_M_S && sag < HEIGHT_M, "{name}: {back} m/s backward, lost {sag} m of height");
+        assert!(back > -MAX_BACKWARD_M_S && sag < HEIGHT_M, "{name}: {back} m/s backward, lost {sag} m of height");
     }
 }
 
 #[test]
 fn flight_full_stick_reaches_full_speed_on_every_axis() {
     // Tolerance as a fraction of the full speed.
-    const SHORT: f64 = 0.06;
+    const SPEED_TOLERANCE: f64 = 0.06;
     for name in VEHICLES {
         let aircraft = vehicle(name);
         let l = aircraft.limits;
-        let mut bench = Bench::by_hand(&aircraft, 3, 30.0);
+        let mut bench = Bench::in_position_mode(&aircraft, 3, 30.0);
         let mut check = |sticks: Sticks, seconds: f64, wanted: f64, speed: &dyn Fn(&Bench) -> f64| {
             bench.sticks = Some(sticks);
             bench.run(seconds, |_| ());
             let got = speed(&bench);
-            assert!((got - wanted).abs() < SHORT * wanted, "{name}: {got} of {wanted} for {sticks:?}");
+            assert!((got - wanted).abs() < SPEED_TOLERANCE * wanted, "{name}: {got} of {wanted} for {sticks:?}");
             bench.sticks = Some(Sticks::default());
             bench.run(4.0, |_| ());
         };
@@ -103,12 +106,12 @@ fn flight_full_stick_reaches_full_speed_on_every_axis() {
 }
 
 #[test]
-fn flight_stick_flown_circle_is_round() {
+fn flight_manually_flown_circle_is_round() {
     // Tolerance as a fraction of the radius.
-    const ROUND: f64 = 0.08;
+    const RADIUS_TOLERANCE: f64 = 0.08;
     for name in VEHICLES {
         let aircraft = vehicle(name);
-        let mut bench = Bench::by_hand(&aircraft, 3, 8.0);
+        let mut bench = Bench::in_position_mode(&aircraft, 3, 8.0);
         let (speed, rate) = (3.0, 0.5);
         bench.sticks = Some(Sticks {
             forward: stick(speed / aircraft.limits.forward_m_s),
@@ -122,8 +125,8 @@ fn flight_stick_flown_circle_is_round() {
         let radii: Vec<f64> = points.iter().map(|p| (*p - centre).horizontal_norm()).collect();
         let mean = radii.iter().sum::<f64>() / radii.len() as f64;
         let worst = radii.iter().map(|r| (r - mean).abs()).fold(0.0, f64::max);
-        assert!((mean - speed / rate).abs() < ROUND * speed / rate, "{name}: radius {mean}");
-        assert!(worst < ROUND * mean, "{name}: {worst} off {mean}");
+        assert!((mean - speed / rate).abs() < RADIUS_TOLERANCE * speed / rate, "{name}: radius {mean}");
+        assert!(worst < RADIUS_TOLERANCE * mean, "{name}: {worst} off {mean}");
     }
 }
 
@@ -131,15 +134,15 @@ fn flight_stick_flown_circle_is_round() {
 fn flight_recovers_from_a_gust() {
     // Maximum deviation after a wind step of 6 m/s, m, and deviation that remains after a quarter of a minute.
     const MAX_DEVIATION_M: f64 = 0.9;
-    const LEFT_M: f64 = 0.6;
+    const MAX_REMAINING_M: f64 = 0.6;
     for name in VEHICLES {
-        let mut bench = Bench::by_hand(&vehicle(name), 4, 8.0);
+        let mut bench = Bench::in_position_mode(&vehicle(name), 4, 8.0);
         let start = bench.position();
         bench.air.velocity_m_s = Vec3::new(6.0, 0.0, 0.0);
         let mut worst: f64 = 0.0;
         bench.run(15.0, |b| worst = worst.max((b.position() - start).norm()));
         let left = (bench.position() - start).norm();
-        assert!(worst < MAX_DEVIATION_M && left < LEFT_M, "{name}: strayed {worst} m, left {left} m");
+        assert!(worst < MAX_DEVIATION_M && left < MAX_REMAINING_M, "{name}: strayed {worst} m, left {left} m");
         let nose = bench.state.rigid.attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
         assert!(nose.down() < 0.0, "{name} must lean back against wind from behind: {nose:?}");
     }
@@ -148,10 +151,10 @@ fn flight_recovers_from_a_gust() {
 #[test]
 fn flight_saturated_motors_keep_the_vehicle_upright() {
     // Maximum excess over the tilt limit, rad.
-    const BEYOND_RAD: f64 = 0.1;
+    const MAX_TILT_EXCESS_RAD: f64 = 0.1;
     for name in VEHICLES {
         let aircraft = vehicle(name);
-        let mut bench = Bench::by_hand(&aircraft, 5, 20.0);
+        let mut bench = Bench::in_position_mode(&aircraft, 5, 20.0);
         // In this mode the throttle stick sets thrust. It is at its maximum, while the other sticks swing from end to
         // end.
         bench.ask(AutopilotRequest::SetMode(FlightMode::Stabilized));
@@ -165,7 +168,7 @@ fn flight_saturated_motors_keep_the_vehicle_upright() {
             });
         }
         assert!(full, "{name}: no motor was saturated, so the test is pointless");
-        assert!(lean < aircraft.limits.tilt_rad + BEYOND_RAD, "{name}: tilt {lean} rad");
+        assert!(lean < aircraft.limits.tilt_rad + MAX_TILT_EXCESS_RAD, "{name}: tilt {lean} rad");
         bench.sticks = Some(Sticks::default());
         bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
         bench.run(8.0, |_| ());
@@ -180,7 +183,7 @@ fn flight_stops_from_full_speed_in_time() {
     for name in VEHICLES {
         let aircraft = vehicle(name);
         for sticks in [Sticks { forward: 1.0, ..Sticks::default() }, Sticks { right: -1.0, ..Sticks::default() }] {
-            let mut bench = Bench::by_hand(&aircraft, 2, 8.0);
+            let mut bench = Bench::in_position_mode(&aircraft, 2, 8.0);
             bench.sticks = Some(sticks);
             bench.run(12.0, |_| ());
             let full = bench.state.rigid.velocity_m_s.horizontal_norm();
@@ -213,21 +216,21 @@ fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
 #[test]
 fn regress_yaw_release_does_not_swing_back() {
     // Limit of issue 16, rad (1 deg); a real PX4 swings back by 0.4 deg.
-    const SWING_RAD: f64 = 0.017_453;
+    const MAX_SWING_BACK_RAD: f64 = 0.017_453;
     // Slowing from 100 deg/s to rest in 0.3 s takes 15 deg; half as much again for the lag, rad.
-    const ON_RAD: f64 = 0.393;
+    const MAX_OVERSHOOT_RAD: f64 = 0.393;
     // Initial height, m; in Stabilized mode, the vehicle sinks with the throttle stick centered.
-    const HIGH_M: f64 = 40.0;
+    const START_HEIGHT_M: f64 = 40.0;
     for name in VEHICLES {
         let aircraft = vehicle(name);
         for mode in [FlightMode::Position, FlightMode::Altitude, FlightMode::Stabilized] {
             for yaw in [1.0, -1.0, 0.4] {
-                let mut bench = Bench::by_hand(&aircraft, 6, HIGH_M);
+                let mut bench = Bench::in_position_mode(&aircraft, 6, START_HEIGHT_M);
                 bench.ask(AutopilotRequest::SetMode(mode));
                 let (swing, on) = release_yaw(&mut bench, yaw);
                 assert!(bench.position().down() < -1.0, "{name}, {mode:?}: on the ground");
-                assert!(swing < SWING_RAD, "{name}, {mode:?}, stick {yaw}: swings back {} deg", swing.to_degrees());
-                assert!(on < ON_RAD, "{name}, {mode:?}, stick {yaw}: continues for {} deg", on.to_degrees());
+                assert!(swing < MAX_SWING_BACK_RAD, "{name}, {mode:?}, stick {yaw}: swings back {} deg", swing.to_degrees());
+                assert!(on < MAX_OVERSHOOT_RAD, "{name}, {mode:?}, stick {yaw}: continues for {} deg", on.to_degrees());
             }
         }
     }

@@ -4,8 +4,8 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_sitl::autopilot::FenceAction;
 use spandrel_sitl::autopilot::operator_rules::{
-    FailsafeResponse, FenceParts, FenceSwitching, HeadingRule, LinkLossExceptions, MissionNeeds, OffboardLoss, ReturnTargets,
-    SCENARIO_BATTERY_ACTIONS,
+    FailsafeResponse, FenceAutoEnable, FenceParts, HeadingRule, LinkLossExceptions, MissionRequirement, OffboardLoss,
+    ReturnTargets, SCENARIO_BATTERY_ACTIONS,
 };
 use spandrel_sitl::autopilot::{
     AutopilotRequest, FlightMode, LandedState, MissionStep, OffboardSetpoint, RequestOutcome, Sticks, Tuning,
@@ -14,7 +14,7 @@ use spandrel_testkit::bench::Bench;
 use spandrel_testkit::shipped::vehicle;
 
 /// Overshoot factor for speed limits: the velocity loop overshoots slightly.
-const SPEED_SHARE: f64 = 1.1;
+const SPEED_OVERSHOOT: f64 = 1.1;
 /// Acceleration tolerance, m/s²: contribution of the control loops.
 const ACCELERATION_M_S2: f64 = 0.5;
 /// Height tolerance, m: barometer noise and control loops.
@@ -131,7 +131,7 @@ fn flight_arming_requirements_follow_their_settings() {
     bench.run(2.0, |_| ());
     bench.ask(AutopilotRequest::Arm { force: false });
     bench.ask(AutopilotRequest::Disarm { force: true });
-    bench.autopilot.tuning.rules.responses.arm_needs_mission = true;
+    bench.autopilot.tuning.rules.responses.arming_requires_mission = true;
     bench.autopilot.tuning.rules.responses.arm_voltage_v = 100.0;
     let reasons = bench.autopilot.arming_reasons(bench.now);
     assert_eq!(reasons, ["Battery voltage too low", "No mission"]);
@@ -144,7 +144,7 @@ fn flight_arming_requirements_follow_their_settings() {
 fn flight_return_respects_speed_delay_and_final_height() {
     let mut bench = airborne(|tuning| {
         tuning.return_height_m = 8.0;
-        let rules = &mut tuning.rules.homeward;
+        let rules = &mut tuning.rules.return_rules;
         (rules.speed_m_s, rules.loiter_height_m, rules.wait_s, rules.final_height_m) = (Some(2.0), None, 4.0, 3.0);
     });
     away(&mut bench, 30.0);
@@ -158,7 +158,7 @@ fn flight_return_respects_speed_delay_and_final_height() {
             over_home_s += 0.001;
         }
     });
-    assert!(fastest < 2.0 * SPEED_SHARE && fastest > 1.5, "{fastest} m/s");
+    assert!(fastest < 2.0 * SPEED_OVERSHOOT && fastest > 1.5, "{fastest} m/s");
     assert!(over_home_s > 4.0, "waited {over_home_s} s");
     let status = bench.autopilot.status();
     assert!(status.armed && status.landed == LandedState::InAir, "{status:?}");
@@ -169,7 +169,7 @@ fn flight_return_respects_speed_delay_and_final_height() {
 fn flight_negative_delay_keeps_the_return_hovering() {
     let mut bench = airborne(|tuning| {
         tuning.return_height_m = 8.0;
-        (tuning.rules.homeward.loiter_height_m, tuning.rules.homeward.wait_s) = (Some(5.0), -1.0);
+        (tuning.rules.return_rules.loiter_height_m, tuning.rules.return_rules.wait_s) = (Some(5.0), -1.0);
     });
     away(&mut bench, 15.0);
     bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
@@ -183,7 +183,7 @@ fn flight_return_height_follows_cone_and_minimum_climb() {
     for (cone_slope, climb_min_m, height_m) in [(0.0, 0.0, 20.0), (0.5, 0.0, 10.0), (0.5, 7.0, 13.0)] {
         let mut bench = airborne(|tuning| {
             tuning.return_height_m = 20.0;
-            let rules = &mut tuning.rules.homeward;
+            let rules = &mut tuning.rules.return_rules;
             (rules.cone_slope, rules.climb_min_m, rules.loiter_height_m) = (cone_slope, climb_min_m, None);
         });
         away(&mut bench, 20.0);
@@ -197,7 +197,7 @@ fn flight_return_height_follows_cone_and_minimum_climb() {
 #[test]
 fn flight_return_destination_follows_its_type() {
     use spandrel_sitl::autopilot::home::RallyPoint;
-    let rally = RallyPoint { place_m: Vec3::new(30.0, 10.0, 0.0), over_home: false };
+    let rally = RallyPoint { position_m: Vec3::new(30.0, 10.0, 0.0), home_relative: false };
     let landing = MissionStep::Land { position_m: Some(Vec3::new(0.0, 30.0, 0.0)) };
     let cases = [
         (ReturnTargets { home: true, rally: true, mission_landing: false }, (30.0, 10.0)),
@@ -208,7 +208,7 @@ fn flight_return_destination_follows_its_type() {
     for (places, (north, east)) in cases {
         let mut bench = airborne(|tuning| {
             tuning.return_height_m = 8.0;
-            tuning.rules.homeward.places = places;
+            tuning.rules.return_rules.places = places;
         });
         bench.autopilot.set_rally_points(vec![rally]);
         bench.autopilot.set_mission(vec![landing]);
@@ -262,7 +262,7 @@ fn flight_manual_and_automatic_limits_are_respected() {
         assert_eq!(kept, limit.is_finite(), "limit {limit}: {speed} m/s after 2 s");
     }
     // Speed, climb, descent and yaw rate with the sticks.
-    let mut bench = Bench::by_hand(&vehicle("phantom2"), 5, 12.0);
+    let mut bench = Bench::in_position_mode(&vehicle("phantom2"), 5, 12.0);
     let set = &mut bench.autopilot.tuning.rules.envelope;
     (set.manual_m_s, set.manual_up_m_s, set.manual_down_m_s, set.manual_yaw_rad_s) = (2.0, 0.8, 0.5, 0.5);
     let centered = Sticks::default();
@@ -279,7 +279,7 @@ fn flight_manual_and_automatic_limits_are_respected() {
         bench.run(3.0, |_| ());
         let (v, rate) = (bench.state.rigid.velocity_m_s, bench.state.rigid.rates_rad_s.down());
         let seen = [v.horizontal_norm(), -v.down(), v.down(), rate][k];
-        assert!(seen < limit * SPEED_SHARE && seen > 0.7 * limit, "stick {k}: {seen}, limit {limit}");
+        assert!(seen < limit * SPEED_OVERSHOOT && seen > 0.7 * limit, "stick {k}: {seen}, limit {limit}");
     }
     // Tilt limit.
     bench.sticks = Some(centered);
@@ -297,24 +297,24 @@ fn flight_incomplete_mission_is_rejected() {
     let place = waypoints()[0];
     let takeoff = MissionStep::Takeoff { up_m: Some(6.0) };
     let cases = [
-        (MissionNeeds::Takeoff, vec![place], Some("Mission has no takeoff item")),
-        (MissionNeeds::Takeoff, vec![takeoff, place], None),
-        (MissionNeeds::Both, vec![takeoff, place], Some("Mission has no landing item")),
-        (MissionNeeds::BothOrNeither, vec![place], None),
-        (MissionNeeds::BothOrNeither, vec![place, MissionStep::Return], Some("Mission has no takeoff item")),
-        (MissionNeeds::Nothing, vec![place, MissionStep::Return], None),
+        (MissionRequirement::Takeoff, vec![place], Some("Mission has no takeoff item")),
+        (MissionRequirement::Takeoff, vec![takeoff, place], None),
+        (MissionRequirement::Both, vec![takeoff, place], Some("Mission has no landing item")),
+        (MissionRequirement::BothOrNeither, vec![place], None),
+        (MissionRequirement::BothOrNeither, vec![place, MissionStep::Return], Some("Mission has no takeoff item")),
+        (MissionRequirement::Nothing, vec![place, MissionStep::Return], None),
     ];
     let mut bench = airborne(|_| ());
     for (needs, steps, refusal) in cases {
         bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
-        bench.autopilot.tuning.rules.mission_needs = needs;
+        bench.autopilot.tuning.rules.mission_requirement = needs;
         bench.autopilot.set_mission(steps.clone());
         let outcome = bench.autopilot.request(AutopilotRequest::StartMission { first: None }, bench.now);
         let expected = refusal.map_or(RequestOutcome::Accepted, |why| RequestOutcome::Denied(why.into()));
         assert_eq!(outcome, expected, "{needs:?} {steps:?}");
     }
     bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
-    bench.autopilot.tuning.rules.mission_needs = MissionNeeds::Nothing;
+    bench.autopilot.tuning.rules.mission_requirement = MissionRequirement::Nothing;
     bench.autopilot.tuning.rules.first_waypoint_m = 15.0;
     bench.autopilot.set_mission(waypoints());
     let outcome = bench.autopilot.request(AutopilotRequest::StartMission { first: None }, bench.now);
@@ -341,7 +341,7 @@ fn flight_restarting_mission_starts_from_its_first_item() {
 
 #[test]
 fn flight_only_enabled_fence_parts_act() {
-    let parts = |height, floor_m| FenceParts { height, distance: true, areas: true, floor_m, auto: FenceSwitching::Never };
+    let parts = |height, floor_m| FenceParts { height, distance: true, areas: true, floor_m, auto: FenceAutoEnable::Never };
     let up = |up_m| AutopilotRequest::GoTo { north_east_m: None, up_m: Some(up_m), yaw_rad: None, speed_m_s: None };
     for height in [true, false] {
         let mut bench = airborne(|tuning| {

@@ -127,7 +127,7 @@ fn drifting_receiver(readings: &mut Readings, now: SimTime) {
 fn regress_slow_altitude_drift_is_not_tracked() {
     // The receiver's height counts as contradicted at five times its error of 0.8 m; up to that error, the vehicle
     // follows it, m.
-    const FOLLOWED_M: f64 = 4.5;
+    const FOLLOWED_ERROR_M: f64 = 4.5;
     for name in VEHICLES {
         for (modify_readings, text) in [
             (drifting_barometer as fn(&mut Readings, SimTime), "Barometer inconsistent"),
@@ -139,7 +139,7 @@ fn regress_slow_altitude_drift_is_not_tracked() {
             bench.run(90.0, |b| worst = worst.max((b.position().down() + 8.0).abs()));
             let now = (bench.position().down() + 8.0).abs();
             let texts = take_texts(&mut bench);
-            assert!(worst < FOLLOWED_M && now < HEIGHT_M, "{name}, {text}: {worst} m, at the end {now} m");
+            assert!(worst < FOLLOWED_ERROR_M && now < HEIGHT_M, "{name}, {text}: {worst} m, at the end {now} m");
             assert!(texts.iter().any(|t| t.contains(text)), "{name}: {texts:?}");
         }
     }
@@ -151,11 +151,11 @@ fn regress_slow_altitude_drift_is_not_tracked() {
 #[test]
 fn regress_permanent_gnss_jump_resets_the_position() {
     // Maximum drift on inertial sensors while the receiver is rejected, m.
-    const DRIFTED_M: f64 = 4.0;
+    const MAX_DRIFT_M: f64 = 4.0;
     for name in VEHICLES {
         for dark in [true, false] {
-            let mut bench = Bench::by_hand(&vehicle(name), 24, 6.0);
-            bench.dark = dark;
+            let mut bench = Bench::in_position_mode(&vehicle(name), 24, 6.0);
+            bench.flow_lost = dark;
             bench.run(3.0, |_| ());
             take_texts(&mut bench);
             let before = bench.position();
@@ -168,7 +168,7 @@ fn regress_permanent_gnss_jump_resets_the_position() {
             let announced =
                 texts.iter().any(|text| text.starts_with("GNSS position jumped 3") && text.ends_with(" m: position reset"));
             assert_eq!((announced, bench.autopilot.status().position_resets), (dark, u32::from(dark)), "{name}: {texts:?}");
-            assert!(farthest < DRIFTED_M, "{name}, dark {dark}: {farthest} m");
+            assert!(farthest < MAX_DRIFT_M, "{name}, dark {dark}: {farthest} m");
         }
     }
 }

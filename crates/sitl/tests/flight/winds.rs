@@ -117,7 +117,7 @@ fn fly(flight: Flight) -> Result<Flown, String> {
 
 /// Flies at all wind levels with forty seeds; no flight may be lost. Up to gentle wind, no landing may be a hard
 /// contact; in medium wind (9.8 m/s and gusts), a gust may still tip over a standing vehicle.
-fn hold_in_every_wind(vehicle: &'static str) {
+fn assert_hold_in_every_wind(vehicle: &'static str) {
     const SEEDS: u64 = 40;
     let (mut lost, mut hard) = (Vec::new(), Vec::new());
     for level in LEVELS {
@@ -143,22 +143,22 @@ fn hold_in_every_wind(vehicle: &'static str) {
 
 #[test]
 fn regress_elios3_flies_in_every_wind_level() {
-    hold_in_every_wind("elios3");
+    assert_hold_in_every_wind("elios3");
 }
 
 #[test]
 fn flight_phantom2_flies_in_every_wind_level() {
-    hold_in_every_wind("phantom2");
+    assert_hold_in_every_wind("phantom2");
 }
 
 #[test]
 fn flight_f450_flies_in_every_wind_level() {
-    hold_in_every_wind("f450");
+    assert_hold_in_every_wind("f450");
 }
 
 #[test]
 fn flight_m30_flies_in_every_wind_level() {
-    hold_in_every_wind("m30");
+    assert_hold_in_every_wind("m30");
 }
 
 #[test]

@@ -19,7 +19,7 @@ const SIDECAR: LinkId = LinkId(2);
 const EXTRA_RESPONSES: usize = 2;
 /// Maximum number of unsolicited frames in five ticks: streams at their fastest, named values and full text queues, on
 /// two links.
-const FRAMES_A_TICK: usize = 800;
+const MAX_FRAMES_PER_RUN: usize = 800;
 
 /// A vehicle under test, or one with a planted fault.
 pub trait TestVehicle {
@@ -146,13 +146,13 @@ impl Driver<'_> {
         subject.receive(datagram);
         subject.look();
         let answers = self.listen(subject)?;
-        if answers > (most_modes() + EXTRA_RESPONSES) * frames {
+        if answers > (max_mode_count() + EXTRA_RESPONSES) * frames {
             return Err(format!("{answers} responses to {frames} frames"));
         }
         if tick {
             subject.tick();
             let said = self.listen(subject)?;
-            if said > FRAMES_A_TICK {
+            if said > MAX_FRAMES_PER_RUN {
                 return Err(format!("{said} frames in five ticks"));
             }
         }
@@ -223,7 +223,7 @@ impl Driver<'_> {
 }
 
 /// Returns the number of modes of the flavor with the most modes; AVAILABLE_MODES can request all of them at once.
-fn most_modes() -> usize {
+fn max_mode_count() -> usize {
     px4::FLAVOUR.modes.len().max(ardupilot::FLAVOUR.modes.len())
 }
 

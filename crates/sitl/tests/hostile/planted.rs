@@ -10,39 +10,39 @@ pub enum Fault {
     /// The last sequence number causes an index out of bounds.
     Index,
     /// A NaN in a setpoint gets into the state.
-    Poison,
+    NanState,
     /// The lowest parameter index causes endless responses.
     Flood,
     /// An infinite command parameter makes the vehicle unresponsive.
-    Deaf,
+    Unresponsive,
 }
 
 /// All faults, each with part of the message that must be reported.
 pub const FAULTS: [(Fault, &str); 4] = [
     (Fault::Index, "panic: item 65535"),
-    (Fault::Poison, "NaN or infinity in"),
+    (Fault::NanState, "NaN or infinity in"),
     (Fault::Flood, "responses to"),
-    (Fault::Deaf, "no more responses"),
+    (Fault::Unresponsive, "no more responses"),
 ];
 
 pub struct FaultyVehicle {
     vehicle: Vehicle,
     fault: Fault,
-    poisoned: bool,
+    has_nan: bool,
     extra_responses: usize,
 }
 
 impl FaultyVehicle {
     pub fn new(vehicle: Vehicle, fault: Fault) -> Self {
-        Self { vehicle, fault, poisoned: false, extra_responses: 0 }
+        Self { vehicle, fault, has_nan: false, extra_responses: 0 }
     }
 
     fn apply(&mut self, message: &MavMessage) {
         match (self.fault, message) {
             (Fault::Index, MavMessage::MISSION_ITEM_INT(item)) if item.seq == u16::MAX => panic!("item {} of a plan", item.seq),
-            (Fault::Poison, MavMessage::SET_POSITION_TARGET_LOCAL_NED(t)) if t.x.is_nan() => self.poisoned = true,
+            (Fault::NanState, MavMessage::SET_POSITION_TARGET_LOCAL_NED(t)) if t.x.is_nan() => self.has_nan = true,
             (Fault::Flood, MavMessage::PARAM_REQUEST_READ(r)) if r.param_index == i16::MIN => self.extra_responses = 10_000,
-            (Fault::Deaf, MavMessage::COMMAND_LONG(c)) if c.param1 == f32::INFINITY => self.poisoned = true,
+            (Fault::Unresponsive, MavMessage::COMMAND_LONG(c)) if c.param1 == f32::INFINITY => self.has_nan = true,
             _ => {}
         }
     }
@@ -50,7 +50,7 @@ impl FaultyVehicle {
 
 impl TestVehicle for FaultyVehicle {
     fn receive(&mut self, bytes: &[u8]) {
-        if self.fault == Fault::Deaf && self.poisoned {
+        if self.fault == Fault::Unresponsive && self.has_nan {
             return;
         }
         for frame in Decoder::new().datagram(bytes) {
@@ -72,7 +72,7 @@ impl TestVehicle for FaultyVehicle {
     fn drain(&mut self) -> Vec<Vec<u8>> {
         let mut out = self.vehicle.drain();
         let mut encoder = Encoder::new(1, 1);
-        if self.fault == Fault::Poison && self.poisoned {
+        if self.fault == Fault::NanState && self.has_nan {
             let x = f32::NAN;
             out.push(encoder.encode(&MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { x, ..Default::default() })));
         }

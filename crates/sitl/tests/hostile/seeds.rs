@@ -7,7 +7,7 @@ use spandrel_model::random::RandomStream;
 
 const NAN: f32 = f32::NAN;
 /// Origin of the practice lake, 1e-7 degrees, the site of the job that these tests fly.
-pub const HERE: (i32, i32) = (467_052_000, 83_814_000);
+pub const ORIGIN_E7: (i32, i32) = (467_052_000, 83_814_000);
 
 pub fn all(number: u32) -> Vec<MavMessage> {
     let mut out = messages(number);
@@ -28,7 +28,7 @@ pub fn all(number: u32) -> Vec<MavMessage> {
 
 /// Returns handwritten messages; the test that counts them fails if there are none.
 pub fn messages(number: u32) -> Vec<MavMessage> {
-    let made = [connection(), files(), sticks(), set_points(), gimbal(), parameters(), plans(), partial_plans(), commands()];
+    let made = [connection(), files(), sticks(), setpoints(), gimbal(), parameters(), plans(), partial_plans(), commands()];
     made.into_iter().flatten().filter(|m| m.message_id() == number).collect()
 }
 
@@ -37,15 +37,15 @@ fn connection() -> Vec<MavMessage> {
         MavMessage::HEARTBEAT(HEARTBEAT_DATA { mavtype: MavType::MAV_TYPE_GCS, mavlink_version: 3, ..Default::default() }),
         MavMessage::FOLLOW_TARGET(FOLLOW_TARGET_DATA {
             est_capabilities: 3,
-            lat: HERE.0 + 900,
-            lon: HERE.1,
+            lat: ORIGIN_E7.0 + 900,
+            lon: ORIGIN_E7.1,
             alt: 440.0,
             vel: [1.5, 0.0, 0.0],
             ..Default::default()
         }),
         MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
-            lat: HERE.0,
-            lon: HERE.1 + 900,
+            lat: ORIGIN_E7.0,
+            lon: ORIGIN_E7.1 + 900,
             alt: 440_000,
             vy: 150,
             hdg: 9_000,
@@ -124,7 +124,7 @@ fn sticks() -> Vec<MavMessage> {
     ]
 }
 
-fn set_points() -> Vec<MavMessage> {
+fn setpoints() -> Vec<MavMessage> {
     use PositionTargetTypemask as P;
     let only_position = P::from_bits_retain(0b0000_1101_1111_1000);
     let only_velocity = P::from_bits_retain(0b0000_1101_1100_0111);
@@ -157,8 +157,8 @@ fn set_points() -> Vec<MavMessage> {
         MavMessage::SET_POSITION_TARGET_GLOBAL_INT(SET_POSITION_TARGET_GLOBAL_INT_DATA {
             coordinate_frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT_INT,
             type_mask: only_position,
-            lat_int: HERE.0,
-            lon_int: HERE.1,
+            lat_int: ORIGIN_E7.0,
+            lon_int: ORIGIN_E7.1,
             alt: 10.0,
             ..Default::default()
         }),
@@ -251,8 +251,8 @@ pub fn item(seq: u16) -> MISSION_ITEM_INT_DATA {
         param2: 3.0,
         param3: 1.0,
         param4: NAN,
-        x: HERE.0 + i32::from(seq) * 500,
-        y: HERE.1,
+        x: ORIGIN_E7.0 + i32::from(seq) * 500,
+        y: ORIGIN_E7.1,
         z: 8.0,
         seq,
         command,
@@ -273,8 +273,8 @@ pub fn corner(seq: u16) -> MISSION_ITEM_INT_DATA {
     MISSION_ITEM_INT_DATA {
         command: MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION,
         param1: 3.0,
-        x: HERE.0 + [-9_000, 9_000, 9_000][usize::from(seq) % 3],
-        y: HERE.1 + [0, -9_000, 9_000][usize::from(seq) % 3],
+        x: ORIGIN_E7.0 + [-9_000, 9_000, 9_000][usize::from(seq) % 3],
+        y: ORIGIN_E7.1 + [0, -9_000, 9_000][usize::from(seq) % 3],
         z: 0.0,
         frame: MavFrame::MAV_FRAME_GLOBAL,
         mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
@@ -353,8 +353,8 @@ fn commands() -> Vec<MavMessage> {
             command: MavCmd::MAV_CMD_DO_REPOSITION,
             param1: 2.0,
             param4: NAN,
-            x: HERE.0,
-            y: HERE.1,
+            x: ORIGIN_E7.0,
+            y: ORIGIN_E7.1,
             z: 12.0,
             frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
             ..Default::default()

@@ -1,4 +1,4 @@
-//! Questionnaire answers of a cohort: counts per question, and comparison with measured scores.
+//! A cohort's questionnaire answers: counts per question and comparison with measured scores.
 
 use super::samples::SessionsByTrainee;
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE};
@@ -11,18 +11,18 @@ const MAX_AGREEING_ANSWER: u8 = 2;
 /// Lowest mean self-rating that counts as a good performance.
 const MIN_GOOD_SELF_RATING: f64 = 4.0;
 
-/// Distribution of the answers to one question.
+/// Answer distribution for one question.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Likert {
-    /// Key of the question.
+    /// Question key.
     pub question: String,
-    /// Repetition of the group, from 1; `None` for all first sessions.
+    /// The group's repetition, from 1; `None` for all first sessions.
     pub repetition: Option<usize>,
-    /// Counts from strongly agree to strongly disagree.
+    /// Answer counts from strongly agree to strongly disagree.
     pub counts: [usize; 5],
     /// Number of answers.
     pub n: usize,
-    /// Fraction of answers that agree or strongly agree, 0 to 1.
+    /// Fraction of "agree" and "strongly agree" answers, 0 to 1.
     pub agree: f64,
 }
 
@@ -31,29 +31,29 @@ pub struct Likert {
 pub struct SelfRating {
     /// One entry per trainee who rated their performance.
     pub people: Vec<SelfRatingPair>,
-    /// Spearman correlation of self-rating and overall score; `None` if undefined.
+    /// Spearman correlation between self-rating and overall score; `None` if undefined.
     pub overall: Option<Correlation>,
-    /// For each task number, the correlation of the self-rating for the task and its on-path share.
+    /// For each task number, the correlation between the task's self-rating and its on-path share.
     pub tasks: Vec<(u32, Option<Correlation>)>,
-    /// Trainees whose self-rating contradicts the measurement.
+    /// Contradictions between self-ratings and measured scores.
     pub contradictions: Vec<Contradiction>,
 }
 
-/// Self-rating and measured score of one trainee.
+/// One trainee's self-rating and measured score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfRatingPair {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Mean over the phases, 1 to 5; higher is better.
     pub self_rating: f64,
-    /// Overall score in percent of the maximum possible.
+    /// Overall score, % of the maximum.
     pub measured_pct: f64,
 }
 
-/// A contradiction between a trainee's self-rating and the measurement.
+/// A contradiction between a trainee's answers and measurements.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contradiction {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Description for the report.
     pub words: String,
@@ -84,7 +84,7 @@ fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<Likert> {
     QuestionnaireItem::all(&tasks).into_iter().filter_map(row).collect()
 }
 
-/// Returns the overall score in percent of the maximum possible.
+/// Returns the overall score, % of the maximum.
 pub fn measured_pct(record: &SessionRecord) -> f64 {
     100.0 * record.scores.overall / record.scores.overall_max
 }
@@ -121,8 +121,8 @@ fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
     record.answers.as_ref()?.given.get(&item).copied()
 }
 
-/// Returns contradictions of the kinds in the TASBID paper: a high self-rating with a score in the lowest quarter or a low one
-/// with a score in the highest quarter; no time pressure among the slowest or time pressure among the fastest.
+/// Returns contradictions as defined in the TASBID paper: a high self-rating with a score in the bottom quarter, a low
+/// self-rating with a score in the top quarter, no time pressure among the slowest, or time pressure among the fastest.
 fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<Contradiction> {
     let mut found = Vec::new();
     let ends = |mut values: Vec<f64>| {
@@ -133,9 +133,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
             let words = if own >= MIN_GOOD_SELF_RATING && measured < low {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the lowest quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the bottom quarter")
             } else if own < MIN_GOOD_SELF_RATING && measured > high {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the highest quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the top quarter")
             } else {
                 continue;
             };

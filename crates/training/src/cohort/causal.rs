@@ -1,6 +1,7 @@
-//! The causal model of the TASBID paper: demand increases strain, strain decreases performance, and helpful feedback during the
-//! task moderates the effect of demand on strain. It consists of two regressions on the first sessions. The interval of the
-//! indirect effect is bootstrapped over trainees (moderated mediation: Preacher, Rucker and Hayes 2007).
+//! The TASBID paper's causal model: demand increases strain, strain decreases performance, and helpful feedback during
+//! the task moderates the effect of demand on strain. It consists of two regressions on the first sessions. The
+//! indirect effect's confidence interval is bootstrapped over trainees (moderated mediation: Preacher, Rucker and Hayes
+//! 2007).
 
 use super::answers::measured_pct;
 use crate::record::SessionRecord;
@@ -8,21 +9,21 @@ use crate::statistics::{Regression, least_squares, mean, quantile, sd, solve};
 use serde::Serialize;
 use spandrel_model::random::RandomStream;
 
-/// Number of trainees needed to detect medium effects with a power of 0.8 using a percentile bootstrap (Fritz and MacKinnon
-/// 2007). Smaller samples produce a warning.
+/// Number of trainees needed to detect medium effects at a power of 0.8 with a percentile bootstrap (Fritz and
+/// MacKinnon 2007). Smaller samples cause a warning.
 pub const RECOMMENDED_TRAINEES: usize = 78;
 /// Maximum number of bootstrap samples.
 const MAX_RESAMPLES: usize = 2_000;
-/// Minimum number of bootstrap samples, used for cohorts so large that more samples would take seconds.
+/// Minimum number of bootstrap samples, used for cohorts so large that more would take seconds.
 const MIN_RESAMPLES: usize = 200;
-/// Maximum number of trainees drawn in all bootstrap samples together.
+/// Maximum total number of trainees drawn across all bootstrap samples.
 const MAX_DRAWN_TRAINEES: usize = 1_000_000;
-/// Fixed seed, so that the bootstrap is reproducible.
+/// Fixed seed that makes the bootstrap reproducible.
 const BOOTSTRAP_SEED: u64 = 20_221;
-/// Range of the answer scale on which feedback is rated.
+/// Range of the feedback rating scale.
 const ANSWER_RANGE: [f64; 2] = [1.0, 5.0];
 
-/// An estimated model of moderated mediation.
+/// An estimated moderated mediation model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MediationModel {
     /// Number of trainees with complete answers.
@@ -35,20 +36,20 @@ pub struct MediationModel {
     /// minus one standard deviation), mean feedback, and high feedback (mean plus one standard deviation). Feedback is clamped to
     /// the answer scale.
     pub indirect: [IndirectEffect; 3],
-    /// Change of the indirect effect per unit of feedback (index of moderated mediation).
+    /// Change in the indirect effect per unit of feedback (index of moderated mediation).
     pub moderation: IndirectEffect,
-    /// Number of bootstrap samples for which the model could be estimated.
+    /// Number of bootstrap samples in which the model could be estimated.
     pub resamples: usize,
 }
 
 /// An indirect effect with its confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct IndirectEffect {
-    /// Feedback value for which the effect applies, 1 to 5; for the moderation, the mean.
+    /// Feedback value at which the effect applies, 1 to 5; the mean for the moderation.
     pub feedback: f64,
     /// Estimated value.
     pub effect: f64,
-    /// 95 % bootstrap interval; `None` if too few samples could be estimated.
+    /// 95 % bootstrap confidence interval; `None` if too few samples could be estimated.
     pub interval_95: Option<[f64; 2]>,
 }
 
@@ -59,7 +60,7 @@ struct Respondent {
     performance: f64,
 }
 
-/// Estimates the model. Appends the limitations of the estimate to `warnings`.
+/// Estimates the model and appends the estimate's limitations to `warnings`.
 pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
     let people: Vec<Respondent> = firsts.iter().filter_map(|record| person(record)).collect();
     let n = people.len();
@@ -126,7 +127,7 @@ fn estimate(people: &[Respondent]) -> Result<MediationModel, String> {
     })
 }
 
-/// Returns two values for each bootstrap sample: the indirect effect at mean feedback and its change per unit of feedback.
+/// Returns, for each bootstrap sample, the indirect effect at mean feedback and its change per unit of feedback.
 fn resample(rows: &[[f64; 3]], strain: &[f64], second: &[[f64; 2]], performance: &[f64]) -> Vec<(f64, f64)> {
     let n = rows.len();
     let draws = (MAX_DRAWN_TRAINEES / n.max(1)).clamp(MIN_RESAMPLES, MAX_RESAMPLES);

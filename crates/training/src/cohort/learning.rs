@@ -1,4 +1,5 @@
-//! The group's learning curves: for each score, the mean over all trainees with enough sessions, and a curve fitted to the means.
+//! The group's learning curves: for each score, the mean over all trainees with enough sessions and a curve fitted to
+//! the means.
 
 use super::progress::Repetition;
 use super::progress::TraineeProgress;
@@ -6,14 +7,14 @@ use super::samples::SCORES;
 use crate::statistics::{LearningCurve, MIN_LEARNING_REPETITIONS, learning_curve, mean};
 use serde::Serialize;
 
-/// Learning curve of a group for one score.
+/// A group's learning curve for one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupCurve {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
     /// Number of trainees included in the mean.
     pub people: usize,
-    /// Mean score by repetition, up to the last repetition that all of these trainees flew.
+    /// Mean score by repetition, up to the last repetition flown by all these trainees.
     pub means: Vec<f64>,
     /// Curve fitted to the means.
     #[serde(flatten)]

@@ -1,6 +1,6 @@
-//! Cohort analysis: reproduces the tables and figures of the pilot study in the TASBID paper. Each trainee's sessions on the job
-//! are numbered. First sessions describe the whole cohort; repetitions describe the group of trainees with at least the requested
-//! number of sessions.
+//! Cohort analysis: reproduces the tables and figures of the TASBID pilot study. Each trainee's sessions on the job are
+//! numbered. First sessions describe the whole cohort; repetitions describe the group of trainees with at least the
+//! requested number of sessions.
 
 mod answers;
 mod causal;
@@ -23,18 +23,18 @@ use samples::SessionsByTrainee;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Minimum number of pairs for meaningful paired tests. Detecting a medium effect (d = 0.5) with a power of 0.8 at a two-tailed
-/// significance level of 0.05 takes 34 pairs (Cohen 1988).
+/// Minimum number of pairs for meaningful paired tests. Detecting a medium effect (d = 0.5) at a power of 0.8 and a
+/// two-tailed significance level of 0.05 takes 34 pairs (Cohen 1988).
 const RECOMMENDED_PAIRS: usize = 34;
 
 /// Sessions and number of repetitions to analyze.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Selection {
-    /// Scenarios that count as the job. If empty, the scenario that was flown most often.
+    /// Scenarios that count as the job. If empty, the most frequently flown scenario.
     pub scenarios: Vec<String>,
     /// Number of repetitions to compare.
     pub repetitions: usize,
-    /// Policy for sessions whose job was not completed.
+    /// Policy for incomplete sessions.
     pub incomplete: IncompletePolicy,
 }
 
@@ -51,21 +51,21 @@ pub struct Cohort {
     pub trainees: usize,
     /// Number of repetitions compared.
     pub repetitions: usize,
-    /// Trainees with at least that number of sessions ("the group").
+    /// Trainees with at least that many sessions ("the group").
     pub group: Vec<String>,
-    /// Distribution of each score in the first sessions.
+    /// Score distributions of the first sessions.
     pub distributions: Vec<Distribution>,
-    /// Scores and tasks of each trainee's first session.
+    /// Scores and task results of each trainee's first session.
     pub individuals: Vec<Individual>,
     /// Crashes in the first sessions by trainee, task and kind.
     pub crashes: CrashTable,
-    /// Each score by repetition, for the group.
+    /// The group's scores by repetition.
     pub boxes: Vec<RepetitionBox>,
-    /// Paired comparisons of the repetitions, for the group.
+    /// Paired comparisons of the group's repetitions.
     pub tests: Vec<Comparison>,
-    /// Tests whether the group's scores are distributed like those of the other trainees.
+    /// Tests of whether the group's scores are distributed like those of the other trainees.
     pub homogeneity: Vec<GroupHomogeneityTest>,
-    /// Answer counts of all first sessions, and of the group by repetition.
+    /// Answer counts for all first sessions and for the group's repetitions.
     pub likert: Vec<Likert>,
     /// Self-ratings compared with measured scores.
     pub self_rating: SelfRating,
@@ -73,7 +73,7 @@ pub struct Cohort {
     pub causal: Option<MediationModel>,
     /// Progress of each trainee by repetition.
     pub progress: Vec<TraineeProgress>,
-    /// Learning curves over all trainees with enough sessions; empty if there are no such trainees.
+    /// Learning curves over all trainees with enough sessions; empty if there are none.
     pub learning: Vec<GroupCurve>,
     /// Limitations to consider when interpreting the results.
     pub warnings: Vec<String>,
@@ -129,8 +129,8 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     }
 }
 
-/// Returns the selected scenarios. If none are selected, returns the one flown most often (in a tie, the first by name). Counts
-/// only the sessions that the policy allows, unless there are none.
+/// Returns the selected scenarios or, if none are selected, the most frequently flown one (the first by name in a tie).
+/// Counts only sessions that the policy allows, unless there are none.
 fn scenarios(records: &[SessionRecord], selection: &Selection) -> Vec<String> {
     if !selection.scenarios.is_empty() {
         return selection.scenarios.clone();

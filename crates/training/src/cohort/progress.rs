@@ -1,4 +1,4 @@
-//! Progress of one trainee by repetition, as in the TASBID paper's figure of participant 18.
+//! One trainee's progress by repetition, as in the TASBID paper's figure for participant 18.
 
 use super::samples::{SCORES, ScorePicker};
 use crate::record::{Crashes, IncompletePolicy, SessionRecord};
@@ -6,23 +6,23 @@ use crate::statistics::{LearningCurve, learning_curve};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Sessions and learning curves of one trainee.
+/// One trainee's sessions and learning curves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TraineeProgress {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Sessions on the job, in chronological order.
     pub repetitions: Vec<Repetition>,
-    /// Learning curve of each score, if there are at least four repetitions.
+    /// Learning curve for each score, if there are at least four repetitions.
     pub curves: Vec<ScoreCurve>,
 }
 
-/// One session of a trainee on a job.
+/// A trainee's session on a job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Repetition {
-    /// Number of the repetition, from 1.
+    /// Repetition number, from 1.
     pub number: usize,
-    /// Id of the session (name of its folder).
+    /// Session ID (its folder name).
     pub session: String,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
@@ -34,36 +34,36 @@ pub struct Repetition {
     pub safety: f64,
     /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
-    /// Sum of the scores that apply.
+    /// Sum of all applicable scores.
     pub overall: f64,
-    /// Duration of the flight, s.
+    /// Flight duration, s.
     pub seconds: f64,
     /// On-path share by task number; `None` if the task was not attempted.
     pub on_path: Vec<(u32, Option<f64>)>,
-    /// Crash counts, by kind of object hit.
+    /// Crash counts by kind of object hit.
     pub crashes: Crashes,
 }
 
-/// Learning curve of one score.
+/// Learning curve for one score.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScoreCurve {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
     /// Power law fitted to the scores.
     #[serde(flatten)]
     pub curve: LearningCurve,
 }
 
-/// Progress of one trainee on one job. Jobs are separate, because practice on one says little about another.
+/// One trainee's progress on one job. Jobs are kept separate because practice on one says little about another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobProgress {
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
-    /// Numbers and names of the job's tasks, as of the latest session.
+    /// Task numbers and names, as of the latest session.
     pub tasks: Vec<(u32, String)>,
     /// Sessions that the policy allows; may be empty.
     pub progress: TraineeProgress,
-    /// Number of incomplete sessions excluded.
+    /// Number of excluded incomplete sessions.
     pub left_out: usize,
 }
 
@@ -82,7 +82,7 @@ impl Repetition {
     }
 }
 
-/// Groups one trainee's sessions by scenario, ordered by descending number of tasks, then by name.
+/// Groups one trainee's sessions by scenario, sorted by descending number of tasks, then by name.
 #[must_use]
 pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<JobProgress> {
     let mut jobs: BTreeMap<&str, Vec<&SessionRecord>> = BTreeMap::new();
@@ -104,7 +104,7 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<Jo
     found
 }
 
-/// Computes the progress of one trainee from sessions in chronological order.
+/// Computes one trainee's progress from sessions in chronological order.
 pub fn progress(trainee: &str, sessions: &[&SessionRecord]) -> TraineeProgress {
     let curve = |(score, pick): (&str, ScorePicker)| {
         let values: Option<Vec<f64>> = sessions.iter().map(|record| pick(record)).collect();

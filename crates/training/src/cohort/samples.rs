@@ -1,9 +1,9 @@
-//! Samples of a cohort: the sessions of each trainee, and the scores drawn from them.
+//! Cohort samples: each trainee's sessions and the scores taken from them.
 
 use crate::record::SessionRecord;
 use std::collections::BTreeMap;
 
-/// Function that returns one score of a record; `None` if it does not apply.
+/// Function that returns one of a record's scores; `None` if it does not apply.
 pub(super) type ScorePicker = fn(&SessionRecord) -> Option<f64>;
 
 /// The five scores by name.
@@ -16,5 +16,5 @@ pub(super) const SCORES: [(&str, ScorePicker); 5] = [
 ];
 
 pub(super) const OVERALL: (&str, ScorePicker) = ("overall", |record| Some(record.scores.overall));
-/// Sessions of each trainee on the job, in chronological order.
+/// Each trainee's sessions on the job, in chronological order.
 pub(super) type SessionsByTrainee<'a> = BTreeMap<&'a str, Vec<&'a SessionRecord>>;

@@ -1,4 +1,4 @@
-//! Score statistics of a cohort: distributions, first sessions, crashes, repetitions and tests.
+//! Cohort score statistics: distributions, first sessions, crashes, repetitions and tests.
 
 use super::samples::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
 use crate::record::{Crashes, SessionRecord};
@@ -11,25 +11,25 @@ use serde::Serialize;
 /// Number of bins in a score histogram.
 const HISTOGRAM_BINS: usize = 20;
 
-/// Distribution of one score over the first sessions.
+/// Distribution of one score across first sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Distribution {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
     /// Summary statistics of the scores.
     pub summary: SampleSummary,
-    /// Bins over the score's full range.
+    /// Bins covering the score's full range.
     pub histogram: Vec<HistogramBin>,
 }
 
-/// First session of one trainee.
+/// One trainee's first session.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Individual {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Id of the session (name of its folder).
+    /// Session ID (its folder name).
     pub session: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
     /// Conformity, 0 to 100; `None` if it does not apply.
@@ -40,9 +40,9 @@ pub struct Individual {
     pub safety: f64,
     /// Accuracy, 0 to 100; `None` if it does not apply.
     pub accuracy: Option<f64>,
-    /// Sum of the scores that apply.
+    /// Sum of all applicable scores.
     pub overall: f64,
-    /// Duration of the flight, s.
+    /// Flight duration, s.
     pub seconds: f64,
     /// On-path share and speeding by task.
     pub tasks: Vec<TaskShare>,
@@ -51,9 +51,9 @@ pub struct Individual {
 /// One task's contribution to conformity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskShare {
-    /// Number of the task in the scenario.
+    /// Task number in the scenario.
     pub id: u32,
-    /// Name of the task in the scenario.
+    /// Task name in the scenario.
     pub name: String,
     /// Whether the task's path was entered.
     pub attempted: bool,
@@ -70,18 +70,18 @@ pub struct CrashTable {
     pub total: usize,
     /// Crashes by kind.
     pub by_kind: Crashes,
-    /// Task numbers. Each row has one count per task and a last one for crashes outside the tasks.
+    /// Task numbers. Each row has one count per task plus a final one for crashes outside the tasks.
     pub tasks: Vec<u32>,
-    /// Sum over all trainees for each task; the last element counts crashes outside the tasks.
+    /// Total across all trainees for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
-    /// Crash counts of each trainee.
+    /// Crash counts by trainee.
     pub rows: Vec<CrashRow>,
 }
 
-/// Crashes of one trainee.
+/// One trainee's crashes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CrashRow {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
     /// Count for each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
@@ -89,42 +89,43 @@ pub struct CrashRow {
     pub total: usize,
 }
 
-/// Box plot of one score in one repetition of the group.
+/// Box plot of one score for one group repetition.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RepetitionBox {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
-    /// Number of the repetition, from 1.
+    /// Repetition number, from 1.
     pub repetition: usize,
-    /// Values that the box plot shows.
+    /// Box plot data.
     pub plot: BoxPlot,
 }
 
-/// Paired comparison of one score in two repetitions of the group.
+/// Paired comparison of one score between two of the group's repetitions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
-    /// Number of the earlier repetition.
+    /// Earlier repetition number.
     pub earlier: usize,
-    /// Number of the later repetition.
+    /// Later repetition number.
     pub later: usize,
     /// Paired test of later minus earlier.
     #[serde(flatten)]
     pub test: PairedTest,
-    /// Holm-corrected p values, separately for each tail. The comparisons of the four scores form one family, those of the
-    /// overall score another one.
+    /// Holm-corrected p values, separately for each tail. Comparisons of the four scores form one family, comparisons
+    /// of the overall score another.
     pub p_holm: Option<TailProbabilities>,
 }
 
-/// Tests whether the group's first sessions are distributed over low, middle and high scores like those of the other trainees.
+/// Test of whether the group's first sessions are distributed across low, middle and high scores like those of the
+/// other trainees.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupHomogeneityTest {
-    /// Name of the score, such as `conformity`.
+    /// Score name, such as `conformity`.
     pub score: String,
     /// Upper limits of low and middle scores: the terciles of all first sessions.
     pub cuts: [f64; 2],
-    /// Number of trainees of the group with low, middle and high scores.
+    /// Number of group members with low, middle and high scores.
     pub group: Vec<usize>,
     /// Number of other trainees with low, middle and high scores.
     pub others: Vec<usize>,
@@ -229,7 +230,7 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
     tests
 }
 
-/// Applies Holm's correction to one family of comparisons, separately for each tail.
+/// Applies the Holm correction to one family of comparisons, separately for each tail.
 fn apply_holm_correction(mut family: Vec<&mut Comparison>) {
     family.retain(|test| test.test.p.is_some());
     let tail = |pick: fn(&TailProbabilities) -> f64| {
@@ -268,7 +269,7 @@ pub fn homogeneity_of(
             Ok(test) => {
                 tests.push(GroupHomogeneityTest { score: score.to_owned(), cuts: [low, middle], group: own, others, test })
             }
-            Err(error) => warnings.push(format!("{score}: the group cannot be compared with the others: {error}")),
+            Err(error) => warnings.push(format!("{score}: cannot compare the group with the other trainees: {error}")),
         }
     }
     tests

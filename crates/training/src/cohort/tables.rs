@@ -1,5 +1,4 @@
-//! Cohort tables as CSV (RFC 4180), one file per table. Numbers are written with the fewest digits that still represent the value
-//! exactly.
+//! Cohort tables as CSV (RFC 4180), one file per table. Numbers use the fewest digits that represent the value exactly.
 
 use super::Cohort;
 use crate::statistics::{Regression, TailProbabilities};
@@ -25,7 +24,7 @@ pub const TABLES: [&str; 16] = [
     "warnings.csv",
 ];
 
-/// Returns one table by file name; `None` if there is no such table.
+/// Returns a table by file name; `None` if there is no such table.
 #[must_use]
 pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
     Some(match name {
@@ -71,7 +70,7 @@ impl CsvTable {
     }
 }
 
-/// Returns a text field, quoted if necessary and escaped so that spreadsheets do not treat it as a formula.
+/// Returns a text field, quoted if necessary and escaped so that spreadsheets don't treat it as a formula.
 fn text(value: &str) -> String {
     let formula = value.starts_with(['=', '+', '-', '@', '\t', '\r']);
     let value = if formula { format!("'{value}") } else { value.to_owned() };

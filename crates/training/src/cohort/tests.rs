@@ -51,7 +51,7 @@ fn exact_tasbid_study_design_yields_its_tables() {
     assert_eq!(cohort.distributions[4].histogram.iter().map(|bar| bar.count).sum::<usize>(), 22);
     assert_eq!(cohort.boxes.len(), 15);
     assert_eq!(cohort.tests.len(), 15);
-    // 24 questions, counted over all first sessions and for each of the three repetitions.
+    // 24 questions, counted once over all first sessions and once per repetition.
     assert_eq!(cohort.likert.len(), 96);
     assert_eq!(cohort.crashes.rows.len(), 22);
     assert_eq!(cohort.crashes.total, cohort.crashes.by_task.iter().sum::<usize>());
@@ -66,7 +66,7 @@ fn exact_repetitions_are_chronological_and_paired_by_trainee() {
     let mut records = pilot_study_records();
     let expected = analyzed(&records);
     records.reverse();
-    assert_eq!(analyzed(&records), expected, "the order of the records does not matter");
+    assert_eq!(analyzed(&records), expected, "results depend on the order of the records");
     let test = expected.tests.iter().find(|test| test.score == "conformity" && (test.earlier, test.later) == (1, 3)).unwrap();
     assert_eq!(test.test.n, 8);
     let of = |k: usize| {
@@ -76,7 +76,7 @@ fn exact_repetitions_are_chronological_and_paired_by_trainee() {
     assert!((test.test.mean_difference - (of(2) - of(0))).abs() < 1e-9);
     let holm = test.p_holm.unwrap();
     assert!(holm.upper >= test.test.p.unwrap().upper && holm.two <= 1.0);
-    // Efficiency is always 100, so t is undefined and the test is excluded from Holm's correction.
+    // Efficiency is always 100, so t is undefined and the test is excluded from the Holm correction.
     let flat = expected.tests.iter().find(|test| test.score == "efficiency").unwrap();
     assert_eq!((flat.test.t, flat.p_holm), (None, None));
 }
@@ -108,7 +108,7 @@ fn exact_contradictions_are_found() {
     let found = analyzed(&records).self_rating.contradictions;
     let of = |who: &str| found.iter().filter(|one| one.trainee == who).map(|one| one.words.as_str()).collect::<Vec<_>>();
     assert!(of("p0").iter().any(|words| words.starts_with("felt time pressure")));
-    assert!(of("p7").iter().any(|words| words.contains("in the lowest quarter")));
+    assert!(of("p7").iter().any(|words| words.contains("in the bottom quarter")));
     assert!(of("p7").iter().any(|words| words.contains("in the slowest quarter")));
     assert!(of("p3").is_empty() && of("p4").is_empty());
 }
@@ -130,8 +130,8 @@ fn exact_learning_curve_requires_four_repetitions() {
 fn exact_group_curve_fits_means_of_eligible_trainees() {
     let safety = |first: f64, k: usize| first * spandrel_model::math::pow(k as f64, 0.3);
     let mut records = Vec::new();
-    // Two trainees have curves with the same exponent, so the curve of their mean has it, too. Only the repetitions that both
-    // flew count. A third trainee has too few sessions. A fourth has no accuracy score in one session.
+    // Two trainees' curves have the same exponent, so the curve of their mean does, too. Only repetitions that both
+    // flew count. A third trainee has too few sessions, and a fourth has no accuracy score in one session.
     for (who, first, times) in [("anna", 30.0, 6), ("ben", 50.0, 4), ("cleo", 90.0, 3), ("dan", 40.0, 4)] {
         for k in 1..=times {
             let mut record = perfect_record(who, k);

@@ -9,16 +9,16 @@ const MIN_REPORTED_CHANGE: f64 = 0.05;
 /// The latest session compared with the previous one on the same job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SessionChanges {
-    /// Id of the session compared with.
+    /// ID of the previous session.
     pub since: String,
-    /// Measures that changed, scores first.
+    /// Changed measures, scores first.
     pub changes: Vec<MeasureChange>,
 }
 
-/// Change of one measure between two sessions.
+/// Change in one measure between two sessions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasureChange {
-    /// Name of the measure, with its unit.
+    /// Measure name, including the unit.
     pub what: String,
     /// Value in the earlier session.
     pub before: f64,
@@ -28,7 +28,7 @@ pub struct MeasureChange {
     pub better: Option<bool>,
 }
 
-/// Compares the latest record with the previous one of the same scenario; `None` if there is none.
+/// Compares the latest record with the previous one for the same scenario; `None` if there is none.
 pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     let (last, earlier) = records.split_last()?;
     let before = earlier.iter().rev().find(|record| record.scenario == last.scenario)?;

@@ -1,5 +1,5 @@
-//! The training plan: derives from scores and their causes which scenarios to fly next, why and when, and reports what changed
-//! since the previous session. The rules come from a data file.
+//! The training plan: uses scores and their causes to recommend which scenarios to fly next, why and when, and reports
+//! changes since the previous session. The rules come from a data file.
 
 mod changes;
 mod rules;
@@ -12,25 +12,25 @@ use serde::Serialize;
 use spandrel_model::numbers::format_with_limit;
 use std::cmp::Ordering;
 
-/// Minimum condition state at which a missed defect is severe: poor (AASHTO MBEI).
+/// Minimum condition state of a severe missed defect: poor (AASHTO MBEI).
 const MIN_SEVERE_STATE: u8 = 3;
 /// Maximum number of missed defects named in a reason.
 const MAX_DEFECTS_LISTED: usize = 3;
 /// Length of a day, µs.
 const DAY_US: f64 = 86_400e6;
-/// A landing with less battery than this counts as late, % (docs/src/reference/assessment.md, "Certification").
+/// A landing with less battery charge than this counts as late, % (docs/src/reference/assessment.md, "Certification").
 const BATTERY_RESERVE_PCT: f64 = 20.0;
-/// Points lost per minute beyond the time for full efficiency (TASBID).
+/// Points lost per minute past the time for full efficiency (TASBID).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
-/// A deviation is described by one direction only if it is larger than the other by this factor.
+/// A deviation is described by a single direction only if that direction dominates by this factor.
 const DOMINANCE_RATIO: f64 = 2.0;
 
-/// Scenarios recommended to one trainee.
+/// Scenarios recommended for one trainee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrainingPlan {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Id of the latest session, on which the plan is based.
+    /// ID of the latest session, the basis of the plan.
     pub session: String,
     /// Scenarios to fly, most urgent first; never empty.
     pub steps: Vec<PlanStep>,
@@ -38,7 +38,7 @@ pub struct TrainingPlan {
     pub from_unix_us: u64,
     /// Latest time of the next session, µs since the Unix epoch.
     pub until_unix_us: u64,
-    /// Whether the time since the last flight exceeds the skill retention period.
+    /// Whether more time has passed since the last flight than the retention period allows.
     pub overdue: bool,
     /// Changes since the previous session on the same job, if there is one.
     pub changes: Option<SessionChanges>,
@@ -49,7 +49,7 @@ pub struct TrainingPlan {
 /// One scenario to fly.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanStep {
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
     /// Sum of weight × value / limit over all rules that recommend this scenario.
     pub urgency: f64,
@@ -57,29 +57,29 @@ pub struct PlanStep {
     pub reasons: Vec<PlanReason>,
 }
 
-/// Reason to fly a scenario, from one rule.
+/// Reason to fly a scenario, as determined by one rule.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlanReason {
-    /// Name of the rule that applied.
+    /// Name of the rule that fired.
     pub rule: String,
-    /// Id of the session in which the value was measured.
+    /// ID of the session in which the value was measured.
     pub session: String,
-    /// Reason in words, for the trainee.
+    /// Reason shown to the trainee.
     pub words: String,
     /// Measured value; fractions from 0 to 1.
     pub value: f64,
-    /// Limit above which the rule applies.
+    /// Limit above which the rule fires.
     pub limit: f64,
 }
 
-/// A measured value and the flight it comes from.
+/// A measured value and its source flight.
 struct Finding<'a> {
     value: f64,
     task: Option<&'a TaskRecord>,
     record: &'a SessionRecord,
 }
 
-/// Creates a plan from one trainee's records in chronological order; `None` without records.
+/// Creates a plan from one trainee's records in chronological order; `None` if there are no records.
 #[must_use]
 pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> Option<TrainingPlan> {
     let last = records.last()?;
@@ -116,7 +116,7 @@ pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> O
     })
 }
 
-/// Creates a plan from the sessions that the policy allows. If there are none, the plan recommends the job.
+/// Creates a plan from the sessions that the policy allows. If there are none, recommends the job.
 #[must_use]
 pub fn plan_for_policy(
     mut records: Vec<SessionRecord>,
@@ -131,7 +131,7 @@ pub fn plan_for_policy(
     if let Some(plan) = plan(&records, rules, now_unix_us) {
         return Some(TrainingPlan { left_out, ..plan });
     }
-    let words = format!("No complete session yet. The last one: {}.", newest.completion_summary());
+    let words = format!("No complete session yet. Latest session: {}.", newest.completion_summary());
     let steps = vec![single_reason_step(&rules.job, &newest, ("job", words), (0.0, 0.0))];
     let after = |days: f64| newest.started_unix_us.saturating_add((days * DAY_US) as u64);
     let (trainee, session) = (newest.trainee.clone(), newest.id.clone());
@@ -159,8 +159,8 @@ fn single_reason_step(
     PlanStep { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason] }
 }
 
-/// Returns the values that a rule evaluates: for task rules, one per task from its latest flight; for session rules, the one of
-/// the latest session that has a value.
+/// Returns the values that a rule evaluates: for task rules, one per task from its latest flight; for session rules,
+/// the value from the latest session that has one.
 fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a>> {
     match rule.measure {
         RuleMeasure::OffPath
@@ -188,14 +188,14 @@ fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a
     }
 }
 
-/// Returns the latest flight of each task, matched by kind; free tasks are matched by name.
+/// Returns each task's latest flight, matched by kind; free tasks are matched by name.
 fn latest_flights_by_task(records: &[SessionRecord]) -> Vec<(&SessionRecord, &TaskRecord)> {
     let mut newest: Vec<(&SessionRecord, &TaskRecord)> = Vec::new();
     for (record, task) in records.iter().rev().flat_map(|record| record.tasks.iter().map(move |task| (record, task))) {
         let same = |(_, other): &(&SessionRecord, &TaskRecord)| {
             other.kind == task.kind && (task.kind != "free" || other.name == task.name)
         };
-        // A session may contain two tasks of the same kind. Both are evaluated.
+        // A session may contain two tasks of the same kind; both are evaluated.
         if !newest.iter().any(|seen| same(seen) && seen.0.id != record.id) {
             newest.push((record, task));
         }
@@ -240,8 +240,8 @@ fn session_value(rule: &PlanRule, record: &SessionRecord) -> Option<f64> {
             Some(longest_s)
         }
         RuleMeasure::FalseSnapshots => share(record.snapshots - record.hits.min(record.snapshots), record.snapshots),
-        // The efficiency score of 0 to 100 corresponds to -100 to 100 points. After a battery failure, the points do not reflect
-        // the time.
+        // An efficiency score of 0 to 100 corresponds to -100 to 100 points. After a battery failure, the points don't
+        // reflect the time.
         RuleMeasure::Overtime => {
             let points = 2.0 * record.scores.efficiency - 100.0;
             (!record.battery_failed).then(|| (100.0 - points) / EFFICIENCY_LOSS_PER_MIN)
@@ -312,18 +312,18 @@ fn reason(rule: &PlanRule, finding: &Finding<'_>) -> PlanReason {
     let words = rule.reason.replace("{value}", &displayed_value(rule.measure, finding.value, rule.limit));
     let words = words.replace("{limit}", &displayed_value(rule.measure, rule.limit, rule.limit));
     let words = words.replace("{defects}", &missed_summary(rule, finding.record));
-    // Scenario text is substituted last, so that braces in it are not expanded.
+    // Scenario text is substituted last so that braces in it are not expanded.
     let words = words.replace("{axis}", axis).replace("{fastest}", &format!("{fastest:.1} m/s")).replace("{task}", &task);
     PlanReason { rule: rule.name.clone(), session: finding.record.id.clone(), words, value: finding.value, limit: rule.limit }
 }
 
-/// Describes the direction in which the drone was off the task's path.
+/// Describes the direction of the deviation from the task's path.
 fn axis(task: &TaskRecord) -> &'static str {
     match (task.off_sideways_m, task.off_height_m) {
-        (Some(sideways), Some(height)) if sideways > DOMINANCE_RATIO * height => "mainly to the side",
-        (Some(sideways), Some(height)) if height > DOMINANCE_RATIO * sideways => "mainly in height",
-        (Some(_), Some(_)) => "to the side and in height",
-        (Some(_) | None, None) | (None, Some(_)) => "and far away from it",
+        (Some(sideways), Some(height)) if sideways > DOMINANCE_RATIO * height => "mainly sideways",
+        (Some(sideways), Some(height)) if height > DOMINANCE_RATIO * sideways => "mainly vertically",
+        (Some(_), Some(_)) => "both sideways and vertically",
+        (Some(_) | None, None) | (None, Some(_)) => "and far from it",
     }
 }
 

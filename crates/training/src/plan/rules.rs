@@ -5,7 +5,7 @@ use spandrel_model::toml::{Problems, Reader, Section};
 /// Default rules of the training plan, in TOML.
 pub const RULES: &str = include_str!("rules.toml");
 
-/// Format version of the file.
+/// File format version.
 const FORMAT: i64 = 1;
 
 /// Measure that a rule evaluates.
@@ -23,17 +23,17 @@ pub enum RuleMeasure {
     CrashesOutside,
     /// Total number of crashes.
     CrashesAll,
-    /// 1 for a task that was not attempted.
+    /// 1 if the task was not attempted.
     NotAttempted,
-    /// Fraction of defects shown in no picture.
+    /// Fraction of defects not shown in any picture.
     Missed,
     /// Number of missed defects in condition state 3 (poor) or worse.
     MissedSevere,
-    /// Longest time for which a missed defect was clearly visible, s; available only if the session's report exists.
+    /// Longest time that a missed defect was clearly visible, s; available only if the session has a report.
     MissedInView,
-    /// Fraction of pictures without a new defect.
+    /// Fraction of pictures that show no new defect.
     FalseSnapshots,
-    /// Flight time beyond the time for full efficiency, minutes.
+    /// Flight time past the time for full efficiency, min.
     Overtime,
     /// 1 if the flight did not end on the pad.
     NotLanded,
@@ -86,9 +86,9 @@ pub struct PlanRule {
     pub task: Option<&'static str>,
     /// Kind of object hit; `None` for any.
     pub with: Option<&'static str>,
-    /// Reason why a missed defect's best picture did not count; empty for any.
+    /// Reason that a missed defect's best picture did not count; empty for any.
     pub lacked: String,
-    /// Value above which the rule applies.
+    /// Value above which the rule fires.
     pub limit: f64,
     /// Weight relative to other rules.
     pub weight: f64,
@@ -101,15 +101,15 @@ pub struct PlanRule {
 /// Rules and parameters of the training plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRules {
-    /// Maximum pause between sessions, days.
+    /// Maximum break between sessions, days.
     pub retention_days: f64,
-    /// Scenario to fly after a longer pause.
+    /// Scenario to fly after a longer break.
     pub retention_scenario: String,
     /// Reason for the retention scenario.
     pub retention_reason: String,
-    /// Minimum pause between sessions, days.
+    /// Minimum break between sessions, days.
     pub rest_days: f64,
-    /// Scenario to fly if no rule applies.
+    /// Scenario to fly if no rule fires.
     pub job: String,
     /// Reason for flying the job.
     pub job_reason: String,
@@ -122,7 +122,7 @@ pub struct PlanRules {
 /// Reads the rules from TOML.
 ///
 /// # Errors
-/// All errors in the file.
+/// Returns all errors in the file.
 pub fn read_rules(file: &str, text: &str) -> Result<PlanRules, Problems> {
     let mut reader = Reader::new(file, text);
     let rules = reader.parse().map(|document| {
@@ -186,7 +186,7 @@ mod tests {
             RULES.replacen("measure = \"off_path\"", "measure = \"elegance\"", 1).replacen("limit = 0.1\n", "limit = -1\n", 1);
         let told = read_rules("rules.toml", &wrong).unwrap_err().to_string();
         assert!(told.contains("measure = \"elegance\"") && told.contains("limit = -1"), "{told}");
-        let twice = RULES.replace("name = \"into the water\"", "name = \"hit a person\"");
+        let twice = RULES.replace("name = \"crashes into water\"", "name = \"hit a person\"");
         assert!(read_rules("rules.toml", &twice).unwrap_err().to_string().contains("duplicate rule name"));
     }
 }

@@ -11,7 +11,7 @@ fn rules() -> PlanRules {
 fn record_with_measure(rule: &PlanRule, factor: f64) -> SessionRecord {
     let mut record = perfect_record("anna", 1);
     let value = factor * rule.limit;
-    // Counts are integers: with a limit of 0.5, a count of 1 exceeds it and 0 does not.
+    // Counts are integers: with a limit of 0.5, 1 exceeds it and 0 does not.
     let count = if factor > 1.0 { value.ceil().max(1.0) as usize } else { 0 };
     let mut crashes = Crashes::default();
     match rule.with {
@@ -77,7 +77,7 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
     let plan = plan(&[record], &rules(), NOW).unwrap();
     assert_eq!(plan.steps[0].scenario, "drill-gap");
     let words = &plan.steps[0].reasons[0].words;
-    assert_eq!(words, "The interlayer: off the path for 70 % of the time, mainly in height. Practice narrow spaces separately.");
+    assert_eq!(words, "The interlayer: off the path for 70 % of the time, mainly vertically. Practice flying in tight spaces.");
     assert_eq!(plan.steps[1].scenario, "drill-straight-line");
 }
 
@@ -92,7 +92,7 @@ fn exact_good_drill_recommends_the_job() {
     (drill.snapshots, drill.hits) = (0, 0);
     let plan = plan(&[job, drill], &rules(), NOW).unwrap();
     assert_eq!((plan.steps.len(), plan.steps[0].scenario.as_str()), (1, "two-bridges"));
-    assert_eq!(plan.changes, None, "a drill is not compared with the job");
+    assert_eq!(plan.changes, None, "a drill must not be compared with the job");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Reads and writes `answers.json`, which contains a trainee's answers so far.
+//! Reads and writes `answers.json`, which stores a trainee's answers so far.
 
 use super::language_tag::is_tag;
 use super::{QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale};
@@ -9,18 +9,18 @@ use serde_json::Value;
 use spandrel_model::toml::{Problem, Problems};
 use std::collections::BTreeMap;
 
-/// File name in the session folder.
+/// File name within the session folder.
 pub const ANSWERS: &str = "answers.json";
 
-/// Format version of the file.
+/// File format version.
 const FORMAT: u64 = 1;
-/// Maximum file size, bytes; 24 answers need far less.
+/// Maximum file size, bytes; far more than 24 answers need.
 const MAX_FILE_BYTES: usize = 64 * 1024;
 
-/// Answers of one session, possibly incomplete.
+/// A session's answers, possibly incomplete.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Answers {
-    /// Language of the questionnaire when the answers were given.
+    /// Questionnaire language used for the answers.
     pub language: String,
     /// Answers from 1 (strongly agree) to 5 (strongly disagree).
     pub given: BTreeMap<QuestionnaireItem, u8>,
@@ -35,7 +35,7 @@ impl Answers {
         QuestionnaireItem::all(tasks).into_iter().filter(|item| !self.given.contains_key(item)).collect()
     }
 
-    /// Returns whether all questions of a job with these tasks are answered.
+    /// Returns whether all questions for a job with these tasks are answered.
     #[must_use]
     pub fn complete(&self, tasks: &[u32]) -> bool {
         self.open(tasks).is_empty()
@@ -89,7 +89,7 @@ impl<'de> Deserialize<'de> for Answers {
 /// Reads `answers.json` for a job with these tasks. Answers may be missing, but those present must be valid.
 ///
 /// # Errors
-/// All errors in the file, with file, line, key, value and allowed values.
+/// Returns all errors in the file, each with file, line, key, value and allowed values.
 pub fn read_answers(file: &str, text: &str, tasks: &[u32]) -> Result<Answers, Problems> {
     let mut reading = AnswerReader { file, text, problems: Vec::new() };
     if text.len() > MAX_FILE_BYTES {

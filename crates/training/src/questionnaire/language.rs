@@ -7,16 +7,16 @@ use spandrel_model::toml::Problems;
 /// File names and contents of the shipped translations.
 pub const SHIPPED: [(&str, &str); 3] =
     [("en.toml", include_str!("en.toml")), ("de.toml", include_str!("de.toml")), ("es.toml", include_str!("es.toml"))];
-/// Maximum number of entries evaluated in an Accept-Language header.
+/// Maximum number of Accept-Language entries evaluated.
 const MAX_ACCEPT_ENTRIES: usize = 20;
 
-/// All available languages; the first one is the default.
+/// All available languages; the first is the default.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Languages(Vec<Wording>);
 
 impl Languages {
-    /// Creates the list from site-specific wordings, in the given order, followed by the shipped ones. If a language occurs
-    /// several times, the first wording is used.
+    /// Creates the list from site-specific wordings, in the given order, followed by the shipped ones. If a language
+    /// occurs more than once, its first wording is used.
     ///
     /// # Errors
     /// Fails if a shipped wording is invalid, which a test excludes.
@@ -49,7 +49,7 @@ impl Languages {
     #[must_use]
     pub fn accepted(&self, header: &str) -> &Wording {
         let mut wanted: Vec<(&str, f64)> = header.split(',').take(MAX_ACCEPT_ENTRIES).filter_map(parse_accept_entry).collect();
-        // Entries of equal weight stay in the browser's order.
+        // Entries with equal weights keep the browser's order.
         wanted.sort_by(|a, b| b.1.total_cmp(&a.1));
         wanted.into_iter().find_map(|(tag, _)| self.of(tag)).unwrap_or(&self.0[0])
     }

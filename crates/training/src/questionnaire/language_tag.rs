@@ -3,7 +3,7 @@
 /// Maximum length of a language tag, characters (BCP 47 requires support for 35).
 const TAG_MAX: usize = 35;
 
-/// Returns whether a string has the format of a language tag.
+/// Returns whether a string is a well-formed language tag.
 #[must_use]
 pub fn is_tag(tag: &str) -> bool {
     let parts = || tag.split('-');

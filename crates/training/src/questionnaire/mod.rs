@@ -1,6 +1,6 @@
-//! The questionnaire after a session: three statements about the whole inspection and three about each phase (24 for a job with
-//! four tasks), rated from 1 (strongly agree, most positive) to 5 (strongly disagree), plus optionally the unweighted NASA-TLX.
-//! The wording is a translatable data file. The keys of the answers are the same in every language.
+//! The questionnaire after a session: three statements about the whole inspection and three about each phase (24 for a
+//! job with four tasks), rated from 1 (strongly agree, most positive) to 5 (strongly disagree), plus, optionally, the
+//! unweighted NASA-TLX. The wording is a translatable data file. Answer keys are the same in every language.
 
 mod answers;
 mod language;
@@ -24,7 +24,7 @@ pub const TLX_STEP: u8 = 5;
 /// Maximum of a NASA-TLX scale, points.
 pub const TLX_MAX: u8 = 100;
 
-/// Statements about the whole inspection.
+/// Statements about the entire inspection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OverallItem {
     /// There was no time pressure.
@@ -59,7 +59,7 @@ pub enum InspectionPhase {
     Landing,
 }
 
-/// A question of the questionnaire.
+/// A question in the questionnaire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum QuestionnaireItem {
     /// Statement about the whole inspection.
@@ -116,7 +116,7 @@ impl PhaseAspect {
 }
 
 impl InspectionPhase {
-    /// Returns all phases of a job with these tasks, in flight order.
+    /// Returns all phases for a job with these tasks, in flight order.
     #[must_use]
     pub fn all(tasks: &[u32]) -> Vec<Self> {
         let before = [Self::Calibration, Self::TakingOff].into_iter();
@@ -136,7 +136,7 @@ impl fmt::Display for InspectionPhase {
 }
 
 impl QuestionnaireItem {
-    /// Returns all questions of a job with these tasks, in questionnaire order: 24 for four tasks.
+    /// Returns all questions for a job with these tasks, in questionnaire order: 24 for four tasks.
     #[must_use]
     pub fn all(tasks: &[u32]) -> Vec<Self> {
         let phases = InspectionPhase::all(tasks);
@@ -158,7 +158,7 @@ impl QuestionnaireItem {
             task => InspectionPhase::Task(task.strip_prefix("task_")?.parse().ok()?),
         };
         let item = Self::Phase(phase, aspect);
-        // Rejects `task_01`, which would be a second key of the same question.
+        // Rejects `task_01`, which would be a second key for the same question.
         (item.to_string() == key).then_some(item)
     }
 }

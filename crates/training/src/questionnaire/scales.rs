@@ -3,19 +3,19 @@
 use super::{Answers, InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TlxScale};
 use serde::{Deserialize, Serialize};
 
-/// Scale scores from 1 to 5; higher values mean more of the quality that the name states. A scale is present if at least half of
-/// its questions are answered.
+/// Scale scores from 1 to 5; higher values mean more of the named quality. A scale is present if at least half of its
+/// questions are answered.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ScaleScores {
     /// Mean mental demand over the phases.
     pub mental_demand: Option<f64>,
     /// Mean physical demand over the phases.
     pub physical_demand: Option<f64>,
-    /// Mean of mental and physical demand: the causal factors in the TASBID paper.
+    /// Mean of mental and physical demand; the causal factors in the TASBID paper.
     pub demand: Option<f64>,
-    /// Mean of time pressure and frustration: the psychological states in the TASBID paper.
+    /// Mean of time pressure and frustration; the psychological states in the TASBID paper.
     pub strain: Option<f64>,
-    /// Helpfulness of the feedback during the task: the moderator in the TASBID paper.
+    /// Helpfulness of in-task feedback; the moderator in the TASBID paper.
     pub feedback: Option<f64>,
     /// Mean self-rated performance over the phases.
     pub self_rating: Option<f64>,
@@ -30,8 +30,8 @@ pub fn scales(answers: &Answers, tasks: &[u32]) -> ScaleScores {
         average(answers, items.collect())
     };
     let whole = |which: &[OverallItem]| average(answers, which.iter().map(|one| QuestionnaireItem::Overall(*one)).collect());
-    // Statements on demand and strain are worded so that disagreement means a high value. Statements on feedback and performance
-    // are worded the other way round, so they are reversed here.
+    // For demand and strain statements, disagreement means a high value. Feedback and performance statements are worded
+    // the other way around, so they are reversed here.
     let affirmed = |mean: f64| f64::from(STRONGLY_AGREE + STRONGLY_DISAGREE) - mean;
     ScaleScores {
         mental_demand: of(&[PhaseAspect::MentalDemand]),

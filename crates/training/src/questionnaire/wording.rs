@@ -6,9 +6,9 @@ use super::{
 };
 use spandrel_model::toml::{Problems, Reader, Section};
 
-/// Format version of the file.
+/// File format version.
 const FORMAT: i64 = 1;
-/// Placeholder for a task's number and, below, for its name.
+/// Placeholder for a task number; the next one is for the task name.
 const NUMBER_PLACEHOLDER: &str = "{number}";
 const NAME_PLACEHOLDER: &str = "{name}";
 /// The questionnaire in one language.
@@ -24,7 +24,7 @@ pub struct Wording {
     pub introduction: String,
     /// The five answers, from strongly agree to strongly disagree.
     pub scale: [String; 5],
-    /// Heading of the questions on the whole inspection.
+    /// Heading above the questions about the whole inspection.
     pub overall_heading: String,
     overall: [String; 3],
     aspects: [String; 3],
@@ -42,7 +42,7 @@ pub struct Wording {
     pub form: FormWording,
 }
 
-/// Text of the form's controls and messages, including the terminal version.
+/// Text of the form's controls and messages, including those of the terminal version.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FormWording {
     /// Progress text with the placeholders `{answered}` and `{all}`.
@@ -61,7 +61,7 @@ pub struct FormWording {
     pub choose_language: String,
     /// Label of the button that changes the language.
     pub change_language: String,
-    /// Help on the keys of the terminal version.
+    /// Key help for the terminal version.
     pub keys: String,
     please_whole: String,
     please_steps: String,
@@ -72,7 +72,7 @@ pub struct FormWording {
 /// Reads a wording from a TOML file.
 ///
 /// # Errors
-/// All errors in the file.
+/// Returns all errors in the file.
 pub fn read_wording(file: &str, text: &str) -> Result<Wording, Problems> {
     let mut reader = Reader::new(file, text);
     let wording = reader.parse().map(|document| {
@@ -168,7 +168,7 @@ fn form(reader: &mut Reader<'_>, section: &mut Section<'_>) -> FormWording {
 }
 
 impl FormWording {
-    /// Returns the progress text for `answered` of `all` questions.
+    /// Returns the progress text for `answered` out of `all` questions.
     #[must_use]
     pub fn answered(&self, answered: usize, all: usize) -> String {
         self.answered.replace("{answered}", &answered.to_string()).replace("{all}", &all.to_string())
@@ -206,7 +206,7 @@ impl Wording {
         }
     }
 
-    /// Returns the heading above a question: the whole inspection or its phase. `name` returns the name of a task number.
+    /// Returns the heading above a question: the whole inspection or its phase. `name` maps a task number to its name.
     pub fn heading(&self, item: QuestionnaireItem, name: impl Fn(u32) -> String) -> String {
         match item {
             QuestionnaireItem::Overall(_) => self.overall_heading.clone(),
@@ -214,7 +214,7 @@ impl Wording {
         }
     }
 
-    /// Returns the name of a phase. `name` returns the name of a task number.
+    /// Returns the name of a phase. `name` maps a task number to its name.
     pub fn phase(&self, phase: InspectionPhase, name: impl Fn(u32) -> String) -> String {
         match phase {
             InspectionPhase::Calibration => self.calibration.clone(),
@@ -226,7 +226,7 @@ impl Wording {
         }
     }
 
-    /// Returns the question of a NASA-TLX scale and its labels at 0 and 100.
+    /// Returns a NASA-TLX scale's question and its labels at 0 and 100.
     #[must_use]
     pub fn tlx(&self, scale: TlxScale) -> (&str, &str, &str) {
         let [low, high, best, worst] = &self.tlx_ends;

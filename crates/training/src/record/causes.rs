@@ -1,4 +1,4 @@
-//! Causes of a session's scores, computed for each task from the session's frames.
+//! Causes of a session's scores, computed per task from the session's frames.
 
 use super::source::RecordSource;
 use super::task_record::{Crashes, DefectRecord, TaskRecord, kind_word};
@@ -11,17 +11,17 @@ use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths, TaskWindow};
 use spandrel_monitor::measures::on_speed;
 
-/// Maximum distance from a path at which the drone counts as off this path, m. Farther away, it is considered to be elsewhere
+/// Maximum distance from a path at which the drone counts as off that path, m. Farther away, it counts as elsewhere
 /// (docs/src/reference/assessment.md, "Feedback during the flight").
 const MAX_OFF_PATH_M: f64 = 8.0;
 
-/// The parts of a session record that are computed from its frames.
+/// The parts of a session record computed from frames.
 pub struct ScoreCauses {
     /// Tasks in scenario order.
     pub tasks: Vec<TaskRecord>,
     /// Crashes outside all task windows.
     pub crashes_outside: Crashes,
-    /// Defects in the order in which they were placed.
+    /// Defects in placement order.
     pub defects: Vec<DefectRecord>,
 }
 
@@ -85,8 +85,8 @@ fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize,
     }
 }
 
-/// Returns the horizontal and vertical distance from the task's path, m, for each frame in the window that is on no path but
-/// within 8 m of this one.
+/// Returns the horizontal and vertical distance from the task's path, m, for each frame in the window that is on no
+/// path but within 8 m of this path.
 fn off_path(flown: &FlownSession<'_>, task: usize, window: TaskWindow) -> Vec<(f64, f64)> {
     let frames = (window.first..=window.last).filter(|k| flown.on_path.task[*k].is_none());
     let offset = |k: usize| {

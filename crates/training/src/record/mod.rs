@@ -1,5 +1,5 @@
-//! Session records: all data needed for progress, cohorts and plans. A record is computed only from the session folder, so it can
-//! be recreated at any time.
+//! Session records: all data needed for progress, cohorts and plans. A record is computed solely from the session
+//! folder, so it can be recreated at any time.
 
 mod causes;
 mod outcome;
@@ -15,41 +15,41 @@ use serde::{Deserialize, Serialize};
 use spandrel_monitor::score::completion::Completion;
 use spandrel_monitor::score::{SCORER_VERSION, Score};
 
-/// Record of one session.
+/// Session record.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SessionRecord {
     /// Format version of this record.
     pub format: u32,
-    /// Name of the session folder: time, pseudonym, scenario and a short unique id.
+    /// Session folder name: time, pseudonym, scenario and a short unique ID.
     pub id: String,
-    /// Hash over all inputs of the record.
+    /// Hash of all inputs to the record.
     pub fingerprint: String,
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Version of Spandrel that recorded the session.
+    /// Spandrel version that recorded the session.
     pub spandrel_version: String,
-    /// Version of the scorer that computed the scores.
+    /// Scorer version that computed the scores.
     pub scorer_version: u32,
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
-    /// SHA-256 of `scenario.toml` as flown, hexadecimal.
+    /// SHA-256 of the flown `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
-    /// Vehicle id, such as `phantom2`.
+    /// Vehicle ID, such as `phantom2`.
     pub vehicle: String,
     /// SHA-256 of `vehicle.toml`, hexadecimal.
     pub vehicle_sha256: String,
     /// SHA-256 of `telemetry.tlog`, hexadecimal.
     pub telemetry_sha256: String,
-    /// Seed from which defects and traffic are placed.
+    /// Seed for placing defects and traffic.
     pub seed: u64,
     /// Scores as defined in the TASBID paper.
     pub scores: Scores,
-    /// Completion of the job; absent in records of format 1.
+    /// Job completion; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub completion: Option<Completion>,
     /// Tasks in scenario order.
@@ -60,17 +60,18 @@ pub struct SessionRecord {
     pub defects: Vec<DefectRecord>,
     /// Number of snapshots taken.
     pub snapshots: usize,
-    /// Number of snapshots that show a defect not shown in any earlier snapshot.
+    /// Number of snapshots that show a new defect.
     pub hits: usize,
-    /// Reason why the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or `restart`.
+    /// Reason that the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or
+    /// `restart`.
     pub end_reason: String,
-    /// Duration of the flight, s.
+    /// Flight duration, s.
     pub seconds: f64,
-    /// Whether the battery was empty or the time limit was exceeded.
+    /// Whether the battery ran out or the time limit was exceeded.
     pub battery_failed: bool,
-    /// Battery at the last frame, %.
+    /// Battery charge in the last frame, %.
     pub battery_at_end_pct: f64,
-    /// Fraction of the frames for which telemetry was received, 0 to 1.
+    /// Fraction of frames with received telemetry, 0 to 1.
     pub covered: f64,
     /// Whether the session meets all certification requirements.
     pub certified: bool,
@@ -81,43 +82,43 @@ pub struct SessionRecord {
     pub answers: Option<Answers>,
 }
 
-/// The four scores from 0 to 100 each, and their sum.
+/// The four scores, each from 0 to 100, and their sum.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
     /// Conformity; absent for a job without tasks.
     pub conformity: Option<f64>,
-    /// Efficiency, from flight time and return.
+    /// Efficiency, based on flight time and return.
     pub efficiency: f64,
-    /// Safety, from crashes.
+    /// Safety, based on crashes.
     pub safety: f64,
     /// Accuracy; absent for a job without defects.
     pub accuracy: Option<f64>,
-    /// Sum of the scores that apply.
+    /// Sum of all applicable scores.
     pub overall: f64,
-    /// Maximum of `overall`: 100 for each score that applies.
+    /// Maximum possible `overall`: 100 per applicable score.
     pub overall_max: f64,
 }
 
 /// An entry in a list of sessions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionListEntry {
-    /// Id of the session (name of its folder).
+    /// Session ID (its folder name).
     pub id: String,
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<String>,
     /// Start time, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
-    /// Sum of the scores.
+    /// Sum of all applicable scores.
     pub overall: f64,
-    /// Maximum of `overall`.
+    /// Maximum possible `overall`.
     pub overall_max: f64,
-    /// Reason why the flight ended.
+    /// Reason that the flight ended.
     pub end_reason: String,
-    /// Completion of the job; absent in records of format 1.
+    /// Job completion; absent in format 1 records.
     pub completion: Option<Completion>,
     /// Whether the session meets all certification requirements.
     pub certified: bool,
@@ -125,7 +126,7 @@ pub struct SessionListEntry {
     pub unmet: Vec<String>,
 }
 
-/// Whether incomplete sessions count.
+/// Whether to count incomplete sessions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum IncompletePolicy {
     /// Excludes incomplete sessions.
@@ -149,7 +150,7 @@ impl IncompletePolicy {
     }
 }
 
-/// Returns a note on the number of excluded sessions; `None` if it is 0.
+/// Returns a note with the number of excluded sessions; `None` if it is 0.
 #[must_use]
 pub fn omitted_summary(count: usize) -> Option<String> {
     match count {
@@ -168,7 +169,7 @@ impl SessionOutcome for SessionListEntry {
     }
 }
 
-/// Creates the record of a session.
+/// Creates a session record.
 #[must_use]
 pub fn record(source: &RecordSource<'_>) -> SessionRecord {
     let assessment = &source.graded.assessment;
@@ -230,19 +231,19 @@ impl SessionRecord {
         self.tasks.iter().map(|task| task.id).collect()
     }
 
-    /// Returns the crashes of the whole session.
+    /// Returns the crash counts for the whole session.
     #[must_use]
     pub fn crashes(&self) -> Crashes {
         self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::with_added)
     }
 
-    /// Returns the scale scores of the questionnaire; `None` if it was not started.
+    /// Returns the questionnaire's scale scores; `None` if it was not started.
     #[must_use]
     pub fn scales(&self) -> Option<ScaleScores> {
         self.answers.as_ref().map(|answers| scales(answers, &self.task_ids()))
     }
 
-    /// Validates the numbers in a record that was read from storage.
+    /// Validates the numbers in a record read from storage.
     ///
     /// # Errors
     /// Returns the invalid key, its value and the allowed range.
@@ -267,7 +268,7 @@ impl SessionRecord {
                 return Err(format!("{key} = {value} (allowed: 0 to {most})"));
             }
         }
-        // Data that an older format lacks is unknown. Such a session counts as incomplete.
+        // Data missing from older formats is unknown; such a session counts as incomplete.
         if !(1..=FORMAT).contains(&self.format) {
             return Err(format!("format = {} (allowed: 1 to {FORMAT})", self.format));
         }

@@ -1,13 +1,13 @@
-//! Texts on completion and certification, shared by full records and list entries.
+//! Completion and certification texts shared by full records and list entries.
 
 use spandrel_monitor::score::completion::{self, Completion};
 
-/// A session whose completion and certification are known.
+/// A session with a completion state and a certification result.
 pub trait SessionOutcome {
-    /// Returns the completion of the job; `None` in records of format 1.
+    /// Returns the job completion; `None` in format 1 records.
     fn completion(&self) -> Option<&Completion>;
 
-    /// Returns whether the certification profile was passed, and the unmet requirements.
+    /// Returns whether the session passed certification, and the unmet requirements.
     fn certification(&self) -> (bool, &[String]);
 
     /// Returns whether the job was done and the drone landed at home.

@@ -1,4 +1,4 @@
-//! Inputs of a session record.
+//! Inputs to a session record.
 
 use crate::questionnaire::Answers;
 use spandrel_model::scenario::{PlacedDefect, Scenario};
@@ -6,37 +6,37 @@ use spandrel_monitor::AssessedSession;
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::score::SCORER_VERSION;
 
-/// Format version of a record. It is increased when fields are added, so that older records are recreated.
+/// Record format version. It is incremented when fields are added so that older records are recreated.
 pub const FORMAT: u32 = 2;
 
-/// Inputs from which a record is created.
+/// Inputs used to create a record.
 #[derive(Debug, Clone, Copy)]
 pub struct RecordSource<'a> {
-    /// Name of the session folder.
+    /// Session folder name.
     pub id: &'a str,
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: &'a str,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<&'a str>,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Version of Spandrel that recorded the session.
+    /// Spandrel version that recorded the session.
     pub spandrel_version: &'a str,
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: &'a Scenario,
-    /// Vehicle id, such as `phantom2`.
+    /// Vehicle ID, such as `phantom2`.
     pub vehicle: &'a str,
-    /// Hashes of the source files.
+    /// Source file hashes.
     pub hashes: &'a SourceHashes,
-    /// Assessment and frames of the session.
+    /// The session's assessment and frames.
     pub graded: &'a AssessedSession,
-    /// Defects that the session's seed placed.
+    /// Defects placed by the session's seed.
     pub placed: &'a [PlacedDefect],
     /// Questionnaire answers; `None` if the questionnaire was not started.
     pub answers: Option<&'a Answers>,
 }
 
-/// SHA-256 of a session's source files, hexadecimal.
+/// SHA-256 hashes of a session's source files, hexadecimal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SourceHashes {
     /// Hash of `scenario.toml`.
@@ -50,15 +50,15 @@ pub struct SourceHashes {
 }
 
 impl SourceHashes {
-    /// Computes the hashes of the files' bytes.
+    /// Computes the hashes of the file contents.
     #[must_use]
     pub fn of(scenario: &[u8], vehicle: &[u8], telemetry: &[u8], answers: &[u8]) -> Self {
         let hex = sha256_hex;
         Self { scenario: hex(scenario), vehicle: hex(vehicle), telemetry: hex(telemetry), answers: hex(answers) }
     }
 
-    /// Returns a single hash over all files, the scorer version and the record format. A record is up to date as long as this
-    /// hash has not changed.
+    /// Returns a single hash over all files, the scorer version and the record format. A record is up to date as long
+    /// as this hash is unchanged.
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let Self { scenario, vehicle, telemetry, answers } = self;

@@ -1,4 +1,4 @@
-//! Tasks, crashes and defects of a session record.
+//! Tasks, crashes and defects in a session record.
 
 use serde::{Deserialize, Serialize};
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -6,28 +6,28 @@ use spandrel_model::elements::Element;
 use spandrel_model::scenario::TaskKind;
 use spandrel_monitor::score::completion::TaskState;
 
-/// Results of one task and the causes of its score.
+/// One task's results and the causes of its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TaskRecord {
-    /// Number of the task in the scenario.
+    /// Task number in the scenario.
     pub id: u32,
-    /// Name of the task in the scenario.
+    /// Task name in the scenario.
     pub name: String,
     /// Kind of task: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle` or `free`.
     pub kind: String,
     /// Whether the drone entered the task's path.
     pub attempted: bool,
-    /// Whether the task is done, partly flown or not attempted; absent in records of format 1.
+    /// Whether the task is done, partly flown or not attempted; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<TaskState>,
-    /// Fraction of the task's path that was flown, 0 to 1; absent in records of format 1.
+    /// Flown fraction of the task's path, 0 to 1; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered: Option<f64>,
     /// Time from the first to the last on-path frame, s.
     pub seconds: f64,
     /// Fraction of that time on the path, 0 to 1.
     pub on_path: f64,
-    /// Speeding loss as defined in the TASBID paper.
+    /// Speeding loss, as defined in the TASBID paper.
     pub speeding: f64,
     /// Time above the speed limit within the window, s.
     pub speeding_s: f64,
@@ -41,13 +41,13 @@ pub struct TaskRecord {
     pub off_height_m: Option<f64>,
     /// Crashes within the task's window.
     pub crashes: Crashes,
-    /// Number of defects for which this path is the nearest.
+    /// Number of defects nearest to this path.
     pub defects_placed: usize,
-    /// Number of these defects that were found.
+    /// Number of those defects that were found.
     pub defects_found: usize,
 }
 
-/// Crash counts, by kind of object hit.
+/// Crash counts by kind of object hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Crashes {
     /// Crashes into bridges.
@@ -56,7 +56,7 @@ pub struct Crashes {
     pub terrain: usize,
     /// Crashes into water.
     pub water: usize,
-    /// Crashes into anything else except traffic.
+    /// Crashes into any other object.
     pub other: usize,
     /// Crashes into cars and trucks.
     pub vehicle: usize,
@@ -91,7 +91,7 @@ impl Crashes {
         }
     }
 
-    /// Returns the number of crashes of each kind, with its key.
+    /// Returns the key and number of crashes of each kind.
     #[must_use]
     pub fn by_kind(&self) -> [(&'static str, usize); 6] {
         [
@@ -111,26 +111,26 @@ impl Crashes {
     }
 }
 
-/// One defect of a session.
+/// One of a session's defects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DefectRecord {
-    /// Number of the defect, from 1.
+    /// Defect number, from 1.
     pub id: u32,
     /// Defect code (AASHTO MBEI).
     pub kind: u32,
-    /// Name of the kind of defect in plain words.
+    /// Defect type in plain language.
     pub kind_name: String,
-    /// Element with the defect, as its number (AASHTO MBEI).
+    /// Number of the element with the defect (AASHTO MBEI).
     pub element: Element,
     /// Condition state, 1 to 4 (AASHTO MBEI).
     pub condition_state: u8,
-    /// Number of the task whose path is nearest; `None` for a job without tasks.
+    /// Number of the task with the nearest path; `None` for a job without tasks.
     pub task: Option<u32>,
-    /// Whether a snapshot shows it.
+    /// Whether any snapshot shows the defect.
     pub found: bool,
-    /// Reasons why the best picture of a missed defect did not count; empty if there was none.
+    /// Reasons that the best picture of a missed defect did not count; empty if there was no picture.
     pub lacked: Vec<String>,
-    /// Time during which a picture would have shown a missed defect, s. Computed only for session reports.
+    /// Time during which a picture would have shown the missed defect, s. Computed only for session reports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub in_view_s: Option<f64>,
 }

@@ -1,5 +1,5 @@
-//! Assets embedded in a report page: Spandrel's style sheet and scripts, and two unmodified npm libraries. The page's content
-//! security policy lists every script and style by hash and allows no network requests.
+//! Assets embedded in a report page: Spandrel's style sheet and scripts plus two unmodified npm libraries. The page's
+//! content security policy lists every script and style by hash and allows no network requests.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -9,9 +9,9 @@ use sha2::{Digest, Sha256};
 pub const STYLE: &str = include_str!("assets/report.css");
 /// Script shared by the report pages.
 pub const COMMON: &str = include_str!("assets/common.js");
-/// Script of the session report.
+/// Script for the session report.
 pub const SCRIPT: &str = include_str!("assets/report.js");
-/// Script of the page that compares two sessions.
+/// Script for the session comparison page.
 pub const COMPARE: &str = include_str!("assets/compare.js");
 /// uPlot 1.6.32 (MIT, assets/uPlot.LICENSE): `dist/uPlot.iife.min.js` of the npm package `uplot`.
 pub const UPLOT: &str = include_str!("assets/uPlot.iife.min.js");
@@ -21,7 +21,7 @@ pub const UPLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
 pub const THREE_CORE: &str = include_str!("assets/three.core.min.js");
 /// The three.js renderer, `build/three.module.min.js`; imports the core as [`THREE_CORE_NAME`].
 pub const THREE: &str = include_str!("assets/three.module.min.js");
-/// Module specifier by which the renderer imports the core. The page's script replaces it with the actual URL.
+/// Module specifier with which the renderer imports the core. The page's script replaces it with the actual URL.
 pub const THREE_CORE_NAME: &str = "./three.core.min.js";
 
 /// Encodes bytes as Base64.
@@ -30,8 +30,8 @@ pub fn base64(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Returns a content security policy that allows only these scripts and styles and embedded images. `blob:` lets the page's
-/// script load the 3D library, which is embedded as text.
+/// Returns a content security policy that allows only embedded images and these scripts and styles. `blob:` lets the
+/// page's script load the 3D library, which is embedded as text.
 #[must_use]
 pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
     let hashes = |texts: &[&str]| {
@@ -45,7 +45,7 @@ pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
     )
 }
 
-/// Returns the policy of the report pages that this version writes.
+/// Returns the policy for report pages written by this version.
 #[must_use]
 pub fn page_policy() -> String {
     policy(&[UPLOT, COMMON, SCRIPT, COMPARE], &[STYLE, UPLOT_STYLE])

@@ -9,15 +9,15 @@ use spandrel_model::vehicle::Vehicle;
 /// Inputs shared by all parts of a review.
 #[derive(Debug, Clone, Copy)]
 pub struct ReviewContext<'a> {
-    /// Telemetry of the flight.
+    /// The flight's telemetry.
     pub flight: &'a Flight,
-    /// Frames of the session.
+    /// The session's frames.
     pub frames: &'a [Frame],
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: &'a Scenario,
-    /// Vehicle flown in the session.
+    /// Aircraft flown in the session.
     pub vehicle: &'a Vehicle,
-    /// Site of the session.
+    /// The session's site.
     pub site: &'a Site,
 }
 

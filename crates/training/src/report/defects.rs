@@ -1,4 +1,4 @@
-//! Outcome of each defect and, for missed defects, how close the flight came to photographing them.
+//! Outcome of each defect and, for missed ones, how close the flight came to photographing them.
 
 use super::context::ReviewContext;
 use super::formatting;
@@ -11,10 +11,10 @@ use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 
-/// Sampling interval at which the flight is searched for views of a defect.
+/// Sampling interval for finding views of a defect in the flight.
 const SAMPLE_INTERVAL: SimTime = SimTime::from_ms(500);
-/// Distance from which the report's drawings show a missed defect, m (estimate: close enough to see a crack at the limit between
-/// condition states).
+/// Distance from which the report's drawings show a missed defect, m (estimate: close enough to see a crack at the
+/// limit between two condition states).
 const VIEW_DISTANCE_M: f64 = 4.0;
 
 /// Whether one defect was found, and how.
@@ -24,7 +24,7 @@ pub struct DefectOutcome {
     pub defect: PlacedDefect,
     /// Number of the first picture that shows it; `None` if it was missed.
     pub found_by: Option<u32>,
-    /// Closest that the flight came to a picture of the defect; `None` if a picture shows it.
+    /// The flight's closest approach to a picture of the defect; `None` if a picture shows it.
     pub best_approach: Option<BestApproach>,
 }
 
@@ -33,10 +33,10 @@ pub struct DefectOutcome {
 pub struct BestApproach {
     /// Time during which a picture would have counted as a hit, s.
     pub in_view_s: f64,
-    /// Best view and its time, s since lift-off: the first view that would have counted as a hit, otherwise the one with the
-    /// fewest failed conditions.
+    /// Best view and its time, s since lift-off: the first view that would have counted as a hit or, without one, the
+    /// view with the fewest failed conditions.
     pub best: Option<(f64, DefectView)>,
-    /// Minimum distance of the drone from the defect, m, and its time, s since lift-off.
+    /// Minimum distance between drone and defect, m, and its time, s since lift-off.
     pub nearest: (f64, f64),
 }
 
@@ -56,7 +56,7 @@ impl DefectOutcome {
             ),
             Some((t_s, view)) => format!("best seen at {}, but {}", formatting::clock(*t_s), view.reasons().join("; ")),
             None => format!(
-                "the camera never pointed at it; the drone came within {} m at {}",
+                "never in the camera's view; the drone came within {} m at {}",
                 formatting::number(nearest_m, 1),
                 formatting::clock(nearest_s)
             ),
@@ -68,7 +68,7 @@ impl DefectOutcome {
     pub fn good_view(&self) -> CameraPose {
         let forward = self.defect.normal * -1.0;
         let up = Vec3::new(0.0, 0.0, 1.0);
-        // If the camera looks straight up or down, any horizontal direction can be "right".
+        // If the camera points straight up or down, any horizontal direction can be "right".
         let right = if forward.up().abs() > 0.999 { Vec3::new(1.0, 0.0, 0.0) } else { forward.cross(up).unit() };
         CameraPose { position_m: self.defect.position_m + self.defect.normal * VIEW_DISTANCE_M, forward, right, lamp_on: true }
     }
@@ -91,7 +91,7 @@ fn best_approach(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproa
     let rate_hz = scene.scenario.scoring.frame_rate_hz;
     let stride = (SAMPLE_INTERVAL.s() * rate_hz).round().max(1.0) as usize;
     let mut best_approach = BestApproach { in_view_s: 0.0, best: None, nearest: (f64::INFINITY, 0.0) };
-    // The sun moves little during a flight, so the ambient light on the defect is computed only once.
+    // The sun hardly moves during a flight, so the ambient light on the defect is computed only once.
     let mut ambient_lux = None;
     for frame in scene.frames.iter().step_by(stride) {
         let t_s = scene.time_since_lift_off_s(frame.time);
@@ -120,12 +120,12 @@ fn best_approach(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproa
     best_approach
 }
 
-/// Returns the number of failed conditions. A hidden defect ranks worse than a badly visible one.
+/// Returns the number of failed conditions. An occluded defect ranks worse than a poorly visible one.
 fn failed_conditions(view: &DefectView) -> usize {
     view.conditions().iter().filter(|holds| !**holds).count() + if view.unoccluded { 0 } else { 6 }
 }
 
-/// Returns whether the point could be inside the image. A quick test that may return true for points outside it.
+/// Returns whether the point could be inside the image. This quick test may return true for points outside it.
 fn could_be_visible(pose: &CameraPose, camera: &Camera, point_m: Vec3<Enu>) -> bool {
     let to = point_m - pose.position_m;
     let depth = to.dot(pose.forward);

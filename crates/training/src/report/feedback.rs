@@ -12,8 +12,8 @@ use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use std::ops::ControlFlow;
 
-/// Minimum change of a stick's position after the cue that counts as a reaction, full travel = 1 (estimate: larger than hand
-/// tremor, smaller than any deliberate correction).
+/// Minimum stick movement after the cue that counts as a reaction, full travel = 1 (estimate: larger than hand tremor,
+/// smaller than any deliberate correction).
 const MIN_STICK_CHANGE: f64 = 0.1;
 /// Maximum reaction time, s. Later movements do not count as a reaction to the cue (estimate).
 const MAX_REACTION_S: f64 = 5.0;
@@ -31,7 +31,7 @@ pub const KINDS: [CueKind; 6] = [
 /// A kind of cue that the monitor raises.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CueKind {
-    /// Bit of the cue in the `cues` value.
+    /// The cue's bit in the `cues` value.
     pub bit: i32,
     /// Name shown in the report.
     pub name: &'static str,
@@ -39,7 +39,7 @@ pub struct CueKind {
     pub expects_reaction: bool,
 }
 
-/// An interval in which a cue was on.
+/// An interval during which a cue was on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CueEpisode {
     /// Index into [`KINDS`].
@@ -48,7 +48,7 @@ pub struct CueEpisode {
     pub from_s: f64,
     /// End, s since lift-off.
     pub to_s: f64,
-    /// Time from the start of the cue to the first stick movement, s; `None` without a reaction in time.
+    /// Time from cue onset to the first stick movement, s; `None` without a timely reaction.
     pub reaction_s: Option<f64>,
     /// Index of the task being flown.
     pub task: Option<usize>,
@@ -57,11 +57,11 @@ pub struct CueEpisode {
 /// Feedback given during a session.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SessionFeedback {
-    /// Cues in order of their start.
+    /// Cues in order of onset.
     pub episodes: Vec<CueEpisode>,
     /// Messages and their times, s since lift-off.
     pub texts: Vec<(f64, String)>,
-    /// The instructor's notes and their times, s since lift-off; negative before lift-off. Trainees do not see them during the
+    /// The instructor's notes and their times, s since lift-off; negative before lift-off. Trainees don't see them in
     /// flight.
     pub notes: Vec<(f64, String)>,
 }
@@ -105,13 +105,13 @@ pub fn collect_feedback(events: Vec<TimedEvent>, scene: &ReviewContext<'_>, trac
     said
 }
 
-/// Simulation time, s, and content of one line of `events.jsonl`.
+/// Simulation time, s, and content of one `events.jsonl` line.
 pub type TimedEvent = (f64, serde_json::Value);
 
 /// Replays a log through the monitor and returns its events.
 ///
 /// # Errors
-/// If the log cannot be read.
+/// Fails if the log cannot be read.
 pub fn events(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> std::io::Result<Vec<TimedEvent>> {
     let mut monitor = Monitor::new(MonitorConfig {
         scenario: scenario.clone(),
@@ -157,7 +157,7 @@ fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &ReviewContext<'_>, t
     }
 }
 
-/// Returns the median of a list; `None` if it is empty.
+/// Returns the median of a list; `None` for an empty list.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);

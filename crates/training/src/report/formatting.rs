@@ -1,4 +1,4 @@
-//! Display names and number formats. This is the only place where values are rounded.
+//! Display names and number formats. Values are rounded nowhere else.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
@@ -25,7 +25,7 @@ pub fn clock(t_s: f64) -> String {
     format!("{}:{:02}", whole / 60, whole % 60)
 }
 
-/// Formats a duration as text, such as `2 min 5 s`.
+/// Formats a duration, such as `2 min 5 s`.
 #[must_use]
 pub fn duration(t_s: f64) -> String {
     let whole = t_s.max(0.0).round() as u64;

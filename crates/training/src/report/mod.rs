@@ -1,8 +1,8 @@
-//! The report of a finished session: a single page that works offline. [`Review::of`] reads the telemetry with the scorer's code
-//! and computes the contents; [`page::session`] renders the page. Neither performs I/O.
+//! The report on a finished session: a single page that works offline. [`Review::of`] reads the telemetry with the
+//! scorer's code and computes the contents; [`page::session`] renders the page. Neither performs I/O.
 //!
-//! User-provided text (names, titles) reaches the page only through maud's escaping, the tables of [`table`] or the data block of
-//! [`page::series`], which all escape it.
+//! User-provided text (names, titles) reaches the page only through maud, the tables in [`table`] or the data block in
+//! [`page::series`], all of which escape it.
 
 pub mod assets;
 mod context;
@@ -36,18 +36,18 @@ use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 
-/// Metadata of a session, from its folder.
+/// Session metadata, from the session folder.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SessionMetadata {
-    /// Pseudonym of the trainee.
+    /// Trainee's pseudonym.
     pub trainee: String,
-    /// Purpose of the session, `practice` or `assessment`; `None` if not specified.
+    /// Session purpose, `practice` or `assessment`; `None` if not specified.
     pub purpose: Option<String>,
-    /// Wall-clock time of simulation time zero, µs since the Unix epoch.
+    /// Wall-clock time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Start time in UTC, as text.
     pub started_utc: String,
-    /// Name of the session folder.
+    /// Session folder name.
     pub folder: String,
     /// SHA-256 of the scenario file, hexadecimal.
     pub scenario_sha256: String,
@@ -55,11 +55,11 @@ pub struct SessionMetadata {
     pub vehicle_sha256: String,
     /// SHA-256 of the telemetry, hexadecimal.
     pub telemetry_sha256: String,
-    /// Pictures by sequence number, reduced in size for embedding.
+    /// Pictures by sequence number, downsized for embedding.
     pub pictures: Vec<(u32, Jpeg)>,
 }
 
-/// A picture in JPEG format.
+/// A JPEG picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Jpeg {
     /// Contents of the JPEG file.
@@ -71,25 +71,25 @@ pub struct Jpeg {
 pub struct Review {
     /// Metadata from the session folder.
     pub about: SessionMetadata,
-    /// Scenario of the session.
+    /// The session's scenario.
     pub scenario: Scenario,
-    /// Vehicle flown in the session.
+    /// Aircraft flown in the session.
     pub vehicle: Vehicle,
     /// Site built from the session's seed.
     pub site: Site,
-    /// Seed of the session.
+    /// The session's seed.
     pub seed: u64,
-    /// Assessment of the session.
+    /// The session's assessment.
     pub assessment: Assessment,
-    /// Frames of the session; frame 1 has index 0.
+    /// Session frames; frame 1 has index 0.
     pub frames: Vec<Frame>,
-    /// Position relative to the tasks in each frame.
+    /// The drone's position relative to the tasks in each frame.
     pub track: Vec<task_proximity::TaskProximityStep>,
     /// Task windows and on-path frames.
     pub on_path: OnPath,
-    /// All contacts, in order of their start.
+    /// All contacts, in order of onset.
     pub crashes: Vec<Crash>,
-    /// Measures of each task's window.
+    /// Measures for each task's window.
     pub tasks: Vec<task_proximity::TaskTotals>,
     /// Feedback and the trainee's reactions.
     pub feedback: feedback::SessionFeedback,
@@ -109,14 +109,14 @@ impl Review {
     /// Reads a session's telemetry and computes the review.
     ///
     /// # Errors
-    /// If the log cannot be read, belongs to a different scenario or seed, or contains no session.
+    /// Fails if the log cannot be read, belongs to a different scenario or seed, or contains no session.
     pub fn of(
         log: &(impl TelemetryLog + ?Sized),
         scenario: &Scenario,
         vehicle: &Vehicle,
         about: SessionMetadata,
     ) -> Result<Self, AssessError> {
-        // The replay comes first, because the monitor holds its own copy of the flight until it is dropped.
+        // The replay runs first, because the monitor keeps its own copy of the flight until it is dropped.
         let events = feedback::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log)?;
@@ -166,8 +166,8 @@ impl Review {
     }
 }
 
-/// Returns the recommended scenarios from the default rules and this session only; empty if the rules are invalid, which a test
-/// excludes.
+/// Returns the scenarios recommended by the default rules for this session alone; empty if the rules are invalid, which
+/// a test excludes.
 fn next(
     about: &SessionMetadata,
     scenario: &Scenario,

@@ -1,4 +1,4 @@
-//! Line drawings of the site: parallel projections, silhouettes of members, and the triangle mesh of the 3D view. All are derived
+//! Line drawings of the site: parallel projections, member silhouettes, and the 3D view's triangle mesh, all derived
 //! from the collision geometry. Details too small to see are skipped.
 
 use spandrel_model::elements::Element;
@@ -19,9 +19,9 @@ pub struct ParallelView {
 /// Silhouette of one bridge member.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemberOutline {
-    /// Element of the member.
+    /// The member's element.
     pub element: Element,
-    /// Corners in the drawing, counterclockwise; m right and up.
+    /// Vertices in the drawing, counterclockwise; m right and up.
     pub corners: Vec<(f64, f64)>,
     /// Depth of the nearest point, m; larger is closer to the viewer.
     pub near_m: f64,
@@ -34,7 +34,7 @@ impl ParallelView {
         Self { right: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) }
     }
 
-    /// Returns the side view of a bridge from its right side. The direction of the deck's heading points right.
+    /// Returns the side view of a bridge from its right side. The deck's heading points right in the drawing.
     #[must_use]
     pub fn side(bridge: &Bridge) -> Self {
         let (s, c) = math::sin_cos(bridge.heading_deg.to_radians());
@@ -68,7 +68,7 @@ impl ParallelView {
     }
 }
 
-/// Returns the convex hull, counterclockwise, without collinear points (Andrew's monotone chain).
+/// Returns the counterclockwise convex hull, without collinear points (Andrew's monotone chain).
 #[must_use]
 pub fn hull(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut sorted = points.to_vec();
@@ -94,8 +94,8 @@ pub fn hull(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     lower
 }
 
-/// Returns the silhouettes of the members, farthest first. Members whose silhouettes are smaller than `least_m` in both
-/// directions are skipped.
+/// Returns the member silhouettes, farthest first. Members with silhouettes smaller than `least_m` in both directions
+/// are skipped.
 #[must_use]
 pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelView, least_m: f64) -> Vec<MemberOutline> {
     let towards = view.towards();
@@ -109,7 +109,7 @@ pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelVi
     found
 }
 
-/// Returns the larger side of the corners' bounding box, m.
+/// Returns the longer side of the vertices' bounding box, m.
 fn extent(corners: &[(f64, f64)]) -> f64 {
     let span = |f: fn(&(f64, f64)) -> f64| {
         let (low, high) = corners.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));

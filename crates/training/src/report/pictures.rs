@@ -10,7 +10,7 @@ use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 
-/// Maximum distance of the object in the center of a picture, m; beyond it, the picture shows sky.
+/// Maximum distance of the object in a picture's center, m; anything farther counts as sky.
 const MAX_TARGET_DISTANCE_M: f64 = 120.0;
 
 /// Verdict on a picture.
@@ -18,7 +18,7 @@ const MAX_TARGET_DISTANCE_M: f64 = 120.0;
 pub enum PictureVerdict {
     /// The first picture to show a defect.
     Hit,
-    /// Shows only defects that earlier pictures already show.
+    /// Shows only defects that earlier pictures already captured.
     Repeat,
     /// A defect is in view, but it receives too little light.
     TooDark,
@@ -74,7 +74,8 @@ pub struct PictureSubject {
     pub lux: f64,
     /// Illuminance that the camera needs for a usable exposure, lx.
     pub needed_lux: f64,
-    /// Motion blur caused by the drone's speed across the line of sight, at the shortest exposure that this light allows, px.
+    /// Motion blur caused by the drone's speed across the line of sight at the shortest exposure possible in this
+    /// light, px.
     pub blur_px: f64,
 }
 
@@ -89,23 +90,23 @@ pub struct ReviewedPicture {
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
-    /// Current simulation time.
+    /// Simulation time.
     pub time: SimTime,
     /// Camera position, orientation and lamp state.
     pub pose: CameraPose,
     /// Camera with the zoom setting of this picture.
     pub camera: Camera,
-    /// Whether the picture shows a defect, and why not.
+    /// Whether the picture counts as a hit and, if not, why.
     pub verdict: PictureVerdict,
     /// Reason for the verdict, as a phrase.
     pub reason: String,
-    /// Ids of the defects in this picture that no earlier picture shows.
+    /// IDs of the defects first shown in this picture.
     pub found: Vec<u32>,
     /// Defects in the central part of the image, including those that do not count.
     pub views: Vec<DefectView>,
     /// Object in the center of the image; `None` for sky.
     pub target: Option<PictureSubject>,
-    /// Index of the task that was being flown, if any.
+    /// Index of the task being flown, if any.
     pub task: Option<usize>,
 }
 
@@ -203,7 +204,7 @@ fn member(scene: &ReviewContext<'_>, object: ObjectId) -> String {
     scene.site.members().get(object.0 as usize).map_or_else(|| scene.site.object_name(object), |member| member.name.clone())
 }
 
-/// Returns the shortest exposure for an illuminance of `lux` at the camera's maximum sensitivity, s. The result is at most the
+/// Returns the shortest exposure for an illuminance of `lux` at the camera's maximum sensitivity, s. Limited to the
 /// camera's maximum exposure.
 #[must_use]
 pub fn exposure_s(camera: &Camera, lux: f64) -> f64 {

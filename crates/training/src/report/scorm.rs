@@ -1,5 +1,5 @@
-//! Exports a session as a SCORM 1.2 package for a learning management system (LMS): a page that reports score, status and
-//! duration to the LMS through its script interface, and shows the report.
+//! Exports a session as a SCORM 1.2 package for a learning management system (LMS): a page that reports score, status
+//! and duration through the LMS's script interface and shows the session report.
 
 use super::Review;
 use super::formatting;
@@ -24,7 +24,7 @@ pub fn files(review: &Review, report: &str) -> Vec<(&'static str, String)> {
 
 fn manifest(review: &Review) -> String {
     let title = title(review);
-    // maud escapes HTML, which is also valid for XML.
+    // maud's HTML escaping is also valid for XML.
     let body = html! {
         manifest identifier={ "spandrel-" (review.about.telemetry_sha256.get(..16).unwrap_or_default()) } version="1.0"
             xmlns="http://www.imsproject.org/xsd/imscp_rootv1p1p2" xmlns:adlcp="http://www.adlnet.org/xsd/adlcp_rootv1p2" {

@@ -1,5 +1,5 @@
-//! Draws a camera's view from the collision geometry with flat shading, edges, haze and lamp light. The drawing is dark where the
-//! light is too weak. The report labels it as a drawing, not as a photograph.
+//! Draws a camera's view from the collision geometry with flat shading, edges, haze and lamp light. The drawing is dark
+//! where there is too little light. The report labels it as a drawing, not a photograph.
 
 use spandrel_model::elements::ElementMaterial;
 use spandrel_model::frames::{Enu, Vec3};
@@ -16,7 +16,7 @@ pub const WIDTH_PX: usize = 400;
 const NEAR_M: f64 = 0.05;
 /// Maximum distance at which members are drawn, m.
 const MAX_DISTANCE_M: f64 = 400.0;
-/// Side length of the squares that form ground and water, m.
+/// Side length of the ground and water squares, m.
 const GROUND_STEP_M: f64 = 12.0;
 /// Distance at which haze hides about two thirds of an object's color, m (for appearance only).
 const HAZE_M: f64 = 700.0;
@@ -27,12 +27,12 @@ struct Facet {
     shade: ShadeIndex,
 }
 
-/// Index of a color in the palette. Faces of the same color share an index.
+/// Palette index of a color. Faces of the same color share an index.
 type ShadeIndex = u32;
 /// Index of the sky color.
 const SKY_INDEX: ShadeIndex = 0;
 
-/// Colors of a site. A drawing stores an index per pixel, which takes a sixth of the space of a color.
+/// A site's colors. A drawing stores an index per pixel, which takes a sixth of the space of a full color.
 struct Palette {
     colours: Vec<[f64; 3]>,
     numbers: BTreeMap<[u64; 3], ShadeIndex>,
@@ -58,7 +58,7 @@ struct ShadedBody {
     facets: Vec<Facet>,
 }
 
-/// The shaded site, which can be drawn from any camera.
+/// The shaded site, ready to draw from any camera.
 pub struct Sketcher {
     bodies: Vec<ShadedBody>,
     colours: Vec<[f64; 3]>,
@@ -67,7 +67,7 @@ pub struct Sketcher {
 /// Lighting of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SketchExposure {
-    /// Light at the center as a fraction of the light that the camera needs there.
+    /// Light at the center, as a fraction of the light that the camera needs there.
     pub light: f64,
     /// Whether most of the light comes from the lamp.
     pub by_lamp: bool,
@@ -124,7 +124,7 @@ fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>,
 
 fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Facet {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).unit();
-    // Skylight from above, a slight directional term that makes faces distinguishable, and direct sunlight.
+    // Skylight from above, a slight directional term that tells faces apart, and direct sunlight.
     let light = 0.50 + 0.16 * normal.up() + 0.06 * normal.east() + 0.10 * normal.north().abs() + 0.25 * normal.dot(sun).max(0.0);
     Facet { corners, shade: palette.number(base.map(|c| c * light)) }
 }
@@ -176,7 +176,7 @@ impl SketchCamera<'_> {
         [to.dot(self.pose.right), to.dot(self.down), to.dot(self.pose.forward)]
     }
 
-    /// Returns false if the body is certainly behind the camera, too far away or outside the image.
+    /// Returns false if the body is definitely behind the camera, too far away or outside the image.
     fn may_be_visible(&self, body: &ShadedBody) -> bool {
         let [x, y, depth] = self.project(body.center_m);
         let r = body.radius_m;
@@ -206,8 +206,8 @@ impl SketchCanvas {
         }
     }
 
-    /// Fills a triangle in front of the camera if its corners appear counterclockwise. Otherwise it is a back face and is not
-    /// drawn.
+    /// Fills a triangle in front of the camera if its vertices appear counterclockwise. Otherwise, it is a back face
+    /// and is not drawn.
     fn fill(&mut self, corners: [[f64; 3]; 3], shade: ShadeIndex) {
         let (w, h) = (WIDTH_PX as f64, self.height as f64);
         let p = corners.map(|[x, y, z]| (0.5 * w + self.focal_px * x / z, 0.5 * h + self.focal_px * y / z, 1.0 / z));
@@ -272,7 +272,7 @@ impl SketchCanvas {
         (x + 1 < WIDTH_PX && differs(at + 1)) || (y + 1 < self.height && differs(at + WIDTH_PX))
     }
 
-    /// Returns the lamp's brightness at a pixel; it decreases from the center toward the sides.
+    /// Returns the lamp's brightness at a pixel, which decreases from the center toward the edges.
     fn lamp_falloff(&self, x: usize, y: usize) -> f64 {
         let (dx, dy) = (x as f64 - 0.5 * WIDTH_PX as f64, y as f64 - 0.5 * self.height as f64);
         let away = math::hypot(dx, dy) / (0.5 * WIDTH_PX as f64);
@@ -280,7 +280,7 @@ impl SketchCanvas {
     }
 }
 
-/// Returns the range of pixels in a row for which no barycentric coordinate is negative.
+/// Returns the range of pixels in a row that have no negative barycentric coordinate.
 fn span(shares: &[(f64, f64); 3]) -> Option<(usize, usize)> {
     let (mut from, mut to) = (0.0, WIDTH_PX as f64);
     for (at, step) in shares {
@@ -355,7 +355,8 @@ mod tests {
 
     #[test]
     fn exact_front_face_fills_pixels_and_back_face_none() {
-        // Corners at pixels (10, 10), (10, 30), (30, 10), counterclockwise in the image; focal length 100 px, 1 m away.
+        // Vertices at pixels (10, 10), (10, 30), (30, 10), counterclockwise in the image; focal length 100 px, 1 m
+        // away.
         let corner = |x: f64, y: f64| [(x - 200.0) / 100.0, (y - 150.0) / 100.0, 1.0];
         let face = [corner(10.0, 10.0), corner(10.0, 30.0), corner(30.0, 10.0)];
         let filled = |corners: [[f64; 3]; 3]| {

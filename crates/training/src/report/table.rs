@@ -1,4 +1,4 @@
-//! Data tables for figures: rounded for display, with full precision for download.
+//! Data tables for figures: rounded for display, full precision for download.
 
 use super::formatting;
 use maud::{Markup, html};
@@ -10,7 +10,7 @@ pub enum TableCell {
     Text(String),
     /// A number and the number of decimal places to display.
     Number(f64, usize),
-    /// Duration of the flight, s.
+    /// Flight duration, s.
     Clock(f64),
     /// No value.
     Empty,
@@ -71,7 +71,7 @@ impl TableCell {
 /// A table that can be shown and downloaded as CSV.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// File name of the CSV file, without extension.
+    /// CSV file name without extension.
     pub name: &'static str,
     /// Caption shown above the table.
     pub caption: &'static str,
@@ -82,7 +82,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Renders the table below its figure, collapsed.
+    /// Renders the table collapsed, below its figure.
     #[must_use]
     pub fn folded(&self) -> Markup {
         html! {
@@ -117,7 +117,7 @@ impl Table {
         }
     }
 
-    /// Returns the table as CSV with a header line and numbers in full precision.
+    /// Returns the table as CSV with a header line and full-precision numbers.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut csv = self.columns.iter().map(|column| TableCell::from(*column).field()).collect::<Vec<_>>().join(",");
@@ -130,7 +130,7 @@ impl Table {
     }
 }
 
-/// Renders a download link that contains the file as a data URL.
+/// Renders a download link with the file as a data URL.
 #[must_use]
 pub fn download(name: &str, csv: &str, words: &str) -> Markup {
     let mut link = String::from("data:text/csv;charset=utf-8,");

@@ -1,26 +1,27 @@
-//! Position relative to the tasks in each frame, and totals for each task's window.
+//! The drone's position relative to the tasks in each frame, and totals for each task's window.
 
 use super::context::ReviewContext;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::measures::on_speed;
 
-/// Position of the drone relative to the tasks in one frame.
+/// The drone's position relative to the tasks in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskProximityStep {
-    /// Index of the task that the distance refers to: the last task entered, or the nearest one if none was entered yet.
+    /// Index of the task that the distance refers to: the last task entered, or the nearest one if none has been
+    /// entered yet.
     pub task: Option<usize>,
     /// Distance to that task's path, m.
     pub distance_m: Option<f64>,
-    /// Whether the drone is on the path of any task.
+    /// Whether the drone is on any task's path.
     pub on: bool,
-    /// Whether the frame is inside the window of any task.
+    /// Whether the frame is inside any task's window.
     pub inside: bool,
     /// Whether the frame is inside a window and the speed exceeds the limit.
     pub speeding: bool,
 }
 
-/// Measures of one task's window.
+/// Measures for one task's window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskTotals {
     /// Time from the first to the last on-path frame, s.
@@ -39,7 +40,7 @@ pub struct TaskTotals {
     pub min_clearance_m: f64,
 }
 
-/// Computes the position relative to the tasks in all frames.
+/// Computes the position relative to the tasks for all frames.
 #[must_use]
 pub fn steps(paths: &ReferencePaths, on_path: &OnPath, scene: &ReviewContext<'_>) -> Vec<TaskProximityStep> {
     let speeds: Vec<f64> = scene.frames.iter().map(Frame::speed_m_s).collect();

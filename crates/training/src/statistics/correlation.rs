@@ -1,4 +1,4 @@
-//! Correlation between two measures of the same trainees.
+//! Correlation between two measures for the same trainees.
 
 use super::distribution::t_tail_probabilities;
 use super::{StatisticsError, mean};
@@ -7,7 +7,7 @@ use serde::Serialize;
 /// A correlation coefficient and its two-tailed p value (t distribution with n - 2 degrees of freedom).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Correlation {
-    /// Number of value pairs.
+    /// Number of pairs.
     pub n: usize,
     /// Correlation coefficient, -1 to 1.
     pub r: f64,
@@ -36,7 +36,7 @@ pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
     Ok(Correlation { n, r, p })
 }
 
-/// Computes Spearman's rank correlation coefficient. Tied values share their mean rank.
+/// Computes Spearman's rank correlation coefficient. Tied values get their mean rank.
 ///
 /// # Errors
 /// See [`pearson`].

@@ -1,18 +1,18 @@
-//! Functions of the t, chi-squared and F distributions, based on the statistics library.
+//! Functions for the t, chi-squared and F distributions, based on the statistics library.
 
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, Continuous, ContinuousCDF, FisherSnedecor, StudentsT};
 
-/// Number of Newton steps that improve the library's quantile (accurate to about 1e-6) to machine precision. Each step doubles the
-/// number of correct digits.
+/// Number of Newton steps that refine the library's quantile (accurate to about 1e-6) to machine precision. Each step
+/// doubles the number of correct digits.
 const NEWTON_STEPS: usize = 4;
 
 /// One- and two-tailed p values of a t statistic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TailProbabilities {
-    /// Probability of the upper tail, for the alternative "increase".
+    /// Upper-tail probability, for the alternative "increase".
     pub upper: f64,
-    /// Probability of the lower tail, for the alternative "decrease".
+    /// Lower-tail probability, for the alternative "decrease".
     pub lower: f64,
     /// Two-tailed probability, for the alternative "change".
     pub two: f64,
@@ -42,13 +42,13 @@ pub(super) fn t_quantile(share: f64, df: f64) -> Option<f64> {
     t.is_finite().then_some(t)
 }
 
-/// Returns the upper tail probability of the chi-squared distribution with `df` degrees of freedom.
+/// Returns the upper-tail probability of the chi-squared distribution with `df` degrees of freedom.
 pub(super) fn chi_squared_upper_tail(statistic: f64, df: f64) -> Option<f64> {
     let distribution = ChiSquared::new(df).ok()?;
     (statistic >= 0.0).then(|| distribution.sf(statistic))
 }
 
-/// Returns the upper tail probability of the F distribution.
+/// Returns the upper-tail probability of the F distribution.
 pub(super) fn f_upper_tail(statistic: f64, df_model: f64, df_residual: f64) -> Option<f64> {
     let distribution = FisherSnedecor::new(df_model, df_residual).ok()?;
     (statistic >= 0.0).then(|| if statistic.is_finite() { distribution.sf(statistic) } else { 0.0 })
@@ -62,7 +62,7 @@ fn student(df: f64) -> Option<StudentsT> {
 mod tests {
     use super::*;
 
-    /// Tolerance for the rounding error of the library's functions.
+    /// Tolerance for rounding errors in the library's functions.
     const TOLERANCE: f64 = 1e-12;
 
     #[test]

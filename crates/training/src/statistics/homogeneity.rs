@@ -1,10 +1,10 @@
-//! Chi-squared test of homogeneity for answers or scores of several groups.
+//! Chi-squared test of homogeneity for the answers or scores of multiple groups.
 
 use super::StatisticsError;
 use super::distribution::chi_squared_upper_tail;
 use serde::Serialize;
 
-/// Minimum expected count of a cell, below which the chi-squared approximation is poor (Cochran 1954).
+/// Minimum expected cell count for a good chi-squared approximation (Cochran 1954).
 const MIN_EXPECTED_COUNT: f64 = 5.0;
 
 /// Result of a chi-squared test of homogeneity.
@@ -14,16 +14,16 @@ pub struct Homogeneity {
     pub chi_squared: f64,
     /// Degrees of freedom, counting only nonempty rows and columns.
     pub df: usize,
-    /// Probability of a difference at least this large between homogeneous groups.
+    /// Probability of a difference this large or larger between homogeneous groups.
     pub p: f64,
-    /// Smallest expected count of all cells.
+    /// Smallest expected cell count.
     pub smallest_expected: f64,
-    /// Warning if an expected count is below 5.
+    /// Warning, if any expected count is below 5.
     pub warning: Option<String>,
 }
 
-/// Tests whether the rows (groups) of a table of counts have the same distribution over the columns (categories). Empty rows and
-/// columns are ignored.
+/// Tests whether the rows (groups) of a table of counts have the same distribution across columns (categories). Empty
+/// rows and columns are ignored.
 ///
 /// # Errors
 /// Fails if the rows differ in length or if fewer than two rows or columns are nonempty.

@@ -1,16 +1,16 @@
-//! Learning curve: change of a measure with practice, modeled as a power law (Newell and Rosenbloom 1981).
+//! Learning curve: change in a measure with practice, modeled as a power law (Newell and Rosenbloom 1981).
 
 use super::{StatisticsError, mean};
 use serde::Serialize;
 use spandrel_model::math;
 
-/// Minimum number of repetitions for a curve. Its two parameters would fit three repetitions almost perfectly.
+/// Minimum number of repetitions for a curve. Two parameters would fit three repetitions almost perfectly.
 pub const MIN_LEARNING_REPETITIONS: usize = 4;
-/// Range in which the exponent is searched, wider than any plausible effect of practice.
+/// Search range for the exponent, wider than any plausible practice effect.
 const EXPONENT_RANGE: (f64, f64) = (-4.0, 4.0);
 /// Number of steps in the initial grid search.
 const GRID_STEPS: usize = 400;
-/// Number of bisection steps, enough to reach machine precision.
+/// Number of bisection steps, enough for machine precision.
 const BISECTION_STEPS: usize = 120;
 
 /// A power law: `first * n^exponent` for the n-th repetition.
@@ -18,13 +18,13 @@ const BISECTION_STEPS: usize = 120;
 pub struct LearningCurve {
     /// Number of repetitions.
     pub n: usize,
-    /// Fitted value of the first repetition.
+    /// Fitted value at the first repetition.
     pub first: f64,
     /// Exponent; positive if the measure increases with practice.
     pub exponent: f64,
     /// Fraction of the variance explained by the curve; `None` if the measure does not vary.
     pub r_squared: Option<f64>,
-    /// Prediction for the next repetition. It may exceed the maximum score, because the curve does not account for it.
+    /// Prediction for the next repetition. It may exceed the maximum score, which the curve ignores.
     pub next: f64,
 }
 
@@ -36,7 +36,8 @@ impl LearningCurve {
     }
 }
 
-/// Fits the curve to the values of consecutive repetitions by least squares on the values themselves, so zeros are allowed.
+/// Fits the curve to the values of consecutive repetitions by least squares, without taking logarithms, so zeros are
+/// allowed.
 ///
 /// # Errors
 /// Fails if there are fewer than [`MIN_LEARNING_REPETITIONS`] values or if a value is not finite.
@@ -61,8 +62,8 @@ pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> 
     })
 }
 
-/// Refines the exponent by bisection on the derivative of the residual, which changes sign at the minimum. Comparing the
-/// residuals themselves would give only half as many correct digits.
+/// Refines the exponent by bisecting the derivative of the residual, which changes sign at the minimum. Comparing
+/// residuals would give only half as many correct digits.
 fn bisect_exponent(values: &[f64], mut low: f64, mut high: f64) -> f64 {
     for _ in 0..BISECTION_STEPS {
         let middle = 0.5 * (low + high);
@@ -98,8 +99,8 @@ fn residual(values: &[f64], exponent: f64) -> f64 {
         .sum()
 }
 
-/// Returns the derivative of the residual with respect to the exponent, except for a positive factor. The first value is the best
-/// one for the exponent, so the residual does not depend on it to first order.
+/// Returns the derivative of the residual with respect to the exponent, up to a positive factor. The first value is
+/// optimal for the exponent, so the residual does not depend on it to first order.
 fn slope(values: &[f64], exponent: f64) -> f64 {
     let first = best_first_value(values, exponent);
     let terms = power_law_terms(exponent, values.len()).zip(values);

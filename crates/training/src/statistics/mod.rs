@@ -1,6 +1,6 @@
-//! Statistics over trainees and repetitions. The distributions behind p values come from the statrs library. Tests compare all
-//! results with SciPy and with values published in the TASBID paper. The results may differ in the last bit between machines, but
-//! do not affect the simulation.
+//! Statistics across trainees and repetitions. The distributions behind p values come from the statrs library. Tests
+//! compare all results with SciPy and with values published in the TASBID paper. Results may differ between machines in
+//! the last bit but do not affect the simulation.
 
 mod correlation;
 mod distribution;
@@ -18,7 +18,7 @@ pub use paired::{PairedTest, holm, paired_t};
 pub use regression::{Coefficient, Regression, least_squares, solve};
 pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean, quantile, sd, summary};
 
-/// Reason why a statistic cannot be computed.
+/// Reason that a statistic cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StatisticsError {
     /// There are too few values.
@@ -26,7 +26,7 @@ pub enum StatisticsError {
     TooFew {
         /// Number of values given.
         n: usize,
-        /// Number of values needed.
+        /// Number of values required.
         needed: usize,
     },
     /// Paired lists differ in length.
@@ -40,7 +40,7 @@ pub enum StatisticsError {
     /// A value is infinite or NaN.
     #[error("value number {at} is {value}, which is not a finite number")]
     NotFinite {
-        /// Position of the value in the list, from 1.
+        /// The value's position in the list, from 1.
         at: usize,
         /// The value, which is infinite or NaN.
         value: f64,

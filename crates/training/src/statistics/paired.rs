@@ -4,15 +4,15 @@ use super::distribution::{TailProbabilities, t_quantile, t_tail_probabilities};
 use super::{StatisticsError, mean, sd};
 use serde::Serialize;
 
-/// Probability up to the upper end of a 95 % interval.
+/// Cumulative probability at the upper bound of a 95 % interval.
 pub(super) const UPPER_PROBABILITY_95: f64 = 0.975;
 
 /// Result of a paired t test of later minus earlier values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairedTest {
-    /// Number of value pairs.
+    /// Number of pairs.
     pub n: usize,
-    /// Mean of later minus earlier.
+    /// Mean difference, later minus earlier.
     pub mean_difference: f64,
     /// Standard deviation of the differences, with n - 1 in the denominator.
     pub sd_difference: f64,
@@ -20,15 +20,16 @@ pub struct PairedTest {
     pub df: usize,
     /// t statistic; `None` if all differences are equal.
     pub t: Option<f64>,
-    /// p values; `None` if `t` is.
+    /// p values; `None` if `t` is `None`.
     pub p: Option<TailProbabilities>,
-    /// Cohen's d for pairs: mean difference divided by the standard deviation of the differences; `None` if `t` is.
+    /// Cohen's d for pairs: mean difference divided by the standard deviation of the differences; `None` if `t` is
+    /// `None`.
     pub effect_size_dz: Option<f64>,
     /// 95 % confidence interval of the mean difference.
     pub interval_95: [f64; 2],
 }
 
-/// Compares earlier and later values of the same trainees.
+/// Compares earlier and later values for the same trainees.
 ///
 /// # Errors
 /// Fails if the lists differ in length, if there are fewer than two pairs, or if a value is not finite.
@@ -53,7 +54,7 @@ pub fn paired_t(earlier: &[f64], later: &[f64]) -> Result<PairedTest, Statistics
     })
 }
 
-/// Returns the p values of one family with Holm's correction (Holm 1979), in the given order.
+/// Returns the Holm-corrected p values of one family (Holm 1979), in the given order.
 #[must_use]
 pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
@@ -71,7 +72,7 @@ pub fn holm(p: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Tolerance for the rounding error of a few operations.
+    /// Tolerance for rounding errors in a few operations.
     const EXACT: f64 = 1e-12;
 
     #[test]

@@ -1,4 +1,4 @@
-//! Ordinary least squares with an intercept, and statistics of its coefficients.
+//! Ordinary least squares with an intercept, with coefficient statistics.
 
 use super::StatisticsError;
 use super::distribution::{f_upper_tail, t_quantile, t_tail_probabilities};
@@ -9,7 +9,7 @@ use serde::Serialize;
 /// A column counts as collinear if its component orthogonal to the preceding columns is less than this fraction of its length.
 const COLLINEARITY_TOLERANCE: f64 = 1e-9;
 
-/// A coefficient of a fitted regression model.
+/// Coefficient of a fitted regression model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coefficient {
     /// Name of the predictor; `intercept` for the first coefficient.
@@ -20,7 +20,7 @@ pub struct Coefficient {
     pub standard_error: f64,
     /// t statistic: estimate divided by standard error; `None` if the fit is perfect.
     pub t: Option<f64>,
-    /// Two-tailed p value; `None` if `t` is.
+    /// Two-tailed p value; `None` if `t` is `None`.
     pub p: Option<f64>,
     /// 95 % confidence interval of the estimate.
     pub interval_95: [f64; 2],
@@ -39,7 +39,7 @@ pub struct Regression {
     pub residual_sd: f64,
     /// Fraction of the variance explained by the predictors; `None` if the outcome is constant.
     pub r_squared: Option<f64>,
-    /// F statistic of the comparison with a model that contains only the mean; `None` if `r_squared` is.
+    /// F statistic compared with a mean-only model; `None` if `r_squared` is `None`.
     pub f: Option<f64>,
     /// p value of the F statistic.
     pub p: Option<f64>,
@@ -101,9 +101,9 @@ fn coefficient(name: &str, estimate: f64, standard_error: f64, df: f64) -> Coeff
     }
 }
 
-/// Returns only the estimates of a weighted least-squares fit, computed from the normal equations. Used for bootstrapping, where
-/// a full [`Regression`] would be too slow. Rows contain the predictors without the intercept; the result starts with the
-/// intercept. `None` if the predictors are collinear.
+/// Returns just the estimates of a weighted least-squares fit, computed from the normal equations. Used for
+/// bootstrapping, where a full [`Regression`] would be too slow. Rows contain the predictors without the intercept; the
+/// result starts with the intercept. `None` if the predictors are collinear.
 #[must_use]
 pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]) -> Option<Vec<f64>> {
     let mut normal = DMatrix::<f64>::zeros(P + 1, P + 1);
@@ -131,7 +131,7 @@ pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]
 mod tests {
     use super::*;
 
-    /// Tolerance for the rounding error of a small decomposition.
+    /// Tolerance for rounding errors in a small decomposition.
     const EXACT: f64 = 1e-11;
 
     #[test]

@@ -1,4 +1,4 @@
-//! Statistics of a single sample: summary, quartiles and box plot.
+//! Single-sample statistics: summary, quartiles and box plot.
 
 use super::StatisticsError;
 use serde::Serialize;
@@ -11,35 +11,35 @@ const WHISKER_IQR: f64 = 1.5;
 pub struct SampleSummary {
     /// Number of values in the sample.
     pub n: usize,
-    /// Arithmetic mean of the values.
+    /// Arithmetic mean.
     pub mean: f64,
     /// Standard deviation, with n - 1 in the denominator; `None` for a single value.
     pub sd: Option<f64>,
     /// Smallest value in the sample.
     pub min: f64,
-    /// First quartile of the values.
+    /// First quartile.
     pub q1: f64,
-    /// Median of the values.
+    /// Sample median.
     pub median: f64,
-    /// Third quartile of the values.
+    /// Third quartile.
     pub q3: f64,
     /// Largest value in the sample.
     pub max: f64,
-    /// Difference between largest and smallest value.
+    /// Difference between the largest and smallest values.
     pub range: f64,
     /// Skewness: third standardized moment, with n in the denominator. Negative if the lower tail is longer; `None` if all values
     /// are equal.
     pub skewness: Option<f64>,
 }
 
-/// Data of a box plot.
+/// Box plot data.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BoxPlot {
-    /// First quartile of the values.
+    /// First quartile.
     pub q1: f64,
-    /// Median of the values.
+    /// Sample median.
     pub median: f64,
-    /// Third quartile of the values.
+    /// Third quartile.
     pub q3: f64,
     /// Smallest value that is not an outlier.
     pub low_whisker: f64,
@@ -47,7 +47,7 @@ pub struct BoxPlot {
     pub high_whisker: f64,
     /// Values beyond the whiskers, ascending.
     pub outliers: Vec<f64>,
-    /// Arithmetic mean of the values.
+    /// Arithmetic mean.
     pub mean: f64,
     /// Number of values in the sample.
     pub n: usize,
@@ -139,7 +139,7 @@ pub fn box_plot(values: &[f64]) -> Result<BoxPlot, StatisticsError> {
     })
 }
 
-/// Counts values in `bars` bins of equal width over [low, high]. Values outside this range count in the nearest bin.
+/// Counts values in `bars` equal-width bins over [low, high]. Values outside this range count toward the nearest bin.
 #[must_use]
 pub fn histogram(values: &[f64], (low, high): (f64, f64), bars: usize) -> Vec<HistogramBin> {
     let width = (high - low) / bars.max(1) as f64;
@@ -168,7 +168,7 @@ fn ascending(values: &[f64]) -> Result<Vec<f64>, StatisticsError> {
 mod tests {
     use super::*;
 
-    /// Tolerance for the rounding error of a few additions.
+    /// Tolerance for rounding errors in a few additions.
     const EXACT: f64 = 1e-12;
 
     #[test]

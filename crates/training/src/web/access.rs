@@ -15,14 +15,14 @@ pub enum AccessLevel {
     Administrator,
 }
 
-/// A visitor of the website.
+/// A website visitor.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Visitor {
     /// Pseudonym; `None` if not logged in.
     pub name: Option<String>,
     /// Role; ignored if not logged in.
     pub role: Role,
-    /// Whether access is unrestricted: no passwords are set and the server is reachable only from this machine.
+    /// Whether access is unrestricted: no passwords are set, and the server is reachable only from this machine.
     pub open: bool,
     /// CSRF token included in every form.
     pub token: String,

@@ -1,5 +1,5 @@
-//! Style sheet and scripts of the web pages. The style sheet extends that of the reports. URLs contain a content hash, so that
-//! browsers cache a file until it changes.
+//! Style sheet and scripts of the web pages. The style sheet extends that of the reports. URLs contain a content hash,
+//! so browsers cache a file until it changes.
 
 use crate::report::assets as report;
 use spandrel_monitor::folder::sha256_hex;
@@ -11,7 +11,7 @@ pub const FORM_NAME: &str = "form.js";
 /// File name of the live page's script.
 pub const LIVE_NAME: &str = "live.js";
 
-/// File name of the script of the trainee's own flight page.
+/// File name of the script for the trainee's own flight page.
 pub const FLIGHT_NAME: &str = "flight.js";
 
 const STYLE: &str = include_str!("assets/web.css");

@@ -1,17 +1,18 @@
-//! Login sessions of browsers, identified by a cookie. They are kept in memory under the hash of the cookie, so that neither a
-//! memory dump nor a log reveals a usable cookie. A restart logs everyone out. Callers pass time and random bytes.
+//! Login sessions of browsers, identified by a cookie. They are kept in memory under the hash of the cookie so that
+//! neither a memory dump nor a log reveals a usable cookie. A restart logs everyone out. Callers pass the time and
+//! random bytes.
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// Time after which an unused login session expires, µs: two hours, so that users stay logged in during a flight.
+/// Time after which an idle login session expires, µs: two hours, which keeps users logged in during a flight.
 const IDLE_TIMEOUT_US: u64 = 2 * 3_600_000_000;
 /// Time after which every login session expires, µs: a working day.
 const MAX_SESSION_AGE_US: u64 = 12 * 3_600_000_000;
-/// Maximum number of anonymous browser sessions. Bounds the memory that clients without cookies can use.
+/// Maximum number of anonymous browser sessions. Limits the memory that clients without cookies can use.
 const MAX_ANONYMOUS_SESSIONS: usize = 4_096;
 
-/// Random bytes of a cookie or CSRF token.
+/// Random bytes for a cookie or CSRF token.
 pub type TokenBytes = [u8; 32];
 /// Hash of password and role. A login session is valid only while it matches the user's current credential.
 pub type CredentialHash = [u8; 32];
@@ -33,7 +34,7 @@ pub struct BrowserSession {
 #[derive(Debug, Default)]
 pub struct BrowserSessions(BTreeMap<[u8; 32], BrowserSession>);
 
-/// Encodes a secret as text for a cookie or a form.
+/// Encodes a secret as text for a cookie or form.
 #[must_use]
 pub fn text_of(secret: &TokenBytes) -> String {
     secret.iter().map(|byte| format!("{byte:02x}")).collect()
@@ -44,7 +45,7 @@ fn key(cookie: &str) -> [u8; 32] {
 }
 
 impl BrowserSessions {
-    /// Returns the session that belongs to a cookie and extends it; `None` if there is none or it has expired.
+    /// Returns the session for a cookie and extends it; `None` if there is none or it has expired.
     pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<BrowserSession> {
         let key = key(cookie);
         let visit = self.0.get_mut(&key)?;
@@ -58,8 +59,8 @@ impl BrowserSessions {
         Some(visit.clone())
     }
 
-    /// Starts a session, anonymous or after a login. Always creates a new cookie, so that a cookie planted before the login is
-    /// useless afterwards (session fixation). Returns the cookie and the session.
+    /// Starts a session, either anonymous or after a login, and returns its cookie. Always creates a new cookie so that
+    /// one planted before the login is useless afterward (session fixation).
     pub fn begin(
         &mut self,
         who: Option<(&str, CredentialHash)>,
@@ -76,12 +77,12 @@ impl BrowserSessions {
         (cookie, visit)
     }
 
-    /// Ends the session that belongs to a cookie.
+    /// Ends the session for a cookie.
     pub fn end(&mut self, cookie: &str) {
         self.0.remove(&key(cookie));
     }
 
-    /// Updates the credential of a login session, so that users who change their own password stay logged in.
+    /// Updates the credential of a login session so that users who change their own password stay logged in.
     pub fn renew(&mut self, cookie: &str, credential: CredentialHash) {
         if let Some(visit) = self.0.get_mut(&key(cookie)).filter(|visit| visit.name.is_some()) {
             visit.credential = Some(credential);
@@ -104,7 +105,7 @@ impl BrowserSessions {
             self.0.iter().filter(|(_, visit)| visit.name.is_none()).map(|(key, visit)| (visit.used_us, *key)).collect();
         if strangers.len() >= MAX_ANONYMOUS_SESSIONS {
             strangers.sort_unstable();
-            // Removes a quarter of them, so that further anonymous requests do not each trigger a scan.
+            // Removes a quarter of them so that further anonymous requests don't each trigger a scan.
             for (_, key) in strangers.into_iter().take(MAX_ANONYMOUS_SESSIONS / 4) {
                 self.0.remove(&key);
             }
@@ -112,7 +113,7 @@ impl BrowserSessions {
     }
 }
 
-/// Compares two strings in a time that does not depend on how many characters match.
+/// Compares two strings in constant time, independent of how many characters match.
 #[must_use]
 pub fn constant_time_eq(a: &str, b: &str) -> bool {
     a.len() == b.len() && a.bytes().zip(b.bytes()).fold(0, |different, (x, y)| different | (x ^ y)) == 0

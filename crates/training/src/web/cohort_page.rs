@@ -7,7 +7,7 @@ use crate::record::{IncompletePolicy, omitted_summary};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
 use maud::{Markup, html};
 
-/// Selection shown in the form.
+/// The form's selection.
 #[derive(Debug, Clone, Copy)]
 pub struct CohortPageSelection<'a> {
     /// All scenarios that were flown.
@@ -16,9 +16,9 @@ pub struct CohortPageSelection<'a> {
     pub scenarios: &'a [String],
     /// Number of repetitions compared.
     pub repetitions: usize,
-    /// Whether incomplete sessions count.
+    /// Whether to count incomplete sessions.
     pub incomplete: IncompletePolicy,
-    /// Number of incomplete sessions excluded.
+    /// Number of excluded incomplete sessions.
     pub left_out: usize,
 }
 
@@ -29,7 +29,7 @@ pub fn group(visitor: &Visitor, chosen: &CohortPageSelection<'_>, cohort: Option
         section {
             form.inline method="get" action="/cohort" {
                 fieldset {
-                    legend { "Scenarios that count as the job" }
+                    legend { "Scenarios to include" }
                     @for name in chosen.flown_scenarios {
                         label { input type="checkbox" name="scenario" value=(name) checked[chosen.scenarios.contains(name)]; " " (name) }
                     }
@@ -37,7 +37,7 @@ pub fn group(visitor: &Visitor, chosen: &CohortPageSelection<'_>, cohort: Option
                 label { "Repetitions " input type="number" name="repetitions" min="1" max="100" value=(chosen.repetitions); }
                 label { input type="checkbox" name="incomplete" value="1" checked[chosen.incomplete == IncompletePolicy::Include]; " Include incomplete sessions" }
                 button type="submit" { "Show" }
-                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(chosen)) } { "Download as an offline page" } }
+                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(chosen)) } { "Download as offline page" } }
             }
             @match cohort {
                 Some(cohort) => (summary_lines(cohort)),

@@ -1,14 +1,15 @@
-//! Browsers from which a user has logged in before, similar to OWASP's device cookies. Their failed logins are counted separately
-//! from those of their IP address, so that others at the same address cannot lock the user out. Kept in memory as a hash of
-//! cookie and name, so browsers are unknown again after a restart, until the next login. Callers pass time and random bytes.
+//! Browsers from which a user has logged in before, similar to OWASP's device cookies. Their failed logins are counted
+//! separately from those of their IP address, so that others at the same address cannot lock the user out. They are
+//! kept in memory as a hash of cookie and name, so after a restart, browsers are unknown until the next login. Callers
+//! pass the time and random bytes.
 
 use super::browser_sessions::{TokenBytes, text_of};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// A browser is forgotten after this time without a login, µs: 90 days, which is longer than a break between courses.
+/// Time without a login after which a browser is forgotten, µs: 90 days, longer than a break between courses.
 const BROWSER_EXPIRY_US: u64 = 90 * 24 * 3_600_000_000;
-/// Maximum number of known browsers. When it is exceeded, the one with the oldest login is forgotten.
+/// Maximum number of known browsers. Beyond it, the browser with the oldest login is forgotten.
 const MAX_KNOWN_BROWSERS: usize = 10_000;
 
 /// Hash that identifies a known browser of one user.
@@ -26,7 +27,8 @@ impl KnownBrowsers {
         self.0.get(&device).filter(|login_us| now_us.saturating_sub(**login_us) < BROWSER_EXPIRY_US).map(|_| device)
     }
 
-    /// Records a login of `name` and returns the cookie to set: the existing one if the browser is known, otherwise a new one.
+    /// Records a login by `name` and returns the cookie to set: the existing one for a known browser, otherwise a new
+    /// one.
     pub fn remember(&mut self, cookie: Option<&str>, name: &str, secret: &TokenBytes, now_us: u64) -> String {
         let known = cookie.filter(|cookie| self.find(cookie, name, now_us).is_some());
         let cookie = known.map_or_else(|| text_of(secret), str::to_owned);
@@ -41,7 +43,7 @@ impl KnownBrowsers {
 }
 
 fn browser_key(cookie: &str, name: &str) -> KnownBrowser {
-    // Cookies contain no zero byte, so different pairs of cookie and name never produce the same input.
+    // Cookies contain no zero bytes, so different pairs of cookie and name never produce the same input.
     Sha256::new().chain_update(cookie).chain_update([0]).chain_update(name).finalize().into()
 }
 

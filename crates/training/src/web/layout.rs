@@ -4,7 +4,7 @@ use super::access::{AccessLevel, Visitor};
 use super::assets;
 use maud::{DOCTYPE, Markup, html};
 
-/// URL of the page for a trainee's own flight; instructors use the live page.
+/// URL of the trainee's own flight page; instructors use the live page.
 const OWN_FLIGHT: &str = "/flight";
 /// Navigation entries: URL, label, required access.
 const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 8] = [
@@ -72,7 +72,7 @@ fn bar(visitor: &Visitor, at: &str) -> Markup {
                     button type="submit" { "Log out" }
                 }
             } @else if visitor.open {
-                p.who { "local access, no login" }
+                p.who { "Local access, no login" }
             }
         }
     }
@@ -136,7 +136,7 @@ pub fn refusal(visitor: &Visitor, title: &str, words: &str) -> Markup {
         visitor,
         "",
         title,
-        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to home" } } } },
+        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to the home page" } } } },
     )
 }
 
@@ -152,7 +152,7 @@ pub(super) mod tests {
         Visitor { name: Some(HOSTILE_NAME.into()), role: Role::Administrator, open: false, token: "t0ken".into() }
     }
 
-    /// Panics if the page contains unescaped text or anything that the content security policy blocks.
+    /// Panics if the page contains unescaped text or anything blocked by the content security policy.
     pub(crate) fn check(page: &str) {
         assert!(!page.contains("<script>") && !page.contains(" style=") && !page.contains(" onclick="), "{page}");
         for form in page.split("<form").skip(1) {

@@ -7,7 +7,7 @@ use maud::{Markup, PreEscaped, html};
 
 /// Maximum length of an instructor's note, characters; a note is sent as one MAVLink message.
 pub const MAX_NOTE_LEN: usize = 100;
-/// Maximum wind speed, m/s; the upper limit of the vehicle's parameter.
+/// Maximum wind speed, m/s, from the vehicle parameter's upper limit.
 pub const MAX_WIND_M_S: f64 = 25.0;
 
 /// Failures that can be injected: form key, label, MAVLink `FAILURE_UNIT`.
@@ -18,12 +18,12 @@ pub const INJECTABLE_FAILURES: [(&str, &str, f32); 4] = [
     ("battery", "Battery", 100.0),
 ];
 
-/// Drawings of the job that is being flown.
+/// Drawings of the job being flown.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct JobDrawings {
     /// Key that identifies the job and its seed.
     pub key: String,
-    /// Title of the job.
+    /// Job title.
     pub title: String,
     /// Caption and SVG of each drawing, created by `crate::report::plots::job`.
     pub drawings: Vec<(String, String)>,
@@ -34,7 +34,7 @@ pub struct JobDrawings {
 pub struct VehicleSelection {
     /// `HOST:PORT` of each vehicle.
     pub vehicles: Vec<String>,
-    /// Number of the selected vehicle, from 1.
+    /// Selected vehicle, numbered from 1.
     pub number: usize,
 }
 
@@ -91,7 +91,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&JobDrawings>, choice: &VehicleSele
     scripted(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
 }
 
-/// Renders the page on which trainees see the camera image of their own flight; its script refreshes the image.
+/// Renders the page that shows trainees their own flight's camera image; its script refreshes the image.
 #[must_use]
 pub fn own_flight(visitor: &Visitor) -> Markup {
     let body = html! {

@@ -1,5 +1,5 @@
-//! State of a running flight for the instructor's live page: processes telemetry and returns a JSON snapshot. Performs no I/O.
-//! Uses only data that every subscriber of the payload port receives.
+//! State of a flight in progress for the instructor's live page: processes telemetry and returns a JSON snapshot.
+//! Performs no I/O. Uses only data available to every subscriber of the payload port.
 
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
@@ -16,26 +16,26 @@ use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_monitor::measures::on_path::ReferencePaths;
 use std::collections::VecDeque;
 
-/// Placeholder origin for decoding before the job is known. Positions decoded with it are never shown.
+/// Placeholder origin for decoding before the job is known. Positions decoded with it are never displayed.
 const PLACEHOLDER_ORIGIN: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
 /// Maximum number of messages kept for the page.
 const MAX_MESSAGES: usize = 40;
 /// Identifies the job being flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JobIdentity {
-    /// CRC of the scenario.
+    /// Scenario CRC.
     pub crc: u32,
-    /// Seed of the session.
+    /// The session's seed.
     pub seed: u64,
 }
 
-/// Job whose origin and paths are used to decode positions.
+/// Job whose origin and paths are used to interpret positions.
 #[derive(Debug)]
 struct TrackedJob {
     key: JobIdentity,
     plane: LocalPlane,
     paths: ReferencePaths,
-    /// Numbers and names of the tasks.
+    /// Task numbers and names.
     tasks: Vec<(u32, String)>,
 }
 
@@ -55,7 +55,7 @@ pub struct LiveFlightState {
     cues: i32,
     messages: VecDeque<(u64, f64, &'static str, String)>,
     message_count: u64,
-    /// System id of the vehicle, once received.
+    /// The vehicle's system ID, once received.
     pub system: Option<u8>,
     /// Autopilot type, once received.
     pub autopilot: Option<MavAutopilot>,
@@ -90,7 +90,7 @@ impl LiveFlightState {
         }
     }
 
-    /// Returns the key of the job being flown; `None` until telemetry has provided it.
+    /// Returns the key of the job being flown; `None` until received.
     #[must_use]
     pub fn announced_job(&self) -> Option<JobIdentity> {
         let key = JobIdentity { crc: self.crc?, seed: self.seed? };
@@ -126,7 +126,7 @@ impl LiveFlightState {
             }
             None => {}
         }
-        // Until the job is known, messages with a position cannot be decoded. The vehicle repeats them.
+        // Messages with a position cannot be decoded until the job is known. The vehicle repeats them.
         let nowhere = LocalPlane::new(PLACEHOLDER_ORIGIN);
         let plane = self.job.as_ref().map_or(&nowhere, |job| &job.plane);
         if let Some(sample) = sample::read(&frame.bytes, plane) {
@@ -172,7 +172,7 @@ impl LiveFlightState {
 
     fn handle_truth(&mut self, truth: Truth) {
         let Some(job) = &self.job else { return };
-        // If the clock jumps back, a new flight has started. Earlier messages remain visible.
+        // If the clock jumps backward, a new flight has started. Earlier messages remain visible.
         if self.truth.is_some_and(|before| truth.time < before.time) {
             (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
         }
@@ -190,7 +190,7 @@ impl LiveFlightState {
         }
     }
 
-    /// Returns the current state for the page's script. `heard` indicates whether telemetry arrived recently.
+    /// Returns the current state for the page's script. `heard` indicates whether telemetry was received recently.
     #[must_use]
     pub fn to_json(&self, heard: bool) -> Value {
         let key = self.job().map(|key| format!("{:08x}-{}", key.crc, key.seed));
@@ -269,7 +269,7 @@ mod tests {
         number(&mut watch, "traffic", -1_500);
         let moment = watch.to_json(true);
         assert_eq!(moment["traffic"], json!("closed"));
-        // degE7 has a resolution of about 1 cm; MAVLink altitude has one of 1 mm.
+        // The resolution is about 1 cm for degE7 and 1 mm for MAVLink altitudes.
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
         assert!(place[0].abs() < 0.02 && place[1].abs() < 0.02 && (place[2] - 12.0).abs() < 0.02, "{moment}");
         assert_eq!((&moment["speed_m_s"], &moment["t_s"]), (&json!(3.0), &json!(2.0)));

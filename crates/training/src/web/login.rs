@@ -7,11 +7,11 @@ use maud::{Markup, html};
 /// Allowed password length, characters.
 pub const PASSWORD_LENGTHS: std::ops::RangeInclusive<usize> = 12..=256;
 
-/// Minimum strength of a new password: more than 10^8 guesses as estimated by zxcvbn, which rates this as safe against offline
-/// attacks on a slow hash.
+/// Minimum strength of a new password: more than 10^8 guesses as estimated by zxcvbn, which considers this safe against
+/// offline attacks on a slow hash.
 const MIN_PASSWORD_STRENGTH: zxcvbn::Score = zxcvbn::Score::Three;
 
-/// Renders the login page and the error of the previous attempt, if any.
+/// Renders the login page with the error from the previous attempt, if any.
 #[must_use]
 pub fn login(visitor: &Visitor, name: &str, wrong: Option<&str>) -> Markup {
     page(
@@ -32,7 +32,7 @@ pub fn login(visitor: &Visitor, name: &str, wrong: Option<&str>) -> Markup {
     )
 }
 
-/// Renders the user's account page and the result of a change, if any.
+/// Renders the user's account page with the result of a change, if any.
 #[must_use]
 pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
     let name = visitor.name.as_deref().unwrap_or_default();
@@ -42,7 +42,7 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
             (token(visitor))
             label { "Current password" input type="password" name="present" required maxlength=(PASSWORD_LENGTHS.end()) autocomplete="current-password"; }
             label { "New password, at least " (PASSWORD_LENGTHS.start()) " characters" input type="password" name="new" required minlength=(PASSWORD_LENGTHS.start()) maxlength=(PASSWORD_LENGTHS.end()) autocomplete="new-password"; }
-            button type="submit" { "Change" }
+            button type="submit" { "Change password" }
         }
     };
     page(
@@ -63,7 +63,7 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
 /// Checks a new password.
 ///
 /// # Errors
-/// Returns the problem as text, never including the password.
+/// Returns the problem as text that never includes the password.
 pub fn check(password: &str, name: &str) -> Result<(), String> {
     let length = password.chars().count();
     let (least, most) = (PASSWORD_LENGTHS.start(), PASSWORD_LENGTHS.end());

@@ -1,24 +1,25 @@
-//! Throttling of failed logins. After a few failures for one name from one address, or many failures from one address, each
-//! further attempt must wait longer, up to one minute. A longer lockout would let others behind the same address lock out a user.
-//! One minute allows about 60 guesses per hour against passwords that `login::check` accepts. A browser from which the user has
-//! logged in before is counted separately ([`super::known_browsers`]), so failures of others at the same address do not delay it.
+//! Throttling of failed logins. After a few failures for one name from one address, or many failures from one address,
+//! each further attempt must wait longer, up to one minute. A longer lockout would let others behind the same address
+//! lock out a user. A one-minute wait allows about 60 guesses per hour against passwords that `login::check` accepts. A
+//! browser from which the user has logged in before is counted separately ([`super::known_browsers`]), so failures by
+//! others at the same address don't delay it.
 
 use super::known_browsers::KnownBrowser;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
-/// Time for which failures are remembered, µs.
+/// How long failures are remembered, µs.
 const WINDOW_US: u64 = 15 * 60_000_000;
-/// First wait after the limit is reached, µs; doubles with each further failure. An estimate: long enough to slow down guessing,
-/// short enough after a typing error.
+/// First wait after the limit is reached, µs; doubles with each further failure (estimate: long enough to slow down
+/// guessing, short enough after a typo).
 const FIRST_WAIT_US: u64 = 4_000_000;
 /// Maximum wait between two attempts, µs.
 const MAX_WAIT_US: u64 = 60_000_000;
-/// Number of failures allowed within the window for one name from one address.
+/// Failures allowed per window for one name from one address.
 const MAX_FAILURES_PER_NAME: usize = 5;
-/// Number of failures allowed within the window from one address, over all names.
+/// Failures allowed per window from one address, across all names.
 const MAX_FAILURES_PER_ADDRESS: usize = 20;
-/// Maximum number of origins stored. When it is reached, the one with the oldest failure is forgotten.
+/// Maximum number of stored origins. At the limit, the origin with the oldest failure is forgotten.
 const MAX_ORIGINS: usize = 10_000;
 
 /// Origin of a login attempt. Failures are counted per origin.
@@ -38,7 +39,7 @@ impl LoginOrigin {
     }
 }
 
-/// Time and name of failed logins, by origin.
+/// Times and names of failed logins, by origin.
 #[derive(Debug, Default)]
 pub struct LoginThrottle(BTreeMap<LoginOrigin, Vec<(u64, String)>>);
 
@@ -91,12 +92,12 @@ fn wait_after(beyond: usize) -> u64 {
     FIRST_WAIT_US.checked_shl(doublings).filter(|wait| *wait >= FIRST_WAIT_US).map_or(MAX_WAIT_US, |wait| wait.min(MAX_WAIT_US))
 }
 
-/// Truncates a name for storage, because an attacker controls its length.
+/// Truncates a name for storage because an attacker controls its length.
 fn truncate_name(name: &str) -> String {
     name.chars().take(64).collect()
 }
 
-/// Returns the network of an address; an IPv6 subscriber has a whole /64.
+/// Returns the network of an address; an IPv6 subscriber gets an entire /64.
 fn network(from: IpAddr) -> IpAddr {
     match from.to_canonical() {
         IpAddr::V6(v6) => IpAddr::V6((v6.to_bits() >> 64 << 64).into()),

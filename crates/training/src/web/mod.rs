@@ -1,6 +1,6 @@
-//! The pages of `spandrel serve` and their access control: pure functions from data to HTML, and the tables of login sessions and
-//! failed logins. Callers pass the time. User-provided text is escaped by maud. Scripts and style sheets are separate files,
-//! because the content security policy blocks inline code.
+//! The pages of `spandrel serve` and their access control: pure functions from data to HTML, plus the tables of login
+//! sessions and failed logins. Callers pass the time. maud escapes user-provided text. Scripts and style sheets are
+//! separate files because the content security policy blocks inline code.
 
 pub mod access;
 pub mod assets;

@@ -16,7 +16,7 @@ const TLX_FIELD_PREFIX: &str = "tlx.";
 /// Content of the form.
 #[derive(Debug, Clone, Copy)]
 pub struct FormContext<'a> {
-    /// Id of the session (name of its folder).
+    /// Session ID (its folder name).
     pub id: &'a str,
     /// Numbers and names of the session's tasks.
     pub tasks: &'a [(u32, String)],
@@ -24,26 +24,26 @@ pub struct FormContext<'a> {
     pub wording: &'a Wording,
     /// All available languages.
     pub languages: &'a [Wording],
-    /// Answers given so far.
+    /// Answers so far.
     pub answers: &'a Answers,
     /// Whether answers were just saved.
     pub saved: bool,
 }
 
-/// Error for an invalid form value: field, value and allowed values.
+/// Invalid form value, with the field and the allowed values.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{field} = {value}: invalid answer (allowed: {allowed})")]
 pub struct InvalidAnswer {
-    /// Name of the form field.
+    /// Form field name.
     pub field: String,
-    /// Value that was submitted.
+    /// Submitted value.
     pub value: String,
     /// Range of allowed values, as text.
     pub allowed: String,
 }
 
-/// Merges the answers in a form into existing ones and returns their number. Ignores fields that are not questions, such as the
-/// token.
+/// Merges a form's answers into the existing ones and returns their number. Ignores fields that are not questions, such
+/// as the token.
 ///
 /// # Errors
 /// Fails on the first invalid answer; the caller should then save nothing.

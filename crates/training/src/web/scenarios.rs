@@ -8,18 +8,18 @@ use maud::{Markup, html};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// An entry of the scenario list.
+/// An entry in the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ScenarioEntry {
-    /// Machine-readable name of the scenario, such as `two-bridges`.
+    /// Machine-readable scenario name, such as `two-bridges`.
     pub name: String,
-    /// Title of the scenario.
+    /// Scenario title.
     pub title: String,
-    /// Whether it was uploaded and can be removed.
+    /// Whether the scenario was uploaded and can be removed.
     pub uploaded: bool,
 }
 
-/// Renders the scenario list and the result of an upload, if any.
+/// Renders the scenario list with the result of an upload, if any.
 #[must_use]
 pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str)>) -> Markup {
     let rows = html! {
@@ -33,7 +33,7 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str
     };
     let body = html! {
         @if let Some((kind, words)) = told { (message_lines(kind, words)) }
-        section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("From", false)], &rows)) }
+        section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("Source", false)], &rows)) }
         @if visitor.satisfies(AccessLevel::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
     };
     page(visitor, "/scenarios", "Scenarios", &body)
@@ -55,7 +55,8 @@ fn upload(visitor: &Visitor) -> Markup {
     }
 }
 
-/// Renders one scenario. Only instructors can download the file, because the file and its seed reveal the defects.
+/// Renders one scenario's page. Only instructors see the file, because it contains the seed and thus reveals the
+/// defects.
 #[must_use]
 pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenario, site: &Site, text: &str) -> Markup {
     let s = &scenario.scoring;
@@ -81,7 +82,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         @if !scenario.tasks.is_empty() {
             (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance, m", true)], &rows)))
         }
-        (section("site", "From above", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
+        (section("site", "Site plan", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
         @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "File", &html! {
             details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="File contents" { pre { code { (text) } } } }
             @if named.uploaded {
@@ -92,21 +93,21 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
 }
 
-/// Reason why a recording was not imported.
+/// Reason that a recording was not imported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UploadMessage<'a> {
     /// The recording is invalid.
     Invalid(&'a str),
     /// The session already exists.
     AlreadyImported {
-        /// Id of the session (name of its folder).
+        /// Session ID (its folder name).
         id: &'a str,
         /// Trainee of that session.
         trainee: &'a str,
     },
 }
 
-/// Renders the import form for recorded flights, with the error of the previous import, if any.
+/// Renders the import form for recorded flights, with the error from the previous import, if any.
 #[must_use]
 pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[String], told: Option<UploadMessage<'_>>) -> Markup {
     let body = html! {
@@ -114,7 +115,7 @@ pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[Stri
             None => {},
             Some(UploadMessage::Invalid(words)) => (message("bad", words)),
             Some(UploadMessage::AlreadyImported { id, trainee }) => p.message.good role="status" {
-                "This recording was already imported as " a href={ "/sessions/" (id) } { "a session of " (trainee) } ". No changes were made."
+                "This recording was already imported as " a href={ "/sessions/" (id) } { "a session by " (trainee) } ". No changes were made."
             },
         }
         section.narrow {
@@ -151,6 +152,6 @@ mod tests {
         }
         let there = recorded(&administrator(), &named, &[], Some(UploadMessage::AlreadyImported { id: "s-1", trainee: "anna" }))
             .into_string();
-        assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session of anna"), "{there}");
+        assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session by anna"), "{there}");
     }
 }

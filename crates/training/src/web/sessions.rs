@@ -1,4 +1,4 @@
-//! Session lists and the page of a session.
+//! Session lists and session pages.
 
 use super::access::{AccessLevel, Visitor};
 use super::layout::{page, pages, section, table};
@@ -15,7 +15,7 @@ use spandrel_model::calendar::minute;
 pub struct SessionList<'a> {
     /// Sessions on this page of the list.
     pub lines: &'a [SessionListEntry],
-    /// Trainee that the list is filtered by, if any.
+    /// Trainee to filter the list by, if any.
     pub trainee: Option<&'a str>,
     /// Page number, from 1.
     pub page: u32,
@@ -61,7 +61,7 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
 #[must_use]
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Markup {
     let all = visitor.satisfies(AccessLevel::Instructor);
-    // Columns that fit on a phone without scrolling come first: date, trainee, score.
+    // The columns that fit on a phone without scrolling come first: date, trainee, score.
     let mut heads = vec![
         ("Started", false),
         ("Trainee", false),
@@ -94,23 +94,23 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
     )
 }
 
-/// Data for a session's page that is not part of its record.
+/// Session page data that is not part of the session record.
 #[derive(Debug, Clone, Copy)]
 pub struct SessionPageData<'a> {
-    /// Whether the session folder exists. The report, the questionnaire and downloads require it.
+    /// Whether the session folder exists. The report, questionnaire and downloads require it.
     pub folder: bool,
-    /// Other sessions of the same trainee.
+    /// The same trainee's other sessions.
     pub others: &'a [SessionListEntry],
 }
 
-/// Renders the page of one session.
+/// Renders a session's page.
 #[must_use]
 pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
     let body = html! {
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
             @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
-            (formatting::duration(record.seconds)) " of flight, end: " (record.end_reason.replace('_', " "))
+            (formatting::duration(record.seconds)) " of flight, ended: " (record.end_reason.replace('_', " "))
         }
         (actions(record, beside))
         (section("scores", "Scores", &scores(record)))
@@ -138,7 +138,7 @@ fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
                 li { a href={ "/sessions/" (record.id) "/telemetry.tlog" } { "Telemetry (tlog)" } }
             }
         } @else {
-            p.note { "The session's folder is not on this machine. Report, questionnaire and downloads are not available." }
+            p.note { "The session folder is not on this machine, so the report, questionnaire and downloads are unavailable." }
         }
     }
 }
@@ -183,7 +183,7 @@ fn tasks(record: &SessionRecord) -> Markup {
     let rows: Vec<ShareRow> = record.tasks.iter().map(row).collect();
     html! {
         div.split {
-            figure { figcaption { "On-path share of each task" } (shares(&rows, "On-path share by task")) }
+            figure { figcaption { "On-path share by task" } (shares(&rows, "On-path share by task")) }
             (table(
                 "Task results",
                 &[("Task", false), ("Path flown", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
@@ -205,7 +205,7 @@ fn tasks(record: &SessionRecord) -> Markup {
     }
 }
 
-/// Describes the completion of a task.
+/// Describes a task's completion.
 fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
     let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
     task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.words(covered, done_share))
@@ -237,7 +237,7 @@ fn defects(record: &SessionRecord) -> Markup {
 fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
     html! {
         @if others.is_empty() {
-            p.calm { "No other sessions of this trainee yet." }
+            p.calm { "This trainee has no other sessions yet." }
         } @else {
             form.inline method="get" action="/compare" {
                 input type="hidden" name="first" value=(record.id);

@@ -27,7 +27,7 @@ pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     let body = html! {
         @if let Some((kind, words)) = settings.notice { (message(kind, words)) }
         (section("logins", "Login accounts", &logins(visitor, settings)))
-        (section("add", "Add a user, or set a password and role", &add(visitor)))
+        (section("add", "Add or update a user", &add(visitor)))
         (section("retention", "Retention", &retention(visitor)))
         (section("place", "Storage", &html! {
             dl {
@@ -45,7 +45,7 @@ fn logins(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
     html! {
         @if visitor.open { (message("warn", "No passwords are set: anyone on this machine has full access, and the server accepts connections only from this machine. After the first password is set, everyone must log in, so set an administrator's password first.")) }
         @if !settings.with_password.is_empty() {
-            (table("Users with a password", &[("Name", false), ("Role", false), ("Change", false)], &html! {
+            (table("Users with a password", &[("Name", false), ("Role", false), ("Action", false)], &html! {
                 @for name in settings.with_password {
                     tr {
                         th scope="row" { (name) }
@@ -73,7 +73,7 @@ fn add(visitor: &Visitor) -> Markup {
             label { "Pseudonym" input name="name" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocomplete="off" autocapitalize="none"; }
             label { "Role" select name="role" { @for role in Role::ALL { option value=(role.word()) { (role.word()) } } } }
             label { "Password, at least " (PASSWORD_LENGTHS.start()) " characters" input type="password" name="password" required minlength=(PASSWORD_LENGTHS.start()) maxlength=(PASSWORD_LENGTHS.end()) autocomplete="new-password"; }
-            button type="submit" { "Set" }
+            button type="submit" { "Save" }
         }
     }
 }
@@ -82,7 +82,7 @@ fn retention(visitor: &Visitor) -> Markup {
     html! {
         form.stacked method="post" action="/settings/retention" {
             (token(visitor))
-            label { "Erase sessions and their folders older than, days" input type="number" name="days" required min="1" max="36525"; }
+            label { "Erase sessions and session folders older than (days)" input type="number" name="days" required min="1" max="36525"; }
             label { input type="checkbox" name="sure" value="yes" required; " I understand that this cannot be undone" }
             button.danger type="submit" { "Erase" }
         }

@@ -12,7 +12,7 @@ use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
-/// Prefix of the fields that contain the values at the time when the page was opened. They are used to detect conflicting edits.
+/// Prefix of the fields that contain the values from when the page was opened, used to detect conflicting edits.
 pub const ORIGINAL_VALUE_PREFIX: &str = "before_";
 
 /// Renders the list of trainees.
@@ -33,7 +33,7 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
     let body = html! {
         section {
             @if people.is_empty() { p.calm { "No trainees yet. Trainees appear here after their first flight." } }
-            @else { (table(&format!("{} people", people.len()), &heads, &rows)) }
+            @else { (table(&format!("{} users", people.len()), &heads, &rows)) }
         }
     };
     page(visitor, "/trainees", "Trainees", &body)
@@ -42,19 +42,19 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
 /// Contents of a trainee's page.
 #[derive(Debug, Clone, Copy)]
 pub struct TraineeProfile<'a> {
-    /// Trainee whose page is shown.
+    /// The trainee shown.
     pub person: &'a Trainee,
-    /// Sessions in chronological order.
+    /// Sessions, in chronological order.
     pub records: &'a [SessionRecord],
     /// The same sessions as list entries, newest first.
     pub listed: &'a [SessionListEntry],
     /// Training plan; `None` without sessions.
     pub plan: Option<&'a TrainingPlan>,
-    /// Whether incomplete sessions count in progress and plan.
+    /// Whether incomplete sessions count toward progress and plan.
     pub incomplete: IncompletePolicy,
 }
 
-/// Renders the page of one trainee.
+/// Renders a trainee's page.
 #[must_use]
 pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
     let name = &about.person.pseudonym;
@@ -62,12 +62,12 @@ pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
         @if let Some(plan) = about.plan { (section("plan", "Next flights", &next(plan))) }
         @if !about.records.is_empty() { (section("progress", "Progress", &progress(name, about.records, about.incomplete))) }
         (section("sessions", "Sessions", &html! {
-            @if about.listed.is_empty() { p.calm { "No session yet." } }
+            @if about.listed.is_empty() { p.calm { "No sessions yet." } }
             @else { (lines(visitor, &format!("{} sessions, newest first", about.listed.len()), about.listed)) }
         }))
         (section("details", "Details", &details(visitor, about.person)))
         (section("data", "Data", &html! {
-            p { a href={ "/trainees/" (name) "/export.json" } { "Download all data of " (name) } }
+            p { a href={ "/trainees/" (name) "/export.json" } { "Download all data for " (name) } }
             @if visitor.satisfies(AccessLevel::Administrator) { (erase(visitor, name)) }
         }))
     };
@@ -77,7 +77,7 @@ pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
 fn next(plan: &TrainingPlan) -> Markup {
     let told = |change: &&MeasureChange| change.better.is_some();
     html! {
-        p { "Between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "The last flight was so long ago that skills have faded." } } }
+        p { "Fly between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "It has been a long time since the last flight, and skills fade without practice." } } }
         ol.steps {
             @for step in &plan.steps {
                 li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
@@ -86,7 +86,7 @@ fn next(plan: &TrainingPlan) -> Markup {
         @if let Some(words) = omitted_summary(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
             h3 { "Changes" }
-            p.note { "Since " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
+            p.note { "Compared with " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
             ul {
                 @for change in changes.changes.iter().filter(told) {
                     li { (change.what) ": " (formatting::number(change.before, 1)) " → " (formatting::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
@@ -96,14 +96,14 @@ fn next(plan: &TrainingPlan) -> Markup {
     }
 }
 
-/// Renders progress separately for each job, because practice on one says little about another.
+/// Renders progress separately for each job because practice on one says little about another.
 fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy) -> Markup {
     let unfinished = records.iter().filter(|record| !record.is_complete()).count();
     html! {
         @if unfinished > 0 { p {
             @match incomplete {
                 IncompletePolicy::Exclude => a href={ "/trainees/" (name) "?incomplete=1" } { "Include incomplete sessions" },
-                IncompletePolicy::Include => a href={ "/trainees/" (name) } { "Leave out incomplete sessions" },
+                IncompletePolicy::Include => a href={ "/trainees/" (name) } { "Exclude incomplete sessions" },
             }
         } }
         @for job in by_job(records, incomplete) {
@@ -127,7 +127,7 @@ fn details(visitor: &Visitor, person: &Trainee) -> Markup {
         }
     };
     html! {
-        p { "Role: " (person.role.word()) ". The information below is optional and used only for the study." }
+        p { "Role: " (person.role.word()) ". The following information is optional and used only for the study." }
         form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
             (token(visitor))
             (choice("age_band", "Age, years", person.age_band.as_deref(), AGE_BANDS))
@@ -144,7 +144,7 @@ fn erase(visitor: &Visitor, name: &str) -> Markup {
             summary { "Erase" }
             form.stacked method="post" action={ "/trainees/" (name) "/erase" } {
                 (token(visitor))
-                p { "Erases " (name) " with all sessions, answers and session folders. This cannot be undone." }
+                p { "This erases " (name) " and all their sessions, answers and session folders. It cannot be undone." }
                 label { "Enter the pseudonym to confirm" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
                 button.danger type="submit" { "Erase permanently" }
             }
@@ -192,7 +192,7 @@ mod tests {
             without.contains("1 incomplete session excluded") && without.contains("Include incomplete sessions"),
             "{without}"
         );
-        assert!(with.contains(", 2 sessions<") && !with.contains("excluded.") && with.contains("Leave out"), "{with}");
+        assert!(with.contains(", 2 sessions<") && !with.contains("excluded.") && with.contains("Exclude incomplete"), "{with}");
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
         assert!(!trainee_page(&instructor, &about).into_string().contains("Erase permanently"));
         check(&trainee_list(&administrator(), &[person]).into_string());

@@ -20,9 +20,9 @@ pub struct ControllerStatus {
     pub dead_band: f64,
     /// Expo, 0 (linear) to 1 (cubic).
     pub expo: f64,
-    /// Left stick up, left stick right, right stick up, right stick right, each in [-1, 1].
+    /// Left vertical, left horizontal, right vertical, right horizontal, each in [-1, 1]; up and right are positive.
     pub sticks: [f64; 4],
-    /// Raw axes: number, value, and minimum and maximum seen, all in [-1, 1].
+    /// Raw axes: number, value, and observed minimum and maximum, all in [-1, 1].
     pub axes: Vec<(u32, f64, (f64, f64))>,
     /// Prompt of the calibration wizard; `None` if it is not running.
     pub wizard: Option<String>,
@@ -68,7 +68,7 @@ impl ControllerStatus {
     }
 }
 
-/// Returns the functions of the left and right stick in a mode: vertical, horizontal.
+/// Returns the vertical and horizontal functions of the left and right stick in a mode.
 fn stick_functions(mode: i64) -> [(&'static str, &'static str); 2] {
     let (pitch, throttle, roll, yaw) = ("forward, back", "up, down", "left, right", "turn");
     match mode {
@@ -105,17 +105,17 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
             room,
             SMALL,
             HudColor::White,
-            "Press the flight keys: the dots must follow. Continue with Tab and Enter or the mouse.",
+            "Press the flight keys; the dots should follow. To continue, use Tab and Enter or the mouse.",
         );
     } else if controls.wizard.is_some() || !controls.calibrated {
         axes(pen, (x, below), room, &controls.axes);
     } else {
-        let words = "Move the sticks: the dots must follow, rest at the center, and reach all edges.";
+        let words = "Move the sticks; the dots should follow, return to the center, and reach all edges.";
         pen.lines((x, below), room, SMALL, HudColor::White, words);
     }
 }
 
-/// Draws a square in which a dot follows the stick.
+/// Draws a square with a dot that follows the stick.
 fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64, f64), [name, vertical, across]: [&str; 3]) {
     const DOT: f64 = 0.018;
     let (mx, my, r) = (x + 0.5 * size, y + 0.5 * size, 0.5 * size);
@@ -144,7 +144,7 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
     let at = |value: f64| from + full * (0.5 + 0.5 * value.clamp(-1.0, 1.0));
     for (k, (axis, value, (low, high))) in all.iter().take(MAX_AXES).enumerate() {
         let y = y + 0.042 * k as f64;
-        // On Linux, the upper half of the number is the event type; users know only the lower half, counted from 0.
+        // On Linux, the upper half of the number is the event type; users know only the lower half, which starts at 0.
         pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL, HudColor::Grey, format!("axis {}", axis & 0xffff));
         pen.panel((from, y), (full, BAR_HEIGHT), HudColor::Card);
         pen.fill(&[(at(*low), y), (at(*high), y), (at(*high), y + BAR_HEIGHT), (at(*low), y + BAR_HEIGHT)], HudColor::Focus);

@@ -1,10 +1,10 @@
-//! Menu rows for choosing, typing and starting actions, with keys or clicks.
+//! Menu rows: buttons, choices and text fields, operated with keys or clicks.
 
 use super::KeyPress;
 use super::sheet::{PageWriter, SMALL, TEXT, text_width};
 use crate::hud::{HudColor, TextAlign};
 
-/// Height of a row, and distance between rows.
+/// Height of a row, and spacing of rows.
 const ROW_HEIGHT: f64 = 0.06;
 pub const ROW_SPACING: f64 = 0.07;
 
@@ -72,7 +72,7 @@ pub enum RowKind {
     Button,
     /// The left and right keys change the value.
     Choice,
-    /// Typing changes the value; the left and right keys select a known one.
+    /// Typing changes the value; the left and right keys select a known value.
     Typed,
 }
 
@@ -106,7 +106,7 @@ impl MenuRow {
     }
 }
 
-/// Draws the rows below one another and returns the y position below the last.
+/// Draws the rows from top to bottom and returns the y position below the last one.
 pub fn draw(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
     for (k, row) in rows.iter().enumerate() {
         draw_row(pen, (x, y + ROW_SPACING * k as f64), width, row, (k, k == focus));
@@ -140,6 +140,6 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
     }
 }
 
-/// Start of the value as a fraction of the row's width, and width of its arrows.
+/// Start of the value, as a fraction of the row's width, and width of its arrows.
 const VALUE_START: f64 = 0.3;
 const ARROW_WIDTH: f64 = 0.06;

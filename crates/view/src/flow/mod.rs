@@ -48,7 +48,7 @@ pub struct WindowFlow {
     waiting_for: &'static str,
     /// Layout of the views.
     pub arrangement: ViewLayout,
-    /// Whether the pause was requested in order to restart.
+    /// Whether the pause was requested for a restart.
     restart_requested: bool,
     sound: bool,
     out: VecDeque<WindowRequest>,
@@ -166,7 +166,7 @@ impl WindowFlow {
             | Page::Leaving
             | Page::Over => {}
         }
-        // Disconnecting a device removes rows.
+        // Disconnecting a device removes rows from the page.
         self.focus = self.focus.min(self.rows().len().saturating_sub(1));
     }
 

@@ -13,7 +13,7 @@ impl KeyNames {
         Self(keys)
     }
 
-    /// Replaces each `{binding}` in a text with the name of its key; unknown bindings stay unchanged.
+    /// Replaces each `{binding}` in a text with the name of its key; leaves unknown bindings unchanged.
     #[must_use]
     pub fn fill(&self, words: &str) -> String {
         self.0.iter().fold(words.to_owned(), |words, (duty, key)| words.replace(&format!("{{{duty}}}"), key))

@@ -2,7 +2,7 @@
 
 use super::pipe::{FlightStarted, FromWindow};
 
-/// A change to one setting of a controller profile.
+/// A change to a setting of a controller profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ProfileChange {
     /// Stick mode, 1 to 4.
@@ -26,7 +26,7 @@ pub enum KeyPress {
     Right,
     /// Activate the row.
     Enter,
-    /// Go back or continue, whichever has no lasting effect.
+    /// Go back or continue, whichever is harmless.
     Escape,
     /// Delete the last character.
     Backspace,
@@ -49,7 +49,7 @@ pub enum Page {
     Controls,
     /// Controller calibration.
     Calibrating,
-    /// Tutorial with the number of the current page and whether a flight follows.
+    /// Tutorial: current page number, and whether a flight follows.
     Tutorial(usize, bool),
     /// The simulator is starting.
     Waiting,
@@ -57,13 +57,13 @@ pub enum Page {
     Flight,
     /// The flight is paused.
     Paused,
-    /// Confirmation to end an assessment; the flight continues meanwhile.
+    /// Confirmation to end an assessment. The flight continues in the background.
     Leaving,
     /// The scores after the flight.
     Over,
 }
 
-/// A request to the window's host.
+/// A request to the program that hosts the window.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindowRequest {
     /// Send this message to `train`.

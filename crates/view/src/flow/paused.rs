@@ -9,7 +9,7 @@ use crate::hud::{HudColor, TextAlign};
 /// Title and text of the pause page.
 pub const PAUSE_TEXT: [&str; 2] = ["Paused", "The clock is stopped."];
 /// Title and text of the end confirmation.
-pub const END_TEXT: [&str; 2] = ["End the assessment?", "The clock runs. Tasks not flown count as not attempted."];
+pub const END_TEXT: [&str; 2] = ["End the assessment?", "Clock is running. Unflown tasks count as not attempted."];
 
 /// Draws the page over the flight, which stays visible.
 pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], focus: usize) -> PageLayout {
@@ -19,14 +19,14 @@ pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], fo
     pen.text((left + 0.05, 0.30), TextAlign::Left, TITLE, HudColor::White, *head);
     pen.text((left + 0.05, 0.375), TextAlign::Left, SMALL, HudColor::Grey, *means);
     menu::draw(&mut pen, (left + 0.05, 0.42), width - 0.1, rows, focus);
-    let help = "Use up, down and Enter, or click.";
+    let help = "Up/down select, Enter confirm; or click.";
     pen.text((left + 0.05, 0.68), TextAlign::Left, SMALL, HudColor::Grey, help);
     pen.done()
 }
 
 /// Draws the button that pauses a practice session or ends an assessment.
 pub fn button(flow: &WindowFlow, mut pen: PageWriter) -> PageLayout {
-    // In the inspector's view, because the HUD covers the edges of the camera view.
+    // The button is in the inspector's view, because the HUD covers the edges of the camera view.
     let (across, down) = flow.arrangement.button();
     if let Some(flying) = &flow.flying {
         let words = match flying.choice.purpose {

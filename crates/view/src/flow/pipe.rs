@@ -4,11 +4,11 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::net::SocketAddr;
 
-/// Purpose of a flight, which decides whether it may be interrupted.
+/// Purpose of a flight. Determines whether it may be interrupted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Purpose {
-    /// May be paused and restarted; the map is available.
+    /// The flight may be paused and restarted; the map is available.
     #[default]
     Practice,
     /// No pause, restart or map.
@@ -68,7 +68,7 @@ pub struct FlightOptions {
     pub scenarios: Vec<JobOffer>,
     /// Selection from the command line, or the default.
     pub choice: FlightChoice,
-    /// Address of the web pages with this machine's sessions, if they are served.
+    /// Address of the web pages with this machine's sessions, if a server is running.
     pub web: Option<String>,
 }
 
@@ -103,17 +103,17 @@ pub struct FlightSummary {
     pub scores: [Option<FinalScore>; 4],
     /// Sum and maximum possible sum; `None` if the session is incomplete.
     pub overall: Option<(f64, f64)>,
-    /// Completed part of the job, as text.
+    /// Completion of the job, as text.
     pub completion: Option<String>,
     /// Whether the job was completed and the drone landed at home.
     pub complete: bool,
     /// "Certified", or the first requirement not met.
     pub verdict: Option<String>,
-    /// Reason for the end of the flight, or why there are no scores.
+    /// Why the flight ended, or why there are no scores.
     pub why: String,
     /// Address of the report, if there is one.
     pub report: Option<String>,
-    /// Address of the questionnaire if pages are served, otherwise the command that starts it.
+    /// Address of the questionnaire if a server is running, otherwise the command that starts it.
     pub questionnaire: String,
 }
 
@@ -176,7 +176,7 @@ pub fn line<T: Serialize>(message: &T) -> String {
 /// # Errors
 /// Returns a description of the problem, with the start of the line.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
-    /// Maximum number of characters of the line in an error message.
+    /// Maximum number of characters of the line to quote in an error message.
     const MAX_SHOWN_CHARS: usize = 120;
     serde_json::from_str(line).map_err(|error| {
         let shown: String = line.chars().take(MAX_SHOWN_CHARS).collect();

@@ -1,4 +1,4 @@
-//! Handling of key presses and clicks on a page.
+//! Handles key presses and clicks on a page.
 
 use super::menu::{MenuAction, MenuRow, RowKind};
 use super::pipe::{FlightOptions, FlightSummary, FromWindow, Purpose};
@@ -7,7 +7,7 @@ use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowR
 /// Maximum length of a pseudonym.
 const MAX_NAME_LENGTH: usize = 32;
 const STARTING_TEXT: &str = "Starting simulator ...";
-/// Step sizes of dead band and expo.
+/// Step sizes of the dead band and expo.
 const DEAD_BAND_STEP: f64 = 0.01;
 const EXPO_STEP: f64 = 0.1;
 
@@ -21,7 +21,7 @@ impl WindowFlow {
         match press {
             KeyPress::Up => self.focus = if self.focus == 0 { last } else { self.focus - 1 },
             KeyPress::Down => self.focus = if self.focus >= last { 0 } else { self.focus + 1 },
-            // Left and right only change values, because a page may appear while a flight key is still pressed.
+            // Left and right never press buttons, because a page may appear while a flight key is still pressed.
             KeyPress::Left | KeyPress::Right if kind == Some(RowKind::Button) => {}
             KeyPress::Left => self.step(&rows, false),
             KeyPress::Right => self.step(&rows, true),
@@ -241,7 +241,7 @@ impl WindowFlow {
     }
 }
 
-/// Returns the next or previous name, wrapping around; returns the first name if `name` is not in the list.
+/// Returns the next or previous name, wrapping around, or the first name if `name` is not in the list.
 fn adjacent_name<'a>(names: &[&'a str], name: &str, on: bool) -> Option<&'a str> {
     let count = names.len();
     let at = names.iter().position(|known| *known == name);

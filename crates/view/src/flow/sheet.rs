@@ -1,11 +1,11 @@
 //! A page as plain data: items to draw, clickable areas and pictures. Sizes are fractions of the window's height, so
-//! that text scales with the window. During layout, horizontal positions also use the height; they become fractions of
-//! the width at the end.
+//! text scales with the window. During layout, horizontal positions use the same unit; at the end, they become
+//! fractions of the width.
 
 use super::KeyPress;
 use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
-/// Font size of titles, as a fraction of the window's height; all sizes in this module use that unit.
+/// Font size of titles, as a fraction of the window's height (the unit of all sizes in this module).
 pub const TITLE: f64 = 0.075;
 /// Font size of body text.
 pub const TEXT: f64 = 0.038;

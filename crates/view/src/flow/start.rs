@@ -64,7 +64,7 @@ impl WindowFlow {
             n => format!("{n} sessions so far."),
         };
         let new = !self.choice.trainee.is_empty() && self.needs_tutorial();
-        let who = if new { format!("{who} A tutorial precedes the first practice.") } else { who };
+        let who = if new { format!("{who} Your first practice starts with a tutorial.") } else { who };
         let job = offers.and_then(|o| o.scenarios.iter().find(|job| job.name == self.choice.scenario));
         let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
         let purpose = match self.choice.purpose {

@@ -30,8 +30,8 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
     let half = 0.52 * pen.width;
     let Some(ended) = ended else { return };
     let (title, note) = match &ended.completion {
-        Some(words) if !ended.complete => (words.as_str(), format!("{}. Scores for the part that was flown:", ended.why)),
-        _ => ("The flight is over", ended.why.clone()),
+        Some(words) if !ended.complete => (words.as_str(), format!("{}. Scores for the part you flew:", ended.why)),
+        _ => ("Flight ended", ended.why.clone()),
     };
     // Shrinks the headline to fit on one line; its length depends on the job.
     let height = TITLE.min((pen.width - 2.0 * left) / text_width(title, 1.0));

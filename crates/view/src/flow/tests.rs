@@ -1,4 +1,4 @@
-//! Tests of navigation through the pages by key, rejected actions, and page contents.
+//! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobOffer, Purpose, ToWindow,
@@ -82,7 +82,7 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
     press(&mut flow, &[KeyPress::Down, KeyPress::Left, KeyPress::Enter, KeyPress::Enter, KeyPress::Enter]);
     assert_eq!((flow.page(), flow.choice().scenario.as_str()), (Page::Controls, "drill-hover"));
     press(&mut flow, &[KeyPress::Enter]);
-    assert_eq!(flow.page(), Page::Waiting, "anna has flown before: no tutorial");
+    assert_eq!(flow.page(), Page::Waiting, "a returning trainee must not get the tutorial");
     let wanted = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted.clone()))]);
     flow.handle_message(flying(&wanted));
@@ -107,13 +107,13 @@ fn exact_new_trainee_gets_the_tutorial_and_may_skip_it() {
     press(&mut flow, &[KeyPress::Enter, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Tutorial(1, true));
     press(&mut flow, &[KeyPress::Escape, KeyPress::Up, KeyPress::Enter]);
-    assert_eq!(flow.page(), Page::Waiting, "the last row skips");
+    assert_eq!(flow.page(), Page::Waiting, "the last row must skip the tutorial");
     assert!(
         matches!(pending_requests(&mut flow).as_slice(), [WindowRequest::Send(FromWindow::Chosen(choice))] if choice.trainee == "n3w")
     );
     flow.handle_message(ToWindow::Refused { words: "the port is taken".into() });
     assert_eq!((flow.page(), flow.notice()), (Page::Start, Some("the port is taken")));
-    // Opens the tutorial again from the start page and reads it to the end.
+    // Reopens the tutorial from the start page and reads it to the end.
     press(&mut flow, &[KeyPress::Row(4)]);
     (0..6).for_each(|_| flow.press(KeyPress::Enter));
     assert_eq!((flow.page(), pending_requests(&mut flow).len()), (Page::Start, 0));
@@ -129,7 +129,7 @@ fn choose_practice(flow: &mut WindowFlow) {
 fn exact_tutorial_precedes_every_trainees_first_practice() {
     let mut flow = in_flight(Purpose::Assessment);
     flow.handle_message(ToWindow::Ended(ended()));
-    // Goes from the start page to the flight: name, controller check, flight.
+    // Goes from the start page to the flight: enters the name, checks the controller, and starts.
     let named = |flow: &mut WindowFlow, name: &str| {
         flow.press(KeyPress::Row(0));
         press(flow, &[KeyPress::Backspace; 32]);
@@ -145,9 +145,9 @@ fn exact_tutorial_precedes_every_trainees_first_practice() {
     flow.handle_message(flying(&flow.choice().clone()));
     flow.handle_message(ToWindow::Ended(ended()));
     press(&mut flow, &[KeyPress::Row(3), KeyPress::Row(3), KeyPress::Enter]);
-    assert_eq!(flow.page(), Page::Waiting, "cora has completed a practice session");
+    assert_eq!(flow.page(), Page::Waiting, "a trainee who has practiced must not get the tutorial");
     flow.handle_message(ToWindow::Refused { words: String::new() });
-    assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "dan has not read the tutorial");
+    assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "a new trainee must get the tutorial");
 }
 
 #[test]
@@ -161,9 +161,9 @@ fn exact_flight_keys_have_no_effect_on_a_page_that_opens() {
     assert!(!flow.is_key_test());
     press(&mut flow, &[KeyPress::Row(3), KeyPress::Right, KeyPress::Left]);
     assert_eq!(flow.page(), Page::Controls);
-    assert!(flow.is_key_test(), "without a controller, this page tests the flight keys");
+    assert!(flow.is_key_test(), "without a controller, this page must test the flight keys");
     flow.update_controls(ControllerStatus { device: Some("Pad".into()), ..ControllerStatus::default() });
-    assert!(!flow.is_key_test(), "with a controller, keys select rows and values");
+    assert!(!flow.is_key_test(), "with a controller, keys must select rows and values");
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn exact_unplugged_controller_is_reported_and_can_be_searched_for() {
         "{told}"
     );
     assert_eq!(deeds(&flow), [MenuAction::Fly, MenuAction::FindController, MenuAction::Back]);
-    assert!(flow.is_key_test(), "without a controller, this page tests the flight keys");
+    assert!(flow.is_key_test(), "without a controller, this page must test the flight keys");
 }
 
 #[test]
@@ -226,9 +226,9 @@ fn exact_names_accept_only_valid_characters() {
         assert!(flow.notice().is_some() && flow.choice().trainee.is_empty(), "{sign}");
     }
     press(&mut flow, &[KeyPress::Row(3)]);
-    assert_eq!(flow.page(), Page::Start, "a flight requires a name");
+    assert_eq!(flow.page(), Page::Start, "a flight must require a name");
     "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Char(sign)));
-    assert!(flow.choice().trainee.is_empty(), "typed characters go to the focused row");
+    assert!(flow.choice().trainee.is_empty(), "typed characters must go to the focused row");
     flow.press(KeyPress::Row(0));
     "a".repeat(40).chars().for_each(|sign| flow.press(KeyPress::Char(sign)));
     assert_eq!(flow.choice().trainee.len(), 32);
@@ -276,7 +276,7 @@ fn exact_pause_and_restart_require_practice() {
     flow.handle_message(ToWindow::Ended(ended()));
     flow.pause();
     flow.restart();
-    assert_eq!(pending_requests(&mut flow), [WindowRequest::LeaveFlight], "pause and restart have no effect after the end");
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::LeaveFlight], "pause and restart must have no effect after the end");
 }
 
 #[test]
@@ -293,8 +293,8 @@ fn exact_profile_changes_in_steps_within_its_range() {
     });
     press(&mut flow, &[KeyPress::Row(2), KeyPress::Right, KeyPress::Row(3), KeyPress::Right, KeyPress::Row(4), KeyPress::Left]);
     let told = pending_requests(&mut flow);
-    assert_eq!(told[0], WindowRequest::ChangeProfile(ProfileChange::Mode(1)), "mode 4 wraps around to 1");
-    assert_eq!(told[1], WindowRequest::ChangeProfile(ProfileChange::DeadBand(0.5)), "the dead band is at most 0.5");
+    assert_eq!(told[0], WindowRequest::ChangeProfile(ProfileChange::Mode(1)), "mode 4 must wrap around to 1");
+    assert_eq!(told[1], WindowRequest::ChangeProfile(ProfileChange::DeadBand(0.5)), "the dead band must be at most 0.5");
     assert_eq!(told[2], WindowRequest::ChangeProfile(ProfileChange::Expo(0.0)));
     flow.update_controls(ControllerStatus { wizard: Some("Let go.".into()), ..flow.controls.clone() });
     assert_eq!(flow.page(), Page::Calibrating);
@@ -368,7 +368,7 @@ fn prop_pages_fit_windows_of_any_aspect_ratio() {
     }
 }
 
-/// Returns every text of a page with its position in percent of the window.
+/// Returns all texts of a page with their positions in percent of the window.
 fn words(flow: &WindowFlow) -> String {
     let line = |item: &DrawItem| match item {
         DrawItem::Text { place, words, .. } => Some(format!("{:3.0} {:3.0} {words}\n", 100.0 * place.x, 100.0 * place.y)),

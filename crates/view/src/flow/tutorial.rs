@@ -1,5 +1,5 @@
-//! Tutorial before the first practice session, as in the TASBID protocol: simulator pictures with labels and arrows,
-//! and the HUD as drawn in flight.
+//! Tutorial before the first practice session, as in the TASBID protocol: pictures from the simulator with labels and
+//! arrows, and the HUD as in flight.
 
 use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
@@ -33,13 +33,13 @@ const TUTORIAL_PAGES: [TutorialPage; PAGES] = [
         "the job",
         job,
         "You are on the hillside with a drone. Fly along each task's path at the bridges, photograph each defect once, then return \
-         and land on the pad.\n\nThe orange line shows a flight; the red dots are its photos.",
+         and land on the pad.\n\nThe orange line shows an example flight; the red dots mark its photos.",
     ),
     (
         "two views",
         views,
-        "Left: the view from where you stand. Right: the view of the drone's camera.\n\n{swap} enlarges one of them. Drag with the \
-         mouse to look around, scroll to zoom; {follow} follows the drone again.",
+        "Left: the view from where you stand. Right: the drone camera's view.\n\n{swap} enlarges one view. Drag with the mouse to \
+         look around, scroll to zoom; {follow} makes your view follow the drone again.",
     ),
     (
         "the display",
@@ -57,9 +57,9 @@ const TUTORIAL_PAGES: [TutorialPage; PAGES] = [
     (
         "defects",
         defects,
-        "The same defects from 1, 3 and 8 m with the same lens. A photo counts if the defect is inside the corner marks, lit, not \
+        "The same defects from 1, 3 and 8 m through the same lens. A photo counts if the defect is inside the corner marks, lit, not \
          seen edge-on, and, for a crack, at least half a pixel wide. Fly closer, or zoom ({camera_zoom_in}) if the camera can.\n\n\
-         Stains, form lines, closed cracks, webs and spray paint are not defects. Every photo that shows nothing new reduces accuracy.",
+         Stains, form lines, sealed cracks, webs and spray paint are not defects. Every photo that shows nothing new reduces accuracy.",
     ),
     (
         "light and scores",
@@ -109,7 +109,7 @@ fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64
     let half = 0.5 * text_width(words, SMALL) + 0.012;
     let (x, y) = frame.at(from.0, from.1);
     let (tx, ty) = frame.at(to.0, to.1);
-    // The arrow starts at the side of the label that faces its target.
+    // The arrow starts on the side of the label that faces its target.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
     pen.arrow(foot, (tx, ty), HudColor::Yellow);
     pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::Night);
@@ -131,7 +131,7 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", other.at(0.0, 0.0), (other.width, other.height));
     inset(pen, &layout(&example(0), PICTURE_ASPECT), other);
     pen.line(&[other.at(0.0, 0.0), other.at(0.0, 1.0)], 0.004, HudColor::Black);
-    label(pen, half, "where the drone is", (0.42, 1.15), (0.50, 0.56));
+    label(pen, half, "drone position", (0.42, 1.15), (0.50, 0.56));
     label(pen, other, "the camera's view", (0.40, 1.15), (0.5, 0.75));
     label(pen, other, "the map", (0.86, 1.15), (0.92, 0.88));
     let (x, y) = frame.at(0.0, 0.68);
@@ -153,7 +153,7 @@ fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
         ("mode, satellites, link", (0.50, 0.20), (0.50, 0.075)),
         ("battery", (0.70, 0.13), (0.84, 0.065)),
         ("height, distance home, time left", (0.64, 0.38), (0.885, 0.25)),
-        ("photograph inside these corners", (0.38, 0.80), (0.105, 0.895)),
+        ("keep defects inside these corners", (0.38, 0.80), (0.105, 0.895)),
         ("map", (0.76, 0.84), (0.84, 0.86)),
     ] {
         label(pen, frame, words, from, to);
@@ -228,7 +228,7 @@ fn example(cues: i32) -> Hud {
         lamp: false,
         left_s: 1104.0,
         pictures: 2,
-        // Red elements blink and are visible in the first half of the period.
+        // Red elements blink; they are visible in the first half of the period.
         shutter: false,
         time_s: if cues & cue::CRASH != 0 { 0.1 } else { 95.0 },
         position_m: Vec3::new(-60.0, 130.0, 12.0),

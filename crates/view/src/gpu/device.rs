@@ -8,7 +8,7 @@ pub enum GpuError {
     /// No graphics device is available.
     #[error(
         "no Vulkan, Metal or Direct3D 12 device found: install a graphics driver or a software renderer \
-         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); everything else works without one ({0})"
+         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); other features do not need one ({0})"
     )]
     NoDevice(String),
     /// The device stopped working.
@@ -45,7 +45,7 @@ impl Gpu {
         Self::open_for(&instance, None)
     }
 
-    /// Opens a software renderer, which is slow but gives the same results on every machine.
+    /// Opens a software renderer, which is slow but produces the same results on every machine.
     ///
     /// # Errors
     /// If there is none or it cannot be opened.
@@ -84,7 +84,7 @@ impl Gpu {
             apply_limit_buckets: false,
         };
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| GpuError::NoDevice(e.to_string()))?;
-        // Requests the maximum texture size, and buffers large enough to read such pictures back.
+        // Requests the maximum texture size, and buffers large enough to read back pictures of that size.
         let wgpu::Limits { max_texture_dimension_2d, max_buffer_size, .. } = adapter.limits();
         let limits = wgpu::Limits { max_texture_dimension_2d, max_buffer_size, ..wgpu::Limits::default() };
         let descriptor = wgpu::DeviceDescriptor { label: Some("spandrel"), required_limits: limits, ..Default::default() };
@@ -100,8 +100,8 @@ fn check_texture_size((width, height): (u32, u32), longest: u32) -> Result<(), G
     if width.max(height) > longest { Err(GpuError::TooLarge(width, height, longest)) } else { Ok(()) }
 }
 
-/// Records errors that occur outside of any call (an uncaptured error, a removed or hung GPU) and would otherwise cause
-/// a panic.
+/// Records errors that occur outside of calls (uncaptured errors, a removed or hung GPU) and would otherwise cause a
+/// panic.
 fn record_errors(device: &wgpu::Device) -> Arc<OnceLock<String>> {
     let fault = Arc::new(OnceLock::new());
     // Only the first error counts; later ones are consequences of it.

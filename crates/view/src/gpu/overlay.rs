@@ -1,4 +1,4 @@
-//! Head-up display drawn over a rendered picture.
+//! Head-up display over a rendered picture.
 
 use super::device::Gpu;
 use super::pipelines::PICTURE_FORMAT;
@@ -70,12 +70,12 @@ impl Overlay {
     }
 }
 
-/// Pictures of the pages, as textures of one context.
+/// Pictures of the pages, as textures of one egui context.
 #[derive(Default)]
 pub struct PageTextures(BTreeMap<&'static str, egui::TextureHandle>);
 
 impl PageTextures {
-    /// Returns a picture by name, decoding it on first use; returns `None` if it cannot be decode_jpeg.
+    /// Returns a picture by name, decoding it on first use; returns `None` if it cannot be decoded.
     fn of(&mut self, context: &egui::Context, name: &'static str) -> Option<egui::TextureId> {
         if !self.0.contains_key(name) {
             let (_, bytes) = PICTURES.iter().find(|known| known.0 == name)?;

@@ -46,14 +46,14 @@ impl GpuMesh {
         self.count / 3
     }
 
-    /// Draws the mesh once, without instances.
+    /// Draws the mesh once, without instance data.
     pub fn draw_without_instances(&self, pass: &mut wgpu::RenderPass) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..self.count, 0, 0..1);
     }
 
-    /// Draws all instances regardless of material, for depth passes.
+    /// Draws all instances, regardless of material, in depth passes.
     pub fn draw(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances) {
         self.draw_range(pass, copies, 0..self.count);
     }

@@ -40,13 +40,13 @@ pub fn color_texture(
 /// Reads a texture back.
 ///
 /// # Errors
-/// If the device fails or has failed before, in which case the contents are undefined.
+/// If the device fails or has failed before; the contents would be undefined.
 pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
     let (width, height) = (texture.width(), texture.height());
     Ok(Picture { width, height, rgba: read_bytes(gpu, texture, 4)? })
 }
 
-/// Reads the pixels of a texture back, `pixel` bytes each.
+/// Reads back the pixels of a texture, `pixel` bytes each.
 pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<u8>, GpuError> {
     let (width, height) = (texture.width(), texture.height());
     let row = (pixel * width).div_ceil(ROW_ALIGNMENT) * ROW_ALIGNMENT;
@@ -68,7 +68,7 @@ pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<
     gpu.queue.submit([encoder.finish()]);
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Failed(error.to_string()))?;
-    // A device failure does not make the preceding calls fail; without this check the picture would be black.
+    // The preceding calls do not fail if the device does; without this check, the picture would be black.
     gpu.fault().map_or(Ok(()), Err)?;
     let mapped = buffer.get_mapped_range(..).map_err(|error| GpuError::Failed(error.to_string()))?;
     let lines: Vec<&[u8]> = mapped.chunks(row as usize).map(|line| &line[..(pixel * width) as usize]).collect();

@@ -274,8 +274,8 @@ fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: f64) -> 
     })
 }
 
-/// Builds a pair of pipelines without and with the lamp. Only a lean preset compiles a variant without the lamp; other
-/// presets use one pipeline for both.
+/// Builds two pipelines, without and with the lamp. Only lean presets compile a variant without the lamp; other presets
+/// use one pipeline for both.
 fn by_lamp<T: Clone>(quality: &Quality, of: impl Fn((&'static str, f64)) -> T) -> [T; 2] {
     let lit = of(("LAMP", 1.0));
     [if quality.lean { of(("LAMP", 0.0)) } else { lit.clone() }, lit]
@@ -289,7 +289,7 @@ const LEAN_ENTRY_POINTS: (&str, &str) = ("vs_lean", "fs_lean");
 /// Reversed depth: nearer fragments have greater depth, and equal depth overwrites.
 const DEPTH_COMPARE: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
 
-/// Returns the key of a pipeline that turns radiance into a picture with one triangle that covers it.
+/// Returns the key of a pipeline that converts radiance to a picture by drawing one full-screen triangle.
 fn film<'a>(
     solid: &PipelineKey<'a>,
     (module, layouts): (&'a wgpu::ShaderModule, &'a [Option<&'a wgpu::BindGroupLayout>]),
@@ -344,7 +344,7 @@ impl Pipelines {
         let see_through = [preset_constants.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
         let translucent =
             PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
-        // Biased toward the camera, so that defects appear in front of the faces that they are on.
+        // Biased toward the camera, so that defects appear in front of their faces.
         let flat =
             PipelineKey { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
         let lake =

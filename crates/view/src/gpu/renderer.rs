@@ -22,7 +22,7 @@ use spandrel_model::defect_codes;
 use spandrel_model::frames::{Enu, Vec3};
 use static_cells::{StaticCell, fixed};
 
-/// Cosine of a quarter of a degree; when the sun has moved farther, the whole-site shadow map is redrawn.
+/// Cosine of a quarter of a degree. If the sun has moved farther than that, the whole-site shadow map is redrawn.
 const MIN_SUN_COSINE: f64 = 0.999_990_5;
 
 /// Draw statistics of a picture.
@@ -77,7 +77,7 @@ impl Renderer {
             ..Default::default()
         });
         let noise = noise_texture(gpu);
-        // Only lean presets read tiles, so the others bind the noise texture instead.
+        // Only lean presets read tiles; other presets bind the noise texture instead.
         let tile = |levels: fn() -> tiles::MipLevels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
         let (ground, concrete) = (tile(tiles::ground), tile(tiles::concrete));
         let bind = |data: &wgpu::Buffer| {
@@ -199,7 +199,7 @@ impl Renderer {
         (sun, lamp): (&[ShadowMap], Option<&ShadowMap>),
         moving: &[(MoverModel, MeshInstances)],
     ) {
-        // A single whole-site map contains only static objects and is reused while the sun does not move.
+        // A single whole-site map contains only static objects and is reused until the sun moves.
         let whole = self.quality.cascades <= 1;
         let kept = whole && self.site_map_sun_direction.is_some_and(|was| was.dot(shot.sky.sun) > MIN_SUN_COSINE);
         for (k, map) in sun.iter().chain(lamp).enumerate() {
@@ -314,7 +314,7 @@ impl Renderer {
             counts.draws += 1;
             counts.triangles += u64::from(water.triangles());
         }
-        // The lake has written depth, so no sky is shaded behind it.
+        // The lake has written its depth, so no sky is shaded behind it.
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
         counts.draws += 1;
@@ -356,7 +356,7 @@ fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
     })
 }
 
-/// Creates the shadow map array with at least two layers; some drivers do not treat a single layer as an array.
+/// Creates the shadow map array, with at least two layers because some drivers do not treat a single layer as an array.
 fn maps_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
     let layers = (quality.cascades + u32::from(quality.lamp_shadow)).clamp(2, MAPS as u32);
     gpu.device.create_texture(&wgpu::TextureDescriptor {

@@ -10,7 +10,7 @@ use spandrel_model::math;
 
 /// Maximum number of shadow maps in a shader.
 pub const MAPS: usize = 5;
-/// Haze extinction per meter (estimate: 12 km visual range; Koschmieder's 3.9 divided by it).
+/// Haze extinction per meter (estimate: 12 km visual range; Koschmieder's 3.9 divided by the range).
 const HAZE_PER_M: f64 = 3.9 / 12_000.0;
 
 /// Uniforms of the shader structure `Globals`.
@@ -118,7 +118,7 @@ impl DevelopUniforms {
             Some(before.view_projection(shot.aspect()).after(&Matrix(rows)))
         });
         let taps = if reproject.is_some() { quality.blur_taps } else { 1 };
-        // The noise differs between pictures but is reproducible for the same time.
+        // The noise differs between pictures but is reproducible for a given time.
         let number = (shot.time_s * 1000.0).rem_euclid(1e6).round();
         let (width, height) = shot.size_px;
         Self {

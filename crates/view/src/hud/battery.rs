@@ -1,4 +1,4 @@
-//! Battery display at the upper right: level bar, percentage, and an icon for the state.
+//! Battery display at the upper right: level bar, percentage and status icon.
 
 use super::icons::IconShape;
 use super::metrics::{EDGE, MIDDLE};
@@ -9,7 +9,7 @@ use super::{DrawItem, HudColor, TextAlign};
 /// Width and height of the panel.
 pub const PANEL_WIDTH: f64 = 0.27;
 const PANEL_HEIGHT: f64 = 0.075;
-/// Blink rate, Hz (noticeable, and well below rates that can trigger seizures).
+/// Blink rate, Hz (noticeable, but well below rates that can trigger seizures).
 const BLINK_HZ: f64 = 2.0;
 
 /// Appearance of a battery level.

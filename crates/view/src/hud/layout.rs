@@ -1,5 +1,4 @@
-//! Layout of the HUD. Sizes and positions are in units of `Pane`: fractions of the picture's height, or less in a
-//! narrow picture.
+//! Layout of the HUD. Sizes and positions are in units of `Pane`: the picture's height, or less in a narrow picture.
 
 use super::battery::battery;
 use super::map::map;
@@ -12,10 +11,10 @@ use super::state::Hud;
 use super::status::status;
 use super::{DrawItem, HudColor, TextAlign};
 
-/// Smallest font size that is legible in flight, px (estimate: capitals of 6.5 px; in a picture 360 px high, the font
-/// size is 9.7 px).
+/// Smallest font size that is legible in flight, px (estimate: capitals 6.5 px high; a picture 360 px high has a font
+/// size of 9.7 px).
 const MIN_FONT_PX: f64 = 9.5;
-/// Fraction of the picture around its center in which a defect counts.
+/// Central fraction of the picture where a defect counts.
 const CENTRAL_FRACTION: f64 = 0.8;
 
 /// Returns all HUD items for a picture with this aspect ratio (width over height).
@@ -40,7 +39,7 @@ pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
     if SMALL * Pane::unit(size_px) >= MIN_FONT_PX { layout(hud, size_px.0 / size_px.1) } else { essential_items(hud, size_px) }
 }
 
-/// Returns the crosshair and the marks of the area in which a defect counts; they are drawn below all other items.
+/// Returns the crosshair and the corner marks of the area where a defect counts. They are drawn below all other items.
 fn crosshair(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let mut items = Vec::new();
     let (low, high, arm) = (0.5 - 0.5 * CENTRAL_FRACTION, 0.5 + 0.5 * CENTRAL_FRACTION, 0.035);

@@ -50,7 +50,7 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items
 }
 
-/// Returns the projection from world to map coordinates that fits everything shown.
+/// Returns the projection from world to map coordinates that fits all contents.
 fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
     let shown = hud.tracks.iter().flat_map(|t| t.path_m.iter().copied()).chain([hud.pad_m, hud.position_m]);
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -66,8 +66,8 @@ fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
     move |p| (x + share(p.east(), 0), y - share(p.north(), 1))
 }
 
-/// Returns a label position that does not overlap other labels: `place`, or a position to its right, or to its left at
-/// the edge of the map.
+/// Returns a label position that does not overlap other labels: `place`, or a position to its right (to its left at the
+/// edge of the map).
 fn free_label_position(labels: &[(f64, f64)], place: (f64, f64), right_most: f64) -> (f64, f64) {
     let covered = |here: (f64, f64)| {
         let covers =

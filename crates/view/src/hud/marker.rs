@@ -13,8 +13,8 @@ const FONT_SIZE: f64 = 0.026;
 /// Half side of the bracket around the drone's center, m.
 const BRACKET_HALF_SIZE_M: f64 = 0.6;
 
-/// Returns a bracket around the drone with its distance, gray and dashed if an object hides the drone. Returns nothing
-/// if the drone is outside the picture.
+/// Returns a bracket around the drone with its distance: gray and dashed if an object hides the drone, and nothing if
+/// the drone is outside the picture.
 #[must_use]
 pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<DrawItem> {
     let clip = eye.view_projection(aspect).apply(drone_m);

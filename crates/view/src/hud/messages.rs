@@ -1,4 +1,4 @@
-//! Warnings at the lower left, the most serious lowest.
+//! Warnings at the lower left, with the most serious at the bottom.
 
 use super::icons::IconShape;
 use super::metrics::{EDGE, GAP, M_S_PER_MPH, MIDDLE};

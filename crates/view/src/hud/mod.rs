@@ -41,7 +41,7 @@ pub const fn at(x: f64, y: f64) -> ScreenPoint {
 }
 
 /// HUD colors. They remain distinguishable with color vision deficiency (after Okabe and Ito), and no meaning depends
-/// on color only.
+/// on color alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HudColor {
     /// Text and lines.

@@ -99,7 +99,7 @@ fn check_block(block: &DisplayBlock, what: &str) {
         assert!(block.shapes.iter().all(|shape| are_separate(place, shape)), "{what}: '{words}' overlaps a shape");
     }
     for (k, one) in block.shapes.iter().enumerate() {
-        // One shape may contain another, as a battery outline contains its level.
+        // A shape may contain another one, as the battery outline contains its level.
         let fine = |other: &PictureRect| are_separate(one, other) || contains(one, other) || contains(other, one);
         assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block overlap");
     }
@@ -143,15 +143,15 @@ fn states() -> Vec<(&'static str, Hud)> {
         ("link lost", Hud { telemetry_age_s: 12.0, ..hud() }),
         ("GNSS lost", Hud { gnss: dark(14), ..hud() }),
         ("GNSS unknown", Hud { gnss: None, ..hud() }),
-        ("no link, no GNSS", Hud { telemetry_age_s: 12.0, gnss: dark(4), mode: "Stabilized".into(), ..hud() }),
-        ("no link for long", Hud { telemetry_age_s: 86_400.0, gnss: dark(99), mode: "mode 4294967295".into(), ..hud() }),
+        ("link and GNSS lost", Hud { telemetry_age_s: 12.0, gnss: dark(4), mode: "Stabilized".into(), ..hud() }),
+        ("link lost for a long time", Hud { telemetry_age_s: 86_400.0, gnss: dark(99), mode: "mode 4294967295".into(), ..hud() }),
         ("no battery", Hud { battery_pct: None, ..hud() }),
-        ("red", Hud { battery_pct: Some(9.0), time_s: 0.1, ..hud() }),
-        ("red and away", Hud { battery_pct: Some(9.0), time_s: 0.3, ..hud() }),
+        ("red battery", Hud { battery_pct: Some(9.0), time_s: 0.1, ..hud() }),
+        ("red battery, blinked off", Hud { battery_pct: Some(9.0), time_s: 0.3, ..hud() }),
         ("all warnings", hit("bridge")),
-        ("a long name", hit("bridge member arch/rib-left/07")),
-        ("a name without a space", hit(&"bridge-member-".repeat(4)[..43])),
-        ("a name longer than the wire allows", hit(&"WWWW ".repeat(40))),
+        ("long name", hit("bridge member arch/rib-left/07")),
+        ("name without spaces", hit(&"bridge-member-".repeat(4)[..43])),
+        ("name longer than telemetry allows", hit(&"WWWW ".repeat(40))),
         ("zoomed", Hud { zoom: 3.1, lamp: true, ..hud() }),
         ("everything", full),
     ];
@@ -183,8 +183,8 @@ fn prop_items_do_not_overlap_at_any_size() {
 
 #[test]
 fn prop_status_text_does_not_cover_the_hud() {
-    // Six lines of the window's font with their background. They end above the center of the picture, which the pilot
-    // uses for aiming.
+    // Height of six lines in the window's font with their background. They end above the center of the picture, which
+    // the pilot uses for aiming.
     const TEXT_HEIGHT: f64 = 0.2;
     let words = ViewLayout::Camera.words();
     let [_, eyes] = ViewLayout::Camera.places();

@@ -1,13 +1,13 @@
-//! Coordinate system of the HUD: positions from the upper left corner, with the same unit in both directions.
+//! Coordinate system of the HUD: the origin is the upper left corner, and both axes use the same unit.
 
 use super::icons::{self, IconShape};
 use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
-/// Aspect ratio (width over height) from which all blocks fit at full size; in narrower pictures everything scales with the
-/// width.
+/// Minimum aspect ratio (width over height) for all blocks to fit at full size; in narrower pictures, everything scales
+/// with the width.
 const FULL_ASPECT: f64 = 4.0 / 3.0;
 
-/// Size of a picture in HUD units. Positions are measured to the right and down.
+/// Size of a picture in HUD units. Positions increase to the right and down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pane {
     /// Width.
@@ -23,7 +23,7 @@ impl Pane {
         Self { width: aspect / unit, height: 1.0 / unit }
     }
 
-    /// Returns the unit of [`Self::of`] for a picture size, in the same unit as that size.
+    /// Returns the unit of [`Self::of`] for a picture size, in the units of that size.
     pub fn unit((width, height): (f64, f64)) -> f64 {
         height.min(width / FULL_ASPECT)
     }

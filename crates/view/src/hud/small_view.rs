@@ -10,12 +10,12 @@ use super::status::alarm;
 use super::text_metrics::text_width;
 use super::{DrawItem, HudColor, TextAlign};
 
-/// Font size that is legible at a glance, px (estimate: capitals of 8 px).
+/// Font size that is legible at a glance, px (estimate: capitals 8 px high).
 const LEGIBLE_PX: f64 = 12.0;
 /// Font size as a fraction of the picture's height, used where it exceeds the legible size.
 const FONT_SHARE: f64 = 0.05;
-/// Width of speed and battery next to each other, and height of the rows that show a lost link and a crash, in units of
-/// the font size. In smaller pictures, the font shrinks.
+/// Minimum width, for speed and battery side by side, and minimum height, for the rows that show a lost link and a
+/// crash, in units of the font size. In smaller pictures, the font shrinks.
 const MIN_WIDTH: f64 = 12.0;
 const MIN_HEIGHT: f64 = 6.0;
 /// Margin at the edges of the picture, and gap between blocks.
@@ -62,7 +62,7 @@ fn width(words: &str, signed: bool) -> f64 {
     2.0 * PADDING + text_width(words, 1.0) + if signed { ICON_COLUMN_WIDTH } else { 0.0 }
 }
 
-/// Returns text on a background. The optional icon comes with a flag that is false while a blinking icon is off.
+/// Returns text on a background. The flag next to the optional icon is false while a blinking icon is off.
 fn block(pane: Pane, (x, y): (f64, f64), sign: Option<(IconShape, bool)>, color: HudColor, words: &str) -> Vec<DrawItem> {
     let middle = y + 0.5 * ROW_HEIGHT;
     let mut items = vec![pane.panel((x, y), (x + width(words, sign.is_some()), y + ROW_HEIGHT))];

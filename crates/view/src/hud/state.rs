@@ -42,13 +42,13 @@ pub struct Hud {
     pub limit_m_s: f64,
     /// Battery, %.
     pub battery_pct: Option<f64>,
-    /// Battery level from which the display is green, %.
+    /// Minimum battery level for a green display, %.
     pub green_pct: f64,
-    /// Battery level from which the display is yellow, %.
+    /// Minimum battery level for a yellow display, %.
     pub yellow_pct: f64,
     /// Mask of active cues, as in `cues` (docs/src/reference/wire.md, "The monitor").
     pub cues: i32,
-    /// Object that was hit, if the monitor has reported it.
+    /// Object that the drone hit, if the monitor has reported it.
     pub hit: Option<String>,
     /// Height above the pad, m.
     pub height_m: f64,
@@ -72,7 +72,7 @@ pub struct Hud {
     pub pictures: usize,
     /// Whether a picture has just been taken.
     pub shutter: bool,
-    /// Time base of blinking elements, s. It never pauses; in a live flight it is wall-clock time.
+    /// Time base of blinking elements, s. It never pauses; in a live flight, it is wall-clock time.
     pub time_s: f64,
     /// Position of the drone, ENU, m.
     pub position_m: Vec3<Enu>,

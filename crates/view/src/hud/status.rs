@@ -5,9 +5,9 @@ use super::pane::Pane;
 use super::state::{GnssStatus, Hud};
 use super::{DrawItem, HudColor, TextAlign, battery};
 
-/// Telemetry age from which the link counts as lost, s.
+/// Minimum telemetry age for the link to count as lost, s.
 pub const LINK_TIMEOUT_S: f64 = 1.5;
-/// Character width: 1.5 times the font's mean, of which the excess provides the panel's padding.
+/// Character width: 1.5 times the font's mean; the excess is the panel's padding.
 const CHAR_WIDTH: f64 = 0.017;
 /// Height of the panel with one line, and of each additional line.
 const PANEL_HEIGHT: f64 = 0.048;

@@ -49,7 +49,7 @@ fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
     texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, color, _)| (place, color))
 }
 
-/// Returns every text of the HUD with its position in percent of the picture and its color.
+/// Returns all texts of the HUD with their positions in percent of the picture and their colors.
 fn snapshot(hud: &Hud) -> String {
     let line = |(place, color, words): (ScreenPoint, HudColor, String)| {
         format!("{:3.0} {:3.0} {color:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)
@@ -70,13 +70,13 @@ fn regress_hud_in_normal_flight() {
 fn exact_item_positions_match_the_assessment_rules() {
     let all = Hud { cues: ALL_CUES, hit: Some("bridge".into()), ..hud() };
     let speed = find(&all, "3.2 m/s").unwrap().0;
-    assert!(speed.x < 0.3 && speed.y < 0.2, "speed is upper left");
+    assert!(speed.x < 0.3 && speed.y < 0.2, "the speed must be at the upper left");
     let battery = find(&all, "76 %").unwrap().0;
-    assert!(battery.x > 0.7 && battery.y < 0.2, "battery is upper right");
+    assert!(battery.x > 0.7 && battery.y < 0.2, "the battery must be at the upper right");
     for words in ["CRASH: bridge", "TOO CLOSE", "TOO FAST", "OFF THE PATH"] {
         let place = find(&all, words).unwrap().0;
-        assert!(place.x < 0.5 && place.y > 0.5, "{words} is lower left");
-        assert!(find(&hud(), words).is_none(), "{words} appears without its cue");
+        assert!(place.x < 0.5 && place.y > 0.5, "{words} must be at the lower left");
+        assert!(find(&hud(), words).is_none(), "{words} must not appear without its cue");
     }
 }
 
@@ -88,8 +88,8 @@ fn exact_battery_color_changes_at_70_and_30_and_red_blinks() {
     assert_eq!(find(&at(30.0, 0.0), "30 %").unwrap().1, HudColor::Yellow);
     assert_eq!(find(&at(29.0, 0.0), "29 %").unwrap().1, HudColor::Red);
     let fills = |hud: &Hud| layout(hud, WIDE).iter().filter(|i| matches!(i, DrawItem::Fill { .. })).count();
-    assert!(fills(&at(29.0, 0.1)) > fills(&at(29.0, 0.3)), "red flashes");
-    assert_eq!(fills(&at(50.0, 0.1)), fills(&at(50.0, 0.3)), "yellow does not");
+    assert!(fills(&at(29.0, 0.1)) > fills(&at(29.0, 0.3)), "red must blink");
+    assert_eq!(fills(&at(50.0, 0.1)), fills(&at(50.0, 0.3)), "yellow must not blink");
     assert!(find(&Hud { battery_pct: None, ..hud() }, "no battery").is_some());
 }
 
@@ -131,7 +131,7 @@ fn exact_icon_shapes_differ_like_their_colors() {
     assert_eq!([corners(90.0), corners(50.0), corners(10.0)], [Some(16), Some(3), Some(8)]);
 }
 
-/// Returns the texts and colors of a state that differ from those of a normal flight.
+/// Returns the texts and colors of a state that differ from a normal flight.
 fn changed_texts(hud: &Hud) -> Vec<String> {
     let said = |hud: &Hud| texts(hud).into_iter().map(|(_, color, words)| format!("{color:?}: {words}")).collect::<Vec<_>>();
     let calm = said(&self::hud());

@@ -1,7 +1,7 @@
 //! Estimates text widths for the layout, which has no access to the font.
 
-/// Returns the width of a character as a fraction of the font size (egui's Ubuntu Light, in classes; slightly wide to
-/// prevent overflow).
+/// Returns the width of a character as a fraction of the font size (egui's Ubuntu Light, by character class; slightly
+/// wide to prevent overflow).
 fn glyph_width(sign: char) -> f64 {
     match sign {
         ' ' => 0.25,

@@ -1,6 +1,6 @@
-//! Playback clock of a live flight. It shows the vehicle slightly behind the latest telemetry, so that there is a
-//! sample on either side, and advances smoothly although datagrams arrive in bursts and the vehicle's clock may run
-//! faster or slower than wall time.
+//! Playback clock of a live flight. It lags slightly behind the latest telemetry, so there is a sample on either side
+//! to interpolate between. It advances smoothly even if datagrams arrive in bursts or the vehicle's clock runs faster
+//! or slower than wall time.
 
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
@@ -8,13 +8,13 @@ use std::collections::VecDeque;
 /// Delay of the picture behind the latest telemetry, s of wall time (three samples at 50 Hz; estimate: hides the usual
 /// jitter of a local network and is much shorter than human reaction time).
 pub const PLAYBACK_DELAY_S: f64 = 0.06;
-/// Period of wall time over which the speed of the vehicle's clock is measured.
+/// Wall time period for measuring the speed of the vehicle's clock.
 const SPEED_WINDOW: SimTime = SimTime::from_ms(1_000);
-/// Playback error above which the playback time jumps to the target, s of wall time.
+/// Minimum playback error that makes the playback time jump to the target, s of wall time.
 const JUMP_S: f64 = 0.5;
-/// Time constant with which smaller errors are corrected, s.
+/// Time constant for correcting smaller errors, s.
 const SETTLE_S: f64 = 0.25;
-/// Time without telemetry after which the picture stops at the latest sample, s; shorter gaps count as jitter.
+/// Maximum gap in telemetry that counts as jitter, s; in a longer gap, the picture freezes at the latest sample.
 const JITTER_LIMIT_S: f64 = 0.1;
 
 /// Playback position.
@@ -25,7 +25,7 @@ pub struct Playhead {
 }
 
 impl Playhead {
-    /// Records a new latest sample time that arrived at this wall time.
+    /// Records the time of a new latest sample, which arrived at this wall time.
     pub fn handle_sample_time(&mut self, wall: SimTime, newest: SimTime) {
         if self.arrivals.back().is_some_and(|(_, last)| newest <= *last) {
             return;
@@ -67,7 +67,7 @@ impl Playhead {
                 if error_s.abs() > JUMP_S * speed_factor.max(1.0) {
                     target_s
                 } else {
-                    // Playback never steps back, because reversed motion is conspicuous.
+                    // Playback never runs backward, because reversed motion is conspicuous.
                     (even_s + error_s * (step_s / SETTLE_S).min(1.0)).max(shown.s())
                 }
             }
@@ -82,7 +82,8 @@ impl Playhead {
 mod tests {
     use super::*;
 
-    /// Returns the times shown, s, for pictures every 1/60 s with a clock of this speed whose samples (50 Hz) arrive in bursts.
+    /// Returns the times shown, s, by a picture every 1/60 s, with a clock of this speed and samples (50 Hz) that
+    /// arrive in bursts.
     fn shown(speed_factor: f64, burst: u32) -> Vec<f64> {
         let mut head = Playhead::default();
         let mut out = Vec::new();
@@ -107,7 +108,7 @@ mod tests {
             let settled = &all[120..];
             for pair in settled.windows(2) {
                 let step = pair[1] - pair[0];
-                // With bursts of 60 ms and pictures every 17 ms, steps without smoothing would be 0 or 3.6 times the
+                // With bursts every 60 ms and pictures every 17 ms, steps without smoothing would be 0 or 3.6 times the
                 // nominal step.
                 assert!(
                     step > 0.8 * speed_factor / 60.0 && step < 1.2 * speed_factor / 60.0,

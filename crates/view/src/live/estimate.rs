@@ -1,4 +1,4 @@
-//! Pose of a vehicle that sends no ground truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and
+//! Pose of a vehicle that does not send ground truth, from its own estimate: ATTITUDE or ATTITUDE_QUATERNION, and
 //! GLOBAL_POSITION_INT.
 
 use spandrel_mavlink::contract::truth::Truth;
@@ -15,7 +15,7 @@ pub struct EstimatedPose {
 }
 
 impl EstimatedPose {
-    /// Processes a message. A position completes a pose and returns it.
+    /// Processes a message. Returns a pose when a position message completes it.
     pub fn take(&mut self, message: &MavMessage, plane: &LocalPlane) -> Option<Truth> {
         match message {
             MavMessage::ATTITUDE(a) => {

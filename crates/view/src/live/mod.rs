@@ -1,6 +1,6 @@
 //! A live flight from telemetry: processes datagrams and returns the moment to draw. It subscribes to telemetry like
-//! any other client, so it can show any MAVLink vehicle: the simulated one from ground truth, others from their own
-//! estimate. It does not access sockets or clocks.
+//! any other client, so it can show any MAVLink vehicle: the simulated vehicle from ground truth, other vehicles from
+//! their own estimates. It does not access sockets or clocks.
 
 pub mod clock;
 mod estimate;
@@ -31,17 +31,18 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use std::collections::{BTreeSet, VecDeque};
 
-/// System ID of a viewer, distinct from vehicles and ground stations (255 is QGroundControl, 254 is `spandrel rc`).
+/// System ID of a viewer, distinct from those of vehicles and ground stations (255 is QGroundControl, 254 is `spandrel
+/// rc`).
 pub const SYSTEM: u8 = 253;
-/// MAV_COMP_ID_ONBOARD_COMPUTER2: distinct from the monitor.
+/// MAV_COMP_ID_ONBOARD_COMPUTER2: distinct from the monitor's.
 const COMPONENT: u8 = 192;
 const AUTOPILOT: u8 = 1;
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
-/// Time without ground truth after which the vehicle counts as a real one and this client requests its estimates.
+/// Time without ground truth, after which the vehicle counts as a real one and this client requests its estimates.
 const TRUTH_TIMEOUT: SimTime = SimTime::from_ms(3_000);
-/// Interval at which requests are repeated, in case one is lost.
+/// Interval for repeating requests, in case one is lost.
 const REQUEST_INTERVAL: SimTime = SimTime::from_ms(5_000);
-/// Messages used instead of ground truth and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
+/// Messages used instead of ground truth, and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
 const ESTIMATE_STREAMS: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
 /// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of a tenth of a second between sound and
@@ -51,7 +52,7 @@ const ROTOR_STREAM: (u32, f32) = (36, 20.0);
 const FLIGHT_INFORMATION_ID: u32 = 264;
 /// Pulse widths of idle and full outputs, µs (SERVO_OUTPUT_RAW).
 const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
-/// Time without a picture after which a video stream counts as ended; a hidden window renders no pictures.
+/// Maximum time between pictures of an active video stream; a hidden window renders no pictures.
 const VIDEO_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 
 /// State of a live flight.
@@ -81,7 +82,7 @@ pub struct LiveFlight {
     video: Option<(VideoStatus, SimTime)>,
 }
 
-/// State that a restart of the simulator resets.
+/// State that is reset when the simulator restarts.
 #[derive(Debug, Clone, Default)]
 struct SimulatorRun {
     feed: Feed,
@@ -107,7 +108,7 @@ pub struct LiveMoment {
     pub moment: SceneMoment,
     /// Additional HUD inputs.
     pub hud: HudInputs,
-    /// Times at which traffic was stopped and released.
+    /// Times when traffic was stopped and released.
     pub closures: BridgeClosures,
 }
 
@@ -162,8 +163,8 @@ impl LiveFlight {
         self.last_sample_at.is_some() && !self.truth_requested
     }
 
-    /// Checks whether no ground truth arrived although it was requested. Such a vehicle is not the simulator and sends
-    /// no seed.
+    /// Checks whether no ground truth has arrived despite a request. Such a vehicle is not the simulator and does not
+    /// send a seed.
     #[must_use]
     pub fn has_no_truth(&self, wall: SimTime) -> bool {
         !self.truth_requested && self.first_message_at.is_some_and(|met| wall >= met + TRUTH_TIMEOUT + TRUTH_TIMEOUT)
@@ -206,7 +207,7 @@ impl LiveFlight {
         if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.next_takeoff_request)
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
         {
-            // The field holds the time since boot despite its name (MAVLink common).
+            // The field contains the time since boot despite its name (MAVLink common).
             (self.state.lift_off, self.state.next_takeoff_request) = (Some(SimTime::from_us(took_off_us)), None);
         }
         if !self.truth_requested
@@ -229,14 +230,14 @@ impl LiveFlight {
                 }
                 self.handle_truth(truth, wall);
             }
-            SampleContent::Value(value) => self.handle_value(value, sample.own_time),
+            SampleContent::Value(value) => self.handle_value(value, sample.message_time),
         }
     }
 
-    fn handle_value(&mut self, value: SampleValue, own_time: Option<SimTime>) {
+    fn handle_value(&mut self, value: SampleValue, message_time: Option<SimTime>) {
         let now = self.state.trace.newest().unwrap_or_default();
         let state = &mut self.state;
-        let time = own_time.filter(|own| *own <= now + RESTART_THRESHOLD).unwrap_or(now);
+        let time = message_time.filter(|own| *own <= now + RESTART_THRESHOLD).unwrap_or(now);
         match value {
             SampleValue::GimbalPitch(pitch_rad) => state.trace.push_gimbal(time, pitch_rad),
             SampleValue::Light(on) => state.lamp = on,
@@ -244,8 +245,8 @@ impl LiveFlight {
             SampleValue::FieldOfView(rad) => state.trace.push_lens(time, rad),
             SampleValue::Heartbeat { armed, .. } => state.armed = armed,
             SampleValue::Snapshot(number) => {
-                if state.pictures.insert((number, own_time)) {
-                    state.last_picture = Some(own_time.unwrap_or(now));
+                if state.pictures.insert((number, message_time)) {
+                    state.last_picture = Some(message_time.unwrap_or(now));
                 }
             }
             SampleValue::Traffic(code) => state.closures.apply_code(code),
@@ -280,7 +281,7 @@ impl LiveFlight {
         self.state.trace.push(truth);
     }
 
-    /// Handles a seed. A different seed means a new session, even if the clock has not gone back.
+    /// Handles a seed. A different seed means a new session, even if the clock has not gone backward.
     fn handle_seed(&mut self, seed: u64) {
         if self.seed.is_some_and(|known| known != seed) {
             self.restart();
@@ -294,8 +295,8 @@ impl LiveFlight {
         self.state = SimulatorRun::default();
     }
 
-    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if it is off. The vehicle
-    /// receives the status every second and announces it.
+    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if it is off.
+    /// The vehicle receives the status every second and announces the stream.
     pub fn set_video_status(&mut self, video: Option<VideoStatus>, wall: SimTime) {
         match video {
             Some(video) => self.video = Some((video, wall)),

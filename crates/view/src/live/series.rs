@@ -3,7 +3,7 @@
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Age relative to the latest sample beyond which samples are discarded.
+/// Maximum age of a sample relative to the latest one; older samples are discarded.
 pub(super) const HISTORY_DURATION: SimTime = SimTime::from_ms(3_000);
 /// Maximum gap between samples for interpolation.
 pub(super) const MAX_INTERPOLATION_GAP: SimTime = SimTime::from_ms(1_000);
@@ -42,7 +42,7 @@ impl TimeSeries {
         self.around(time).map_or(0.0, |(before, next)| (next.1 - before.1) / (next.0 - before.0).s())
     }
 
-    /// Returns the samples before and after a time; `None` in long gaps, which are not interpolated.
+    /// Returns the samples before and after a time; `None` in long gaps, where values are not interpolated.
     fn around(&self, time: SimTime) -> Option<((SimTime, f64), (SimTime, f64))> {
         let after = self.points.partition_point(|known| known.0 <= time);
         let before = *self.points.get(after.checked_sub(1)?)?;

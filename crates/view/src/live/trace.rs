@@ -10,8 +10,8 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the general delay
-/// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it leaves time for the next sample to arrive, including 20 ms of jitter
-/// (estimate).
+/// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it gives the next sample time to arrive, including 20 ms of
+/// jitter (estimate).
 const LENS_DELAY: SimTime = SimTime::from_ms(160);
 
 /// Recent samples in time order.
@@ -68,7 +68,7 @@ impl MotionHistory {
         Some(before.motion.lerp(&next.motion, t))
     }
 
-    /// Returns the gimbal's pitch at a time, rad; level without samples.
+    /// Returns the gimbal's pitch at a time, rad; zero without samples.
     #[must_use]
     pub fn gimbal_at(&self, time: SimTime) -> f64 {
         self.gimbal.at(time).unwrap_or(0.0)
@@ -87,7 +87,8 @@ impl MotionHistory {
         self.lens.at(time)
     }
 
-    /// Returns the camera's turn rate at a time, interpolated between samples; zero where there is no interpolation.
+    /// Returns the camera's turn rate at a time, interpolated between samples; zero where interpolation is not
+    /// possible.
     #[must_use]
     pub fn turn_at(&self, time: SimTime) -> CameraTurnRate {
         let heading_rad_s = self.around(time).map_or(0.0, |(before, next)| {
@@ -97,7 +98,7 @@ impl MotionHistory {
         CameraTurnRate { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
     }
 
-    /// Returns the samples before and after a time between which motion is interpolated.
+    /// Returns the samples before and after a time, for interpolating motion.
     fn around(&self, time: SimTime) -> Option<(&Truth, &Truth)> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
         let before = self.truths.get(after.checked_sub(1)?)?;

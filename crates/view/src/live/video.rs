@@ -16,7 +16,7 @@ pub struct VideoStatus {
 }
 
 impl VideoStatus {
-    /// Returns the status message for the vehicle; `runs` is false when the stream has ended.
+    /// Returns the status message for the vehicle; `runs` is false if the stream has ended.
     pub(super) fn status(&self, runs: bool) -> MavMessage {
         let side = |px: u32| u16::try_from(px).unwrap_or(u16::MAX);
         let running = VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING;

@@ -1,10 +1,10 @@
-//! Metadata of a photo, and the errors of writing one.
+//! Metadata of a photo, and errors in writing one.
 
 use spandrel_model::geodesy::Geo;
 use spandrel_model::math;
 use spandrel_model::vehicle::Camera;
 
-/// Errors of writing a photo.
+/// Errors in writing a photo.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PhotoError {
     /// The photo exceeds the limits of JPEG or EXIF.

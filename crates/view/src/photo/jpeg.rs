@@ -4,8 +4,8 @@ use super::info::PhotoError;
 use crate::picture::Picture;
 use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
 
-/// Highest and lowest quality (libjpeg's scale to 100): above the highest, no difference is visible; below the lowest, cracks
-/// disappear.
+/// Highest and lowest quality (libjpeg's scale to 100): above the highest, differences are invisible; below the lowest,
+/// cracks disappear.
 const MAX_QUALITY: u8 = 92;
 const MIN_QUALITY: u8 = 20;
 /// Identifier of an XMP packet in an APP1 segment (XMP specification, part 3).
@@ -14,8 +14,7 @@ const XMP: &[u8] = b"http://ns.adobe.com/xap/1.0/\0";
 /// EXIF and XMP metadata of a photo.
 pub type PhotoTags<'a> = (&'a [u8], &'a str);
 
-/// Encodes the picture at the highest quality for which the file has at most `most` bytes. Finds the quality by
-/// bisection.
+/// Encodes the picture at the highest quality that keeps the file within `most` bytes, found by bisection.
 pub fn encode(picture: &Picture, tags: Option<PhotoTags<'_>>, most: usize) -> Result<Vec<u8>, PhotoError> {
     let best = encode_with_quality(picture, tags, MAX_QUALITY)?;
     if best.len() <= most {

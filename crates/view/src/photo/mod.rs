@@ -21,7 +21,7 @@ pub fn direction_deg(pose: &CameraPose) -> (f64, f64) {
     (yaw, math::asin(forward.up().clamp(-1.0, 1.0)).to_degrees())
 }
 
-/// Maximum width of a copy, px: the largest that a report shows.
+/// Maximum width of a copy, px: the largest width shown in a report.
 const MAX_COPY_WIDTH_PX: u32 = 1280;
 /// Minimum width of a copy, px; narrower copies would not show defects.
 const MIN_COPY_WIDTH_PX: u32 = 320;
@@ -35,8 +35,8 @@ pub fn jpeg(picture: &Picture, about: &PhotoInfo) -> Result<Vec<u8>, PhotoError>
     jpeg::encode(picture, Some((&tags::write(about, size)?, &xmp::write(about, size))), usize::MAX)
 }
 
-/// Encodes a copy without metadata for a report, as wide and with as high a quality as `most` bytes allow. Exceeds the
-/// limit only if even the narrowest copy at the lowest quality does.
+/// Encodes a copy without metadata for a report, at the largest width and highest quality that `most` bytes allow.
+/// Exceeds the limit only if even the narrowest copy at the lowest quality does.
 ///
 /// # Errors
 /// If it exceeds the limits of JPEG.

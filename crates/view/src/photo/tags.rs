@@ -55,8 +55,8 @@ fn camera(about: &PhotoInfo, (width, height): (u32, u32)) -> Vec<(Tag, Value)> {
         (Tag::PixelYDimension, Value::Long(vec![height])),
         (Tag::FocalLength, rational_value(focal_mm, 1000)),
         (Tag::FocalLengthIn35mmFilm, Value::Short(vec![(focal_mm * FILM_MM / SENSOR_WIDTH_MM).round() as u16])),
-        // Pixels of this picture per centimeter of the sensor; bundle adjustment needs only this and the focal length. EXIF
-        // defines only inches and centimeters; millimeters (4) are TIFF/EP, which not every program reads.
+        // Picture pixels per centimeter of the sensor; bundle adjustment needs only this and the focal length. EXIF
+        // defines only inches and centimeters; millimeters (4) come from TIFF/EP, which not all programs read.
         (Tag::FocalPlaneXResolution, rational_value(10.0 * f64::from(width) / SENSOR_WIDTH_MM, 1000)),
         (Tag::FocalPlaneYResolution, rational_value(10.0 * f64::from(width) / SENSOR_WIDTH_MM, 1000)),
         (Tag::FocalPlaneResolutionUnit, Value::Short(vec![3])),
@@ -93,7 +93,7 @@ fn place(about: &PhotoInfo) -> Vec<(Tag, Value)> {
     ]
 }
 
-/// Returns an angle as degrees, minutes and seconds; seconds to a ten-thousandth, 3 mm on the ground.
+/// Returns an angle as degrees, minutes and seconds, with seconds to four decimals (3 mm on the ground).
 fn degrees(angle_deg: f64) -> Value {
     // Rounds the whole angle first, so that 59.99999 s never becomes 60 s.
     let parts = (angle_deg.abs() * 3600.0 * 10_000.0).round();

@@ -45,14 +45,14 @@ fn exact_exif_contains_position_lens_and_direction() {
         other => panic!("{other:?}"),
     };
     let [degrees, minutes, seconds] = numbers(Tag::GPSLatitude)[..] else { panic!("three parts") };
-    // Rounded to a ten-thousandth of a second.
+    // Seconds are rounded to four decimals.
     assert!((degrees + minutes / 60.0 + seconds / 3600.0 - 47.123_456_78).abs() < 0.5e-4 / 3600.0 + 1e-12);
     assert_eq!(numbers(Tag::GPSLongitude), [9.0, 0.0, 0.0], "seconds must carry over, never be 60");
     assert_eq!((value(Tag::GPSLatitudeRef), value(Tag::GPSLongitudeRef)), ("N".into(), "W".into()));
     assert_eq!((numbers(Tag::GPSAltitude), numbers(Tag::GPSImgDirection)), (vec![432.1], vec![271.5]));
     // At ninety degrees, the focal length is half the sensor's width, equivalent to 18 mm on film.
     assert_eq!((numbers(Tag::FocalLength), value(Tag::FocalLengthIn35mmFilm)), (vec![3.085], "18".into()));
-    // Pixels per centimeter (unit 3) of a sensor 6.17 mm wide, to a thousandth.
+    // Pixels per centimeter (unit 3) of a sensor 6.17 mm wide, to three decimals.
     assert_eq!(read.get_field(Tag::FocalPlaneResolutionUnit, In::PRIMARY).unwrap().value.get_uint(0), Some(3));
     for tag in [Tag::FocalPlaneXResolution, Tag::FocalPlaneYResolution] {
         assert!((numbers(tag)[0] - 64.0 / 0.617).abs() <= 0.5e-3, "{:?}", numbers(tag));
@@ -83,7 +83,7 @@ fn exact_heading_is_defined_for_vertical_views() {
 
 #[test]
 fn exact_ground_sampling_distance_matches_the_rendered_size() {
-    // Ninety degrees at a distance of 4 m: 8 m across 4000 px or 1000 px.
+    // A 90-degree lens at 4 m covers 8 m, across 4000 px or 1000 px.
     let close = |width, mm: f64| (about().gsd_mm(width).unwrap() - mm).abs() < 1e-9;
     assert!(close(4000, 2.0) && close(1000, 8.0));
     let text = xmp::write(&about(), (1000, 750));
@@ -98,7 +98,8 @@ fn exact_quality_is_the_highest_that_fits() {
     let free = plain(&picture, usize::MAX).unwrap();
     let most = free.len() / 2;
     let fitted = plain(&picture, most).unwrap();
-    // Bisection stops at most one quality step below the limit; for noise, a step is a few percent of the size.
+    // Bisection stops at most one quality step below the limit; for a picture of noise, a step is a few percent of the
+    // size.
     assert!(fitted.len() <= most && fitted.len() > most * 9 / 10, "{} of {most}", fitted.len());
 }
 
@@ -113,6 +114,6 @@ fn exact_copies_shrink_to_fit_and_photos_keep_their_size() {
     assert_eq!(size(&free), (1280, 960));
     let quarter = copy(&picture, free.len() / 10).unwrap();
     assert!(quarter.len() <= free.len() / 10 && size(&quarter) == (640, 480), "{} of {}", quarter.len(), free.len());
-    assert_eq!(size(&copy(&picture, 1_000).unwrap()), (320, 240), "a copy must not become narrower, although it is too large");
+    assert_eq!(size(&copy(&picture, 1_000).unwrap()), (320, 240), "a copy must not become narrower even if it is too large");
     assert_eq!(size(&jpeg(&picture, &about()).unwrap()), (1600, 1200));
 }

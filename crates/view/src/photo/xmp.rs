@@ -1,6 +1,5 @@
-//! XMP metadata: attitude of the gimbal and aircraft under the names that photogrammetry programs read for drones
-//! (DJI's, as in Metashape, Pix4D and OpenDroneMap), and simulator-specific values under names in the `spandrel`
-//! namespace.
+//! XMP metadata: attitude of the gimbal and aircraft under the names that photogrammetry programs expect for drones
+//! (DJI's, as in Metashape, Pix4D and OpenDroneMap), and simulator-specific values in the `spandrel` namespace.
 
 use super::info::PhotoInfo;
 use std::fmt::Write;

@@ -1,13 +1,13 @@
-//! Baked indirect light at vertices, computed with the light model that the scoring uses, so that a soffit that is dark
-//! for the score is also dark in the picture.
+//! Baked indirect light at vertices, computed with the light model of the scoring, so a soffit that counts as dark also
+//! looks dark.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::light::ray_bundle;
 use spandrel_model::site::{QueryTime, RayHit, Site};
 
-/// Distance of samples from the edges of their face, m, so that adjoining members do not darken them.
+/// Distance of samples from the edges of their face, m; prevents adjoining members from darkening them.
 pub const INSET_M: f64 = 0.25;
-/// Distance below which another solid above a sample means that the sample is inside or below that solid, m.
+/// Maximum distance between a probe and a solid that covers the sample, m.
 const COVERED_DISTANCE_M: f64 = 0.04;
 /// Height of the probe above the surface, m.
 const PROBE_M: f64 = 0.05;

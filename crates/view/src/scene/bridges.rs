@@ -18,12 +18,12 @@ const BEARING: [u8; 3] = [38, 34, 30];
 /// Galvanized wire.
 const WIRE: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
-/// Width below which a face has constant light across it, m.
+/// Maximum width of a face with constant light across it, m.
 const NARROW_FACE_M: f64 = 0.8;
 /// Tolerance of the fractions of sky and sun light for presets that save triangles (a hundredth of the open-air value
-/// is not visible; rays of a lean preset have more noise).
+/// is invisible; lean presets have noisier rays).
 const LIGHT_TOLERANCE: f32 = 0.03;
-/// Same tolerance for slender members.
+/// Tolerance for slender members.
 const SLENDER_LIGHT_TOLERANCE: f32 = 0.12;
 
 /// Material and paint of an element.
@@ -45,19 +45,18 @@ struct TextureAxes {
     half_deck_m: f64,
 }
 
-/// Spacing of the probes that test whether a face is covered, and distance of the probes from the edges, m (estimate:
-/// smaller gaps are not visible).
+/// Spacing of the probes that test whether a face is covered, and their distance from the edges, m (estimate: smaller
+/// gaps are not visible).
 const COVER_PROBE_M: (f64, f64) = (0.5, 0.02);
 /// Minimum number of probe steps, so that the center is always probed.
 const MIN_PROBE_STEPS: f64 = 2.0;
-/// Minimum vertical component of the normal of an upward face; the lake's reflection never shows such faces from above.
+/// Minimum vertical component of the normal of an upward face; the lake's reflection never shows such faces.
 const MIN_UPWARD_COMPONENT: f64 = 0.999;
 
 /// Hangers and railings, which are not visible in the small reflection of a distant bridge.
 const SLENDER_ELEMENTS: [Element; 3] = [Element::Hanger, Element::MetalRailing, Element::RcRailing];
 
-/// Function that returns the tolerance of the light between the corners of a face, by element and normal; `None` omits
-/// the face.
+/// Returns the tolerance of the light between the corners of a face, by element and normal; `None` omits the face.
 type LightTolerance<'a> = &'a dyn Fn(Element, Vec3<Enu>) -> Option<f32>;
 /// Tolerance that keeps every sample.
 const KEEP_ALL_SAMPLES: f32 = f32::NEG_INFINITY;
@@ -75,15 +74,14 @@ pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<S
         (!is_slender(element) && normal.up() < MIN_UPWARD_COMPONENT).then_some(f32::INFINITY)
     };
     let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
-    let (straight, in_lake) =
-        (SceneItem::here("bridges", straight, true), SceneItem::here("bridges in the lake", in_lake, false));
+    let (straight, in_lake) = (SceneItem::here("bridges", straight, true), SceneItem::here("reflected bridges", in_lake, false));
     vec![
         SceneItem { visible_range: VisibleRange::STRAIGHT, ..straight },
         SceneItem { visible_range: VisibleRange::IN_LAKE, ..in_lake },
     ]
 }
 
-/// Builds one mesh per tolerance; light is computed once for all of them.
+/// Builds one mesh per tolerance; the light is computed only once.
 fn meshes<const N: usize>(scenario: &Scenario, bake: &LightBaker, quality: &Quality, thinned: [LightTolerance; N]) -> [Mesh; N] {
     let mut meshes = [(); N].map(|()| Mesh::default());
     for bridge in &scenario.bridges {
@@ -236,7 +234,7 @@ fn quad_face<'a>(
     let lengths = quad.lengths_m();
     let steps = |length: f64| ((length / light_cell_m).ceil() as usize).max(1);
     let (nu, nv) = if look.smooth { (1, 1) } else { (steps(lengths.0), steps(lengths.1)) };
-    // Samples are inset from the edges; a narrow face needs only one sample across.
+    // Samples are inset from the edges; a narrow face needs only one sample across its width.
     let inside = |k: usize, n: usize, length: f64| {
         let margin = (INSET_M / length).min(0.25);
         if length < NARROW_FACE_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
@@ -286,8 +284,7 @@ fn quad_face<'a>(
     }
 }
 
-/// Returns the indices of the sample lines to keep: the first, the last, and those needed to keep the error within the
-/// tolerance.
+/// Returns the indices of the sample lines to keep: the first, the last, and those needed to stay within the tolerance.
 fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
     let all: Vec<Vec<[f32; 2]>> = (0..lines).map(line).collect();
     let smooth = |from: usize, to: usize| {

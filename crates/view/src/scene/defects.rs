@@ -7,11 +7,11 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::Site;
 
-/// Number of rays for the light on a patch, the same as in the scoring.
+/// Number of rays for the light on a patch; same as in the scoring.
 const RAYS: usize = 64;
 /// Margin around a line for leakage stains, m (the face extends at least this far, `site::defects`).
 const LEAKAGE_MARGIN_M: f64 = 0.03;
-/// Size factor of an area that leaves space for its ragged edge.
+/// Size factor of an area, which leaves space for its ragged edge.
 const EDGE_FACTOR: f64 = 1.06;
 
 /// Instance data of a defect for the shader `defect`.
@@ -39,8 +39,8 @@ pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
     site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
 }
 
-/// Returns the code with which a defect is drawn. Resolved files may contain kinds that no seed generates. Because
-/// scored defects must be visible, these look like a crack or exposed aggregate.
+/// Returns the code used to draw a defect. Resolved files may contain kinds that no seed generates; these are drawn as
+/// a crack or exposed aggregate, because scored defects must be visible.
 fn drawn_kind(defect: &PlacedDefect) -> u32 {
     match (defect_codes::ALL.contains(&defect.kind), defect.line) {
         (true, _) => defect.kind,
@@ -63,7 +63,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
         (0.5 * EDGE_FACTOR * defect.length_m, 0.5 * EDGE_FACTOR * defect.width_m)
     };
     let [r, g, b] = bridges::material_and_paint(defect.element).1.map(|c| f32::from(c) / 255.0);
-    // Pseudorandom number that differs between defects and is constant for each of them.
+    // Pseudorandom number that is different but constant for each defect.
     let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
     DefectPatch {
         centre: four(defect.position_m, f64::from(drawn_kind(defect))),

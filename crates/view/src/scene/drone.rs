@@ -25,7 +25,7 @@ pub fn body(vehicle: &Vehicle) -> Mesh {
     let mut mesh = Mesh::default();
     let [l, w, h] = vehicle.hull.body_half_extent_m;
     let thin = 0.09 * vehicle.rotor.radius_m.max(0.08);
-    // Down is +z, so the block's upper face is the belly, which is slightly tapered.
+    // Down is +z, so the block's top face is the belly, which is slightly tapered.
     mesh.block([-l, -w, -h], [l, w, 0.3 * h], [0.0; 3], SHELL);
     mesh.block([-l, -w, 0.3 * h], [l, w, h], [0.25 * l, 0.25 * l, 0.25 * w], SHELL);
     mesh.block([0.92 * l, -0.5 * w, -0.5 * h], [1.01 * l, 0.5 * w, 0.1 * h], [0.0; 3], DARK);
@@ -35,7 +35,7 @@ pub fn body(vehicle: &Vehicle) -> Mesh {
         let end = hub + Vec3::new(0.0, 0.0, 0.6 * thin);
         mesh.round((root, 1.3 * thin), (end, 0.9 * thin), 8, ARM);
         mesh.round((hub + Vec3::new(0.0, 0.0, 1.8 * thin), 1.5 * thin), (hub, 1.3 * thin), 10, DARK);
-        // Red bands on the front arms indicate the heading.
+        // Red bands on the front arms mark the front.
         if hub.east() > 0.0 && k < 8 {
             let (a, b) = (root.lerp(end, 0.5), root.lerp(end, 0.65));
             mesh.round((a, 1.35 * thin), (b, 1.3 * thin), 8, RED);

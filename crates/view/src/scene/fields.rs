@@ -1,4 +1,4 @@
-//! Selection of the ground triangles to draw: all of them, or fewer where the difference is not visible.
+//! Selects the ground triangles to draw: all, or fewer where the difference is invisible.
 
 use super::sparse::{self, GridSquare};
 use spandrel_model::frames::{Enu, Vec3};
@@ -13,13 +13,12 @@ const MAX_SQUARE_CELLS: usize = 8;
 const MAX_ANGULAR_ERROR_RAD: f64 = 0.012;
 /// Minimum and maximum tolerance of the height, m (estimates: the thickness of grass, and a barely noticeable step).
 const HEIGHT_TOLERANCE_M: (f64, f64) = (0.15, 3.0);
-/// Near the shore, a small height error moves the waterline far. Factor on the tolerance there, and height above and
-/// below the water to which it applies, m.
+/// Factor on the tolerance near the shore, where a small height error moves the waterline a long way, and its range
+/// above and below the water, m.
 const SHORE_TOLERANCE: (f64, f64) = (0.4, 1.0);
-/// Depth beyond which the lake bed is not visible, m (in the shader `water`, 99 % of the light is lost on the way down
-/// and back).
+/// Maximum depth of a visible lake bed, m (in the shader `water`, 99 % of the light is lost on the way down and back).
 pub const INVISIBLE_DEPTH_M: f64 = 5.0;
-/// Distance from a bridge within which the light varies between cells, m, and maximum square size there, cells.
+/// Range around a bridge where the light varies between cells, m, and maximum square size there, cells.
 const BRIDGE_DETAIL: (f64, usize) = (30.0, 2);
 
 /// Returns all triangles of the ground.
@@ -38,14 +37,14 @@ pub fn sparse(scenario: &Scenario, site: &Site, rough: f64) -> Vec<[u32; 3]> {
     sparse::triangles(side, MAX_SQUARE_CELLS, &|square| field.is_flat(square))
 }
 
-/// Returns the triangles that are not deeper than `under_m` below the lake's surface.
+/// Returns the triangles that are at most `under_m` below the lake's surface.
 pub fn shallow(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]], under_m: f64) -> Vec<[u32; 3]> {
     let (points, _) = site.geometry().terrain.ground.triangles();
     let bottom_m = scenario.terrain.water_level_m - under_m;
     triangles.iter().filter(|corners| corners.iter().any(|k| points[*k as usize].up() > bottom_m)).copied().collect()
 }
 
-/// Returns the positions of people and aircraft, from which the ground is seen.
+/// Returns the viewpoints of people and aircraft.
 fn viewpoints_m(scenario: &Scenario) -> Vec<Vec3<Enu>> {
     let team = &scenario.ground_team;
     let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().step_by(4).copied());
@@ -62,7 +61,7 @@ struct GroundField<'a> {
 }
 
 impl GroundField<'_> {
-    /// Checks whether a square may be drawn from its corners only.
+    /// Checks whether a square is flat enough to draw from its corners alone.
     fn is_flat(&self, square: &GridSquare) -> bool {
         let corners = square.corners(self.side).map(|k| self.points[k]);
         let middle = corners[0].lerp(corners[2], 0.5);
@@ -90,7 +89,7 @@ impl GroundField<'_> {
     }
 }
 
-/// Returns the height at a point of the two triangles that a square is drawn with, m.
+/// Returns the height at a point on the two triangles of a square, m.
 fn surface_height_m([sw, se, ne, nw]: &[Vec3<Enu>; 4], p: Vec3<Enu>) -> f64 {
     let (x, y) = ((p.east() - sw.east()) / (ne.east() - sw.east()), (p.north() - sw.north()) / (ne.north() - sw.north()));
     if x >= y {

@@ -7,23 +7,23 @@ use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// Distance from a member within which light on the ground is baked, m.
+/// Range around a member where light on the ground is baked, m.
 const BAKED_LIGHT_RANGE_M: f64 = 30.0;
-/// Radii of the mountain rings, as fractions of the field's half side. The mountains are visual only; no job extends
-/// there.
+/// Radii of the mountain rings, as fractions of the field's half side. The mountains are decorative; no job extends
+/// that far.
 const MOUNTAIN_RINGS: [f64; 15] = [0.98, 1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
 /// Vertices on each side of a ring.
 const RIM_SIDE_VERTICES: usize = 48;
-/// Depth below the ground at which the mountains start inside the rim, m. The rim has fewer vertices than the ground,
-/// so that gaps would be visible otherwise.
+/// Depth below the ground where the mountains start inside the rim, m. Hides the gaps that would appear because the rim
+/// has fewer vertices than the ground.
 const RIM_OVERLAP_M: f64 = 8.0;
 /// Height of the mountains above the rim, m (estimate: a lake in a pre-alpine valley).
 const PEAK_HEIGHT_M: f64 = 620.0;
-/// Height of the rim above the water from which it counts as land, m.
+/// Minimum height above the water for the rim to count as land, m.
 const LAND_HEIGHT_M: f64 = 45.0;
 /// Extent of the lake, m.
 const LAKE_EXTENT_M: f64 = 9_000.0;
-/// Depth from which the lake bed is not visible, m.
+/// Minimum depth that hides the lake bed, m.
 const OPAQUE_DEPTH_M: f64 = 30.0;
 
 fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m: f64) -> Vertex {
@@ -45,7 +45,7 @@ pub fn mesh(scenario: &Scenario, site: &Site, bake: &LightBaker, shown: &[[u32; 
     let vertex = |k: u32| {
         let (p, n) = (&points[k as usize], &normals[k as usize]);
         let near = site.geometry().nearest_member(*p, BAKED_LIGHT_RANGE_M).is_some();
-        // On an open slope, light comes from the sky above the slope and, to a small part, from the ground.
+        // On an open slope, light comes from the sky above the slope and, to a small extent, from the ground.
         let open = [0.5 + 0.5 * n.up() as f32, 0.02];
         let light = if near { bake.at(*p + *n * 0.3, *n) } else { open };
         ground_vertex(*p, *n, light, p.up() - scenario.terrain.water_level_m)
@@ -80,8 +80,8 @@ fn vertex_normals(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>
     sums.into_iter().map(Vec3::unit).collect()
 }
 
-/// Builds the mountains around the field, rising from its rim; where the lake reaches the rim, it continues between the
-/// mountains. `coarse` uses every second vertex of every second ring beyond the rim.
+/// Builds the mountains around the field, which rise from its rim. Where the lake reaches the rim, it continues between
+/// the mountains. `coarse` uses every second vertex of every second ring beyond the rim.
 pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     let half = 0.5 * scenario.terrain.size_m;
     let water = scenario.terrain.water_level_m;
@@ -131,8 +131,8 @@ fn rim(k: usize) -> (f64, f64) {
     }
 }
 
-/// Returns the height above the water beyond the rim: the rim's height, then ridges; the lake continues for some
-/// distance.
+/// Returns the height above the water beyond the rim: starts at the rim's height and continues with ridges; the lake
+/// extends for some distance.
 fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
     let ridges = 0.5
         + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)
@@ -191,7 +191,7 @@ fn water_vertex(p: Vec3<Enu>, light: [f32; 2], depth_m: f64) -> Vertex {
     }
 }
 
-/// Builds the landing pad slightly above its slab, so that both do not overlap.
+/// Builds the landing pad slightly above its slab to avoid z-fighting.
 pub fn pad(site: &Site) -> Mesh {
     let slab = &site.geometry().pad().solid.vertices_m;
     let top = slab.iter().map(|v| v.up()).fold(f64::NEG_INFINITY, f64::max);

@@ -10,9 +10,9 @@ use spandrel_model::frames::{Enu, Vec3};
 pub struct Instance {
     /// Rows of the affine transform from mesh axes to the site.
     pub rows: [[f32; 4]; 3],
-    /// Color of painted parts, linear; the last component is 1 if it applies.
+    /// Color of painted parts, linear; the last component is 1 if the color applies.
     pub paint: [f32; 4],
-    /// Indirect light on upward surfaces (fractions of sky and sun) and on downward surfaces.
+    /// Indirect light (fractions of sky and sun) on upward surfaces and on downward surfaces.
     pub around: [f32; 4],
 }
 
@@ -29,7 +29,7 @@ impl Instance {
         Self { rows: [0, 1, 2].map(|k| [x[k], y[k], z[k], o[k]]), paint: [0.0; 4], around }
     }
 
-    /// Transforms and lights a vertex in the same way as the shaders.
+    /// Transforms and lights a vertex the same way as the shaders.
     pub(super) fn transformed(&self, v: &Vertex) -> Vertex {
         let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
         let [x, y, z] = turned(v.normal);
@@ -59,15 +59,15 @@ pub struct SceneItem {
     pub mesh: Mesh,
     /// Instances.
     pub instances: Vec<Instance>,
-    /// Whether it casts shadows.
+    /// Whether it is drawn into shadow maps.
     pub casts: bool,
-    /// Distances at which it is drawn.
+    /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
     /// Whether it belongs to the backdrop, which is split into sectors.
     pub backdrop: bool,
 }
 
-/// Minimum and maximum distances at which an object is drawn, m.
+/// Minimum and maximum distance for drawing an object, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisibleRange {
     /// Distances in the direct view, m.
@@ -77,30 +77,30 @@ pub struct VisibleRange {
 }
 
 impl VisibleRange {
-    /// Any distance.
+    /// Matches any distance.
     pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-    /// No distance.
+    /// Matches no distance.
     pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
-    /// Visible in the direct view and in the lake at any distance.
+    /// Visible in the direct view and in the lake's reflection at any distance.
     pub const EVERYWHERE: Self = Self { direct_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
     /// Visible only in the direct view.
     pub const STRAIGHT: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
-    /// Visible only in the lake, for simplified substitutes.
+    /// Visible only in the lake's reflection, for simplified substitutes.
     pub const IN_LAKE: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
 
-    /// Returns the range below this distance, m.
+    /// Returns the range of distances up to this one, m.
     #[must_use]
     pub const fn within(most_m: f64) -> [f64; 2] {
         [f64::NEG_INFINITY, most_m]
     }
 
-    /// Returns the range from this distance on, m.
+    /// Returns the range of distances beyond this one, m.
     #[must_use]
     pub const fn beyond(least_m: f64) -> [f64; 2] {
         [least_m, f64::INFINITY]
     }
 
-    /// Checks whether the object is drawn at a distance, directly or in the lake.
+    /// Checks whether the object is drawn at a distance, in the direct view or in the lake's reflection.
     #[must_use]
     pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
         let [begins, ends] = if in_lake { self.in_lake_m } else { self.direct_m };

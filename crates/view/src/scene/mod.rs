@@ -39,7 +39,7 @@ pub enum MoverModel {
     Drone,
     /// One propeller.
     Propeller,
-    /// The disk of motion blur of a fast propeller.
+    /// The motion-blur disk of a fast propeller.
     Disc,
 }
 
@@ -74,14 +74,14 @@ pub struct Scene {
     water_m: f64,
 }
 
-/// Factor on the ground's error tolerance in the lake's reflection, which is blurred by waves and has fewer pixels.
+/// Factor on the ground's error tolerance in the lake's reflection, which has fewer pixels and is blurred by waves.
 const LAKE_TOLERANCE_FACTOR: f64 = 4.0;
-/// Displayed propeller speed, rad/s: slow enough that propellers do not appear to stand still on a screen (telemetry
-/// does not include the actual speed).
+/// Displayed propeller speed, rad/s: slow enough to avoid a stroboscopic standstill on screens (telemetry does not
+/// include the actual speed).
 const DISPLAYED_ROTOR_SPEED_RAD_S: f64 = 43.0;
 
 impl Scene {
-    /// Builds the scene of a site for the light at one time.
+    /// Builds the scene of a site with the light at one time.
     #[must_use]
     pub fn build(scenario: &Scenario, site: &Site, vehicle: &Vehicle, quality: &Quality, at: QueryTime) -> Self {
         let sun = site.light().daylight(at).sun;
@@ -100,12 +100,12 @@ impl Scene {
             SceneItem::here("pad", ground::pad(site), false),
         ]);
         if quality.sparse {
-            let coarse = SceneItem::here("mountains in the lake", ground::mountains(scenario, site, true), false);
+            let coarse = SceneItem::here("reflected mountains", ground::mountains(scenario, site, true), false);
             parts[ground_at].visible_range = VisibleRange::STRAIGHT;
             parts[ground_at + 1].visible_range = VisibleRange::STRAIGHT;
             parts.push(SceneItem { backdrop: true, visible_range: VisibleRange::IN_LAKE, ..coarse });
             let rough = ground(&fields::sparse(scenario, site, LAKE_TOLERANCE_FACTOR), 0.0);
-            parts.push(SceneItem { visible_range: VisibleRange::IN_LAKE, ..SceneItem::here("ground in the lake", rough, false) });
+            parts.push(SceneItem { visible_range: VisibleRange::IN_LAKE, ..SceneItem::here("reflected ground", rough, false) });
         }
         parts.extend(plants::parts(scenario, site, quality));
         Self {
@@ -194,7 +194,7 @@ impl Scene {
 /// Indirect light in the open: the whole sky from above, half of the ground's reflected light from below (estimate).
 const OPEN_AIR_LIGHT: [f32; 4] = [0.95, 0.02, 0.22, 0.10];
 
-/// Returns an instance of a mesh (x forward, y left, z up) that is on the ground.
+/// Returns an instance of a mesh (x forward, y left, z up) on the ground.
 fn place_on_ground(feet_m: Vec3<Enu>, forward: Vec3<Enu>, around: [f32; 4]) -> Instance {
     let level: Vec3<Enu> = Vec3::new(forward.east(), forward.north(), 0.0).unit();
     let left = Vec3::new(-level.north(), level.east(), 0.0);

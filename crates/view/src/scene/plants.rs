@@ -1,4 +1,5 @@
-//! Conifers and boulders for visual scale. They do not collide and are therefore kept clear of bridges, task paths and the pad.
+//! Conifers and boulders for visual scale. They have no collision geometry, so they are kept clear of bridges, task
+//! paths and the pad.
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish, Vertex, single};
 use super::super::quality::Quality;
@@ -19,14 +20,14 @@ const PAD_CLEARANCE_M: f64 = 26.0;
 const MIN_TREE_HEIGHT_ABOVE_WATER_M: f64 = 2.2;
 /// Minimum vertical component of the ground normal for trees.
 const MIN_NORMAL_UP: f64 = 0.72;
-/// Maximum distance of trees in the lake's reflection for presets that save triangles, m (a tree covers three pixels at
-/// that distance).
+/// Maximum distance of reflected trees for presets that save triangles, m (a tree covers three pixels at that
+/// distance).
 const MAX_REFLECTED_TREE_DISTANCE_M: f64 = 160.0;
-/// Maximum distance of boulders, m: the largest cover three pixels of a view 640 px and 84 degrees wide, most cover
-/// only one.
+/// Maximum distance of boulders, m: in a view 640 px and 84 degrees wide, the largest cover three pixels, but most
+/// cover only one.
 const MAX_BOULDER_DISTANCE_M: f64 = 150.0;
-/// Distance from which trees have fewer branches, m: the tallest are 25 pixels high there. Both variants are drawn
-/// within the overlap.
+/// Minimum distance of trees with fewer branches, m: the tallest are 25 pixels high there. Within the overlap, both
+/// variants are drawn.
 const FAR_TREE_DISTANCE_M: f64 = 220.0;
 const LOD_OVERLAP_M: f64 = 5.0;
 /// Size of groves of trees, m.
@@ -96,7 +97,7 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
             SceneItem { visible_range: near, ..SceneItem::here("trees", wood(&spruce, &fir), true) },
             SceneItem {
                 visible_range: far,
-                ..SceneItem::here("trees far away", wood(&distant_conifer(0.21), &distant_conifer(0.15)), false)
+                ..SceneItem::here("distant trees", wood(&distant_conifer(0.21), &distant_conifer(0.15)), false)
             },
             boulders,
         ];
@@ -111,7 +112,7 @@ fn tree_density(east: f64, north: f64) -> f64 {
     (0.25 + 0.75 * wave).clamp(0.03, 1.0)
 }
 
-/// Returns the ground point if there is enough clearance for a plant.
+/// Returns the ground point if it has enough clearance for a plant.
 fn free_ground_point(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
     let (up, normal) = site.geometry().terrain.ground.ground(east, north);
     let at = Vec3::new(east, north, up);
@@ -143,7 +144,7 @@ fn plant_instance(foot: Vec3<Enu>, size: f64, turn: f64) -> Instance {
 
 /// Builds a conifer of height 1: whorls of drooping branches with a ragged edge.
 fn conifer(radius: f64, whorls: u32, branches_per_whorl: u32) -> Mesh {
-    // With fewer branches per whorl, there are also fewer whorls.
+    // Fewer branches per whorl also mean fewer whorls.
     let whorls = if branches_per_whorl < 8 { whorls - 2 } else { whorls };
     let mut mesh = Mesh::default();
     if branches_per_whorl < 8 {
@@ -194,7 +195,7 @@ fn distant_conifer(radius: f64) -> Mesh {
     mesh
 }
 
-/// Adds a whorl with shared vertices, which needs a third of the vertices of separate faces.
+/// Adds a whorl with shared vertices, which uses a third as many vertices as separate faces.
 fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
     let (first, count) = (mesh.vertices.len() as u32, rim.len() as u32);
     mesh.polygon(rim, NEEDLES);
@@ -232,7 +233,7 @@ fn merge_instances(mesh: &Mesh, copies: &[Instance]) -> Mesh {
     all
 }
 
-/// Imitates the light scattering of needles: tilts normals outward and up and darkens the inside.
+/// Imitates light scattering by needles: tilts normals outward and up, and darkens the inside.
 fn soften_normals(mesh: &mut Mesh) {
     for v in &mut mesh.vertices {
         let [x, y, z] = v.position.map(f64::from);

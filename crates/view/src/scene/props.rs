@@ -34,8 +34,8 @@ const JACKETS: [[f32; 3]; 6] =
     [[0.35, 0.03, 0.03], [0.03, 0.07, 0.25], [0.4, 0.3, 0.05], [0.05, 0.2, 0.08], [0.3, 0.3, 0.3], [0.25, 0.05, 0.2]];
 /// The inspector's high-visibility vest.
 pub const VEST: [f32; 3] = [0.85, 0.28, 0.01];
-/// Color of the crew's truck: safety yellow, which is visible from a distance and, unlike white, looks right without
-/// company lettering.
+/// Color of the crew's truck: safety yellow, which is visible from a distance and, unlike white, does not look bare
+/// without a company logo.
 pub const CREW_TRUCK: [f32; 3] = [0.75, 0.48, 0.03];
 
 /// Returns the color of the k-th mover.
@@ -126,7 +126,7 @@ pub fn truck(rounds: RoundDetail) -> Mesh {
         mesh.block([4.9, y - 0.17, 0.72], [4.985, y + 0.17, 0.92], [0.0; 3], LAMP);
         mesh.block([-5.0, y - 0.15, 0.72], [-4.96, y + 0.15, 0.86], [0.0; 3], TAIL);
     }
-    // Box body with a ribbed frame, door gap and bars. No two faces are coplanar, to avoid z-fighting.
+    // Box body with a ribbed frame, door gap and bars. Avoids coplanar faces, which would cause z-fighting.
     mesh.block([-4.98, -1.22, 0.95], [2.56, 1.22, 3.46], [0.0; 3], BOX);
     mesh.block([-5.0, -1.25, 0.88], [2.58, 1.25, 1.02], [0.0; 3], DARK);
     for x in [-4.92, -2.45, 0.05, 2.5] {

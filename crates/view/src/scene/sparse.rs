@@ -35,8 +35,8 @@ impl GridSquare {
 }
 
 /// Returns the triangles of a grid with `side` vertices per row as vertex indices, counterclockwise from above. Squares
-/// of up to `largest` cells (a power of two) are not divided where `whole` returns true. The diagonal runs from
-/// southwest to northeast, as in single cells.
+/// of up to `largest` cells (a power of two) stay whole where `whole` returns true. The diagonal runs from southwest to
+/// northeast, as in single cells.
 #[must_use]
 pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> bool) -> Vec<[u32; 3]> {
     let cells = side.saturating_sub(1);
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    /// Returns a grid that is divided only around one corner.
+    /// Returns a grid that is subdivided only around one corner.
     fn field(side: usize) -> Vec<[u32; 3]> {
         triangles(side, 8, &|square| square.column + square.row > 6 + 2 * square.size)
     }
@@ -98,7 +98,7 @@ mod tests {
                 *edges.entry((from.min(to), from.max(to))).or_default() += if from < to { 1 } else { -1 };
             }
         }
-        // Inside the grid, every edge is used in both directions; only edges on the boundary are used once.
+        // Inside the grid, every edge is used in both directions; only boundary edges are used once.
         let boundary = |k: u32| [0, 40].contains(&(k % SIDE as u32)) || [0, 40].contains(&(k / SIDE as u32));
         for ((a, b), sum) in edges {
             assert!(sum == 0 || (boundary(a) && boundary(b)), "edge {a} {b}: {sum}");

@@ -1,4 +1,4 @@
-// Branches on the material are uniform over a triangle, so derivatives taken inside them are valid.
+// Branches on the material are uniform over a triangle, so derivatives inside them are valid.
 diagnostic(off, derivative_uniformity);
 
 // Radiance is stored as pi times radiance, in lux, divided by the exposure's white. A white matte surface at white
@@ -9,7 +9,7 @@ override CASCADES: u32 = 4u;
 override TAPS: u32 = 3u;
 override LAMP_CASTS: bool = true;
 override MIRROR: bool = true;
-// Expensive small details: light ripples, the finest waves.
+// Expensive small details: light ripples and the finest waves.
 override DETAIL: bool = true;
 // Whether the lamp is on.
 override LAMP: bool = true;
@@ -24,18 +24,18 @@ struct Globals {
     right: vec4<f32>,
     up: vec4<f32>,
     forward: vec4<f32>,
-    // Direction towards the sun; its illuminance.
+    // Direction toward the sun; illuminance of the sun.
     sun: vec4<f32>,
     // Color of the sun; cloud cover.
     sun_rgb: vec4<f32>,
-    // Color of the sky's light; its horizontal illuminance.
+    // Color of the sky's light; horizontal illuminance of the sky.
     sky_rgb: vec4<f32>,
     // Factor on the sky's relative radiance; water level; haze, 1/m.
     scene: vec4<f32>,
     // Lamp: position, cosine of the half beam angle; direction, candela.
     lamp: vec4<f32>,
     lamp_dir: vec4<f32>,
-    // 1/white; wind speed; wind direction (towards), east and north.
+    // 1/white; wind speed; direction the wind blows toward, east and north.
     look: vec4<f32>,
     // Layer of the lamp's shadow map; negative if there is none.
     shadow: vec4<f32>,
@@ -49,7 +49,7 @@ struct Globals {
 @group(0) @binding(0) var<uniform> g: Globals;
 @group(0) @binding(1) var shadow_map: texture_depth_2d_array;
 @group(0) @binding(2) var shadow_sampler: sampler_comparison;
-// Noise of several octaves, of one octave, distance to the nearest scattered point, random number of that point
+// Noise of several octaves, of one octave, distance to the nearest scattered point, random number for that point
 // (noise.rs).
 @group(0) @binding(3) var noise_map: texture_2d<f32>;
 @group(0) @binding(4) var noise_sampler: sampler;
@@ -76,7 +76,7 @@ fn fbm(p: vec2<f32>, footprint: f32) -> f32 {
     if DETAIL {
         return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
     }
-    // Software renderers determine the footprint of a pixel themselves, which costs a third as much.
+    // Leaves the footprint of the pixel to the renderer, which costs a third as much in software.
     return textureSample(noise_map, noise_sampler, p / 16.0).r;
 }
 
@@ -88,20 +88,20 @@ fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
     return instead;
 }
 
-// Cellular pattern: distance to the nearest center, and a random number of its cell.
+// Cellular pattern: distance to the nearest center, and a random number for its cell.
 fn pebbles(p: vec2<f32>) -> vec2<f32> {
     let found = textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0);
     return vec2<f32>(found.b * 1.28, found.a);
 }
 
-// Fraction of a pixel `footprint` wide that a line of `width` at distance d covers.
+// Fraction of a pixel (`footprint` wide) covered by a line of `width` at distance d.
 fn cover(d: f32, width: f32, footprint: f32) -> f32 {
     let f = max(footprint, 1e-6);
     return clamp((0.5 * (width + f) - d) / f, 0.0, min(1.0, width / f));
 }
 
-// Mean of exp(-|x| / reach) over a pixel `footprint` wide at x. It prevents flicker and steps in the leakage from a
-// line narrower than a pixel.
+// Mean of exp(-|x| / reach) over a pixel (`footprint` wide) at x. Prevents flicker and steps in the leakage from a line
+// narrower than a pixel.
 fn seeping(x: f32, reach: f32, footprint: f32) -> f32 {
     let half = 0.5 * max(footprint, 1e-6);
     let ends = vec2<f32>(x - half, x + half);
@@ -109,7 +109,7 @@ fn seeping(x: f32, reach: f32, footprint: f32) -> f32 {
     return (sums.y - sums.x) / (2.0 * half);
 }
 
-// Same for lines repeated every `spacing`; approaches their mean at a distance.
+// Like `cover`, for lines repeated every `spacing`; approaches their mean at a distance.
 fn lines(x: f32, spacing: f32, width: f32, footprint: f32) -> f32 {
     let d = abs(fract(x / spacing) - 0.5) * spacing;
     let mean = width / spacing;
@@ -164,7 +164,7 @@ fn sun_visible(p: vec3<f32>, n: vec3<f32>) -> f32 {
     if g.sun.w <= 0.0 {
         return 0.0;
     }
-    // Offset from the surface, which grows at grazing sun to prevent self-shadowing.
+    // Offset from the surface, larger at grazing sun angles, to prevent self-shadowing.
     let lean = 0.6 + 1.6 * (1.0 - clamp(dot(n, g.sun.xyz), 0.0, 1.0));
     var layer = 0;
     var q = in_map(0, p + n * (g.texel.x * lean));
@@ -197,9 +197,9 @@ struct Matter {
     roughness: f32,
     metal: f32,
     normal: vec3<f32>,
-    // Fractions of the sky's and the sun's illuminance that arrive indirectly.
+    // Fractions of sky and sun illuminance that arrive indirectly.
     light: vec2<f32>,
-    // Fraction of direct sunlight not blocked by the surface's own relief.
+    // Fraction of direct sunlight that the surface's own relief does not block.
     sunlit: f32,
 }
 
@@ -241,8 +241,8 @@ fn lamp_lux(p: vec3<f32>, n: vec3<f32>) -> f32 {
     return g.lamp_dir.w * beam * seen * max(-dot(ray, n), 0.0) / max(distance * distance, 0.01);
 }
 
-// Light ripples that waves reflect onto surfaces above the water. They also appear above land, because the surface
-// below is unknown here.
+// Light ripples that waves reflect onto surfaces above the water. They also appear above land, because the shader does
+// not know the surface below.
 fn caustics(p: vec3<f32>) -> f32 {
     let t = g.eye.w;
     let q = p.xy * 0.55;
@@ -300,7 +300,7 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
     return haze(out, v, distance);
 }
 
-// Haze: objects fade into the sky's horizon.
+// Haze: distant objects fade into the horizon.
 fn haze(colour: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
     let clear = exp(-distance * g.scene.z);
     if !DETAIL {
@@ -310,8 +310,8 @@ fn haze(colour: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
     return mix(sky_radiance(horizon) * 0.85, colour, clear);
 }
 
-// Radiance of the sky just above the horizon in the direction of view, with the sun's glow as powers: a cheap approximation for
-// haze.
+// Radiance of the sky just above the horizon in the view direction, a cheap approximation for haze. Powers model the
+// sun's glow.
 fn horizon_radiance(v: vec3<f32>) -> vec3<f32> {
     let q = 0.5 - 0.5 * dot(v, g.sun.xyz);
     let q4 = q * q * q * q;

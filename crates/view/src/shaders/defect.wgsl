@@ -1,13 +1,12 @@
-// Defects, drawn by kind as patches on their members. Lines cover fractions of pixels, so that a crack narrower than a pixel
+// Defects, drawn by kind as patches on their members. Lines cover fractions of pixels, so a crack narrower than a pixel
 // fades with the ratio of its width to the ground sampling distance, as on a sensor.
 
 // AASHTO code of the pipeline's defects.
 override KIND: u32 = 0u;
 // Whether to write the defect ID instead of radiance.
 override MASK: bool = false;
-// Fraction of a pixel from which it is labeled. A line half a pixel wide, the minimum for detection
-// (docs/src/reference/domain.md, "Resolution"), covers at least a quarter of one of the two pixels that it may
-// straddle.
+// Minimum covered fraction of a labeled pixel. A line half a pixel wide, the minimum for detection
+// (docs/src/reference/domain.md, "Resolution"), covers at least a quarter of a pixel even if it straddles two.
 const MARKED: f32 = 0.25;
 
 struct Patch {
@@ -65,7 +64,7 @@ struct Look {
     alpha: f32,
 }
 
-// Lateral offset of a crack's center line at x, m: straight segments with kinks, at most 25 mm.
+// Lateral offset of a crack's center line at x, m: straight segments with kinks, up to 25 mm.
 fn stray(x: f32, seed: f32, footprint: f32) -> f32 {
     let s = seed * 91.7;
     var y = 0.016 * (noise(vec2<f32>(x * 4.0 + s, s)) * 2.0 - 1.0);
@@ -100,7 +99,7 @@ fn outline(q: vec2<f32>, half: vec2<f32>, seed: f32) -> f32 {
 // Depth below the surface, m.
 fn pit(q: vec2<f32>, half: vec2<f32>, seed: f32, deepest: f32) -> f32 {
     let e = outline(q, half, seed);
-    // Fracture surface around the aggregate: centimeter-sized lumps, nothing finer.
+    // Fracture surface around the aggregate: centimeter-sized lumps and nothing finer.
     let rough = lumps(q * 45.0 + seed * 10.0) - 0.5;
     return deepest * smoothstep(1.0, 0.80, e) * (0.8 + 0.36 * rough);
 }
@@ -133,8 +132,7 @@ fn lip_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards
     return lit;
 }
 
-// Aggregate with the given number of stones per meter along and across; outlines are distorted by `bend_m`, m, so that
-// they are not round.
+// Aggregate with the given number of stones per meter along and across. `bend_m`, m, distorts the round outlines.
 fn stones(q: vec2<f32>, bend_m: f32, per_m: vec2<f32>, f: f32) -> vec2<f32> {
     let bent = q + bend_m * (vec2<f32>(fbm(q * 30.0, f * 30.0), fbm(q * 30.0 + 40.0, f * 30.0)) - 0.5);
     return pebbles(bent * per_m);
@@ -152,7 +150,7 @@ fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, loo
     let step = max(0.002, f);
     let here = pit(q, half, seed, deepest);
     let slope = -vec2<f32>(pit(q + vec2<f32>(step, 0.0), half, seed, deepest) - here, pit(q + vec2<f32>(0.0, step), half, seed, deepest) - here) / step;
-    // Stones protrude from the mortar, which is paler where it broke.
+    // Stones protrude from the mortar, which is paler where it is broken.
     let stone = stones(q, 0.010, vec2<f32>(38.0, 45.0), f);
     let shown = 1.0 - smoothstep(0.006, 0.03, f);
     let stony = shown * (1.0 - smoothstep(0.30, 0.44, stone.x));
@@ -161,7 +159,7 @@ fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, loo
     var colour = vec3<f32>(0.36, 0.335, 0.295) * (0.75 + 0.5 * fbm(q * 24.0 + seed, f * 24.0));
     let pebble = mix(vec3<f32>(0.20, 0.18, 0.16), vec3<f32>(0.42, 0.37, 0.31), stone.y);
     colour = mix(colour, pebble, 0.85 * stony);
-    // A dark line where mortar meets stone.
+    // A dark line between mortar and stone.
     colour *= 1.0 - 0.3 * shown * (1.0 - smoothstep(0.0, 0.08, abs(stone.x - 0.40)));
     let shelter = smoothstep(0.6, 1.0, e) * smoothstep(0.0, 0.06, deepest);
     (*look).matter.light *= 1.0 - 0.55 * shelter;
@@ -184,7 +182,7 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     broken(in, in.q, half, 0.035, f, look);
     let seed = in.normal.w;
-    // Bars of 22 to 30 mm along the patch, as many as its width allows.
+    // Bars of 22 to 30 mm along the patch, as many as fit its width.
     let count = max(1.0, floor(in.size.x / 0.11));
     let gap = in.size.x / count;
     let lane = (fract(in.q.y / gap + 0.5 * count) - 0.5) * gap;
@@ -204,14 +202,14 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).matter.albedo *= 1.0 - 0.5 * under * (1.0 - smoothstep(0.9, 1.0, outline(in.q, half, seed)));
 }
 
-// Efflorescence: white deposits that have run down from a joint or crack, with rust in worse states.
+// Efflorescence: white deposits that run down from a joint or crack, with rust in worse condition states.
 fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let seed = in.normal.w;
     let u = in.q / half;
     let wall = abs(in.size.z) > 0.3;
     var body = 0.0;
-    // Irregular path of the runs.
+    // Irregular paths of the runs.
     let y = in.q.y + 0.05 * (lumps(in.q * 13.0 + seed * 3.0) - 0.5) + 0.018 * (fbm(in.q * 31.0, f * 31.0) - 0.5);
     if wall {
         // x runs downhill: a source at the top, tongues below it.
@@ -244,7 +242,7 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = smoothstep(0.10, 0.60, thick) * min(1.0, 1.6 * body) * 0.94;
 }
 
-// Abrasion: the surface layer is gone and aggregate is exposed.
+// Abrasion: the surface layer is gone, which exposes aggregate.
 fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let e = outline(in.q, half, in.normal.w) + 0.35 * (fbm(in.q * 12.0, f * 12.0) - 0.5);
@@ -259,7 +257,7 @@ fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = 1.0 - smoothstep(0.78, 1.02, e);
 }
 
-// Corrosion: paint gone, flaking rust, a stain running down.
+// Corrosion: missing paint, flaking rust, and a stain that runs down.
 fn corroded(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let seed = in.normal.w;
@@ -285,7 +283,7 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let inside = max(abs(in.q.x) / half.x, abs(in.q.y) / half.y);
     let pitch = max(0.032, min(0.07, in.size.x * 0.45));
-    // Shows only complete bolts in centered rows; a narrow plate has one row.
+    // Shows only complete bolts, in centered rows; a narrow plate has one row.
     let count = max(vec2<f32>(1.0), floor(2.0 * half / pitch));
     let cell = clamp(floor(in.q / pitch + 0.5 * count), vec2<f32>(0.0), count - 1.0);
     let at = in.q - (cell + 0.5 - 0.5 * count) * pitch;
@@ -336,7 +334,7 @@ fn weld(in: Fragment, f: f32, half: f32, look: ptr<function, Look>) -> vec2<f32>
     let round = max(abs(in.q.x) - half - 0.012, 0.0);
     let d = length(vec2<f32>(across, round));
     let t = clamp(across / (0.5 * WELD_M), -1.0, 1.0);
-    // Fades out before a ripple is as fine as two pixels.
+    // Fades out before a ripple shrinks to two pixels.
     let near = 1.0 - smoothstep(0.25 * RIPPLE_M, 0.5 * RIPPLE_M, f);
     // The ripples of the bead are curved.
     let scale = (fract((in.q.x - 0.35 * t * t * WELD_M) / RIPPLE_M) - 0.5) * near;
@@ -361,7 +359,7 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
 @fragment
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let f = max(length(vec2<f32>(dpdx(in.q.x), dpdy(in.q.x))), length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y))));
-    // A crack along a weld hardly deviates.
+    // A crack along a weld is nearly straight.
     let off = in.q.y - select(1.0, 0.15, KIND == 1010u) * stray(in.q.x, in.normal.w, f);
     // Size of a pixel across the line.
     let across = length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y)));

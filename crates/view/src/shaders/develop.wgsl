@@ -6,11 +6,11 @@ override BLUR: bool = true;
 override SENSOR: bool = true;
 
 struct Develop {
-    // From clip space of this picture to clip space when the shutter opened.
+    // Transform from this picture's clip space to clip space at shutter opening.
     reproject: mat4x4<f32>,
     // Noise at mid-gray; picture number; motion blur samples; vignette.
     grain: vec4<f32>,
-    // Size of the picture; its corner in the target.
+    // Size of the picture; position of its corner in the target.
     size: vec4<f32>,
 }
 
@@ -42,17 +42,17 @@ fn random(p: vec2<u32>, k: u32) -> vec4<f32> {
     return unpack4x8unorm(h);
 }
 
-// Contrast of 1.3 around a mid-gray of 0.26 (estimate: standard camera profiles have 1.2 to 1.5). Surfaces two stops underexposed
-// look black, consistent with the score. Equals (x / 0.26)^0.3 up to its limit of 1.25, within 0.2 of a step of 255 in the
-// picture.
+// Contrast of 1.3 around a mid-gray of 0.26 (estimate: standard camera profiles have 1.2 to 1.5). Surfaces two stops
+// underexposed look black, consistent with the score. Equals (x / 0.26)^0.3 up to its limit of 1.25, with an error
+// below 0.2 of 255 steps in the picture.
 fn steeper(x: f32) -> f32 {
     let s = sqrt(x);
     return (0.19498184 + 2.25033308 * s) / (1.0 + 0.66570929 * s);
 }
 
-// Filmic curve with a soft toe and shoulder (Narkowicz 2015's fit to the Academy's reference curve), encoded in sRGB with a
-// rational function of the square root of radiance, within 0.8 of a step of 255. In software renderers, a square root and a
-// division are nearly free, powers are not.
+// Filmic curve with a soft toe and shoulder (Narkowicz 2015's fit to the Academy's reference curve), encoded in sRGB
+// with a rational function of the square root of radiance, with an error below 0.8 of 255 steps. In software renderers,
+// square roots and divisions are nearly free, but powers are not.
 fn encoded(y: vec3<f32>) -> vec3<f32> {
     let s = sqrt(y);
     return ((5.75941549 * s - 0.05775244) * s - 0.00282203) / ((5.80176807 * s - 0.53043618) * s + 1.0);
@@ -61,7 +61,7 @@ fn encoded(y: vec3<f32>) -> vec3<f32> {
 fn developed(x: vec3<f32>) -> vec3<f32> {
     let brightness = dot(x, vec3<f32>(0.2126, 0.7152, 0.0722));
     let y = x * 0.82 * min(steeper(brightness), 1.25);
-    // The curve reaches white at 8.1; far beyond, the rational function would decrease again.
+    // The curve reaches white at 8.1. Far beyond that, the rational function would decrease again.
     return clamp(encoded(min(y, vec3<f32>(12.0))), vec3<f32>(0.0), vec3<f32>(1.0));
 }
 

@@ -7,8 +7,7 @@
 const GROUND_M: f32 = 32.0;
 const CONCRETE_M: f32 = 38.4;
 
-// Uses all components of the vectors, because a software renderer sets up all four components of each for every
-// triangle in any case.
+// Packs values into full vectors, because a software renderer always sets up all four components per triangle.
 struct Lean {
     @builtin(position) clip: vec4<f32>,
     // Position; `aux`.
@@ -17,16 +16,16 @@ struct Lean {
     @location(1) facing: vec4<f32>,
     // Surface coordinates; position in the sun's map.
     @location(2) spot: vec4<f32>,
-    // Indirect light, and sunlight before shadowing. Both are attenuated by haze and exposed.
+    // Indirect light, and sunlight before shadowing, both with haze and exposure applied.
     @location(3) light: vec4<f32>,
-    // Added light: haze and reflections, exposed; transmittance of the haze.
+    // Added light: haze and reflections, with exposure applied; transmittance of the haze.
     @location(4) veil: vec4<f32>,
-    // Tint; the opacity is replaced by large-scale ground patches.
+    // Tint; the alpha channel contains large-scale ground patches instead of opacity.
     @location(5) tint: vec4<f32>,
     @location(6) @interpolate(flat) material: u32,
 }
 
-// Smoothness of a reflective material; the mean for painted steel.
+// Smoothness of a reflective material; for painted steel, its mean.
 fn gloss(material: u32) -> f32 {
     switch material {
         case 2u: { return 0.4; }
@@ -109,8 +108,8 @@ fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     (*m).albedo = mix(colour, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
 }
 
-// Same as `ground`, with one lookup of its tile: level ground by horizontal position, rock by position in the wall's
-// plane.
+// Same as `ground`, with one tile lookup: level ground by horizontal position, rock by position in the plane of the
+// wall.
 fn lean_ground(in: Fragment, broad: f32, m: ptr<function, Matter>) {
     let n = in.normal;
     let over = in.aux;

@@ -1,4 +1,4 @@
-// Renders the depth as seen from the sun or the lamp.
+// Renders depth as seen from the sun or the lamp.
 
 @group(0) @binding(0) var<uniform> view_proj: mat4x4<f32>;
 

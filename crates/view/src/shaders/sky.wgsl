@@ -28,7 +28,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         let heap = 0.62 * fbm(at * 0.5, fine * 0.5) + 0.38 * fbm(at * 2.3 + 5.0, fine * 2.3);
         let edge = mix(0.62, 0.30, cloud);
         let cover_at = smoothstep(edge - 0.06, edge + 0.16, heap);
-        // Sunlit clouds are brighter than the blue between them; full cover gives the overcast sky.
+        // Sunlit clouds are brighter than the blue sky between them; full cover is an overcast sky.
         let thick = smoothstep(edge, edge + 0.35, heap);
         let sunny = g.sun.w * max(g.sun.z, 0.0) * (0.55 - 0.35 * thick) * g.sun_rgb.xyz;
         let shaded = (1.0 + 2.0 * d.z) / 3.0 * vec3<f32>(0.97, 1.0, 1.05) * g.sky_rgb.w * (1.15 - 0.45 * thick);

@@ -55,16 +55,16 @@ fn vs(v: Corner) -> Fragment {
     return placed(v);
 }
 
-// Size of the cells of concrete that may contain a distractor, m.
+// Size of the concrete cells that may contain a distractor, m.
 const FRIEND_M: vec2<f32> = vec2<f32>(5.3, 3.7);
-// Maximum height above the water for spray paint, m; people reach it from the ground, a boat or a ladder (estimate).
+// Maximum height of spray paint above the water, m: within reach from the ground, a boat or a ladder (estimate).
 const REACHED_M: f32 = 12.0;
 
 // Distractors left by people and spiders (docs/src/reference/domain.md, "Defects"): at most one per cell, and none in
-// most cells. Marks of weather and formwork are drawn with the concrete.
+// most cells. Weathering and formwork marks are drawn with the concrete.
 fn befriended(colour: vec3<f32>, in: Fragment, n: vec3<f32>, f: f32) -> vec3<f32> {
     let at = floor(in.uv / FRIEND_M);
-    // Parallel faces have the same coordinates but must have different distractors.
+    // Parallel faces share coordinates but must have different distractors.
     let plane = i32(floor(0.7 * dot(in.p, n) + 0.377));
     let cell = vec2<i32>(at) + plane * vec2<i32>(31, 17);
     let luck = hash2(cell + vec2<i32>(401, 97));
@@ -161,7 +161,7 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     let board = floor(uv.y / 0.16);
     let board_tone = hash2(vec2<i32>(i32(board), i32(floor(uv.x / 2.4 + 0.37 * (board - 2.0 * floor(0.5 * board))))));
     tone += 0.07 * (board_tone - 0.5) * (1.0 - smoothstep(0.05, 0.2, fp.y));
-    // Most lines between boards have weathered away; the rest are straight and fainter than any crack.
+    // Most lines between boards have weathered away. The remaining lines are straight and fainter than any crack.
     let kept = smoothstep(0.45, 0.7, fine(vec2<f32>(uv.x * 0.9, board * 3.7), fp.x * 0.9, blotch));
     let seams = lines(uv.y, 0.16, 0.003, fp.y) * kept;
     let joints = lines(uv.x + 0.6, 4.8, 0.010, fp.x) + 0.3 * lines(uv.x + 0.2, 2.4, 0.004, fp.x);
@@ -183,7 +183,7 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     // Soot and lichen in large patches.
     let dark = smoothstep(0.6, 0.8, fbm(uv * 0.17 + 11.0, f * 0.17));
     colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * dark);
-    // Bird droppings: white splashes, not reportable. There are none on downward faces.
+    // Bird droppings: white splashes that are not defects. Downward faces have none.
     let spot = floor(uv / 1.7);
     let lucky = hash2(vec2<i32>(spot) + vec2<i32>(77, 19));
     if lucky > 0.93 && n.z > -0.3 {
@@ -245,7 +245,7 @@ fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     let shown = 1.0 - smoothstep(0.008, 0.03, f);
     let rivet = cover(head, 0.03, f) * shown;
     colour = mix(colour, colour * (1.25 - 0.9 * smoothstep(0.008, 0.016, head)), rivet);
-    // Small, dry, superficial rust specks where paint is missing.
+    // Small, dry, superficial rust specks in gaps of the paint.
     let freckle = smoothstep(0.74, 0.82, fbm(uv * 2.3 + 40.0, f * 2.3)) * smoothstep(0.45, 0.7, fbm(uv * 0.3 + 2.0, f * 0.3));
     colour = mix(colour, vec3<f32>(0.19, 0.085, 0.04), 0.55 * freckle);
     (*m).albedo = colour;
@@ -260,7 +260,7 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     let fine_at = fbm(at * 4.0 + 3.0, f * 4.0);
     let blades = fine(at * 19.0 + 7.0, f * 19.0, fine_at);
     let meadow = mix(vec3<f32>(0.085, 0.105, 0.032), vec3<f32>(0.17, 0.15, 0.065), smoothstep(0.35, 0.7, broad * 0.6 + near * 0.4));
-    // Rock: the pattern is in the vertical plane closest to the face, so that it is not stretched down the slope.
+    // Rock: the pattern is projected on the vertical plane closest to the face, which avoids stretching down the slope.
     let east = abs(n.x) + 0.3 * (near - 0.5) > abs(n.y);
     let wall = vec2<f32>(select(in.p.x, in.p.y, east), in.p.z);
     let bed = fbm(vec2<f32>(wall.x * 0.12, wall.y * 0.7 + wall.x * 0.13 + 1.5 * near), f * 0.7);
@@ -276,7 +276,7 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     colour = mix(colour, gravel, shore);
     // Wet at the waterline.
     colour *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
-    // Forest on distant slopes, snow at high elevation.
+    // Forest on distant slopes, and snow at high elevations.
     let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
     let canopy = fine(at * 0.09, f * 0.09, near);
     colour = mix(colour, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + canopy), forest * smoothstep(0.38, 0.5, broad + 0.25 * (canopy - 0.5)) * (1.0 - 0.5 * steep));
@@ -332,7 +332,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let fp = max(fwidth(in.uv), vec2<f32>(1e-5));
     let f = max(length(dpdx(in.p)), length(dpdy(in.p)));
     let n = normalize(in.normal);
-    // The lake's reflection shows only objects above the water.
+    // The lake reflects only objects above the water.
     if MIRRORED {
         if in.p.z < g.scene.y {
             discard;

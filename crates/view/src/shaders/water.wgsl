@@ -18,7 +18,7 @@ struct Fragment {
     @location(3) gust: f32,
 }
 
-// Gusts roughen the lake in drifting patches.
+// Gusts that roughen the lake in drifting patches.
 fn gusts(at: vec2<f32>) -> vec2<f32> {
     return at * 0.012 + g.look.zw * g.eye.w * 0.01;
 }
@@ -37,7 +37,7 @@ fn vs(v: Corner) -> Fragment {
     return out;
 }
 
-// Slope of one wave train.
+// Slope of a wave train.
 fn train(at: vec2<f32>, direction: vec2<f32>, length_m: f32, steep: f32, footprint: f32) -> vec2<f32> {
     let k = 6.2832 / length_m;
     // In deep water, the speed depends on the wavelength.
@@ -90,7 +90,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let s = slope(in.p.xy, f, bend) * gust;
     let n = normalize(vec3<f32>(-s, 1.0));
     let facing = clamp(dot(n, v), 0.02, 1.0);
-    // Waves too small to resolve still blur and brighten the reflection.
+    // Waves that are too small to resolve still blur and brighten the reflection.
     let rough = clamp(f * 0.02 + 0.02, 0.02, 0.22) * gust;
     let away_from = 1.0 - facing;
     let fresnel = 0.02 + 0.98 * (away_from * away_from) * (away_from * away_from) * away_from * (1.0 - rough);
@@ -107,8 +107,8 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let sun_seen = sun_visible(in.p, vec3<f32>(0.0, 0.0, 1.0));
     let spread = max(rough * 1.4, 0.045);
     let glint = PI * ggx(n, v, g.sun.xyz, vec3<f32>(0.02), sqrt(spread)) * g.sun.w * max(g.sun.z, 0.0) * sun_seen;
-    // Light scattered back from the water: blue-green, brighter in the sun. Light that entered next to a shadow
-    // scatters below it, so the shadow's edges are hardly visible from above.
+    // Light scattered back from the water: blue-green, and brighter in the sun. Light that enters next to a shadow
+    // scatters underneath it, so the edges of the shadow are barely visible from above.
     let within = mix(0.65, 1.0, sun_seen);
     let lux = in.light.x * g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * within * g.sun_rgb.xyz;
     var lamp = 0.0;

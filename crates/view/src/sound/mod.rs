@@ -12,7 +12,7 @@ use propellers::Propellers;
 use smoothing::SmoothedValue;
 use warnings::WarningTones;
 
-/// Fraction of full scale available to each source, which prevents clipping.
+/// Fraction of full scale available to each source; prevents clipping.
 const PROPELLER_LEVEL: f64 = 0.5;
 const WARNING_LEVEL: f64 = 0.45;
 

@@ -3,8 +3,8 @@
 use super::smoothing::{SAMPLE_RATE_HZ, SmoothedValue};
 use spandrel_model::math;
 
-/// Blades per propeller. TASBID's aircraft, a DJI Phantom 2, has two-bladed propellers of 9.4 inches, as do most
-/// aircraft of its size.
+/// Blades per propeller. TASBID's aircraft, a DJI Phantom 2, has two-bladed 9.4-inch propellers, like most aircraft of
+/// its size.
 pub const BLADES: f64 = 2.0;
 /// Number of harmonics, and level of each harmonic relative to the previous one (estimate: 6 dB, as with small
 /// propellers from the second harmonic on).
@@ -12,14 +12,14 @@ const HARMONICS: u32 = 6;
 const HARMONIC_DECAY: f64 = 0.5;
 /// Maximum number of rotors that are modeled separately.
 const MAX_ROTORS: usize = 8;
-/// Rotor speed at full level, rad/s. The level grows with the square of the speed, like thrust (estimate: climb of a
-/// small quadrotor).
+/// Rotor speed at full level, rad/s. The level increases with the square of the speed, like thrust (estimate: a small
+/// quadrotor in a climb).
 const FULL_LEVEL_RAD_S: f64 = 1_100.0;
-/// Distance up to which the level is constant, m. Beyond it, the level decreases with distance, as for a point source
-/// in the open. A drone at 120 m remains audible on typical speakers (estimate).
+/// Maximum distance with a constant level, m. Beyond it, the level decreases with distance, as for a point source
+/// outdoors. A drone at 120 m remains audible on typical speakers (estimate).
 const FULL_LEVEL_DISTANCE_M: f64 = 15.0;
 
-/// Rotor speed below which there is no sound, rad/s.
+/// Minimum rotor speed for sound, rad/s.
 const MIN_SPEED_RAD_S: f64 = 1e-3;
 
 /// Oscillators of the rotors.
@@ -41,7 +41,7 @@ impl Propellers {
     /// Returns the next sample, in [-1, 1], for these rotor speeds (rad/s) and distance (m).
     pub fn next(&mut self, rotors_rad_s: &[f64], distance_m: f64) -> f64 {
         let far = self.level.follow((FULL_LEVEL_DISTANCE_M / distance_m.max(FULL_LEVEL_DISTANCE_M)).clamp(0.0, 1.0));
-        // Normalizes by the number of rotors, but at least four, so that a single rotor sounds quieter.
+        // Normalizes by the number of rotors, but at least by four, so a single rotor sounds quieter.
         let count = self.count.follow(rotors_rad_s.len().min(MAX_ROTORS) as f64).max(4.0);
         let mut sum = 0.0;
         for (k, rotor) in self.rotors.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! The sample rate, and levels that change without clicks.
+//! Sample rate, and click-free level changes.
 
 /// Sample rate, Hz: more than twice the highest harmonic.
 pub const SAMPLE_RATE_HZ: u32 = 24_000;

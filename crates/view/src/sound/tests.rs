@@ -10,7 +10,7 @@ fn sound_inputs(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
     SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, silent: false }
 }
 
-/// Returns `seconds` of sound, recorded after one second in which the levels settle.
+/// Returns `seconds` of sound, recorded after the levels have settled for one second.
 fn render_sound(sound: &mut FlightSound, sound_inputs: SoundInputs, seconds: f64) -> Vec<f64> {
     sound.set(sound_inputs);
     let mut out = vec![0.0_f32; SAMPLE_RATE_HZ as usize + (seconds * f64::from(SAMPLE_RATE_HZ)) as usize];
@@ -57,7 +57,7 @@ fn exact_level_depends_on_speed_squared_and_distance() {
     };
     let near = level(80.0, 1.0);
     assert!((level(160.0, 1.0) / near - 4.0).abs() < 0.05);
-    assert!((level(80.0, 30.0) / near - 0.5).abs() < 0.01, "15 m is full, 30 m half");
+    assert!((level(80.0, 30.0) / near - 0.5).abs() < 0.01, "full level at 15 m, half at 30 m");
     assert!((level(80.0, 10.0) / near - 1.0).abs() < 0.01);
 }
 
@@ -97,7 +97,7 @@ fn exact_disabled_sounds_are_silent() {
 
 #[test]
 fn prop_sound_never_clips_or_clicks() {
-    // Steepest possible slope in steady state: every part at full level with all harmonics in phase.
+    // Steepest possible slope in steady state: every source at full level with all harmonics in phase.
     let top_hz = BLADES * 2.0 * 1_100.0 / math::TAU;
     let harmonics: f64 = (1..=6).map(|k| f64::from(k) * math::pow(0.5, f64::from(k - 1))).sum::<f64>() / 1.968_75;
     let slope = |amplitude: f64, hz: f64| amplitude * math::TAU * hz / f64::from(SAMPLE_RATE_HZ);
@@ -122,7 +122,7 @@ fn prop_sound_never_clips_or_clicks() {
             sound.fill(&mut out);
             for sample in out {
                 assert!(sample.abs() <= 1.0, "seed {seed}: {sample}");
-                assert!(f64::from((sample - last).abs()) < steepest, "seed {seed}: a click of {}", (sample - last).abs());
+                assert!(f64::from((sample - last).abs()) < steepest, "seed {seed}: click of {}", (sample - last).abs());
                 last = sample;
             }
         }

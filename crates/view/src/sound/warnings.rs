@@ -1,4 +1,4 @@
-//! Warning tones, distinguished by pitch and rhythm; only the most serious one sounds.
+//! Warning tones, distinguished by pitch and rhythm. Only the most serious tone sounds.
 
 use super::smoothing::SAMPLE_RATE_HZ;
 use spandrel_mavlink::contract::cue;
@@ -16,8 +16,8 @@ struct Tone {
     speech: &'static str,
 }
 
-/// Tones in order of severity. Pitches and rhythms are estimates: a fifth or more apart, faster for more urgent warnings (after
-/// the order of the bursts in ISO 7731 and IEC 60601-1-8).
+/// Tones in order of severity. Pitches and rhythms are estimates: a fifth or more apart, with faster rhythms for more
+/// urgent warnings (modeled on the bursts in ISO 7731 and IEC 60601-1-8).
 const TONES: [Tone; 5] = [
     Tone { cue: cue::CRASH, hz: 220.0, on_s: 0.35, period_s: 0.5, speech: "Crash" },
     Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_s: 0.09, period_s: 0.18, speech: "Too close" },

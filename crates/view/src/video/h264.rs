@@ -29,7 +29,7 @@ impl H264Encoder {
     /// If the encoder rejects the parameters.
     pub fn new(size_px: (u32, u32), rate_hz: f64, bits_s: u32, key_every: u32) -> Result<Self, VideoError> {
         if size_px.0 % 2 == 1 || size_px.1 % 2 == 1 {
-            return Err(VideoError::Encoder(format!("{} x {} px: both must be even", size_px.0, size_px.1)));
+            return Err(VideoError::Encoder(format!("{} x {} px: width and height must be even", size_px.0, size_px.1)));
         }
         let config = EncoderConfig::new()
             .bitrate(BitRate::from_bps(bits_s))
@@ -37,7 +37,7 @@ impl H264Encoder {
             .rate_control_mode(RateControlMode::Bitrate)
             .usage_type(UsageType::CameraVideoRealTime)
             .intra_frame_period(IntraFramePeriod::from_num_frames(key_every))
-            // Frames must not be skipped, because reviewers may need the one that shows the defect.
+            // Skips no frames, because reviewers may need the one that shows the defect.
             .skip_frames(false)
             .vui(VuiConfig::bt601());
         let refused = |error: openh264::Error| VideoError::Encoder(error.to_string());

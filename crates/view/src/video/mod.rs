@@ -1,4 +1,4 @@
-//! Video: H.264 in RTP packets, or with chapters in an MP4 file. This module only produces bytes; the caller sends or
+//! Video: H.264 in RTP packets, or in an MP4 file with chapters. This module only produces bytes; the caller sends or
 //! writes them.
 
 mod h264;
@@ -11,7 +11,7 @@ pub use h264::{EncodedPicture, H264Encoder};
 pub use mp4::{Mp4Chunk, Mp4Writer};
 pub use rate::PictureRate;
 
-/// Errors of video encoding and writing.
+/// Errors in encoding and writing video.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum VideoError {
     /// The encoder rejected the input or failed.

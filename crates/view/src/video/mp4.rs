@@ -1,4 +1,4 @@
-//! MP4 file written while pictures arrive: media data first, index at the end.
+//! MP4 file written as pictures arrive: media data first, index at the end.
 
 use super::{EncodedPicture, VideoError};
 use shiguredo_mp4::boxes::{Avc1Box, AvccBox, SampleEntry, VisualSampleEntryFields};
@@ -56,7 +56,7 @@ impl Mp4Writer {
             bytes.extend(unit);
         }
         self.pictures += 1;
-        // Uses whole ticks without drift: picture n ends at n divided by the rate.
+        // Uses whole ticks without drift: picture n ends at n / rate.
         let until = (self.pictures as f64 / self.rate_hz * f64::from(TICKS_S)).round() as u64;
         let sample = Sample {
             track_kind: TrackKind::Video,

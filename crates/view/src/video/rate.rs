@@ -3,7 +3,7 @@
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Period of wall time over which the rate is averaged.
+/// Wall time period for averaging the rate.
 const AVERAGING_WINDOW: SimTime = SimTime::from_ms(2_000);
 
 /// Picture rate from the times of recent pictures.

@@ -2,7 +2,7 @@
 
 use spandrel_model::random::RandomStream;
 
-/// Payload type of the stream: the first dynamic type, which ground stations expect.
+/// Payload type of the stream: the first dynamic type, as ground stations expect.
 pub const PAYLOAD_TYPE: u8 = 96;
 /// RTP clock rate for video, Hz.
 pub const CLOCK_HZ: f64 = 90_000.0;
@@ -22,8 +22,8 @@ pub struct RtpPacketizer {
 }
 
 impl RtpPacketizer {
-    /// Creates a stream whose identifier and initial values come from a seed. Use a different seed for each stream, so
-    /// that receivers do not mistake it for a continuation of the previous one (RFC 3550, 5.1).
+    /// Creates a stream whose identifier and initial values come from a seed. Use a different seed for each stream;
+    /// otherwise, receivers mistake it for a continuation of the previous one (RFC 3550, 5.1).
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "rtp");

@@ -2,7 +2,7 @@ use super::*;
 use crate::picture::Picture;
 use spandrel_model::time::SimTime;
 
-/// Returns a picture of a square that moves over a gray background.
+/// Returns a picture of a square that moves across a gray background.
 fn picture(k: u32) -> Picture {
     let (width, height) = (320, 180);
     let inside = |x: u32, y: u32| (8 * k..8 * k + 40).contains(&x) && (60..100).contains(&y);

@@ -1,4 +1,4 @@
-//! Chapters of a video as a WebVTT track, which players list and programs can read.
+//! Chapters of a video as a WebVTT track, for players and other programs.
 
 use std::fmt::Write;
 

@@ -3,19 +3,20 @@
 use spandrel_view::picture::Picture;
 use std::path::{Path, PathBuf};
 
-/// Side of the squares over which pictures are averaged before comparison, px; averaging reduces grain and JPEG losses,
-/// but keeps shapes.
+/// Side of the squares that are averaged before comparison, px. Averaging reduces grain and JPEG artifacts but keeps
+/// shapes.
 const BLOCK: u32 = 2;
-/// Maximum mean absolute difference per channel over the picture, of 255. JPEG at quality 90 causes about half of it.
+/// Maximum mean absolute difference per channel over the picture, out of 255. JPEG at quality 90 causes about half of
+/// that.
 const MEAN_MAX: f64 = 1.5;
-/// Maximum for the worst tile; an object of the size of a tile that is missing or moved exceeds it.
+/// Maximum for the worst tile. A missing or moved object the size of a tile exceeds it.
 const TILE_MAX: f64 = 7.0;
 /// Side of a tile, blocks: 24 px.
 const TILE: u32 = 12;
 /// JPEG quality of committed pictures, 1 to 100.
 const JPEG_QUALITY: u8 = 90;
 
-/// Difference between two pictures, of 255.
+/// Difference between two pictures, out of 255.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
     /// Mean over the picture.
@@ -66,7 +67,8 @@ pub fn difference(a: &Picture, b: &Picture) -> Option<Difference> {
 }
 
 /// Compares a picture with the committed one of this name. An error contains the paths of the rendered picture and the
-/// difference. With `SPANDREL_PICTURES=write` in the environment, commits the picture instead; look at it first.
+/// difference. With `SPANDREL_PICTURES=write` in the environment, overwrites the committed picture instead; inspect it
+/// before you commit it.
 pub fn check_picture(name: &str, drawn: &Picture) -> Result<Difference, String> {
     check_picture_at(&reference_path(name), name, drawn)
 }
@@ -78,7 +80,7 @@ pub fn reference_path(name: &str) -> PathBuf {
         .join(format!("{name}.jpg"))
 }
 
-/// Same for a picture in another folder.
+/// Same as [`check_picture`], for a committed picture at any path.
 pub fn check_picture_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Difference, String> {
     if std::env::var("SPANDREL_PICTURES").is_ok_and(|value| value == "write") {
         std::fs::write(committed, jpeg(drawn)).unwrap();
@@ -114,7 +116,7 @@ fn rgb(picture: &Picture) -> Vec<u8> {
     picture.rgba.chunks(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
 }
 
-/// Writes a PNG to the folder for test output and returns its path.
+/// Writes a PNG to the test output folder and returns its path.
 pub fn save(name: &str, picture: &Picture) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("view");
     std::fs::create_dir_all(&folder).unwrap();
@@ -136,7 +138,7 @@ fn load(path: &Path) -> Result<Picture, image::ImageError> {
     Ok(Picture { width: read.width(), height: read.height(), rgba: read.into_raw() })
 }
 
-/// Returns pictures of the same height side by side.
+/// Joins pictures of the same height side by side.
 pub fn beside(pictures: &[Picture]) -> Picture {
     let height = pictures.iter().map(|p| p.height).min().unwrap_or(0);
     let row = |p: &Picture, y: u32| p.rgba[(4 * y * p.width) as usize..(4 * (y + 1) * p.width) as usize].to_vec();
@@ -144,7 +146,7 @@ pub fn beside(pictures: &[Picture]) -> Picture {
     Picture { width: pictures.iter().map(|p| p.width).sum(), height, rgba }
 }
 
-/// Returns stripes in several grays with a square in another gray at a position.
+/// Returns stripes in several shades of gray, with an optional square in another shade.
 fn sample(square: Option<(u32, u32)>, shift: u32) -> Picture {
     let mut rgba = Vec::new();
     for y in 0..96 {
@@ -168,6 +170,6 @@ fn exact_comparison_detects_missing_or_moved_parts_and_tolerates_jpeg() {
     let read = image::load_from_memory(&jpeg(&plain)).unwrap().to_rgba8();
     let lossy = Picture { width: read.width(), height: read.height(), rgba: read.into_raw() };
     let found = difference(&plain, &lossy).unwrap();
-    assert!(found.small(), "JPEG alone: {found:?}");
+    assert!(found.small(), "JPEG losses alone: {found:?}");
     assert_eq!(difference(&plain, &Picture { width: 1, height: 1, rgba: vec![0; 4] }), None);
 }

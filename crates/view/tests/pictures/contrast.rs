@@ -1,5 +1,5 @@
-//! Contrast of a crack depending on the ground sampling distance (docs/src/reference/domain.md, "Resolution": detection
-//! from half a pixel's width, identification from one pixel); it must change without steps.
+//! Contrast of a crack as a function of the ground sampling distance (docs/src/reference/domain.md, "Resolution":
+//! detection from half a pixel's width, identification from one pixel); it must not jump.
 
 use spandrel_model::defect_codes;
 use spandrel_model::math;
@@ -13,7 +13,7 @@ use spandrel_view::scene::defects::patch;
 /// Size of the crops from the camera's picture at full resolution, px.
 const CROP: (u32, u32) = (160, 200);
 const WIDTH_M: f64 = 0.0025;
-/// Random numbers with which defect.wgsl draws a crack without lime deposits, and one with them.
+/// Random numbers that make defect.wgsl draw a crack without lime deposits, and one with them.
 const SEED_WITHOUT_LIME: f32 = 0.05;
 const SEED_WITH_LIME: f32 = 0.12;
 
@@ -77,8 +77,8 @@ fn row(picture: &Picture, y: u32) -> Vec<f64> {
     (0..picture.width).map(|x| picture.luma((x, y), (x + 1, y + 1))).collect()
 }
 
-/// Returns how much darker than the bare wall the darkest point of the crack is in a row, as a fraction, averaged over
-/// the rows.
+/// Returns the contrast between the crack's darkest point in a row and the bare wall, as a fraction, averaged over the
+/// rows.
 fn contrast(pair: &[Picture; 2]) -> f64 {
     strongest(pair, |with, without| without - with)
 }
@@ -93,8 +93,8 @@ fn strongest([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64) -> f6
     (0..with.height).map(of).sum::<f64>() / f64::from(with.height)
 }
 
-/// Returns the variation of the bare wall between a pixel and the second next one, as a fraction of its brightness:
-/// grain, sand, streaks.
+/// Returns the variation of the bare wall between pixels that are two apart, as a fraction of its brightness: grain,
+/// sand, streaks.
 fn texture(without: &Picture) -> f64 {
     let (mut squares, mut count) = (0.0, 0.0);
     for y in 0..without.height {
@@ -109,13 +109,13 @@ fn texture(without: &Picture) -> f64 {
 
 #[test]
 fn val_crack_visibility_follows_its_width_in_pixels() {
-    // Multiples of the variation of the bare wall. 5 is Rose's limit of visibility (1948); distinguishing a crack from
-    // a stain or a formwork line takes more (estimate: four times that).
+    // Multiples of the variation of the bare wall. 5 is Rose's limit of visibility (1948). Distinguishing a crack from
+    // a stain or a formwork line requires more (estimate: four times that).
     const DETECTED: f64 = 5.0;
     const IDENTIFIED: f64 = 20.0;
     const UNDETECTED: f64 = 2.0;
-    // A line narrower than a pixel covers a fraction of it, so half the width gives half the contrast, with a smaller
-    // deviation than this due to the tone curve.
+    // A line narrower than a pixel covers a fraction of it, so half the width has half the contrast. The tone curve
+    // causes a small deviation.
     const HALF: f64 = 0.5;
     const HALF_TOLERANCE: f64 = 0.12;
     let mut wall = Wall::new();
@@ -130,17 +130,17 @@ fn val_crack_visibility_follows_its_width_in_pixels() {
     assert!(found[1].1 >= IDENTIFIED && found[0].1 >= IDENTIFIED, "one and two pixels: {found:?}");
     assert!(found[2].1 >= DETECTED, "half a pixel: {found:?}");
     assert!(found[3].1 <= UNDETECTED, "a tenth of a pixel: {found:?}");
-    assert!((found[2].0 / found[1].0 - HALF).abs() <= HALF_TOLERANCE, "half a pixel compared with one: {found:?}");
+    assert!((found[2].0 / found[1].0 - HALF).abs() <= HALF_TOLERANCE, "contrast at half a pixel relative to one: {found:?}");
 }
 
-/// When the camera moves away from a crack in steps of 6 %, the contrast must fall without jumps.
+/// As the camera moves away from a crack in steps of 6 %, the contrast must decrease without jumps.
 #[test]
 fn prop_contrast_falls_without_steps() {
     const STEP: f64 = 0.94;
     // Rounding to 8 bits, and different rows of the wall in the picture.
     const RISE_MAX: f64 = 0.01;
-    // The contrast is proportional to the inverse distance, so a step changes it by 6 %; where the edge of the line
-    // leaves the adjacent pixel, by up to twice that.
+    // The contrast is inversely proportional to the distance, so a step changes it by 6 %, or by up to twice that where
+    // the edge of the line leaves the adjacent pixel.
     const FALL_MAX: f64 = 0.08;
     let mut wall = Wall::new();
     let mut before: Option<f64> = None;
@@ -157,7 +157,7 @@ fn prop_contrast_falls_without_steps() {
     assert!(before.is_some_and(|last| last < 0.1), "at a tenth of a pixel: {before:?}");
 }
 
-/// Leakage from a line must fade just as evenly: lime on concrete, rust on steel.
+/// Leakage from a line (lime on concrete, rust on steel) must fade just as evenly.
 #[test]
 fn prop_leakage_contrast_falls_without_steps() {
     const STEP: f64 = 0.94;

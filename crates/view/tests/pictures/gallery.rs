@@ -1,4 +1,4 @@
-//! Pictures whose contents must be recognizable to any viewer, compared with committed ones.
+//! Pictures with contents that any viewer must recognize, compared with committed pictures.
 
 use super::compare::{Difference, beside, check_picture, check_picture_at};
 use spandrel_mavlink::contract::cue;
@@ -18,20 +18,19 @@ use std::path::Path;
 
 /// Size of a scene picture, px.
 const SCENE: (u32, u32) = (640, 360);
-/// Size of each view with a HUD, whose text must stay legible.
+/// Size of each view with a HUD, large enough for legible text.
 const VIEW: (u32, u32) = (640, 360);
 /// Size of each close-up of a defect, px.
 const CLOSE: (u32, u32) = (320, 240);
-/// Fields of view at 1 m and 3 m, in which an object half a meter wide fits; at 8 m, the picture is a crop of the
-/// camera's picture at full resolution.
+/// Fields of view at 1 m and 3 m, which fit an object half a meter wide. At 8 m, the picture is a full-resolution crop
+/// of the camera's picture.
 const CLOSE_DEG: [f64; 2] = [30.0, 15.0];
 
-/// Size of the tutorial's pictures of a defect, px, and field of view of the lens for all of them; at 1 m, half a meter
-/// just fits.
+/// Size of the tutorial's defect pictures, px, and the field of view for all of them; at 1 m, half a meter just fits.
 const TUTORIAL: (u32, u32) = (240, 180);
 const TUTORIAL_DEG: f64 = 30.0;
 
-/// Collects all problems, so that one run reports on every picture.
+/// Collects all errors, so one run reports on every picture.
 #[derive(Default)]
 struct Gallery {
     errors: Vec<String>,
@@ -89,8 +88,8 @@ fn regress_crew_and_drone_at_the_pad() {
     wall.assert_no_errors();
 }
 
-/// Distractors, which may be mistaken for defects: a sealed crack, a web, spray paint. Formwork lines, tie holes,
-/// streaks and droppings are also visible.
+/// Distractors that may be mistaken for defects: a sealed crack, a web, spray paint. Formwork lines, tie holes, streaks
+/// and droppings are also visible.
 #[test]
 fn regress_distractors() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
@@ -112,8 +111,8 @@ fn regress_distractors() {
 /// Under the arch and in the interlayer at dusk: dark without the lamp, and visibly lit with it.
 #[test]
 fn regress_lamp_lights_dark_places() {
-    // Maximum mean luma of the picture's center in the dark, of 255, and minimum factor by which the lamp makes it
-    // brighter.
+    // Maximum mean luma of the picture's center in the dark, out of 255, and minimum factor by which the lamp brightens
+    // it.
     const DARK_MAX: f64 = 75.0;
     const MIN_LAMP_FACTOR: f64 = 1.5;
     let mut studio = Studio::new(dusk(), 7, "medium", SimTime::ZERO);
@@ -137,8 +136,8 @@ fn regress_lamp_lights_dark_places() {
     wall.assert_no_errors();
 }
 
-/// Returns a defect where a line of sight meets a bridge. Its longest extent points down or, otherwise, slightly up to
-/// the side.
+/// Returns a defect where a line of sight hits a bridge. Its longest extent points down or, otherwise, to the side and
+/// slightly up.
 fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m: (f64, f64), down: bool) -> PlacedDefect {
     let ray = (to - from).unit();
     let hit = studio.site.ray(from, ray, 200.0, SimTime::ZERO).unwrap();
@@ -159,7 +158,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
     }
 }
 
-/// Shows only this defect, in the light at its position.
+/// Replaces all defects with this one, in the light at its position.
 fn hang_patch(studio: &mut Studio, defect: &PlacedDefect) {
     let light = spandrel_model::site::light::ray_bundle(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
@@ -214,7 +213,7 @@ fn regress_defects_at_1_3_and_8_m() {
     wall.assert_no_errors();
 }
 
-/// The tutorial compares distances: each row shows one defect through one lens, so that its size decreases with
+/// The tutorial compares distances: each row shows one defect through the same lens, so its size decreases with
 /// distance.
 #[test]
 fn regress_tutorial_shows_defects_at_true_scale() {

@@ -1,7 +1,7 @@
-//! Pictures rendered by Mesa's software Vulkan (lavapipe): a gallery compared with committed pictures, contrast
-//! depending on ground sampling distance, and agreement between pictures and measures.
-#![allow(clippy::unwrap_used, reason = "a test")]
-#![allow(missing_docs, reason = "a test")]
+//! Pictures rendered by Mesa's software Vulkan (lavapipe): a gallery compared with committed pictures, contrast as a
+//! function of ground sampling distance, and agreement between pictures and measures.
+#![allow(clippy::unwrap_used, reason = "test code")]
+#![allow(missing_docs, reason = "test code")]
 
 mod compare;
 mod contrast;

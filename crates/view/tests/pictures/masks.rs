@@ -1,5 +1,5 @@
-//! Pixel labels: they must match the surface that a ray through the pixel hits in the collision geometry, and a defect
-//! visible in a picture must have pixels.
+//! Pixel labels must match the surface that a ray through the pixel hits in the collision geometry. A defect visible in
+//! a picture must have labeled pixels.
 
 use spandrel_model::math;
 use spandrel_model::site::Surface;
@@ -7,8 +7,8 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, two_bridges};
 
 const SIZE: (u32, u32) = (160, 120);
-/// Maximum fraction of pixels whose label may differ from the ray's: edges, where rendering and rays round differently,
-/// and trees, which hide surfaces but do not collide.
+/// Maximum fraction of pixels with a label that differs from the ray's: edges, where rendering and rays round
+/// differently, and trees, which hide surfaces but do not collide.
 const MIN_DIFFERENCE: f64 = 0.03;
 
 #[test]
@@ -55,7 +55,7 @@ fn val_visible_defect_is_labeled_at_its_position() {
         };
         let legend = masks.legend(studio.site.defects());
         let entry = legend["defects"].as_array().unwrap().iter().find(|entry| entry["id"] == defect.id);
-        // A hairline narrower than a quarter of this picture's pixels.
+        // Skips hairline cracks, which may cover too little of a pixel in this picture.
         let pixel_m = 2.0 * 1.5 * math::tan(0.5 * 60.0_f64.to_radians()) / 320.0;
         if defect.line && defect.width_m < 0.6 * pixel_m {
             continue;

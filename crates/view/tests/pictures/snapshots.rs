@@ -1,5 +1,5 @@
-//! If the measures find that a picture shows a defect, it must be visible: seeded photos from around the tasks' paths,
-//! rendered with and without the defects at the camera's resolution around the defect.
+//! A defect that counts as photographed must be visible in the picture. Renders seeded photos from around the task
+//! paths, with and without the defects, at the camera's full resolution around the defect.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
@@ -19,9 +19,9 @@ use std::collections::BTreeMap;
 const SHOWN: usize = 200;
 /// Number of photos tried for each defect.
 const TRIES: usize = 4;
-/// Size of the rendered area around each defect, px of the camera.
+/// Size of the rendered area around each defect, in camera pixels.
 const CROP: (u32, u32) = (192, 144);
-/// Size of the picture with which the exposure is metered, px; any size will do.
+/// Size of the picture for metering the exposure, px; any size will do.
 const FRAME: (u32, u32) = (400, 300);
 
 /// A photo of one defect.
@@ -30,8 +30,8 @@ struct Snapshot {
     view: DefectView,
 }
 
-/// Returns a photo of a defect from a position that an aircraft can reach, aimed so that the defect is somewhere within
-/// the central 80 %.
+/// Returns a photo of a defect from a position that an aircraft can reach, with the defect somewhere within the central
+/// 80 %.
 fn snapshot(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect, stream: &mut RandomStream) -> Option<Snapshot> {
     let level = if defect.normal.up().abs() > 0.9 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 0.0, 1.0) };
     let across = level.cross(defect.normal).unit();
@@ -75,8 +75,7 @@ fn render_pair(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) 
     })
 }
 
-/// Returns for each pixel of a crop whether it shows the defect, from its position on the defect's plane along and
-/// across, as fractions of the half sizes.
+/// Returns, for each pixel of a crop, whether its position on the defect's plane is within the defect's extent.
 fn defect_mask(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool> {
     let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP.0) / lens.focal_px());
     let towards = camera_aimed_at(snapshot.pose.position_m, defect.position_m, false);
@@ -101,7 +100,7 @@ fn defect_mask(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec
 /// Visibility of a defect in its region.
 #[derive(Debug, Clone, Copy)]
 struct DefectVisibility {
-    /// Change caused by the defect relative to the variation of the bare surface (grain and texture), summed as by an
+    /// Change caused by the defect relative to the variation of the bare surface (grain and texture), summed as for an
     /// observer who knows the pattern.
     signal_to_noise: f64,
 }
@@ -117,12 +116,12 @@ fn visibility([with, without]: &[Picture; 2], region: &[bool]) -> DefectVisibili
     let square = |p: &[f64; 3], q: &[f64; 3]| [0, 1, 2].map(|c| (p[c] - q[c]) * (p[c] - q[c]) / 3.0).iter().sum::<f64>();
     let variance = without.iter().map(|p| square(p, &mean)).sum::<f64>() / count;
     let changed = with.iter().zip(&without).map(|(p, q)| square(p, q)).sum::<f64>();
-    // The minimum noise is one gray level, due to rounding.
+    // The noise is at least one gray level, due to rounding.
     DefectVisibility { signal_to_noise: changed.sqrt() / variance.sqrt().max(1.0) }
 }
 
-/// Returns a photo of the same point from the other side of the member. The measures must not call the defect visible,
-/// and the picture must not show it.
+/// Returns a photo of the same point from the other side of the member. The measures must not count the defect as
+/// visible, and the picture must not show it.
 fn from_behind(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect) -> Option<Snapshot> {
     let from = (3..16).map(|k| defect.position_m - defect.normal * (0.5 * f64::from(k)));
     let free = from.clone().find(|from| site.nearest(*from, 0.6, SimTime::ZERO).is_none())?;
@@ -169,9 +168,9 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
             }
         }
     }
-    println!("{} photos show a defect according to the measures, by kind {kinds:?}", shown.len());
-    println!("signal to noise: {}; from behind: {}", summary(&shown), summary(&behind));
-    assert!(behind.len() >= 30, "too few from behind: {}", behind.len());
+    println!("according to the measures, {} photos show a defect; by kind: {kinds:?}", shown.len());
+    println!("signal-to-noise ratios: {}; from behind: {}", summary(&shown), summary(&behind));
+    assert!(behind.len() >= 30, "too few photos from behind: {}", behind.len());
     assert!(kinds.len() >= 6, "too few kinds: {kinds:?}");
     assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
 }

@@ -13,9 +13,9 @@ pub struct Airframe {
     /// Voltage of the fully charged battery, V.
     pub full_v: f64,
     /// Whether voltage sag affects the motors.
-    pub voltage_sags: bool,
+    pub models_voltage_sag: bool,
     /// Height of the center of mass above ground on the landing gear, m.
-    pub standing_m: f64,
+    pub resting_height_m: f64,
 }
 
 impl Airframe {
@@ -27,8 +27,8 @@ impl Airframe {
             mass_kg: vehicle.mass_kg,
             limits: vehicle.limits,
             full_v: f64::from(battery.cells) * battery.ocv_cell_v[10],
-            voltage_sags: rules.battery == BatteryModel::Physical,
-            standing_m: vehicle.hull.feet_m.iter().map(|f| f.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max),
+            models_voltage_sag: rules.battery == BatteryModel::Physical,
+            resting_height_m: vehicle.hull.feet_m.iter().map(|f| f.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max),
         }
     }
 }

@@ -31,12 +31,12 @@ impl AttitudeLoop {
         &mut self,
         gains: &Gains,
         now: &Estimate,
-        wanted: Rotation<Frd, Ned>,
+        desired: Rotation<Frd, Ned>,
         yaw_rate: f64,
         allocated: AllocationStatus,
         dt_s: f64,
     ) -> Vec3<Frd> {
-        let rates = desired_rates(gains, now.attitude, wanted, yaw_rate);
+        let rates = desired_rates(gains, now.attitude, desired, yaw_rate);
         self.rate_torque(gains, now, rates, allocated, dt_s)
     }
 
@@ -76,10 +76,10 @@ pub fn within_limits(gains: &Gains, rates: Vec3<Frd>) -> Vec3<Frd> {
 }
 
 /// Body rates that correct the thrust direction first and the heading second.
-fn desired_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, yaw_rate: f64) -> Vec3<Frd> {
+fn desired_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, desired: Rotation<Frd, Ned>, yaw_rate: f64) -> Vec3<Frd> {
     let into_body = attitude.inverse();
     let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
-    let aim = into_body * (wanted * z);
+    let aim = into_body * (desired * z);
     let axis = z.cross(aim);
     let sine = axis.norm();
     let angle = math::atan2(sine, aim.down());
@@ -87,7 +87,7 @@ fn desired_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<F
     let axis = if sine > 1e-6 { axis / sine } else { Vec3::new(1.0, 0.0, 0.0) };
     let tilt = (axis * (gains.attitude * angle)).limited(gains.rate_max_rad_s);
     let up = into_body * Vec3::<Ned>::new(0.0, 0.0, 1.0);
-    let heading = if angle < HEADING_CONTROL_MAX_TILT_RAD { heading_error(attitude, wanted, axis, angle) } else { 0.0 };
+    let heading = if angle < HEADING_CONTROL_MAX_TILT_RAD { heading_error(attitude, desired, axis, angle) } else { 0.0 };
     let yaw = (gains.yaw * heading).clamp(-gains.yaw_rate_max_rad_s, gains.yaw_rate_max_rad_s);
     let fed = up * yaw_rate;
     let limit = gains.yaw_rate_max_rad_s * YAW_RATE_LIMIT_FACTOR;
@@ -95,9 +95,9 @@ fn desired_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, wanted: Rotation<F
 }
 
 /// Remaining rotation about the body's down axis once the thrust direction is correct, rad.
-fn heading_error(attitude: Rotation<Frd, Ned>, wanted: Rotation<Frd, Ned>, axis: Vec3<Frd>, angle: f64) -> f64 {
+fn heading_error(attitude: Rotation<Frd, Ned>, desired: Rotation<Frd, Ned>, axis: Vec3<Frd>, angle: f64) -> f64 {
     let tilted = attitude.rotated_by(axis * angle);
-    let rest: UnitQuaternion<f64> = tilted.inverse().raw() * wanted.raw();
+    let rest: UnitQuaternion<f64> = tilted.inverse().raw() * desired.raw();
     math::wrap_pi(2.0 * math::atan2(rest.k, rest.w))
 }
 

@@ -49,7 +49,7 @@ pub enum PhaseChange {
     /// The vehicle has landed.
     Landed,
     /// The vehicle has been armed on the ground for longer than the automatic disarm timeout.
-    StandingTimeout {
+    GroundTimeout {
         /// Whether the vehicle has flown since arming.
         flown: bool,
     },
@@ -63,11 +63,11 @@ pub struct LandingInput<'a> {
     /// Downward range finder reading, m.
     pub range_down_m: Option<f64>,
     /// Height of the center of mass above ground on the landing gear, m.
-    pub standing_m: f64,
+    pub resting_height_m: f64,
     /// Whether the mode commands a takeoff.
     pub wants_to_fly: bool,
     /// Time on the ground after which the vehicle disarms, before and after a flight, s; 0 or less for never.
-    pub standing_limit_s: [f64; 2],
+    pub ground_time_limits_s: [f64; 2],
     /// Time of this tick.
     pub now: SimTime,
     /// Time since the last tick, s.
@@ -80,7 +80,7 @@ pub struct LandingDetector {
     /// Flight phase.
     pub phase: FlightPhase,
     /// Time at which the vehicle was last armed on the ground or touched down.
-    pub standing_since: SimTime,
+    pub on_ground_since: SimTime,
     /// Ground level where the vehicle last stood on the ground, m down.
     pub ground_down_m: f64,
     /// Commanded descent rate, m/s.
@@ -88,7 +88,7 @@ pub struct LandingDetector {
     /// Whether the vehicle has flown since arming.
     flown: bool,
     /// Time of the last liftoff.
-    left_ground: SimTime,
+    liftoff_started: SimTime,
     stopped_s: f64,
     fade_s: f64,
     abandoned_s: f64,
@@ -97,7 +97,7 @@ pub struct LandingDetector {
 impl LandingDetector {
     /// Starts a flight on the ground when the vehicle arms.
     pub fn arm(&mut self, now: SimTime) {
-        (self.phase, self.standing_since, self.flown) = (FlightPhase::OnGround, now, false);
+        (self.phase, self.on_ground_since, self.flown) = (FlightPhase::OnGround, now, false);
     }
 
     /// Ends the flight when the vehicle disarms.
@@ -109,7 +109,7 @@ impl LandingDetector {
     /// Continues in the air at full thrust after a respawn. The vehicle counts as flown.
     pub fn continue_in_air(&mut self, now: SimTime) {
         (self.phase, self.flown) = (FlightPhase::InAir, true);
-        self.left_ground = now - SimTime::from_s(SPOOL_UP_S);
+        self.liftoff_started = now - SimTime::from_s(SPOOL_UP_S);
         self.clear_timers();
     }
 
@@ -120,7 +120,7 @@ impl LandingDetector {
     /// Returns the available fraction of the maximum thrust while the motors spool up, 0 to 1.
     #[must_use]
     pub fn spool_up_fraction(&self, now: SimTime) -> f64 {
-        ((now - self.left_ground).s() / SPOOL_UP_S).clamp(0.0, 1.0)
+        ((now - self.liftoff_started).s() / SPOOL_UP_S).clamp(0.0, 1.0)
     }
 
     /// Returns the remaining thrust fraction as the thrust fades out after ground contact, 0 to 1.
@@ -132,12 +132,12 @@ impl LandingDetector {
     /// Advances by one tick while armed. Returns the phase change, if any.
     pub fn update(&mut self, input: &LandingInput) -> Option<PhaseChange> {
         match self.phase {
-            FlightPhase::OnGround => self.stand(input),
+            FlightPhase::OnGround => self.update_on_ground(input),
             FlightPhase::TakingOff if self.has_left_ground(input.estimate) => {
                 self.phase = FlightPhase::InAir;
                 Some(PhaseChange::TakenOff)
             }
-            FlightPhase::TakingOff => self.wait_for_lift(input),
+            FlightPhase::TakingOff => self.wait_for_liftoff(input),
             FlightPhase::InAir => self.detect_landing(input),
         }
     }
@@ -147,22 +147,22 @@ impl LandingDetector {
         up > OFF_GROUND_M || (up > 0.5 * OFF_GROUND_M && estimate.velocity_m_s.down() < -OFF_GROUND_M_S)
     }
 
-    fn stand(&mut self, input: &LandingInput) -> Option<PhaseChange> {
+    fn update_on_ground(&mut self, input: &LandingInput) -> Option<PhaseChange> {
         if input.wants_to_fly {
             self.phase = FlightPhase::TakingOff;
-            self.left_ground = input.now;
+            self.liftoff_started = input.now;
             self.ground_down_m = input.estimate.position_m.down();
             self.clear_timers();
             self.flown = true;
             return Some(PhaseChange::LiftingOff);
         }
         let flown = self.flown;
-        let limit_s = input.standing_limit_s[usize::from(flown)];
-        let timeout = limit_s > 0.0 && (input.now - self.standing_since).s() > limit_s;
-        timeout.then_some(PhaseChange::StandingTimeout { flown })
+        let limit_s = input.ground_time_limits_s[usize::from(flown)];
+        let timeout = limit_s > 0.0 && (input.now - self.on_ground_since).s() > limit_s;
+        timeout.then_some(PhaseChange::GroundTimeout { flown })
     }
 
-    fn wait_for_lift(&mut self, input: &LandingInput) -> Option<PhaseChange> {
+    fn wait_for_liftoff(&mut self, input: &LandingInput) -> Option<PhaseChange> {
         if input.wants_to_fly {
             self.abandoned_s = 0.0;
             return None;
@@ -177,7 +177,7 @@ impl LandingDetector {
     fn detect_landing(&mut self, input: &LandingInput) -> Option<PhaseChange> {
         let estimate = input.estimate;
         let upright = (estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
-        let near = input.range_down_m.is_none_or(|range| range * upright < input.standing_m + RANGE_MARGIN_M);
+        let near = input.range_down_m.is_none_or(|range| range * upright < input.resting_height_m + RANGE_MARGIN_M);
         let still = estimate.velocity_m_s.down().abs() < STOPPED_M_S;
         let commanded = self.descent_m_s > DESCENT_MIN_M_S;
         if !(near && still && commanded && upright > MIN_TILT_COSINE) {
@@ -196,7 +196,7 @@ impl LandingDetector {
     }
 
     fn touch_down(&mut self, now: SimTime) {
-        (self.phase, self.standing_since) = (FlightPhase::OnGround, now);
+        (self.phase, self.on_ground_since) = (FlightPhase::OnGround, now);
         self.clear_timers();
     }
 }

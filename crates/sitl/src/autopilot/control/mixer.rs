@@ -85,10 +85,10 @@ impl Mixer {
         }
     }
 
-    /// Computes motor commands for a demand. `voltage_share` is battery voltage divided by full voltage; motors turn slower at
+    /// Computes motor commands for a demand. `voltage_fraction` is battery voltage divided by full voltage; motors turn slower at
     /// lower voltage.
-    pub fn mix(&mut self, demand: &TorqueThrustSetpoint, voltage_share: f64, dt_s: f64) -> (Actuators, AllocationStatus) {
-        let top = (self.max_rad_s * voltage_share).max(self.idle_rad_s + 1.0);
+    pub fn mix(&mut self, demand: &TorqueThrustSetpoint, voltage_fraction: f64, dt_s: f64) -> (Actuators, AllocationStatus) {
+        let top = (self.max_rad_s * voltage_fraction).max(self.idle_rad_s + 1.0);
         let low = self.thrust_coefficient * self.idle_rad_s * self.idle_rad_s;
         let high = self.thrust_coefficient * top * top;
         let demand = TorqueThrustSetpoint { torque_n_m: self.compensate_rotor_spin(demand.torque_n_m, dt_s), ..*demand };

@@ -187,7 +187,7 @@ impl Control {
 /// Battery voltage as a fraction of the full-charge voltage.
 fn voltage_share(input: &ControlInput) -> f64 {
     match input.battery {
-        Some(b) if input.airframe.voltage_sags => (b.voltage_v / input.airframe.full_v).clamp(MIN_VOLTAGE_FRACTION, 1.0),
+        Some(b) if input.airframe.models_voltage_sag => (b.voltage_v / input.airframe.full_v).clamp(MIN_VOLTAGE_FRACTION, 1.0),
         _ => 1.0,
     }
 }

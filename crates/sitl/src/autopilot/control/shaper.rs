@@ -8,9 +8,9 @@ use spandrel_model::math;
 /// Time constant of the final approach to the target velocity, s.
 const APPROACH_S: f64 = 0.25;
 /// Time to build up full acceleration, s.
-pub const JERK_S: f64 = 0.15;
+pub const ACCELERATION_RAMP_S: f64 = 0.15;
 /// Time to build up full horizontal acceleration in a mission or return, s (estimate: about 50 deg/s of tilt).
-pub const AUTO_JERK_S: f64 = 0.5;
+pub const AUTO_ACCELERATION_RAMP_S: f64 = 0.5;
 
 /// Motion limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +28,7 @@ impl MotionLimits {
     #[must_use]
     pub fn automatic(gains: &Gains) -> Self {
         let (horizontal_m_s2, vertical_m_s2) = (0.7 * gains.acceleration_m_s2, 0.7 * gains.climb_acceleration_m_s2);
-        Self { horizontal_m_s2, vertical_m_s2, build_up_s: JERK_S }
+        Self { horizontal_m_s2, vertical_m_s2, build_up_s: ACCELERATION_RAMP_S }
     }
 }
 
@@ -48,14 +48,14 @@ impl MotionShaper {
     }
 
     /// Advances one step toward a target velocity.
-    pub fn advance(&mut self, wanted_m_s: Vec3<Ned>, limits: &MotionLimits, dt_s: f64) {
-        let wanted = (wanted_m_s - self.velocity_m_s) / APPROACH_S;
+    pub fn advance(&mut self, target_velocity_m_s: Vec3<Ned>, limits: &MotionLimits, dt_s: f64) {
+        let wanted = (target_velocity_m_s - self.velocity_m_s) / APPROACH_S;
         let flat = Vec3::<Ned>::new(wanted.north(), wanted.east(), 0.0).limited(limits.horizontal_m_s2);
         let down = wanted.down().clamp(-limits.vertical_m_s2, limits.vertical_m_s2);
         let step = flat + Vec3::new(0.0, 0.0, down) - self.acceleration_m_s2;
         let horizontal =
             Vec3::<Ned>::new(step.north(), step.east(), 0.0).limited(limits.horizontal_m_s2 / limits.build_up_s * dt_s);
-        let max_step = limits.vertical_m_s2 / JERK_S * dt_s;
+        let max_step = limits.vertical_m_s2 / ACCELERATION_RAMP_S * dt_s;
         self.acceleration_m_s2 += horizontal + Vec3::new(0.0, 0.0, step.down().clamp(-max_step, max_step));
         self.velocity_m_s += self.acceleration_m_s2 * dt_s;
     }
@@ -73,7 +73,7 @@ pub fn approach_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64
 
 /// Velocity toward a target within speed limits (horizontal, up, down; m/s).
 #[must_use]
-pub fn towards(gains: &Gains, from_m: Vec3<Ned>, to_m: Vec3<Ned>, horizontal: f64, up: f64, down: f64) -> Vec3<Ned> {
+pub fn velocity_toward(gains: &Gains, from_m: Vec3<Ned>, to_m: Vec3<Ned>, horizontal: f64, up: f64, down: f64) -> Vec3<Ned> {
     let offset = to_m - from_m;
     let flat = Vec3::<Ned>::new(offset.north(), offset.east(), 0.0);
     let distance = flat.norm();
@@ -114,8 +114,8 @@ mod tests {
     }
 
     #[test]
-    fn prop_a_shaped_stop_has_no_overshoot() {
-        let limits = MotionLimits { horizontal_m_s2: 4.0, vertical_m_s2: 2.0, build_up_s: JERK_S };
+    fn prop_shaped_stop_does_not_overshoot() {
+        let limits = MotionLimits { horizontal_m_s2: 4.0, vertical_m_s2: 2.0, build_up_s: ACCELERATION_RAMP_S };
         let mut shaper = MotionShaper::default();
         shaper.start(Vec3::new(8.0, 0.0, 0.0));
         let mut least: f64 = 8.0;

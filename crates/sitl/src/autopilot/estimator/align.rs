@@ -100,7 +100,7 @@ impl Alignment {
 
     /// Returns the result once enough samples have been averaged. `field` is the Earth's magnetic field at the site.
     #[must_use]
-    pub fn done(&self, field: Vec3<Ned>) -> Option<AlignmentResult> {
+    pub fn result(&self, field: Vec3<Ned>) -> Option<AlignmentResult> {
         if self.time_s < ALIGN_S || self.mag_samples == 0 {
             return None;
         }
@@ -140,7 +140,7 @@ mod tests {
                 alignment.imu(&ImuReading { specific_force_m_s2: force, rates_rad_s: Vec3::new(rate, 0.0, 0.0) }, 0.0025);
                 alignment.mag(Vec3::new(0.2, 0.02, 0.4));
             }
-            alignment.done(field)
+            alignment.result(field)
         };
         // 20 sigma of the bias, observed when the caged aircraft rocked on its cage.
         assert_eq!(feed(0.06, 800), None);
@@ -161,7 +161,7 @@ mod tests {
             alignment.imu(&reading, 0.0025);
             alignment.mag(truth.inverse() * field);
         }
-        let aligned = alignment.done(field);
+        let aligned = alignment.result(field);
         let error = aligned.map(|a| (a.attitude.inverse().then(truth)).raw().angle());
         // Rounding error of trigonometric functions.
         assert!(error.is_some_and(|e| e < 1e-7), "{error:?}");

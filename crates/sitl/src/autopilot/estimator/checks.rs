@@ -19,19 +19,19 @@ pub const REJECTION_TIMEOUT_S: f64 = 3.0;
 /// Consistency of one source with the filter.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InnovationCheck {
-    refused_share: f64,
+    rejection_rate: f64,
     last: Option<SimTime>,
     dropped: bool,
 }
 
 impl InnovationCheck {
     /// Records whether a measurement passed its gate. Returns true if it should be fused.
-    pub fn admits(&mut self, fits: bool, now: SimTime) -> bool {
+    pub fn should_fuse(&mut self, fits: bool, now: SimTime) -> bool {
         let gap_s = self.last.map_or(MAX_INTERVAL_S, |last| (now - last).s()).min(MAX_INTERVAL_S);
         self.last = Some(now);
         let refused = if fits { 0.0 } else { 1.0 };
-        self.refused_share += (refused - self.refused_share) * (gap_s / REJECTION_AVERAGING_S);
-        self.dropped = self.refused_share > if self.dropped { RECOVERY_THRESHOLD } else { DROP_THRESHOLD };
+        self.rejection_rate += (refused - self.rejection_rate) * (gap_s / REJECTION_AVERAGING_S);
+        self.dropped = self.rejection_rate > if self.dropped { RECOVERY_THRESHOLD } else { DROP_THRESHOLD };
         fits && !self.dropped
     }
 
@@ -43,22 +43,22 @@ impl InnovationCheck {
 
     /// Drops the source because other sources contradict it.
     pub fn reject(&mut self) {
-        (self.refused_share, self.dropped) = (1.0, true);
+        (self.rejection_rate, self.dropped) = (1.0, true);
     }
 
     /// Clears the check after a filter reset to this source.
     pub fn clear(&mut self) {
-        (self.refused_share, self.dropped) = (0.0, false);
+        (self.rejection_rate, self.dropped) = (0.0, false);
     }
 }
 
 /// Detects whether a rejected source has a constant offset from the filter, as after a jump, rather than noise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RejectionMonitor {
+pub struct OffsetMonitor {
     previous: Option<(Vec3<Ned>, SimTime)>,
 }
 
-impl RejectionMonitor {
+impl OffsetMonitor {
     /// Records an offset from the filter, m. Returns the time for which the offset has stayed constant within
     /// `tolerance_m`, s.
     pub fn hold_s(&mut self, distance_m: Vec3<Ned>, tolerance_m: f64, now: SimTime) -> f64 {
@@ -91,9 +91,9 @@ pub struct InnovationChecks {
     /// GNSS velocity.
     pub gnss_velocity: InnovationCheck,
     /// Offset monitor of the barometer.
-    pub baro_off: RejectionMonitor,
+    pub baro_offset_monitor: OffsetMonitor,
     /// Offset monitor of the GNSS receiver.
-    pub gnss_off: RejectionMonitor,
+    pub gnss_offset_monitor: OffsetMonitor,
 }
 
 #[cfg(test)]
@@ -107,7 +107,7 @@ mod tests {
         let mut feed = |fits: bool, ms: i64| {
             for _ in 0..ms / 20 {
                 at += SimTime::from_ms(20);
-                check.admits(fits, at);
+                check.should_fuse(fits, at);
             }
             check.dropped()
         };

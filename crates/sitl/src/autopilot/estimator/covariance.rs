@@ -100,10 +100,17 @@ impl Covariance {
         }
     }
 
-    /// Propagates the covariance by `dt_s`. `gained_m_s` is the velocity change from specific force in this step (NED),
-    /// `attitude` the rotation matrix from body to NED, `jolt` the additional velocity variance for shocks, (m/s)².
-    pub fn propagate(&mut self, attitude: &Matrix3<f64>, gained_m_s: &Vector3<f64>, dt_s: f64, noise: &ProcessNoise, jolt: f64) {
-        let g = gained_m_s;
+    /// Propagates the covariance by `dt_s`. `delta_velocity_m_s` is the velocity change from specific force in this step (NED),
+    /// `attitude` the rotation matrix from body to NED, `shock_variance` the additional velocity variance for shocks, (m/s)².
+    pub fn propagate(
+        &mut self,
+        attitude: &Matrix3<f64>,
+        delta_velocity_m_s: &Vector3<f64>,
+        dt_s: f64,
+        noise: &ProcessNoise,
+        shock_variance: f64,
+    ) {
+        let g = delta_velocity_m_s;
         // d(velocity)/d(attitude): theta x gained.
         let a = [[0.0, g.z, -g.y], [-g.z, 0.0, g.x], [g.y, -g.x, 0.0]];
         let r = attitude * -dt_s;
@@ -115,7 +122,7 @@ impl Covariance {
             self.scale(DRIFT + i, keep);
         }
         for i in 0..3 {
-            self.m[V + i][V + i] += noise.accel * dt_s + jolt;
+            self.m[V + i][V + i] += noise.accel * dt_s + shock_variance;
             self.m[THETA + i][THETA + i] += noise.gyro * dt_s;
             self.m[BG + i][BG + i] += noise.gyro_walk * dt_s;
             self.m[BA + i][BA + i] += noise.accel_walk * dt_s;
@@ -250,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sparse_propagation_equals_the_full_product() {
+    fn exact_sparse_propagation_equals_full_product() {
         let noise = ProcessNoise {
             accel: 0.1,
             gyro: 0.2,
@@ -290,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_fused_scalar_equals_the_textbook_update() {
+    fn exact_scalar_fusion_matches_textbook_update() {
         let mut c = sample_covariance();
         let before = full(&c);
         let mut h = SMatrix::<f64, 1, STATES>::zeros();

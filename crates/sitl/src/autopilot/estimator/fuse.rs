@@ -31,8 +31,8 @@ type MeasurementJacobian<'a> = &'a [(usize, f64)];
 impl Estimator {
     pub(super) fn fuse_gnss(&mut self, fix: &GnssReading, now: SimTime) {
         let n = self.noise;
-        if !self.located {
-            self.located = true;
+        if !self.global_position_known {
+            self.global_position_known = true;
             self.position_m = Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down());
             self.covariance.reset(P, 2, 1e6);
         }
@@ -57,32 +57,32 @@ impl Estimator {
         let off = self.fix_offset_m(fix).array();
         let slopes = [[(P, 1.0), (DRIFT, 1.0)], [(P + 1, 1.0), (DRIFT + 1, 1.0)]];
         let fits = (0..2).all(|i| self.accepts(&slopes[i], off[i], variance));
-        if self.checks.gnss.admits(fits, now) {
+        if self.checks.gnss.should_fuse(fits, now) {
             self.fuse(&slopes[0], off[0], variance);
             let off = self.fix_offset_m(fix);
             self.fuse(&slopes[1], off.east(), variance);
         }
         if fits {
-            self.checks.gnss_off.clear();
+            self.checks.gnss_offset_monitor.clear();
             return;
         }
         // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, a constant offset is accepted, but
         // noise is not.
         let off = self.fix_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
-        let steady_s = self.checks.gnss_off.hold_s(flat, INNOVATION_GATE * (2.0 * variance).sqrt(), now);
+        let steady_s = self.checks.gnss_offset_monitor.hold_s(flat, INNOVATION_GATE * (2.0 * variance).sqrt(), now);
         let flow_is_fresh = (now - self.last_fused.flow).s() < FLOW_FRESH_S;
         if steady_s > REJECTION_TIMEOUT_S && !flow_is_fresh {
-            self.reset_place(Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down()));
+            self.reset_position(Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down()));
             self.covariance.reset(P, 2, fix.eph_m * fix.eph_m);
             self.checks.gnss.clear();
-            self.checks.gnss_off.clear();
+            self.checks.gnss_offset_monitor.clear();
         }
     }
 
     /// Resets the position to the GNSS position.
-    fn reset_place(&mut self, position_m: Vec3<Ned>) {
-        self.place_step_m = Some(self.place_step_m.unwrap_or_default() + (position_m - self.position_m));
+    fn reset_position(&mut self, position_m: Vec3<Ned>) {
+        self.position_step_m = Some(self.position_step_m.unwrap_or_default() + (position_m - self.position_m));
         self.position_m = position_m;
     }
 
@@ -91,13 +91,13 @@ impl Estimator {
         let slopes = [(P + 2, 1.0), (DRIFT + 2, 1.0)];
         let off = self.fix_offset_m(fix).down();
         let fits = self.accepts(&slopes, off, variance);
-        if self.checks.gnss_height.admits(fits, now) && !self.checks.gnss.dropped() {
+        if self.checks.gnss_height.should_fuse(fits, now) && !self.checks.gnss.dropped() {
             self.fuse(&slopes, off, variance);
             self.last_fused.height = now;
         }
         let apart = (fix.position_m.down() - self.position_m.down()).abs();
         if apart < AGREEMENT_SIGMAS * math::hypot(slow, variance.sqrt()) {
-            self.ground.samples_agree(self.position_m.down(), fix.position_m.down());
+            self.ground.record_agreement(self.position_m.down(), fix.position_m.down());
         }
         // With another height reference, the GNSS height may have a permanent offset.
         let drifted = self.follows_gnss() && self.drift_m.down().abs() > DRIFT_SIGMAS * slow;
@@ -162,7 +162,7 @@ impl Estimator {
             let innovation = fix.velocity_m_s.array()[i] - self.velocity_m_s.array()[i];
             taken &= self.fuse(&[(V + i, 1.0)], innovation, variance);
         }
-        self.checks.gnss_velocity.admits(taken, now);
+        self.checks.gnss_velocity.should_fuse(taken, now);
         if taken {
             self.last_fused.velocity = now;
         } else if (now - self.last_fused.velocity).s() > REJECTION_TIMEOUT_S {
@@ -177,13 +177,13 @@ impl Estimator {
         let variance = self.noise.baro_m * self.noise.baro_m;
         let slopes = [(P + 2, 1.0), (BARO, -1.0)];
         let fits = self.accepts(&slopes, innovation, variance);
-        if self.checks.baro.admits(fits, now) {
+        if self.checks.baro.should_fuse(fits, now) {
             self.fuse(&slopes, innovation, variance);
             self.last_fused.height = now;
-            self.height_reference.note_barometer(now);
+            self.height_reference.record_barometer_fusion(now);
         }
         if fits {
-            self.checks.baro_off.clear();
+            self.checks.baro_offset_monitor.clear();
         } else {
             self.recover_height(innovation, now);
         }
@@ -193,7 +193,7 @@ impl Estimator {
     /// current height with the barometer if its offset is constant.
     fn recover_height(&mut self, innovation_m: f64, now: SimTime) {
         let tolerance_m = INNOVATION_GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();
-        let steady_s = self.checks.baro_off.hold_s(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
+        let steady_s = self.checks.baro_offset_monitor.hold_s(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
         if (now - self.last_fused.height).s() <= REJECTION_TIMEOUT_S {
             return;
         }
@@ -203,7 +203,7 @@ impl Estimator {
                 self.baro_offset_m -= innovation_m;
                 self.covariance.reset(BARO, 1, RESET_OFFSET_SIGMA_M * RESET_OFFSET_SIGMA_M);
                 self.checks.baro.clear();
-                self.checks.baro_off.clear();
+                self.checks.baro_offset_monitor.clear();
                 self.last_fused.height = now;
             }
             _ => {}
@@ -228,13 +228,13 @@ impl Estimator {
         ];
         let variance = self.noise.mag_gauss * self.noise.mag_gauss * share;
         let fits = self.accepts(&slopes, innovation, variance);
-        if self.checks.mag.admits(fits, now) {
+        if self.checks.mag.should_fuse(fits, now) {
             self.fuse(&slopes, innovation, variance);
         }
         if fits {
             self.last_fused.heading = now;
         } else if (now - self.last_fused.heading).s() > REJECTION_TIMEOUT_S
-            && (self.parked || self.checks.gnss_velocity.dropped())
+            && (self.motors_off || self.checks.gnss_velocity.dropped())
         {
             // In flight, the gyroscopes are the better heading source unless the velocities contradict the heading too.
             let measured = self.attitude * gauss;

@@ -21,7 +21,7 @@ impl GroundEstimate {
     }
 
     /// Records the ground levels while the filter height and the GNSS height agree, m down.
-    pub fn samples_agree(&mut self, filter_down_m: f64, receiver_down_m: f64) {
+    pub fn record_agreement(&mut self, filter_down_m: f64, receiver_down_m: f64) {
         self.agreed = self.range_m.map(|range| [filter_down_m + range, receiver_down_m + range]);
     }
 
@@ -44,7 +44,7 @@ mod tests {
     fn exact_height_with_constant_ground_level_is_selected() {
         let mut ground = GroundEstimate::default();
         ground.add_measurement(5.0);
-        ground.samples_agree(-5.0, -5.2);
+        ground.record_agreement(-5.0, -5.2);
         // The GNSS height rises while the range stays constant.
         assert!(ground.agrees_with_filter(-5.1, -9.0));
         // The filter height is constant while the range increases with the GNSS height.

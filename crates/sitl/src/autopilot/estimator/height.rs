@@ -15,25 +15,25 @@ use spandrel_model::time::SimTime;
 /// m).
 const NON_REFERENCE_SIGMA_M: f64 = 10.0;
 /// Timeout for a height reference, s (estimate: ten readings of a range finder at 10 Hz).
-const SILENT_S: f64 = 1.0;
+const REFERENCE_TIMEOUT_S: f64 = 1.0;
 /// Roughness of the ground below the range finder, m (1 sigma; estimate: grass, gravel).
 const GROUND_ROUGHNESS_M: f64 = 0.05;
 
 impl Estimator {
     /// Returns true if GNSS is the configured reference.
     pub(super) fn follows_gnss(&self) -> bool {
-        self.wanted_reference == HeightReference::Gnss
+        self.configured_reference == HeightReference::Gnss
     }
 
     /// Selects the configured reference while it works, and GNSS otherwise.
     pub(super) fn choose_reference(&mut self, now: SimTime) {
-        let fresh = |at: Option<SimTime>| at.is_some_and(|at| (now - at).s() < SILENT_S);
-        let works = match self.wanted_reference {
+        let fresh = |at: Option<SimTime>| at.is_some_and(|at| (now - at).s() < REFERENCE_TIMEOUT_S);
+        let works = match self.configured_reference {
             HeightReference::Barometer => fresh(self.height_reference.barometer) && !self.checks.baro.dropped(),
             HeightReference::RangeFinder => fresh(self.height_reference.range),
             HeightReference::Gnss => true,
         };
-        let reference = if works { self.wanted_reference } else { HeightReference::Gnss };
+        let reference = if works { self.configured_reference } else { HeightReference::Gnss };
         if reference != self.height_reference.reference {
             self.height_reference.reference = reference;
             self.set_height_weights(reference);
@@ -72,7 +72,7 @@ impl Estimator {
     /// Corrects the height with the measured distance `below_m` to the ground. After a step in the ground (an edge, a
     /// truck), it keeps the height and adopts the new ground level.
     pub(super) fn follow_range(&mut self, below_m: f64, now: SimTime) {
-        if self.wanted_reference != HeightReference::RangeFinder || !below_m.is_finite() {
+        if self.configured_reference != HeightReference::RangeFinder || !below_m.is_finite() {
             self.height_reference.ground_down_m = None;
             return;
         }
@@ -83,7 +83,7 @@ impl Estimator {
         let variance = self.noise.range_m * self.noise.range_m + GROUND_ROUGHNESS_M * GROUND_ROUGHNESS_M;
         let slopes = [(P + 2, 1.0)];
         let fits = self.accepts(&slopes, innovation_m, variance);
-        if self.height_reference.check.admits(fits, now) {
+        if self.height_reference.check.should_fuse(fits, now) {
             self.fuse(&slopes, innovation_m, variance);
             self.last_fused.height = now;
         }

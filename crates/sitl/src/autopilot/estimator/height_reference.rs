@@ -1,6 +1,6 @@
 //! The height reference and its state.
 
-use super::checks::{InnovationCheck, RejectionMonitor};
+use super::checks::{InnovationCheck, OffsetMonitor};
 use spandrel_model::time::SimTime;
 
 /// Height reference, numbered as in `EKF2_HGT_REF` (ArduPilot: `EK3_SRC1_POSZ`).
@@ -36,17 +36,17 @@ pub struct HeightReferenceState {
     pub(super) barometer: Option<SimTime>,
     pub(super) range: Option<SimTime>,
     pub(super) check: InnovationCheck,
-    pub(super) off: RejectionMonitor,
+    pub(super) off: OffsetMonitor,
 }
 
 impl HeightReferenceState {
     /// Records that the barometer was fused.
-    pub fn note_barometer(&mut self, now: SimTime) {
+    pub fn record_barometer_fusion(&mut self, now: SimTime) {
         self.barometer = Some(now);
     }
 
     /// Clears the ground level after the vehicle was moved.
     pub fn clear_ground(&mut self) {
-        (self.ground_down_m, self.check, self.off) = (None, InnovationCheck::default(), RejectionMonitor::default());
+        (self.ground_down_m, self.check, self.off) = (None, InnovationCheck::default(), OffsetMonitor::default());
     }
 }

@@ -98,7 +98,7 @@ pub struct Estimator {
     field_gauss: Vec3<Ned>,
     alignment: Alignment,
     aligned: bool,
-    located: bool,
+    global_position_known: bool,
     local_origin_m: Vec3<Ned>,
     local_origin_set: bool,
     first_fix: Option<SimTime>,
@@ -125,14 +125,14 @@ pub struct Estimator {
     /// Variance of the GNSS height due to recently reported multipath, m².
     multipath_m2: f64,
     /// Whether the motors are off.
-    parked: bool,
+    motors_off: bool,
     /// Time without a fused velocity after which the position becomes invalid, s.
-    no_aid_s: f64,
+    dead_reckoning_limit_s: f64,
     /// Configured height reference.
-    pub wanted_reference: HeightReference,
+    pub configured_reference: HeightReference,
     height_reference: HeightReferenceState,
     /// Accumulated position resets since the last query, m.
-    place_step_m: Option<Vec3<Ned>>,
+    position_step_m: Option<Vec3<Ned>>,
     /// Number of position resets returned by queries so far.
     position_resets: u32,
     usable: bool,
@@ -143,21 +143,21 @@ impl Estimator {
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, origin: Geo) -> Self {
         let sq = |x: f64| x * x;
-        let drift = [sensors.gnss_horizontal_m * gnss::DRIFT_SHARE, sensors.gnss_vertical_m * gnss::DRIFT_SHARE];
+        let drift = [sensors.gnss_horizontal_m * gnss::DRIFT_FRACTION, sensors.gnss_vertical_m * gnss::DRIFT_FRACTION];
         let rate = sensors.imu_rate_hz.sqrt();
         Self {
             process: ProcessNoise {
                 accel: sq(sensors.accel_noise_density),
                 gyro: sq(sensors.gyro_noise_density),
-                accel_walk: sq(sensors.accel_bias_m_s2 * imu::BIAS_WALK_SHARE),
-                gyro_walk: sq(sensors.gyro_bias_rad_s * imu::BIAS_WALK_SHARE),
+                accel_walk: sq(sensors.accel_bias_m_s2 * imu::BIAS_WALK_FRACTION),
+                gyro_walk: sq(sensors.gyro_bias_rad_s * imu::BIAS_WALK_FRACTION),
                 drift: [sq(drift[0]), sq(drift[0]), sq(drift[1])],
                 drift_time_s: gnss::DRIFT_TIME_S,
                 baro_walk: sq(sensors.baro_drift_m_sqrt_s),
             },
             noise: MeasurementNoise {
                 gnss_velocity_m_s: sensors.gnss_velocity_m_s,
-                gnss_white_m: [sensors.gnss_horizontal_m * gnss::WHITE_SHARE, sensors.gnss_vertical_m * gnss::WHITE_SHARE],
+                gnss_white_m: [sensors.gnss_horizontal_m * gnss::WHITE_FRACTION, sensors.gnss_vertical_m * gnss::WHITE_FRACTION],
                 gnss_drift_m: drift,
                 baro_m: sensors.baro_noise_m,
                 mag_gauss: sensors.mag_noise_gauss,
@@ -175,7 +175,7 @@ impl Estimator {
                 sample_rad_s: sensors.gyro_noise_density * rate,
             }),
             aligned: false,
-            located: false,
+            global_position_known: false,
             local_origin_m: Vec3::zero(),
             local_origin_set: false,
             first_fix: None,
@@ -200,11 +200,11 @@ impl Estimator {
             ground: GroundEstimate::default(),
             latest_fix: None,
             multipath_m2: 0.0,
-            parked: true,
-            no_aid_s: DEAD_RECKONING_LIMIT_S,
-            wanted_reference: HeightReference::default(),
+            motors_off: true,
+            dead_reckoning_limit_s: DEAD_RECKONING_LIMIT_S,
+            configured_reference: HeightReference::default(),
             height_reference: HeightReferenceState::default(),
-            place_step_m: None,
+            position_step_m: None,
             position_resets: 0,
             usable: false,
         }
@@ -264,7 +264,7 @@ impl Estimator {
         if let Some(up_m) = readings.baro_up_m {
             self.position_m = Vec3::new(0.0, 0.0, -up_m);
         }
-        if let Some(aligned) = self.alignment.done(self.field_gauss) {
+        if let Some(aligned) = self.alignment.result(self.field_gauss) {
             self.start(&aligned, now);
         }
     }
@@ -361,8 +361,8 @@ impl Estimator {
     fn update_validity(&mut self, now: SimTime) {
         let share = if self.usable { 1.0 } else { REGAIN_FRACTION };
         let (v, p) = (self.velocity_sigma_m_s(), self.horizontal_sigma_m());
-        let aided = (now - self.last_fused.velocity).s() < self.no_aid_s;
-        self.usable = self.located && aided && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
+        let aided = (now - self.last_fused.velocity).s() < self.dead_reckoning_limit_s;
+        self.usable = self.global_position_known && aided && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
     }
 
     /// Horizontal velocity accuracy, m/s (1 sigma of the worse axis).
@@ -377,8 +377,9 @@ impl Estimator {
 
     /// Sets the time without a fused velocity after which the position becomes invalid, s, the height reference, and
     /// whether the motors are off. The heading can be reset to the magnetometer alone only with the motors off.
-    pub fn configure(&mut self, no_aid_s: f64, reference: HeightReference, parked: bool) {
-        (self.no_aid_s, self.wanted_reference, self.parked) = (no_aid_s, reference, parked);
+    pub fn configure(&mut self, dead_reckoning_limit_s: f64, reference: HeightReference, motors_off: bool) {
+        (self.dead_reckoning_limit_s, self.configured_reference, self.motors_off) =
+            (dead_reckoning_limit_s, reference, motors_off);
     }
 
     /// Sources that are not used because they contradict the others.
@@ -394,7 +395,7 @@ impl Estimator {
 
     /// Returns the accumulated position reset to GNSS since the last call, m.
     pub fn take_position_reset(&mut self) -> Option<Vec3<Ned>> {
-        let step_m = self.place_step_m.take();
+        let step_m = self.position_step_m.take();
         self.position_resets += u32::from(step_m.is_some());
         step_m
     }
@@ -436,7 +437,7 @@ impl Estimator {
             self.local_origin_set = true;
         }
         self.aligned = true;
-        self.located = true;
+        self.global_position_known = true;
         self.usable = true;
         self.checks = InnovationChecks::default();
         self.ground = GroundEstimate::default();
@@ -470,7 +471,7 @@ impl Estimator {
     /// Returns true if the filter has ever had a global position.
     #[must_use]
     pub fn located(&self) -> bool {
-        self.located
+        self.global_position_known
     }
 
     /// The error covariance, for tests and for covariance messages.

@@ -10,7 +10,7 @@ use spandrel_model::frames::{Frd, Vec3};
 /// Stick deflection that counts as centered for arming.
 const CENTERED: f64 = 0.2;
 /// Minimum cosine of the tilt for arming (20 degrees).
-const LEVEL: f64 = 0.94;
+const MIN_LEVEL_COSINE: f64 = 0.94;
 /// Minimum clearance above the vehicle for arming, m.
 const MIN_OVERHEAD_CLEARANCE_M: f64 = 1.0;
 /// Maximum horizontal position error for arming, m (1 sigma).
@@ -43,7 +43,7 @@ impl ArmingCheck<'_> {
     /// Returns the reasons why pre-arm checks failed.
     #[must_use]
     pub fn prearm_reasons(&self) -> Vec<String> {
-        if self.input.tuning.arms_by_mode { self.ground_reasons() } else { self.reasons() }
+        if self.input.tuning.arming_depends_on_mode { self.ground_reasons() } else { self.reasons() }
     }
 
     fn sticks_fresh(&self) -> bool {
@@ -54,7 +54,7 @@ impl ArmingCheck<'_> {
         if !self.sticks_fresh() {
             return None;
         }
-        if !self.input.tuning.arms_by_mode {
+        if !self.input.tuning.arming_depends_on_mode {
             return (self.links.deflection() > CENTERED).then_some("Sticks not centered");
         }
         let climbs = self.input.flight.intended.is_manual() && self.links.sticks.up > 0.0;
@@ -68,7 +68,7 @@ impl ArmingCheck<'_> {
     /// Returns true if arming requires a position: for the mode, for hold without a pilot, or for the geofence.
     fn needs_position(&self) -> bool {
         let intended = self.input.flight.intended;
-        !self.input.tuning.arms_by_mode || !self.sticks_fresh() || intended.needs_position() || self.fence_set
+        !self.input.tuning.arming_depends_on_mode || !self.sticks_fresh() || intended.needs_position() || self.fence_set
     }
 
     fn ground_reasons(&self) -> Vec<String> {
@@ -82,12 +82,12 @@ impl ArmingCheck<'_> {
         }
         if !self.needs_position() {
             // No position estimate is required.
-        } else if !flight.located {
+        } else if !flight.global_position_known {
             out.push("No GNSS fix".into());
         } else if !estimate.position_valid || estimate.horizontal_m > ARMING_ACCURACY_M {
             out.push("Position not accurate enough".into());
         }
-        if (estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down() < LEVEL {
+        if (estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down() < MIN_LEVEL_COSINE {
             out.push("Not level".into());
         }
         match flight.battery {
@@ -98,7 +98,7 @@ impl ArmingCheck<'_> {
             Some(b) if b.voltage_v < rules.arm_voltage_v => out.push("Battery voltage too low".into()),
             Some(_) => {}
         }
-        if rules.arm_needs_mission && flight.mission_is_empty {
+        if rules.arming_requires_mission && flight.mission_is_empty {
             out.push("No mission".into());
         }
         let fence = FenceCheck::new(self.fence, tuning, flight.home_m);

@@ -14,7 +14,7 @@ pub struct BatteryMonitor {
     critical_warned: bool,
     /// Most severe battery level (1 low, 2 critical, 3 emergency) whose failsafe has triggered in this flight. Each
     /// level triggers once, so the pilot can override it.
-    level_handled: usize,
+    highest_handled_level: usize,
     /// Start of the time below the low and critical voltages.
     low_voltage_since: [Option<SimTime>; 2],
 }
@@ -40,7 +40,7 @@ impl BatteryMonitor {
         if input.flight.is_flying() {
             self.act(&battery, input, events)
         } else {
-            (self.level_handled, self.low_voltage_since) = (0, [None; 2]);
+            (self.highest_handled_level, self.low_voltage_since) = (0, [None; 2]);
             None
         }
     }
@@ -67,16 +67,16 @@ impl BatteryMonitor {
     fn act(&mut self, battery: &BatteryReading, input: &FailsafeInput, events: &mut EventQueue) -> Option<FailsafeRequest> {
         const NAMES: [&str; 4] = ["", "low battery", "critical battery", "battery emergency"];
         let level = self.level(battery, input);
-        if level <= self.level_handled {
+        if level <= self.highest_handled_level {
             return None;
         }
         // The most severe action configured at or below this level.
         let configured = input.tuning.rules.responses.battery;
-        let (level, response) = (self.level_handled + 1..=level).rev().find_map(|k| Some((k, configured[k - 1]?)))?;
+        let (level, response) = (self.highest_handled_level + 1..=level).rev().find_map(|k| Some((k, configured[k - 1]?)))?;
         if response == FailsafeResponse::Return && !input.estimate.position_valid {
             return None;
         }
-        self.level_handled = level;
+        self.highest_handled_level = level;
         let severity = if level == 1 { Severity::Warning } else { Severity::Critical };
         respond(response, NAMES[level], severity, input, events)
     }

@@ -19,7 +19,7 @@ pub enum FenceOutline {
 impl FenceOutline {
     /// Returns true if a point is inside.
     #[must_use]
-    pub fn holds(&self, (n, e): (f64, f64)) -> bool {
+    pub fn contains(&self, (n, e): (f64, f64)) -> bool {
         match self {
             Self::Circle { center_m, radius_m } => {
                 let (dn, de) = (n - center_m.0, e - center_m.1);
@@ -117,10 +117,10 @@ impl Fence {
 
     /// Returns true if all zones allow a position.
     #[must_use]
-    pub fn allows(&self, place_m: (f64, f64)) -> bool {
+    pub fn allows(&self, position_m: (f64, f64)) -> bool {
         let mut inclusions = self.zones.iter().filter(|zone| zone.inclusion).peekable();
-        let within = inclusions.peek().is_none() || inclusions.any(|zone| zone.outline.holds(place_m));
-        within && !self.zones.iter().any(|zone| !zone.inclusion && zone.outline.holds(place_m))
+        let within = inclusions.peek().is_none() || inclusions.any(|zone| zone.outline.contains(position_m));
+        within && !self.zones.iter().any(|zone| !zone.inclusion && zone.outline.contains(position_m))
     }
 
     /// Returns true if all zones allow an entire straight path.
@@ -153,10 +153,10 @@ mod tests {
         for (place, within) in
             [((2.0, 2.0), true), ((5.0, 4.0), true), ((5.0, 6.0), false), ((-1.0, 5.0), false), ((11.0, 1.0), false)]
         {
-            assert_eq!(notched.holds(place), within, "{place:?}");
+            assert_eq!(notched.contains(place), within, "{place:?}");
         }
         let circle = FenceOutline::Circle { center_m: (3.0, 4.0), radius_m: 5.0 };
-        assert!(circle.holds((0.0, 0.0)) && !circle.holds((-0.01, 0.0)));
+        assert!(circle.contains((0.0, 0.0)) && !circle.contains((-0.01, 0.0)));
     }
 
     #[test]
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_flight_needs_an_inclusion_zone_and_no_exclusion_zone() {
+    fn exact_flight_requires_inclusion_zone_and_no_exclusion_zone() {
         let zone = |outline, inclusion| FenceZone { outline, inclusion };
         let circle = |n, radius_m| FenceOutline::Circle { center_m: (n, 0.0), radius_m };
         let fence =

@@ -42,24 +42,24 @@ impl<'a> FenceCheck<'a> {
 
     /// Returns the limit that a position would breach, or `None`.
     #[must_use]
-    pub fn breach_at(&self, place_m: Vec3<Ned>) -> Option<Breach> {
+    pub fn breach_at(&self, position_m: Vec3<Ned>) -> Option<Breach> {
         let t = self.tuning;
         if !self.is_active() {
             return None;
         }
-        let from_home = place_m - self.home_m;
+        let from_home = position_m - self.home_m;
         let parts = t.rules.fence;
         if parts.height && t.fence_height_m > 0.0 && -from_home.down() > t.fence_height_m {
             return Some(Breach::Height);
         }
         let far = parts.distance && t.fence_distance_m > 0.0 && from_home.horizontal_norm() > t.fence_distance_m;
-        (far || parts.areas && !self.fence.allows((place_m.north(), place_m.east()))).then_some(Breach::Boundary)
+        (far || parts.areas && !self.fence.allows((position_m.north(), position_m.east()))).then_some(Breach::Boundary)
     }
 
     /// Returns true if a position is below the minimum fence height above home.
-    fn below_floor(&self, place_m: Vec3<Ned>) -> bool {
+    fn below_floor(&self, position_m: Vec3<Ned>) -> bool {
         let floor_m = self.tuning.rules.fence.floor_m;
-        self.is_active() && floor_m.is_some_and(|floor_m| self.home_m.down() - place_m.down() < floor_m)
+        self.is_active() && floor_m.is_some_and(|floor_m| self.home_m.down() - position_m.down() < floor_m)
     }
 
     /// Returns true if the straight path between two allowed positions leaves the fence.

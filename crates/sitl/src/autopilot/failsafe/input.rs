@@ -41,7 +41,7 @@ pub struct FlightSummary {
     /// Whether the mission is empty.
     pub mission_is_empty: bool,
     /// Whether the estimator has ever had a global position.
-    pub located: bool,
+    pub global_position_known: bool,
     /// Cosine of the angle between desired and estimated thrust direction.
     pub attitude_error_cosine: f64,
     /// Latest battery reading.

@@ -46,7 +46,7 @@ pub struct LossMonitor {
     /// Reason for the active failsafe.
     pub active: Option<&'static str>,
     /// Whether stick input has been received since arming. If so, its loss counts in automatic modes too.
-    pub sticks_seen: bool,
+    pub sticks_received: bool,
     manual_lost_since: Option<SimTime>,
     no_position_since: Option<SimTime>,
 }
@@ -75,7 +75,7 @@ impl LossMonitor {
         }
         let since = *self.no_position_since.get_or_insert(input.now);
         let lasting = (input.now - since).s() > POSITION_LOSS_TIMEOUT_S;
-        let pilot_flies = sticks_fresh(links, input) && !input.tuning.rules.responses.blind_lands;
+        let pilot_flies = sticks_fresh(links, input) && !input.tuning.rules.responses.lands_without_position;
         if pilot_flies {
             (intended.is_manual() || lasting).then_some((FlightMode::Altitude, "position lost, holding height only"))
         } else {
@@ -85,10 +85,10 @@ impl LossMonitor {
 
     fn check_manual(&mut self, links: &LinkStatus, input: &FailsafeInput) -> Option<LossResponse> {
         let fresh = sticks_fresh(links, input);
-        self.sticks_seen |= fresh;
+        self.sticks_received |= fresh;
         let intended = input.flight.intended;
         let except = input.tuning.rules.responses.manual_loss_except;
-        let counts = intended.is_manual() || self.sticks_seen && !except.cover(intended);
+        let counts = intended.is_manual() || self.sticks_received && !except.includes(intended);
         if fresh || !counts {
             self.manual_lost_since = None;
             return None;
@@ -103,7 +103,7 @@ impl LossMonitor {
     }
 
     /// Reports the start or end of a failsafe. Returns the mode change request.
-    pub fn conclude(
+    pub fn finish_checks(
         &mut self,
         flown: Option<LossMode>,
         input: &FailsafeInput,
@@ -145,12 +145,12 @@ fn respond_to_loss(action: LinkLossAction, hold: FlightMode, why: &'static str, 
 fn check_links(links: &LinkStatus, input: &FailsafeInput) -> Option<LossResponse> {
     let (tuning, intended) = (input.tuning, input.flight.intended);
     if intended == FlightMode::Offboard && !links.offboard_fresh(tuning.offboard_timeout_s(), input.now) {
-        if tuning.setpoints_end {
+        if tuning.setpoint_end_is_normal {
             return Some(LossResponse::Request(FailsafeRequest::EndOffboard));
         }
         return Some(respond_to_offboard_loss(links, input));
     }
-    let excepted = tuning.rules.responses.data_link_loss_except.cover(intended);
+    let excepted = tuning.rules.responses.data_link_loss_except.includes(intended);
     let counts = tuning.data_link_loss != LinkLossAction::Ignore && !excepted;
     let silent = links.ground_station.is_some_and(|at| (input.now - at).s() > tuning.data_link_timeout_s());
     (counts && silent).then(|| respond_to_loss(tuning.data_link_loss, FlightMode::Hold, "ground station lost", input))

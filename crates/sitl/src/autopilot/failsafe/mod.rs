@@ -70,7 +70,7 @@ impl Failsafe {
 
     /// Starts a flight when the vehicle arms.
     pub fn begin_flight(&mut self) {
-        self.losses.sticks_seen = false;
+        self.losses.sticks_received = false;
         self.fence_monitor.begin_flight();
         self.attitude.begin_flight();
     }
@@ -87,7 +87,7 @@ impl Failsafe {
 
     /// Handles an intentional release of the sticks. `manual` is true if the requested mode is a manual mode.
     pub fn release_sticks(&mut self, manual: bool) {
-        self.losses.sticks_seen = false;
+        self.losses.sticks_received = false;
         if !manual {
             self.links.sticks_at = None;
         }
@@ -161,7 +161,7 @@ impl Failsafe {
 
     /// Reports the start or end of a failsafe after all losses have been checked. Returns the mode change request.
     pub fn finish_loss_checks(&mut self, flown: Option<LossMode>, input: &FailsafeInput) -> Option<FailsafeRequest> {
-        self.losses.conclude(flown, input, &mut self.events)
+        self.losses.finish_checks(flown, input, &mut self.events)
     }
 
     /// Clears the failsafes while disarmed. Returns the reasons why pre-arm checks failed.
@@ -186,9 +186,9 @@ impl Failsafe {
         let (flight, rules) = (&input.flight, &input.tuning.rules.responses);
         let offboard = flight.intended == FlightMode::Offboard;
         let automatic = !offboard && !flight.intended.is_manual();
-        let allowed = automatic && input.tuning.stick_takeover || offboard && rules.takeover_offboard;
+        let allowed = automatic && input.tuning.stick_takeover || offboard && rules.takeover_in_offboard;
         let flying = flight.armed && matches!(flight.landed, LandedState::InAir | LandedState::Landing);
-        let moved = || self.links.moved_from(&flight.sticks_at_mode_start, rules.takeover_share);
+        let moved = || self.links.moved_from(&flight.sticks_at_mode_start, rules.takeover_deflection);
         if !allowed || !flying || flight.overridden || !moved() {
             return None;
         }

@@ -42,7 +42,7 @@ impl LinkLossExceptions {
 
     /// Returns true if a lost link is ignored in a mode. Landing and returning always continue.
     #[must_use]
-    pub fn cover(&self, mode: FlightMode) -> bool {
+    pub fn includes(&self, mode: FlightMode) -> bool {
         match mode {
             FlightMode::Mission => self.mission,
             FlightMode::Hold | FlightMode::Takeoff | FlightMode::Orbit | FlightMode::Follow => self.hold,
@@ -104,19 +104,19 @@ pub struct FailsafeResponses {
     /// `BATT_LOW_TIMER`: time below a voltage threshold before it takes effect, s.
     pub battery_low_s: f64,
     /// `COM_POSCTL_NAVL`; `FS_EKF_ACTION`: on loss of position, land in manual position mode too.
-    pub blind_lands: bool,
+    pub lands_without_position: bool,
     /// `FS_CRASH_CHECK`: stop the motors after a crash.
     pub crash_check: bool,
     /// `COM_RC_STICK_OV`: stick deflection for takeover, as a fraction of full deflection.
-    pub takeover_share: f64,
+    pub takeover_deflection: f64,
     /// `COM_RC_OVERRIDE`: stick movement also takes over from external setpoints.
-    pub takeover_offboard: bool,
+    pub takeover_in_offboard: bool,
     /// `COM_ARM_BAT_MIN`: minimum battery level for arming, %; 0: no minimum.
     pub arm_charge_pct: f64,
     /// `BATT_ARM_VOLT`: minimum voltage for arming, V; 0: no minimum.
     pub arm_voltage_v: f64,
     /// `COM_ARM_MIS_REQ`: arming requires a mission.
-    pub arm_needs_mission: bool,
+    pub arming_requires_mission: bool,
 }
 
 /// Action on a geofence breach, with the values of PX4's `GF_ACTION`.
@@ -147,23 +147,23 @@ impl FenceAction {
 
 /// Automatic enabling of the geofence, with the values of `FENCE_AUTOENABLE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum FenceSwitching {
+pub enum FenceAutoEnable {
     /// Never.
     #[default]
     Never,
     /// Enabled in the air, disabled when the motors stop.
-    InTheAir,
+    InFlight,
     /// Enabled at arming, disabled when the motors stop.
-    AtArming,
+    OnArming,
 }
 
-impl FenceSwitching {
+impl FenceAutoEnable {
     /// Returns the setting for a parameter value.
     #[must_use]
     pub fn from_number(number: i32) -> Self {
         match number {
-            1 | 2 => Self::InTheAir,
-            3 => Self::AtArming,
+            1 | 2 => Self::InFlight,
+            3 => Self::OnArming,
             _ => Self::Never,
         }
     }
@@ -209,7 +209,7 @@ pub struct ReturnRules {
     /// the return height is lower; 0: no cone.
     pub cone_slope: f64,
     /// `RTL_MIN_DIST`: distance below which the vehicle does not climb, m.
-    pub near_m: f64,
+    pub no_climb_distance_m: f64,
     /// `RTL_DESCEND_ALT`: height above the destination at which the vehicle waits, m; `None` for the arrival height.
     pub loiter_height_m: Option<f64>,
     /// `RTL_LAND_DELAY`; `RTL_LOIT_TIME`: waiting time, s; negative to wait forever.
@@ -217,7 +217,7 @@ pub struct ReturnRules {
     /// A rally point's height is the return height (ArduPilot).
     pub rally_height: bool,
     /// `WP_YAW_BEHAVIOR` 1, 3: turn to the takeoff heading at the destination.
-    pub turns_back: bool,
+    pub turns_to_takeoff_heading: bool,
     /// `RTL_ALT_FINAL`: hold at this height instead of landing, m; 0: land.
     pub final_height_m: f64,
 }
@@ -285,7 +285,7 @@ impl FlightEnvelope {
 
 /// Required mission items, with the values of `MIS_TKO_LAND_REQ`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum MissionNeeds {
+pub enum MissionRequirement {
     /// None (0).
     #[default]
     Nothing,
@@ -299,7 +299,7 @@ pub enum MissionNeeds {
     BothOrNeither,
 }
 
-impl MissionNeeds {
+impl MissionRequirement {
     /// Returns the requirement for a parameter value, or `None` if it is unknown.
     #[must_use]
     pub fn from_number(number: i32) -> Option<Self> {
@@ -320,18 +320,18 @@ pub struct FenceParts {
     /// Bit 3, `FENCE_ALT_MIN`: minimum height above home, m. Active once the vehicle has been above it.
     pub floor_m: Option<f64>,
     /// `FENCE_AUTOENABLE`: automatic enabling.
-    pub auto: FenceSwitching,
+    pub auto: FenceAutoEnable,
 }
 
 /// Supported bits of `GUID_OPTIONS` (ArduCopter).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct GuidedOptions {
     /// Bit 0: the transmitter can arm in GUIDED.
-    pub transmitter_arms: bool,
+    pub transmitter_can_arm: bool,
     /// The yaw stick controls the heading in GUIDED. Bit 2 disables this.
-    pub pilot_yaw: bool,
+    pub yaw_stick_enabled: bool,
     /// The thrust field of an attitude setpoint is a climb rate; with bit 3, it is the thrust.
-    pub thrust_climbs: bool,
+    pub thrust_is_climb_rate: bool,
 }
 
 impl GuidedOptions {
@@ -339,7 +339,7 @@ impl GuidedOptions {
     #[must_use]
     pub fn from_bits(bits: i32) -> Self {
         let has = |bit: i32| bits & 1 << bit != 0;
-        Self { transmitter_arms: has(0), pilot_yaw: !has(2), thrust_climbs: !has(3) }
+        Self { transmitter_can_arm: has(0), yaw_stick_enabled: !has(2), thrust_is_climb_rate: !has(3) }
     }
 }
 
@@ -349,20 +349,20 @@ pub struct OperatorRules {
     /// Failsafe actions.
     pub responses: FailsafeResponses,
     /// Return settings.
-    pub homeward: ReturnRules,
+    pub return_rules: ReturnRules,
     /// `MPC_YAW_MODE`; `WP_YAW_BEHAVIOR`: heading in automatic modes.
     pub heading: HeadingRule,
     /// Additional limits.
     pub envelope: FlightEnvelope,
     /// `MIS_TKO_LAND_REQ`: required mission items.
-    pub mission_needs: MissionNeeds,
+    pub mission_requirement: MissionRequirement,
     /// `MIS_DIST_1WP`: maximum distance of the first waypoint from home, m; 0 or less: no limit.
     pub first_waypoint_m: f64,
     /// `MIS_RESTART`: restart the mission whenever its mode is entered.
     pub mission_restarts: bool,
     /// Bit 1 of `AUTO_OPTIONS`: a mission takes off immediately after arming. Otherwise it waits for the throttle or a start
     /// command.
-    pub mission_starts_armed: bool,
+    pub mission_takes_off_when_armed: bool,
     /// `FENCE_TYPE`, `FENCE_ALT_MIN`: parts of the geofence.
     pub fence: FenceParts,
     /// `CIRCLE_RADIUS`: default radius for an orbit, or for a circle entered by a mode change, m.
@@ -372,7 +372,7 @@ pub struct OperatorRules {
     /// `EKF2_HGT_REF`; `EK3_SRC1_POSZ`: height reference.
     pub height_reference: HeightReference,
     /// `EKF2_NOAID_TOUT`: time without GNSS and optical flow after which the position is lost, s.
-    pub no_aid_s: f64,
+    pub dead_reckoning_limit_s: f64,
 }
 
 impl Default for OperatorRules {
@@ -387,37 +387,37 @@ impl Default for OperatorRules {
                 battery_emergency_pct: 5.0,
                 battery_low_v: [0.0; 2],
                 battery_low_s: 10.0,
-                blind_lands: false,
+                lands_without_position: false,
                 crash_check: true,
-                takeover_share: 0.3,
-                takeover_offboard: false,
+                takeover_deflection: 0.3,
+                takeover_in_offboard: false,
                 arm_charge_pct: 0.0,
                 arm_voltage_v: 0.0,
-                arm_needs_mission: false,
+                arming_requires_mission: false,
             },
-            homeward: ReturnRules {
+            return_rules: ReturnRules {
                 places: ReturnTargets { home: true, rally: true, mission_landing: false },
                 speed_m_s: None,
                 climb_min_m: 0.0,
                 cone_slope: 0.0,
-                near_m: 5.0,
+                no_climb_distance_m: 5.0,
                 loiter_height_m: Some(10.0),
                 wait_s: 0.0,
                 rally_height: false,
-                turns_back: false,
+                turns_to_takeoff_heading: false,
                 final_height_m: 0.0,
             },
             heading: HeadingRule::Target,
             envelope: FlightEnvelope::OPEN,
-            mission_needs: MissionNeeds::Nothing,
+            mission_requirement: MissionRequirement::Nothing,
             first_waypoint_m: 10_000.0,
             mission_restarts: false,
-            mission_starts_armed: true,
-            fence: FenceParts { height: true, distance: true, areas: true, floor_m: None, auto: FenceSwitching::Never },
+            mission_takes_off_when_armed: true,
+            fence: FenceParts { height: true, distance: true, areas: true, floor_m: None, auto: FenceAutoEnable::Never },
             orbit_radius_m: 5.0,
             guided: GuidedOptions::default(),
             height_reference: HeightReference::default(),
-            no_aid_s: DEAD_RECKONING_LIMIT_S,
+            dead_reckoning_limit_s: DEAD_RECKONING_LIMIT_S,
         }
     }
 }

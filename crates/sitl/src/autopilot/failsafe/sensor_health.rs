@@ -7,7 +7,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle;
 
 /// Timeout for sensor readings, s (estimate: 25 compass or barometer readings).
-const SILENT_S: f64 = 0.5;
+const READING_TIMEOUT_S: f64 = 0.5;
 /// Duration of identical readings after which a sensor counts as stuck, s (ArduPilot's barometer: 2 s; PX4: 100 equal
 /// values, 2 s at 50 Hz).
 const STUCK_TIMEOUT_S: f64 = 2.0;
@@ -55,7 +55,7 @@ impl MonitoredSensor {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorFault {
     /// No readings.
-    Silent,
+    NoReadings,
     /// Identical readings, bit for bit.
     Stuck,
     /// Readings that contradict other sensors.
@@ -74,10 +74,10 @@ pub struct SensorChange {
 impl SensorChange {
     /// Returns the status text for the change.
     #[must_use]
-    pub fn words(self) -> String {
+    pub fn status_text(self) -> String {
         let name = self.sensor.name();
         match self.fault {
-            Some(SensorFault::Silent) => format!("{name} lost: no readings"),
+            Some(SensorFault::NoReadings) => format!("{name} lost: no readings"),
             Some(SensorFault::Stuck) => format!("{name} stuck: not used"),
             Some(SensorFault::Inconsistent) => format!("{name} inconsistent: not used"),
             None => format!("{name} recovered"),
@@ -117,10 +117,10 @@ impl<T: Copy + PartialEq> SensorMonitor<T> {
     /// Updates the fault. Returns true if it changed.
     fn update_fault(&mut self, may_be_silent: bool, dropped: bool, now: SimTime) -> bool {
         let since = |at: Option<SimTime>| at.map_or(0.0, |at| (now - at).s());
-        let silent = !may_be_silent && since(self.received) > SILENT_S;
+        let silent = !may_be_silent && since(self.received) > READING_TIMEOUT_S;
         let stuck = since(self.changed) - since(self.received) > STUCK_TIMEOUT_S;
         let fault = match (silent, stuck, dropped) {
-            (true, ..) => Some(SensorFault::Silent),
+            (true, ..) => Some(SensorFault::NoReadings),
             (_, true, _) => Some(SensorFault::Stuck),
             (.., true) => Some(SensorFault::Inconsistent),
             _ => None,
@@ -205,7 +205,7 @@ impl SensorHealth {
 
 fn arming_refusal(sensor: MonitoredSensor, fault: SensorFault) -> String {
     let fault = match fault {
-        SensorFault::Silent => "missing",
+        SensorFault::NoReadings => "missing",
         SensorFault::Stuck => "stuck",
         SensorFault::Inconsistent => "inconsistent",
     };
@@ -217,7 +217,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_repeated_value_is_ignored_and_is_a_fault_after_2_s() {
+    fn exact_repeated_value_is_ignored_and_becomes_fault_after_2_s() {
         let mut watched = SensorMonitor::new(true);
         let mut feed = |value: f64, from_ms: i64, until_ms: i64| {
             let mut used = 0;

@@ -5,7 +5,9 @@ use super::input::NavigatorInput;
 use super::mission_step::MissionStep;
 use crate::autopilot::control::landed::FlightPhase;
 use crate::autopilot::control::setpoint::Setpoint;
-use crate::autopilot::control::shaper::{AUTO_JERK_S, JERK_S, MotionLimits, heading_of, towards};
+use crate::autopilot::control::shaper::{
+    ACCELERATION_RAMP_S, AUTO_ACCELERATION_RAMP_S, MotionLimits, heading_of, velocity_toward,
+};
 use crate::autopilot::control::velocity::VelocitySetpoint;
 use crate::autopilot::failsafe::operator_rules::HeadingRule;
 use crate::autopilot::flight_state::{FlightMode, LandedState};
@@ -22,7 +24,7 @@ pub(super) const TURN_MIN_DISTANCE_M: f64 = 2.0;
 /// Speed above which the nose turns along the path, m/s (estimate: well above the estimator's noise).
 const TURN_MIN_SPEED_M_S: f64 = 1.0;
 /// Distance below which the heading to a region of interest is not updated, m.
-const TOO_NEAR_M: f64 = 0.5;
+const HEADING_MIN_DISTANCE_M: f64 = 0.5;
 /// Maximum correction speed toward the landing position, m/s.
 const CORRECTION_M_S: f64 = 2.0;
 
@@ -41,11 +43,11 @@ impl Navigator {
     /// rate that `stopping_point` assumes.
     fn travel_limits(&self, input: &NavigatorInput) -> MotionLimits {
         let calm = matches!(self.modes.active, FlightMode::Mission | FlightMode::Return) && self.paused.is_none();
-        MotionLimits { build_up_s: if calm { AUTO_JERK_S } else { JERK_S }, ..self.auto_limits(input) }
+        MotionLimits { build_up_s: if calm { AUTO_ACCELERATION_RAMP_S } else { ACCELERATION_RAMP_S }, ..self.auto_limits(input) }
     }
 
     /// Flies to the navigator's target and holds there.
-    pub(super) fn go(&mut self, speed: Option<f64>, input: &NavigatorInput) -> Setpoint {
+    pub(super) fn fly_to_target(&mut self, speed: Option<f64>, input: &NavigatorInput) -> Setpoint {
         let (up, down) = (input.tuning.climb_m_s, input.tuning.descend_m_s);
         self.fly_within_limits(speed, up, down, input)
     }
@@ -63,7 +65,7 @@ impl Navigator {
         let turns = speed.is_some() || self.modes.active != FlightMode::Hold;
         let yaw = self.region_of_interest_heading_rad(input).or(self.heading.target_rad).or(heading.filter(|_| turns));
         self.heading.turn_to(yaw, self.modes.active, input);
-        let velocity_m_s = towards(input.gains, here, target, cruise, up, down);
+        let velocity_m_s = velocity_toward(input.gains, here, target, cruise, up, down);
         self.shaper.advance(velocity_m_s, &self.travel_limits(input), input.dt_s);
         Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }
@@ -71,7 +73,7 @@ impl Navigator {
     /// Heading from the configured heading rule, rad, if the rule specifies one.
     pub(super) fn heading_by_rule(&self, target_m: Vec3<Ned>, input: &NavigatorInput) -> Option<f64> {
         let here = input.here();
-        let home = self.home.place_m.unwrap_or(here);
+        let home = self.home.position_m.unwrap_or(here);
         let returning = self.modes.active == FlightMode::Return
             || self.modes.active == FlightMode::Mission && self.mission.step() == Some(MissionStep::Return);
         match input.tuning.rules.heading {
@@ -94,13 +96,13 @@ impl Navigator {
             self.target_m = target;
             self.commanded.takeoff_up_m = None;
         }
-        let setpoint = self.climb_away(None, input);
+        let setpoint = self.climb_to_target(None, input);
         self.report.climbing_out = self.modes.active == FlightMode::Takeoff;
         setpoint
     }
 
     /// Climbs to the takeoff height at the takeoff rate.
-    pub(super) fn climb_away(&mut self, speed: Option<f64>, input: &NavigatorInput) -> Setpoint {
+    pub(super) fn climb_to_target(&mut self, speed: Option<f64>, input: &NavigatorInput) -> Setpoint {
         self.report.climbing_out = true;
         let up = input.ground_down_m - input.here().down();
         let slow = !input.tuning.takeoff_at_climb_speed && up < TAKEOFF_SLOW_BELOW_M;
@@ -134,7 +136,7 @@ impl Navigator {
         let speed = self.landing_speed(input);
         self.heading.turn_to(self.heading.target_rad, self.modes.active, input);
         let over = Vec3::new(self.target_m.north(), self.target_m.east(), here.down());
-        let flat = towards(input.gains, here, over, CORRECTION_M_S, 0.0, 0.0);
+        let flat = velocity_toward(input.gains, here, over, CORRECTION_M_S, 0.0, 0.0);
         let velocity_m_s = Vec3::new(flat.north(), flat.east(), speed);
         self.shaper.advance(velocity_m_s, &self.travel_limits(input), input.dt_s);
         self.report.target_m = Some(over);
@@ -143,9 +145,9 @@ impl Navigator {
 
     /// Descent rate during a landing, m/s; lower near the ground.
     fn landing_speed(&self, input: &NavigatorInput) -> f64 {
-        let home = self.home.place_m.map_or(0.0, |h| h.down());
+        let home = self.home.position_m.map_or(0.0, |h| h.down());
         let over_home = home - input.here().down();
-        let below = input.range_down_m.unwrap_or(over_home) - input.airframe.standing_m;
+        let below = input.range_down_m.unwrap_or(over_home) - input.airframe.resting_height_m;
         let slow = below < input.tuning.land_slow_below_m;
         if slow {
             return input.tuning.land_speed_m_s;
@@ -178,6 +180,6 @@ impl Navigator {
     /// Heading toward the region of interest, rad. `None` if there is none or the vehicle is directly above it.
     pub(super) fn region_of_interest_heading_rad(&self, input: &NavigatorInput) -> Option<f64> {
         let to = self.commanded.look_at_m? - input.here();
-        heading_of(to, TOO_NEAR_M)
+        heading_of(to, HEADING_MIN_DISTANCE_M)
     }
 }

@@ -12,16 +12,16 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
 /// Rate at which the distance error to the circle is corrected, 1/s (estimate: much slower than the velocity loop).
-const CLOSE_IN_PER_S: f64 = 0.6;
+const RADIAL_GAIN_PER_S: f64 = 0.6;
 /// Integral gain on the remaining distance error, 1/s² (estimate: damping ratio 0.8 with the rate above), and its limit, m/s.
 const TRIM_PER_S2: f64 = 0.14;
 const TRIM_MAX_M_S: f64 = 2.0;
 /// Fraction of the available acceleration that a circle may use.
 const CIRCLE_ACCELERATION_FRACTION: f64 = 0.5;
 /// Allowed radii, m.
-const RADII_M: std::ops::RangeInclusive<f64> = 1.0..=1_000.0;
+const RADIUS_LIMITS_M: std::ops::RangeInclusive<f64> = 1.0..=1_000.0;
 /// Default speed, m/s.
-const SPEED_M_S: f64 = 2.0;
+const DEFAULT_SPEED_M_S: f64 = 2.0;
 
 impl Navigator {
     /// Starts a circle.
@@ -33,11 +33,16 @@ impl Navigator {
             return RequestOutcome::TemporarilyRejected("No position estimate".into());
         }
         let here = input.here();
-        let before =
-            self.orbit.map_or((input.tuning.rules.orbit_radius_m, SPEED_M_S), |orbit| (orbit.radius_m, orbit.speed_m_s.abs()));
+        let before = self
+            .orbit
+            .map_or((input.tuning.rules.orbit_radius_m, DEFAULT_SPEED_M_S), |orbit| (orbit.radius_m, orbit.speed_m_s.abs()));
         let radius = request.radius_m.unwrap_or(before.0);
-        if !RADII_M.contains(&radius.abs()) {
-            return RequestOutcome::Denied(format!("Orbit radius out of range ({} to {} m)", RADII_M.start(), RADII_M.end()));
+        if !RADIUS_LIMITS_M.contains(&radius.abs()) {
+            return RequestOutcome::Denied(format!(
+                "Orbit radius out of range ({} to {} m)",
+                RADIUS_LIMITS_M.start(),
+                RADIUS_LIMITS_M.end()
+            ));
         }
         let yaw = request
             .yaw
@@ -55,7 +60,8 @@ impl Navigator {
         }
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
         let left_rad = if request.arc_rad > 0.0 { request.arc_rad } else { f64::INFINITY };
-        self.orbit = Some(Orbit { center_m, radius_m: radius.abs(), speed_m_s: signed, yaw, left_rad, trim_m_s: 0.0 });
+        self.orbit =
+            Some(Orbit { center_m, radius_m: radius.abs(), speed_m_s: signed, yaw, remaining_rad: left_rad, trim_m_s: 0.0 });
         self.modes.intended = FlightMode::Orbit;
         self.modes.overridden = false;
         self.enter(FlightMode::Orbit, input);
@@ -69,7 +75,7 @@ impl Navigator {
             self.enter(FlightMode::Orbit, input);
             return RequestOutcome::Accepted;
         }
-        let radius = input.tuning.rules.orbit_radius_m.abs().clamp(*RADII_M.start(), *RADII_M.end());
+        let radius = input.tuning.rules.orbit_radius_m.abs().clamp(*RADIUS_LIMITS_M.start(), *RADIUS_LIMITS_M.end());
         let rest = stopping_point(input.gains, input.here(), input.estimate.velocity_m_s);
         let (s, c) = math::sin_cos(input.estimate.attitude.yaw_rad());
         let rate = input.tuning.circle_rate_rad_s;
@@ -79,7 +85,7 @@ impl Navigator {
                 up_m: Some(-rest.down()),
                 radius_m: Some(radius),
                 speed_m_s: Some(rate * radius),
-                yaw: Some(OrbitYaw::Centre),
+                yaw: Some(OrbitYaw::Center),
                 arc_rad: 0.0,
             },
             input,
@@ -94,8 +100,8 @@ impl Navigator {
 
     /// Flies the active circle, then holds.
     pub(super) fn fly_orbit(&mut self, input: &NavigatorInput) -> Setpoint {
-        let Some(wanted) = self.circle(input) else { return self.go(None, input) };
-        if self.orbit.is_some_and(|orbit| orbit.left_rad <= 0.0) {
+        let Some(wanted) = self.circle(input) else { return self.fly_to_target(None, input) };
+        if self.orbit.is_some_and(|orbit| orbit.remaining_rad <= 0.0) {
             self.events.push(Severity::Info, "Orbit finished");
             self.modes.intended = FlightMode::Hold;
             self.enter(FlightMode::Hold, input);
@@ -108,8 +114,14 @@ impl Navigator {
         let speed = self.mission.speed_m_s.unwrap_or(self.cruise_m_s(input)).min(self.max_speed_on(radius_m.abs(), input));
         let speed_m_s = speed * radius_m.signum();
         let left_rad = self.mission.suspended_arc_rad.take().unwrap_or(turns * 2.0 * math::PI);
-        self.orbit =
-            Some(Orbit { center_m, radius_m: radius_m.abs(), speed_m_s, yaw: OrbitYaw::Centre, left_rad, trim_m_s: 0.0 });
+        self.orbit = Some(Orbit {
+            center_m,
+            radius_m: radius_m.abs(),
+            speed_m_s,
+            yaw: OrbitYaw::Center,
+            remaining_rad: left_rad,
+            trim_m_s: 0.0,
+        });
         self.target_m = center_m;
     }
 
@@ -125,11 +137,11 @@ impl Navigator {
         let cruise = self.cruise_m_s(input).min(input.airframe.limits.forward_m_s);
         // Far from the circle, the vehicle flies toward it; on the circle, along it.
         let on_it = (1.0 - error.abs() / orbit.radius_m.max(2.0)).clamp(0.0, 1.0);
-        let flat = along * (orbit.speed_m_s * on_it) - away * (CLOSE_IN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);
-        let climb = CLOSE_IN_PER_S * (orbit.center_m.down() - here.down());
+        let flat = along * (orbit.speed_m_s * on_it) - away * (RADIAL_GAIN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);
+        let climb = RADIAL_GAIN_PER_S * (orbit.center_m.down() - here.down());
         let velocity_m_s = Vec3::new(flat.north(), flat.east(), climb.clamp(-input.tuning.climb_m_s, input.tuning.descend_m_s));
         match orbit.yaw {
-            OrbitYaw::Centre => self.heading.turn_to(
+            OrbitYaw::Center => self.heading.turn_to(
                 self.region_of_interest_heading_rad(input).or(heading(away * -1.0)),
                 self.modes.active,
                 input,
@@ -143,7 +155,7 @@ impl Navigator {
         self.report.orbit = Some(orbit);
         if error.abs() < 0.3 * orbit.radius_m {
             orbit.trim_m_s = (orbit.trim_m_s + TRIM_PER_S2 * error * input.dt_s).clamp(-TRIM_MAX_M_S, TRIM_MAX_M_S);
-            orbit.left_rad -= orbit.speed_m_s.abs() * input.dt_s / orbit.radius_m;
+            orbit.remaining_rad -= orbit.speed_m_s.abs() * input.dt_s / orbit.radius_m;
             self.orbit = Some(orbit);
         }
         Some(Setpoint::Velocity(self.motion(self.shaper.velocity_m_s)))

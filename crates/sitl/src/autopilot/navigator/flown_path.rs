@@ -20,8 +20,8 @@ pub struct FlownPath {
 
 impl FlownPath {
     /// Starts a new path.
-    pub fn begin(&mut self, place_m: Vec3<Ned>) {
-        self.points = vec![place_m];
+    pub fn begin(&mut self, position_m: Vec3<Ned>) {
+        self.points = vec![position_m];
     }
 
     /// Returns true if no path is recorded.
@@ -31,17 +31,17 @@ impl FlownPath {
     }
 
     /// Records a position. If the path comes close to an earlier section, the loop is removed.
-    pub fn record(&mut self, place_m: Vec3<Ned>) {
+    pub fn record(&mut self, position_m: Vec3<Ned>) {
         let Some(last) = self.points.last() else { return };
-        if (place_m - *last).norm() < ACCURACY_M {
+        if (position_m - *last).norm() < ACCURACY_M {
             return;
         }
         let before = &self.points[..self.points.len() - 1];
-        let near = before.windows(2).position(|leg| distance_to_leg(place_m, leg[0], leg[1]) < ACCURACY_M);
+        let near = before.windows(2).position(|leg| distance_to_leg(position_m, leg[0], leg[1]) < ACCURACY_M);
         if let Some(leg) = near {
             self.points.truncate(leg + 1);
         }
-        self.points.push(place_m);
+        self.points.push(position_m);
         let mut within_m = SIMPLIFY_TOLERANCE_M;
         while self.points.len() >= MAX_POINTS {
             self.simplify(within_m);
@@ -50,8 +50,8 @@ impl FlownPath {
     }
 
     /// Handles a respawn at a position on the path: removes the later points.
-    pub fn truncate_to(&mut self, place_m: Vec3<Ned>) {
-        let distance = |k: &usize| (self.points[*k] - place_m).norm();
+    pub fn truncate_to(&mut self, position_m: Vec3<Ned>) {
+        let distance = |k: &usize| (self.points[*k] - position_m).norm();
         let nearest = (0..self.points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         if let Some(nearest) = nearest {
             self.points.truncate(nearest + 1);
@@ -65,7 +65,7 @@ impl FlownPath {
 
     /// Returns the next point on the way back, and whether it is the takeoff point. Removes the point once it is
     /// reached.
-    pub fn next_back(&mut self, here_m: Vec3<Ned>) -> Option<(Vec3<Ned>, bool)> {
+    pub fn next_return_point(&mut self, here_m: Vec3<Ned>) -> Option<(Vec3<Ned>, bool)> {
         if self.points.len() > 1 && self.points.last().is_some_and(|next| (*next - here_m).norm() < REACHED_M) {
             self.points.pop();
         }

@@ -6,13 +6,13 @@ use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
 /// Timeout for target reports, s (PX4 and ArduCopter: 3 s).
-const LOST_S: f64 = 3.0;
+const TARGET_TIMEOUT_S: f64 = 3.0;
 /// Minimum target speed for a valid course, m/s (PX4: 1 m/s).
 const MIN_COURSE_SPEED_M_S: f64 = 1.0;
 /// Minimum time between positions for a velocity estimate, s; over shorter intervals, noise would dominate (estimate).
 const MIN_REPORT_INTERVAL_S: f64 = 0.2;
 /// Distance below which the heading no longer tracks the target, m.
-const TOO_NEAR_M: f64 = 0.5;
+const HEADING_MIN_DISTANCE_M: f64 = 0.5;
 
 /// Vehicle position relative to the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ pub enum FollowPosition {
         /// Height above the target or home, m.
         height_m: f64,
         /// Whether the height is relative to the target rather than home.
-        over_target: bool,
+        relative_to_target: bool,
     },
     /// At an offset: north, east and down, or forward, right and down relative to the target's course (ArduCopter).
     Offset {
@@ -43,19 +43,19 @@ pub struct FollowRule {
     /// Whether the mode is enabled (`FOLL_ENABLE`).
     pub enabled: bool,
     /// Position relative to the target.
-    pub place: FollowPosition,
+    pub position: FollowPosition,
     /// Maximum distance at which a target is followed, m (`FOLL_DIST_MAX`).
-    pub farthest_m: f64,
+    pub max_distance_m: f64,
     /// Maximum speed, m/s (`FLW_TGT_MAX_VEL`).
-    pub fastest_m_s: f64,
+    pub max_speed_m_s: f64,
     /// Weight of the previous velocity in the smoothed velocity, 0 to 1 (`FLW_TGT_RS`).
     pub smoothing: f64,
 }
 
 impl Default for FollowRule {
     fn default() -> Self {
-        let place = FollowPosition::Around { distance_m: 8.0, angle_rad: math::PI, height_m: 8.0, over_target: false };
-        Self { enabled: true, place, farthest_m: f64::INFINITY, fastest_m_s: 5.0, smoothing: 0.1 }
+        let place = FollowPosition::Around { distance_m: 8.0, angle_rad: math::PI, height_m: 8.0, relative_to_target: false };
+        Self { enabled: true, position: place, max_distance_m: f64::INFINITY, max_speed_m_s: 5.0, smoothing: 0.1 }
     }
 }
 
@@ -87,7 +87,7 @@ impl Follower {
     /// Returns the velocity of a target that reports only positions, computed from its last two positions, m/s.
     #[must_use]
     pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
-        let recent = self.latest.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= LOST_S);
+        let recent = self.latest.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= TARGET_TIMEOUT_S);
         match recent {
             Some((before, age_s)) if age_s >= MIN_REPORT_INTERVAL_S => (position_m - before.position_m) * (1.0 / age_s),
             Some((before, _)) => before.velocity_m_s,
@@ -97,7 +97,7 @@ impl Follower {
 
     /// Handles a target report.
     pub fn report(&mut self, target: FollowTarget, rule: &FollowRule, now: SimTime) {
-        let known = self.latest.filter(|(_, at)| (now - *at).s() <= LOST_S).map(|(known, _)| known.velocity_m_s);
+        let known = self.latest.filter(|(_, at)| (now - *at).s() <= TARGET_TIMEOUT_S).map(|(known, _)| known.velocity_m_s);
         let before = known.unwrap_or(target.velocity_m_s);
         let smooth = rule.smoothing.clamp(0.0, 0.99);
         let velocity_m_s = before * smooth + target.velocity_m_s * (1.0 - smooth);
@@ -108,14 +108,14 @@ impl Follower {
     }
 
     /// Returns the extrapolated target, or `None` if its reports have timed out or it is too far from `here_m`. The timeout
-    /// scales with `client_pace`.
+    /// scales with `client_speed_factor`.
     #[must_use]
-    pub fn target(&self, rule: &FollowRule, here_m: Vec3<Ned>, client_pace: f64, now: SimTime) -> Option<FollowTarget> {
+    pub fn target(&self, rule: &FollowRule, here_m: Vec3<Ned>, client_speed_factor: f64, now: SimTime) -> Option<FollowTarget> {
         let (target, at) = self.latest?;
         let age_s = (now - at).s();
         let position_m = target.position_m + target.velocity_m_s * age_s;
-        let far = (position_m - here_m).norm() > rule.farthest_m;
-        (age_s <= LOST_S * client_pace && !far).then_some(FollowTarget { position_m, ..target })
+        let far = (position_m - here_m).norm() > rule.max_distance_m;
+        (age_s <= TARGET_TIMEOUT_S * client_speed_factor && !far).then_some(FollowTarget { position_m, ..target })
     }
 
     /// Returns the desired vehicle position for a target, m.
@@ -131,10 +131,10 @@ impl Follower {
             let (s, c) = math::sin_cos(angle);
             Vec3::<Ned>::new(c * forward - s * right, s * forward + c * right, down)
         };
-        match rule.place {
-            FollowPosition::Around { distance_m, angle_rad, height_m, over_target } => {
+        match rule.position {
+            FollowPosition::Around { distance_m, angle_rad, height_m, relative_to_target: over_target } => {
                 // Until the target moves, assume a course for which the vehicle is already at the configured angle.
-                let bearing = heading_of(here_m - there, TOO_NEAR_M).unwrap_or(0.0);
+                let bearing = heading_of(here_m - there, HEADING_MIN_DISTANCE_M).unwrap_or(0.0);
                 let course = *self.course_rad.get_or_insert(math::wrap_pi(bearing - angle_rad));
                 let flat = turned(course + angle_rad, [distance_m, 0.0, 0.0]);
                 let ground = if over_target { there } else { home_m.unwrap_or(there) };

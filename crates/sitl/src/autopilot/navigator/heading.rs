@@ -6,7 +6,7 @@ use crate::autopilot::request::TurnCommand;
 use spandrel_model::math;
 
 /// Time to build up full yaw rate, s.
-const YAW_SPOOL_S: f64 = 0.3;
+const YAW_RATE_RAMP_S: f64 = 0.3;
 /// Maximum lead of the heading setpoint over the actual heading, rad.
 const YAW_LEAD_RAD: f64 = 0.6;
 /// Yaw rate above which the rate is controlled instead of the heading, rad/s, and the maximum lead in that case, rad.
@@ -96,7 +96,7 @@ impl Heading {
 
     /// Advances the heading setpoint at a rate that builds up gradually, rad/s.
     fn advance(&mut self, rate_rad_s: f64, input: &NavigatorInput) {
-        let step = input.airframe.limits.yaw_rate_rad_s / YAW_SPOOL_S * input.dt_s;
+        let step = input.airframe.limits.yaw_rate_rad_s / YAW_RATE_RAMP_S * input.dt_s;
         self.brake_rad_s = 0.0;
         self.rate_rad_s += (rate_rad_s - self.rate_rad_s).clamp(-step, step);
         let nose = input.estimate.attitude.yaw_rad();
@@ -109,7 +109,7 @@ impl Heading {
     /// control the heading.
     pub fn turn_by_pilot(&mut self, mode: FlightMode, input: &NavigatorInput) -> bool {
         let guided = input.links.guided && matches!(mode, FlightMode::Hold | FlightMode::Takeoff | FlightMode::Offboard);
-        let enabled = guided && input.tuning.rules.guided.pilot_yaw;
+        let enabled = guided && input.tuning.rules.guided.yaw_stick_enabled;
         let fresh = input.links.sticks_fresh(input.tuning.manual_timeout_s(), input.last_step);
         if enabled && fresh && input.links.sticks.yaw != 0.0 {
             (self.target_rad, self.turn, self.turned_by_pilot) = (None, None, true);

@@ -4,7 +4,7 @@
 use super::Navigator;
 use super::input::NavigatorInput;
 use crate::autopilot::control::setpoint::Setpoint;
-use crate::autopilot::control::shaper::{JERK_S, MotionLimits, stopping_point};
+use crate::autopilot::control::shaper::{ACCELERATION_RAMP_S, MotionLimits, stopping_point};
 use crate::autopilot::control::velocity::AttitudeThrustSetpoint;
 use crate::autopilot::external_input::Sticks;
 use crate::autopilot::flight_state::FlightMode;
@@ -117,21 +117,21 @@ impl Navigator {
         MotionLimits {
             horizontal_m_s2: (l.forward_m_s.max(l.sideward_m_s) / plan_s).min(input.gains.acceleration_m_s2),
             vertical_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(input.gains.climb_acceleration_m_s2),
-            build_up_s: JERK_S,
+            build_up_s: ACCELERATION_RAMP_S,
         }
     }
 
     /// Shapes a velocity from the sticks. With centered sticks and low speed, position and height are locked.
     fn apply_position_locks(
         &mut self,
-        wanted_m_s: Vec3<Ned>,
+        target_velocity_m_s: Vec3<Ned>,
         flat_free: bool,
         down_free: bool,
         limits: &MotionLimits,
         input: &NavigatorInput,
     ) -> Vec3<Ned> {
         let planned = self.shaper.velocity_m_s;
-        self.shaper.advance(wanted_m_s, limits, input.dt_s);
+        self.shaper.advance(target_velocity_m_s, limits, input.dt_s);
         let e = input.estimate;
         let rest = stopping_point(input.gains, e.position_m, e.velocity_m_s);
         let locks = &mut self.locks;

@@ -35,9 +35,9 @@ pub struct DeferredFields {
 impl DeferredFields {
     /// Replaces the deferred components of a position with those of `from_m`, m.
     #[must_use]
-    pub fn resolve_deferred(self, place_m: Vec3<Ned>, from_m: Vec3<Ned>) -> Vec3<Ned> {
-        let over = if self.place { from_m } else { place_m };
-        Vec3::new(over.north(), over.east(), if self.height { from_m.down() } else { place_m.down() })
+    pub fn resolve_deferred(self, position_m: Vec3<Ned>, from_m: Vec3<Ned>) -> Vec3<Ned> {
+        let over = if self.place { from_m } else { position_m };
+        Vec3::new(over.north(), over.east(), if self.height { from_m.down() } else { position_m.down() })
     }
 }
 
@@ -46,11 +46,11 @@ impl DeferredFields {
 pub struct Mission {
     steps: Vec<MissionStep>,
     /// Items whose heights are relative to home; the others are relative to the origin.
-    over_home: Vec<bool>,
+    home_relative: Vec<bool>,
     /// Deferred fields of each item.
     deferred: Vec<DeferredFields>,
     /// Vehicle position at the start of the current item with deferred fields, m.
-    began_m: Option<Vec3<Ned>>,
+    item_start_m: Option<Vec3<Ned>>,
     /// Increase in home height since the mission was set, m.
     home_rise_m: f64,
     jumps_done: Vec<u32>,
@@ -63,7 +63,7 @@ pub struct Mission {
     /// Items that were reached but not yet reported.
     pub reached: Vec<usize>,
     /// Whether the current item has started.
-    pub begun: bool,
+    pub item_started: bool,
     /// Commands of passed items that have not been carried out yet.
     pub pending_commands: Vec<MissionStep>,
     /// Target of the initial climb of a mission without a takeoff item, m.
@@ -86,8 +86,8 @@ impl Mission {
     }
 
     /// Marks the items whose heights are relative to home and move with it.
-    pub fn set_home_relative(&mut self, over_home: Vec<bool>) {
-        self.over_home = over_home;
+    pub fn set_home_relative(&mut self, home_relative: Vec<bool>) {
+        self.home_relative = home_relative;
     }
 
     /// Sets the fields that items take from the vehicle position when they start.
@@ -97,7 +97,7 @@ impl Mission {
 
     /// Records the vehicle position at the start of the current item, m.
     pub fn begin_at(&mut self, here_m: Vec3<Ned>) {
-        self.began_m.get_or_insert(here_m);
+        self.item_start_m.get_or_insert(here_m);
     }
 
     /// Accounts for an increase in home height, m.
@@ -112,8 +112,8 @@ impl Mission {
     }
 
     /// Records an interruption of the current item at a position from which the mission can continue.
-    pub fn suspend_at(&mut self, place_m: Vec3<Ned>, step: SuspendedStep, arc_rad: Option<f64>, now: SimTime) {
-        self.suspended_at_m = Some(place_m);
+    pub fn suspend_at(&mut self, position_m: Vec3<Ned>, step: SuspendedStep, arc_rad: Option<f64>, now: SimTime) {
+        self.suspended_at_m = Some(position_m);
         self.suspended_step = Some(step);
         self.suspended_wait = self.wait_until.map(|until| until.saturating_sub(now));
         self.suspended_arc_rad = arc_rad;
@@ -216,12 +216,12 @@ impl Mission {
 
     /// Restarts the mission as if it had never been flown.
     pub fn restart(&mut self) {
-        self.forget();
+        self.reset_counters();
         self.jump(0);
     }
 
     /// Resets jump counters and mission speed.
-    pub fn forget(&mut self) {
+    pub fn reset_counters(&mut self) {
         self.jumps_done.fill(0);
         self.speed_m_s = None;
     }
@@ -233,7 +233,7 @@ impl Mission {
     }
 
     fn step_at(&self, index: usize) -> Option<MissionStep> {
-        let hangs = self.over_home.get(index).copied().unwrap_or(false);
+        let hangs = self.home_relative.get(index).copied().unwrap_or(false);
         let rise_m = if hangs { self.home_rise_m } else { 0.0 };
         let mut step = match *self.steps.get(index)? {
             MissionStep::Waypoint { position_m, accept_m, hold_s, yaw_rad } => {
@@ -261,7 +261,7 @@ impl Mission {
             | MissionStep::Payload) => unchanged,
         };
         let open = self.deferred.get(index).copied().unwrap_or_default();
-        if let (Some(place_m), Some(began_m)) = (step.position_mut(), self.began_m.filter(|_| index == self.current)) {
+        if let (Some(place_m), Some(began_m)) = (step.position_mut(), self.item_start_m.filter(|_| index == self.current)) {
             *place_m = open.resolve_deferred(*place_m, began_m);
         }
         Some(step)
@@ -272,9 +272,9 @@ impl Mission {
         let known = index < self.steps.len();
         if known {
             self.current = index;
-            self.began_m = None;
+            self.item_start_m = None;
             self.wait_until = None;
-            self.begun = false;
+            self.item_started = false;
             self.reset();
         }
         known
@@ -315,9 +315,9 @@ impl Mission {
     fn next(&mut self) {
         self.reached.push(self.current);
         self.current += 1;
-        self.began_m = None;
+        self.item_start_m = None;
         self.wait_until = None;
-        self.begun = false;
+        self.item_started = false;
         self.reset();
     }
 
@@ -339,7 +339,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_jump_repeats_the_given_number_of_times() {
+    fn exact_jump_repeats_specified_number_of_times() {
         let wait = MissionStep::Delay(1.0);
         let mut mission = Mission::new(vec![wait, MissionStep::Jump { to: 0, times: 2 }, wait]);
         let mut visits = Vec::new();
@@ -352,7 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_jump_loops_do_not_block_a_tick() {
+    fn exact_jump_loops_do_not_block_tick() {
         let mut mission = Mission::new(vec![MissionStep::Jump { to: 0, times: u32::MAX }]);
         // The number of items per tick is limited; the endpoint rejects such a mission.
         assert!(mission.skip(SimTime::ZERO));

@@ -37,7 +37,7 @@ impl Navigator {
         self.mission.begin_at(self.step_start(input));
         let Some(step) = self.mission.step().filter(|_| has_next) else {
             self.end_mission(input);
-            return self.go(None, input);
+            return self.fly_to_target(None, input);
         };
         self.mission_status.current = self.mission.current;
         if let Some(place) = self.mission.suspended_at_m {
@@ -46,7 +46,7 @@ impl Navigator {
         if let Some(place) = self.mission.initial_climb_m.or_else(|| self.needs_takeoff_first(&step, input)) {
             return self.climb_before_step(place, input);
         }
-        if !self.mission.begun {
+        if !self.mission.item_started {
             self.begin_step(&step, input);
             if let Some(left) = self.mission.suspended_wait.take() {
                 self.mission.wait_until = Some(input.now + left);
@@ -71,9 +71,9 @@ impl Navigator {
     fn fly_step(&mut self, step: &MissionStep, input: &NavigatorInput) -> Setpoint {
         let speed = self.mission.speed_m_s.or(Some(self.cruise_m_s(input)));
         match step {
-            MissionStep::Takeoff { .. } => self.climb_away(speed, input),
+            MissionStep::Takeoff { .. } => self.climb_to_target(speed, input),
             MissionStep::Waypoint { .. } | MissionStep::Near(_) | MissionStep::Delay(_) | MissionStep::Turn { .. } => {
-                self.follow_trajectory(input).unwrap_or_else(|| self.go(speed, input))
+                self.follow_trajectory(input).unwrap_or_else(|| self.fly_to_target(speed, input))
             }
             MissionStep::Land { .. }
             | MissionStep::Return
@@ -85,7 +85,7 @@ impl Navigator {
             | MissionStep::Home(_)
             | MissionStep::Fence(_)
             | MissionStep::LandingSequence
-            | MissionStep::Payload => self.go(speed, input),
+            | MissionStep::Payload => self.fly_to_target(speed, input),
         }
     }
 
@@ -103,7 +103,7 @@ impl Navigator {
     /// Replans from the current motion. After a pause, the earlier trajectory no longer applies.
     pub(super) fn replan_trajectory(&mut self, input: &NavigatorInput) {
         self.trajectory = None;
-        if self.mission.begun && matches!(self.mission.step(), Some(MissionStep::Waypoint { .. } | MissionStep::Near(_))) {
+        if self.mission.item_started && matches!(self.mission.step(), Some(MissionStep::Waypoint { .. } | MissionStep::Near(_))) {
             self.extend_trajectory(input);
         }
     }
@@ -167,12 +167,12 @@ impl Navigator {
         (away && self.landed(input) == LandedState::TakingOff).then(|| Vec3::new(here.north(), here.east(), -up_m))
     }
 
-    fn climb_before_step(&mut self, place_m: Vec3<Ned>, input: &NavigatorInput) -> Setpoint {
-        let left = input.here().down() - place_m.down();
+    fn climb_before_step(&mut self, position_m: Vec3<Ned>, input: &NavigatorInput) -> Setpoint {
+        let left = input.here().down() - position_m.down();
         let there = self.landed(input) == LandedState::InAir && left < HEIGHT_REACHED_M;
-        self.mission.initial_climb_m = (!there).then_some(place_m);
-        self.target_m = place_m;
-        self.climb_away(None, input)
+        self.mission.initial_climb_m = (!there).then_some(position_m);
+        self.target_m = position_m;
+        self.climb_to_target(None, input)
     }
 
     /// Start position of an item, m: the previous target if it was reached, otherwise the vehicle position.
@@ -241,18 +241,18 @@ impl Navigator {
     }
 
     /// Flies to the interruption point, then continues.
-    fn return_to_route(&mut self, place_m: Vec3<Ned>, input: &NavigatorInput) -> Setpoint {
-        self.target_m = place_m;
-        if (place_m - input.here()).norm() < ROUTE_REJOIN_DISTANCE_M {
+    fn return_to_route(&mut self, position_m: Vec3<Ned>, input: &NavigatorInput) -> Setpoint {
+        self.target_m = position_m;
+        if (position_m - input.here()).norm() < ROUTE_REJOIN_DISTANCE_M {
             self.mission.suspended_at_m = None;
             self.events.push(Severity::Info, "Mission resumed from interruption point");
         }
-        self.go(self.mission.speed_m_s.or(Some(self.cruise_m_s(input))), input)
+        self.fly_to_target(self.mission.speed_m_s.or(Some(self.cruise_m_s(input))), input)
     }
 
     /// Starts an item.
     fn begin_step(&mut self, step: &MissionStep, input: &NavigatorInput) {
-        self.mission.begun = true;
+        self.mission.item_started = true;
         (self.orbit, self.report.orbit) = (None, None);
         if !step.stops_before_end() {
             self.trajectory = None;
@@ -345,7 +345,11 @@ impl Navigator {
         if away < LANDING_POSITION_TOLERANCE_M {
             self.returning.phase = ReturnPhase::Land;
         }
-        if self.returning.phase == ReturnPhase::Land { self.land(input) } else { self.go(self.mission.speed_m_s, input) }
+        if self.returning.phase == ReturnPhase::Land {
+            self.land(input)
+        } else {
+            self.fly_to_target(self.mission.speed_m_s, input)
+        }
     }
 
     /// Returns true if an item is complete.
@@ -361,7 +365,7 @@ impl Navigator {
             }
             MissionStep::Takeoff { .. } => self.landed(input) == LandedState::InAir && left.down() > -HEIGHT_REACHED_M,
             MissionStep::Delay(_) | MissionStep::DelayUntil(_) => self.mission.wait_until.is_some_and(|until| input.now >= until),
-            MissionStep::Circle { .. } => self.orbit.is_none_or(|orbit| orbit.left_rad <= 0.0),
+            MissionStep::Circle { .. } => self.orbit.is_none_or(|orbit| orbit.remaining_rad <= 0.0),
             MissionStep::Near(within_m) => left.norm() < within_m || self.mission.next_position().is_none(),
             MissionStep::Turn { .. } => {
                 let yaw = input.estimate.attitude.yaw_rad();
@@ -384,13 +388,13 @@ impl Navigator {
         if !self.mission_status.finished {
             self.mission_status.finished = true;
             self.events.push(Severity::Info, "Mission finished");
-            if input.tuning.mission_mode_stays {
+            if input.tuning.keeps_mission_mode {
                 let e = input.estimate;
                 self.target_m = stopping_point(input.gains, e.position_m, e.velocity_m_s);
                 self.trajectory = None;
             }
         }
-        if input.tuning.mission_mode_stays {
+        if input.tuning.keeps_mission_mode {
             return;
         }
         self.modes.intended = FlightMode::Hold;

@@ -69,7 +69,7 @@ pub struct MissionStatus {
 
 /// Requested values that expire at the end of the flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Commanded {
+pub struct CommandedValues {
     /// Cruise speed, m/s.
     pub speed_m_s: Option<f64>,
     /// Takeoff height, m above the origin.
@@ -91,7 +91,7 @@ struct StickLocks {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct PausedAt {
     /// Hold position, m.
-    place_m: Vec3<Ned>,
+    position_m: Vec3<Ned>,
     /// Start of the pause.
     since: SimTime,
 }
@@ -129,7 +129,7 @@ pub struct Navigator {
     /// A pending request to enable or disable the geofence.
     pub fence_switch: Option<bool>,
     heading: Heading,
-    commanded: Commanded,
+    commanded: CommandedValues,
     /// Trajectory through the mission's waypoints, while one is active.
     trajectory: Option<Trajectory>,
     orbit: Option<Orbit>,
@@ -165,7 +165,7 @@ impl Default for Navigator {
             events: EventQueue::default(),
             fence_switch: None,
             heading: Heading::default(),
-            commanded: Commanded::default(),
+            commanded: CommandedValues::default(),
             trajectory: None,
             orbit: None,
             flown_path: FlownPath::default(),
@@ -203,7 +203,7 @@ impl Navigator {
     }
 
     /// Records an external setpoint, which takes control of the heading back from the pilot.
-    pub fn note_external_setpoint(&mut self) {
+    pub fn record_external_setpoint(&mut self) {
         self.heading.end_pilot_turn();
     }
 
@@ -218,7 +218,7 @@ impl Navigator {
 
     /// Sets home to the first valid position estimate.
     pub fn set_first_home(&mut self, input: &NavigatorInput) {
-        if self.home.place_m.is_none() && input.estimate.position_valid {
+        if self.home.position_m.is_none() && input.estimate.position_valid {
             self.move_home(input.here());
         }
     }
@@ -235,12 +235,12 @@ impl Navigator {
         }
     }
 
-    /// Jumps to a mission item. With `anew`, resets the mission's progress. Returns false if the item does not exist.
-    pub fn set_mission_current(&mut self, index: usize, anew: bool) -> bool {
+    /// Jumps to a mission item. With `restart`, resets the mission's progress. Returns false if the item does not exist.
+    pub fn set_mission_current(&mut self, index: usize, restart: bool) -> bool {
         let known = self.mission.jump(index);
         if known {
-            if anew {
-                self.mission.forget();
+            if restart {
+                self.mission.reset_counters();
             }
             self.mission_status.current = index;
             (self.mission_status.finished, self.mission_status.paused) = (false, false);
@@ -254,7 +254,7 @@ impl Navigator {
         if self.modes.intended == FlightMode::Mission {
             self.restart_finished_mission();
         }
-        self.home.armed_yaw_rad = Some(input.estimate.attitude.yaw_rad());
+        self.home.arming_yaw_rad = Some(input.estimate.attitude.yaw_rad());
         (self.mission_status.paused, self.mission_status.started) = (false, false);
         if input.estimate.position_valid && !self.home.set_by_command {
             self.move_home(input.here());
@@ -269,8 +269,8 @@ impl Navigator {
     /// Ends the flight when the vehicle disarms. Requests made during the flight expire.
     pub fn end_flight(&mut self, input: &NavigatorInput) {
         self.descends_to_land = false;
-        self.commanded = Commanded::default();
-        let stays = self.modes.intended == FlightMode::Mission && input.tuning.mission_mode_stays;
+        self.commanded = CommandedValues::default();
+        let stays = self.modes.intended == FlightMode::Mission && input.tuning.keeps_mission_mode;
         if !self.modes.intended.is_manual() && !stays {
             (self.modes.intended, self.modes.active) = (FlightMode::Hold, FlightMode::Hold);
         }

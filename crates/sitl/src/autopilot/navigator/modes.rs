@@ -34,11 +34,11 @@ impl Navigator {
         let in_air = input.phase == FlightPhase::InAir;
         let flying = input.armed && in_air && input.estimate.position_valid;
         // While the vehicle is returning to the route, the mission has not restarted the item.
-        let begun = self.mission.begun || self.mission.suspended_at_m.is_some();
+        let begun = self.mission.item_started || self.mission.suspended_at_m.is_some();
         let under_way = self.modes.active == FlightMode::Mission && begun && self.mission.step().is_some();
         let left = flying && under_way && next != FlightMode::Mission;
         if left && self.mission.suspended_at_m.is_none() && self.mission.step().is_some_and(|step| step.continues()) {
-            let arc_rad = self.report.orbit.map(|orbit| orbit.left_rad);
+            let arc_rad = self.report.orbit.map(|orbit| orbit.remaining_rad);
             let step =
                 SuspendedStep { target_m: self.target_m, phase: self.returning.phase, return_target_m: self.returning.target_m };
             self.mission.suspend_at(input.here(), step, arc_rad, input.last_step);
@@ -63,7 +63,7 @@ impl Navigator {
             FlightMode::SmartReturn => self.begin_smart_return(),
             FlightMode::Follow => self.follower.begin(),
             FlightMode::Mission => {
-                self.mission.begun = false;
+                self.mission.item_started = false;
                 self.mission.initial_climb_m = None;
                 self.mission.wait_until = None;
                 if !self.mission.skip(input.now) {
@@ -89,7 +89,7 @@ impl Navigator {
     }
 
     /// Returns true if the mode commands a takeoff from the ground.
-    pub fn wants_to_fly(&self, input: &NavigatorInput) -> bool {
+    pub fn commands_takeoff(&self, input: &NavigatorInput) -> bool {
         match self.modes.active {
             FlightMode::Stabilized | FlightMode::Altitude | FlightMode::Position | FlightMode::Acro => {
                 input.links.sticks.up > 0.1 && input.sticks_fresh()
@@ -97,9 +97,9 @@ impl Navigator {
             FlightMode::Takeoff => true,
             FlightMode::Mission => {
                 use MissionStep as S;
-                let least = if input.tuning.mission_mode_stays { RAISED_THROTTLE_THRESHOLD } else { 0.1 };
+                let least = if input.tuning.keeps_mission_mode { RAISED_THROTTLE_THRESHOLD } else { 0.1 };
                 let raised = input.links.sticks.up > least && input.sticks_fresh();
-                let go = input.tuning.rules.mission_starts_armed || self.mission_status.started || raised;
+                let go = input.tuning.rules.mission_takes_off_when_armed || self.mission_status.started || raised;
                 go && matches!(self.mission.step(), Some(S::Takeoff { .. } | S::Waypoint { .. } | S::Circle { .. } | S::Near(_)))
             }
             FlightMode::Offboard => input.links.offboard.is_some_and(|(s, _)| is_upward(&s, input.here().down())),
@@ -132,7 +132,7 @@ impl Navigator {
             FlightMode::Land => self.land(input),
             FlightMode::Offboard => self.fly_setpoint(input),
             _ if blind => self.descend_without_position(input),
-            FlightMode::Hold => self.go(self.speed_m_s, input),
+            FlightMode::Hold => self.fly_to_target(self.speed_m_s, input),
             FlightMode::Orbit => self.fly_orbit(input),
             FlightMode::Takeoff => self.take_off(input),
             FlightMode::Return => self.go_home(input),

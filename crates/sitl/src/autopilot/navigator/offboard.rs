@@ -3,14 +3,14 @@
 use super::Navigator;
 use super::input::NavigatorInput;
 use crate::autopilot::control::setpoint::Setpoint;
-use crate::autopilot::control::shaper::{heading_of, towards};
+use crate::autopilot::control::shaper::{heading_of, velocity_toward};
 use crate::autopilot::control::velocity::{AttitudeThrustSetpoint, VelocitySetpoint};
 use crate::autopilot::external_input::OffboardSetpoint;
 use crate::autopilot::flight_state::FlightMode;
 use spandrel_model::frames::{Frd, Ned, Vec3};
 
 /// Distance below which the heading no longer tracks the target, m.
-const TOO_NEAR_M: f64 = 0.5;
+const HEADING_MIN_DISTANCE_M: f64 = 0.5;
 /// Thrust, 0 to 1, below which a setpoint counts as an intended descent.
 const DESCENT_THRUST: f64 = 0.1;
 
@@ -37,7 +37,11 @@ impl Navigator {
     /// Tracks the external setpoint. Without one, stops.
     pub(super) fn fly_setpoint(&mut self, input: &NavigatorInput) -> Setpoint {
         let Some(setpoint) = self.active_setpoint(input) else {
-            return if input.estimate.position_valid { self.go(None, input) } else { self.descend_without_position(input) };
+            return if input.estimate.position_valid {
+                self.fly_to_target(None, input)
+            } else {
+                self.descend_without_position(input)
+            };
         };
         match setpoint.yaw_rate_rad_s {
             Some(rate) if setpoint.yaw_rad.is_none() => {
@@ -47,7 +51,7 @@ impl Navigator {
             }
             // If a setpoint has no heading, a command can supply it, as in ArduPilot's GUIDED.
             _ => {
-                let wanted = setpoint.yaw_rad.or(self.heading.target_rad).or_else(|| self.heading_towards(&setpoint, input));
+                let wanted = setpoint.yaw_rad.or(self.heading.target_rad).or_else(|| self.heading_toward(&setpoint, input));
                 self.heading.turn_to(wanted, self.modes.active, input);
             }
         }
@@ -73,9 +77,9 @@ impl Navigator {
     }
 
     /// Heading while approaching a position target that has no heading, rad.
-    fn heading_towards(&self, setpoint: &OffboardSetpoint, input: &NavigatorInput) -> Option<f64> {
+    fn heading_toward(&self, setpoint: &OffboardSetpoint, input: &NavigatorInput) -> Option<f64> {
         let [Some(n), Some(e), Some(d)] = setpoint.position_m else { return None };
-        let travels = input.tuning.setpoints_end && setpoint.velocity_m_s == [None; 3];
+        let travels = input.tuning.setpoint_end_is_normal && setpoint.velocity_m_s == [None; 3];
         travels.then(|| self.heading_by_rule(Vec3::new(n, e, d), input)).flatten()
     }
 
@@ -137,7 +141,7 @@ impl Navigator {
         let l = &input.airframe.limits;
         let (top, up, down) = (input.tuning.horizontal_speed_max_m_s.min(l.forward_m_s), l.climb_m_s, l.descend_m_s);
         self.report.target_m = Some(Vec3::new(n, e, d));
-        let close = towards(input.gains, input.here(), Vec3::new(n, e, d), top, up, down).array();
+        let close = velocity_toward(input.gains, input.here(), Vec3::new(n, e, d), top, up, down).array();
         let mix: [f64; 3] = std::array::from_fn(|i| close[i] + s.velocity_m_s[i].unwrap_or(0.0));
         let flat = Vec3::<Ned>::new(mix[0], mix[1], 0.0).limited(top);
         Vec3::new(flat.north(), flat.east(), mix[2].clamp(-up, down))
@@ -146,14 +150,16 @@ impl Navigator {
     /// Maintains the configured position relative to the target and points the nose at it. Holds position if there is
     /// no target.
     pub(super) fn follow_target(&mut self, input: &NavigatorInput) -> Setpoint {
-        let Some(target) = self.follower.target(&input.tuning.follow, input.here(), input.tuning.client_pace, input.now) else {
-            return self.go(None, input);
+        let Some(target) = self.follower.target(&input.tuning.follow, input.here(), input.tuning.client_speed_factor, input.now)
+        else {
+            return self.fly_to_target(None, input);
         };
         let here = input.here();
-        let place = self.follower.position_near(&target, &input.tuning.follow, here, self.home.place_m);
+        let place = self.follower.position_near(&target, &input.tuning.follow, here, self.home.position_m);
         // If the target is lost, the vehicle holds here.
         self.target_m = here;
-        let yaw = self.region_of_interest_heading_rad(input).or_else(|| heading_of(target.position_m - here, TOO_NEAR_M));
+        let yaw =
+            self.region_of_interest_heading_rad(input).or_else(|| heading_of(target.position_m - here, HEADING_MIN_DISTANCE_M));
         self.heading.turn_to(yaw, self.modes.active, input);
         let setpoint = OffboardSetpoint {
             position_m: place.array().map(Some),
@@ -161,7 +167,7 @@ impl Navigator {
             ..OffboardSetpoint::default()
         };
         let velocity_m_s = self.offboard_velocity(&setpoint, input);
-        let flat = Vec3::<Ned>::new(velocity_m_s.north(), velocity_m_s.east(), 0.0).limited(input.tuning.follow.fastest_m_s);
+        let flat = Vec3::<Ned>::new(velocity_m_s.north(), velocity_m_s.east(), 0.0).limited(input.tuning.follow.max_speed_m_s);
         self.shaper.advance(Vec3::new(flat.north(), flat.east(), velocity_m_s.down()), &self.auto_limits(input), input.dt_s);
         Setpoint::Velocity(self.motion(self.shaper.velocity_m_s))
     }

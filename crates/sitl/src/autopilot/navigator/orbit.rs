@@ -7,7 +7,7 @@ use spandrel_model::frames::{Ned, Vec3};
 pub enum OrbitYaw {
     /// Toward the center (0).
     #[default]
-    Centre,
+    Center,
     /// Heading at the start (1), or uncontrolled (2).
     Keep,
     /// Tangent to the circle (3).
@@ -20,7 +20,7 @@ impl OrbitYaw {
     /// Returns the behavior for a command value, or `None` if it is unknown.
     #[must_use]
     pub fn from_number(n: i64) -> Option<Self> {
-        [Self::Centre, Self::Keep, Self::Keep, Self::Tangent, Self::Stick].get(usize::try_from(n).ok()?).copied()
+        [Self::Center, Self::Keep, Self::Keep, Self::Tangent, Self::Stick].get(usize::try_from(n).ok()?).copied()
     }
 }
 
@@ -36,7 +36,7 @@ pub struct Orbit {
     /// Heading behavior.
     pub yaw: OrbitYaw,
     /// Remaining arc, rad; infinite for an endless circle.
-    pub left_rad: f64,
+    pub remaining_rad: f64,
     /// Learned inward speed that keeps the vehicle on the circle, m/s.
     pub trim_m_s: f64,
 }

@@ -21,7 +21,7 @@ impl Navigator {
             return RequestOutcome::Failed("Failed to pause".into());
         }
         let place_m = stopping_point(input.gains, input.here(), input.estimate.velocity_m_s);
-        self.paused.get_or_insert(PausedAt { place_m, since: input.now });
+        self.paused.get_or_insert(PausedAt { position_m: place_m, since: input.now });
         self.mission_status.paused |= self.modes.active == FlightMode::Mission;
         RequestOutcome::Accepted
     }
@@ -40,9 +40,9 @@ impl Navigator {
 
     /// Holds the pause position. Does not change the navigator's target.
     pub(super) fn hold_paused(&mut self, pause: PausedAt, input: &NavigatorInput) -> Setpoint {
-        let target_m = std::mem::replace(&mut self.target_m, pause.place_m);
+        let target_m = std::mem::replace(&mut self.target_m, pause.position_m);
         let yaw_rad = self.heading.target_rad.take();
-        let wanted = self.go(None, input);
+        let wanted = self.fly_to_target(None, input);
         (self.target_m, self.heading.target_rad) = (target_m, yaw_rad);
         wanted
     }

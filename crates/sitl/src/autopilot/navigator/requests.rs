@@ -5,7 +5,7 @@ use super::input::NavigatorInput;
 use super::mission_step::MissionStep;
 use crate::autopilot::events::Severity;
 use crate::autopilot::failsafe::fence_check::FenceCheck;
-use crate::autopilot::failsafe::operator_rules::MissionNeeds;
+use crate::autopilot::failsafe::operator_rules::MissionRequirement;
 use crate::autopilot::flight_state::FlightMode;
 use crate::autopilot::request::{AutopilotRequest, RequestOutcome, TurnCommand};
 use spandrel_model::frames::{Ned, Vec3};
@@ -86,7 +86,7 @@ impl Navigator {
         if mode == FlightMode::Offboard && !input.offboard_fresh() {
             return Some(RequestOutcome::TemporarilyRejected("Offboard rejected: no external setpoints".into()));
         }
-        let counts = flying || input.armed && input.tuning.arms_by_mode;
+        let counts = flying || input.armed && input.tuning.arming_depends_on_mode;
         if counts && mode.needs_position() && !input.estimate.position_valid {
             return Some(RequestOutcome::TemporarilyRejected("No position estimate".into()));
         }
@@ -96,7 +96,7 @@ impl Navigator {
         if mode == FlightMode::Follow && !input.tuning.follow.enabled {
             return Some(RequestOutcome::Denied("Set FOLL_ENABLE = 1".into()));
         }
-        if mode == FlightMode::Return && self.home.place_m.is_none() {
+        if mode == FlightMode::Return && self.home.position_m.is_none() {
             return Some(RequestOutcome::TemporarilyRejected("No home position".into()));
         }
         None
@@ -107,7 +107,7 @@ impl Navigator {
         let direct = |mode: FlightMode| matches!(mode, FlightMode::Stabilized | FlightMode::Acro);
         let high = input.links.sticks.up > HALF_HOVER_THROTTLE && input.sticks_fresh();
         let standing = !input.is_flying();
-        input.tuning.arms_by_mode && standing && high && direct(mode) && !direct(self.modes.intended)
+        input.tuning.arming_depends_on_mode && standing && high && direct(mode) && !direct(self.modes.intended)
     }
 
     /// Returns the reason why the mission does not meet the operator's requirements, or `None`.
@@ -115,12 +115,12 @@ impl Navigator {
         let rules = &input.tuning.rules;
         let takeoff = self.mission.all().any(|(_, step)| matches!(step, MissionStep::Takeoff { .. }));
         let landing = self.mission.all().any(|(_, step)| matches!(step, MissionStep::Land { .. } | MissionStep::Return));
-        let (needs_takeoff, needs_landing) = match rules.mission_needs {
-            MissionNeeds::Nothing => (false, false),
-            MissionNeeds::Takeoff => (true, false),
-            MissionNeeds::Landing => (false, true),
-            MissionNeeds::Both => (true, true),
-            MissionNeeds::BothOrNeither => (landing, takeoff),
+        let (needs_takeoff, needs_landing) = match rules.mission_requirement {
+            MissionRequirement::Nothing => (false, false),
+            MissionRequirement::Takeoff => (true, false),
+            MissionRequirement::Landing => (false, true),
+            MissionRequirement::Both => (true, true),
+            MissionRequirement::BothOrNeither => (landing, takeoff),
         };
         if needs_takeoff && !takeoff {
             return Some("Mission has no takeoff item".into());
@@ -128,7 +128,7 @@ impl Navigator {
         if needs_landing && !landing {
             return Some("Mission has no landing item".into());
         }
-        let home = self.home.place_m?;
+        let home = self.home.position_m?;
         let away_m = (self.mission.first_position()? - home).horizontal_norm();
         let too_far = rules.first_waypoint_m > 0.0 && away_m > rules.first_waypoint_m;
         too_far.then(|| format!("First waypoint too far from home: {away_m:.0} m, limit {:.0} m", rules.first_waypoint_m))
@@ -282,7 +282,7 @@ impl Navigator {
 
     /// Returns the geofence check with the current settings.
     pub(super) fn fence_check<'a>(&self, input: &NavigatorInput<'a>) -> FenceCheck<'a> {
-        FenceCheck::new(input.fence, input.tuning, self.home.place_m)
+        FenceCheck::new(input.fence, input.tuning, self.home.position_m)
     }
 
     /// Returns the rejection if a target is outside the fence, or `None` if the target is allowed.
@@ -295,7 +295,7 @@ impl Navigator {
     /// leaves the fence.
     fn mission_leaves_fence(&self, input: &NavigatorInput) -> Option<String> {
         let (fence, flying, here) = (self.fence_check(input), input.is_flying(), input.here());
-        let home = self.home.place_m.unwrap_or_default();
+        let home = self.home.position_m.unwrap_or_default();
         let start = if flying { here } else { home };
         let mut from = (self.mission.current == 0 && fence.breach_at(start).is_none()).then_some(start);
         for (index, step) in self.mission.all() {

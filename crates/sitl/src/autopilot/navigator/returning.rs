@@ -24,10 +24,10 @@ impl Navigator {
         let home = self.nearest_rally_point(input);
         self.returning.target_m = Some(home);
         let away = (here - home).horizontal_norm();
-        let rules = input.tuning.rules.homeward;
-        let by_rally = rules.rally_height && self.home.place_m != Some(home);
+        let rules = input.tuning.rules.return_rules;
+        let by_rally = rules.rally_height && self.home.position_m != Some(home);
         let up = -home.down() + if by_rally { 0.0 } else { self.return_height_over(away, input) };
-        let near = away < rules.near_m;
+        let near = away < rules.no_climb_distance_m;
         let phase = if near { ReturnPhase::Cruise } else { ReturnPhase::Climb };
         let down = if near { here.down() } else { (-up).min(here.down() - rules.climb_min_m) };
         self.returning.phase = phase;
@@ -37,9 +37,10 @@ impl Navigator {
     /// The nearest allowed return destination, or home if there is none.
     fn nearest_rally_point(&self, input: &NavigatorInput) -> Vec3<Ned> {
         let here = input.here();
-        let home = self.home.place_m.unwrap_or(here);
-        let allowed = input.tuning.rules.homeward.places;
-        let rally = self.home.rally_points.iter().filter(|_| allowed.rally).map(|rally_point: &RallyPoint| rally_point.place_m);
+        let home = self.home.position_m.unwrap_or(here);
+        let allowed = input.tuning.rules.return_rules.places;
+        let rally =
+            self.home.rally_points.iter().filter(|_| allowed.rally).map(|rally_point: &RallyPoint| rally_point.position_m);
         let landing = self.mission.landing().filter(|_| allowed.mission_landing);
         let places = allowed.home.then_some(home).into_iter().chain(rally).chain(landing);
         let away = |place: &Vec3<Ned>| (*place - here).horizontal_norm();
@@ -49,7 +50,7 @@ impl Navigator {
 
     /// Return height above the destination, m; lower within the cone around it.
     fn return_height_over(&self, away_m: f64, input: &NavigatorInput) -> f64 {
-        let rules = input.tuning.rules.homeward;
+        let rules = input.tuning.rules.return_rules;
         if rules.cone_slope <= 0.0 {
             return input.tuning.return_height_m;
         }
@@ -60,7 +61,7 @@ impl Navigator {
     /// Flies to the destination of a return, waits there and lands.
     pub(super) fn go_home(&mut self, input: &NavigatorInput) -> Setpoint {
         let here = input.here();
-        let home = self.returning.target_m.or(self.home.place_m).unwrap_or(here);
+        let home = self.returning.target_m.or(self.home.position_m).unwrap_or(here);
         match self.returning.phase {
             ReturnPhase::Climb => {
                 if (self.target_m.down() - here.down()).abs() < HEIGHT_REACHED_M {
@@ -81,14 +82,14 @@ impl Navigator {
                 return self.land(input);
             }
         }
-        self.go(input.tuning.rules.homeward.speed_m_s.or(Some(self.cruise_m_s(input))), input)
+        self.fly_to_target(input.tuning.rules.return_rules.speed_m_s.or(Some(self.cruise_m_s(input))), input)
     }
 
     /// Handles arrival above the return target: waits there or lands.
     fn arrive_home(&mut self, home: Vec3<Ned>, input: &NavigatorInput) {
-        let rules = input.tuning.rules.homeward;
+        let rules = input.tuning.rules.return_rules;
         let waits = rules.wait_s != 0.0 || rules.final_height_m > 0.0;
-        let place = if self.home.place_m == Some(home) { "Home" } else { "Rally point" };
+        let place = if self.home.position_m == Some(home) { "Home" } else { "Rally point" };
         self.events.push(Severity::Info, format!("{place} reached, {}", if waits { "waiting" } else { "landing" }));
         self.returning.phase = if waits { ReturnPhase::Wait } else { ReturnPhase::Land };
         self.returning.wait_until = None;
@@ -100,9 +101,9 @@ impl Navigator {
 
     /// Waits above the destination for the configured time.
     fn wait_over_home(&mut self, home: Vec3<Ned>, input: &NavigatorInput) {
-        let rules = input.tuning.rules.homeward;
-        if rules.turns_back {
-            self.heading.target_rad = self.home.armed_yaw_rad;
+        let rules = input.tuning.rules.return_rules;
+        if rules.turns_to_takeoff_heading {
+            self.heading.target_rad = self.home.arming_yaw_rad;
         }
         if (self.target_m.down() - input.here().down()).abs() > HEIGHT_REACHED_M || rules.wait_s < 0.0 {
             return;
@@ -142,7 +143,7 @@ impl Navigator {
             return self.land(input);
         }
         let here = input.here();
-        let Some((next, last)) = self.flown_path.next_back(here) else { return self.go(None, input) };
+        let Some((next, last)) = self.flown_path.next_return_point(here) else { return self.fly_to_target(None, input) };
         self.target_m = if last { next - Vec3::new(0.0, 0.0, SMART_RETURN_LANDING_HEIGHT_M) } else { next };
         let left = self.target_m - here;
         let slow = input.estimate.velocity_m_s.norm() < ARRIVED_M_S;
@@ -151,6 +152,6 @@ impl Navigator {
             self.target_m = next;
             self.events.push(Severity::Info, "Takeoff point reached, landing");
         }
-        self.go(None, input)
+        self.fly_to_target(None, input)
     }
 }

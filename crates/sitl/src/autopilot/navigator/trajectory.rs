@@ -115,7 +115,7 @@ pub struct Trajectory {
     speed_m_s: f64,
     acceleration_m_s2: f64,
     /// Remaining offset from the state at which the trajectory was joined.
-    joining: TrajectoryPoint,
+    join_offset: TrajectoryPoint,
 }
 
 impl Trajectory {
@@ -131,7 +131,7 @@ impl Trajectory {
             velocity_m_s: from.velocity_m_s - first.unit * speed_m_s,
             acceleration_m_s2: from.acceleration_m_s2,
         };
-        Some(Self { bounds, legs, along_m: 0.0, speed_m_s, acceleration_m_s2: 0.0, joining })
+        Some(Self { bounds, legs, along_m: 0.0, speed_m_s, acceleration_m_s2: 0.0, join_offset: joining })
     }
 
     /// Replaces the waypoints from the first of `waypoints` onward. Returns false if that waypoint is not on this
@@ -153,9 +153,11 @@ impl Trajectory {
 
     /// Returns true if the plan has passed a waypoint other than the last.
     #[must_use]
-    pub fn has_passed(&self, place_m: Vec3<Ned>) -> bool {
+    pub fn has_passed(&self, position_m: Vec3<Ned>) -> bool {
         let through = self.legs.iter().rev().skip(1);
-        through.filter(|leg| (leg.to.position_m - place_m).norm() < COINCIDENT_DISTANCE_M).any(|leg| self.along_m >= leg.end_m())
+        through
+            .filter(|leg| (leg.to.position_m - position_m).norm() < COINCIDENT_DISTANCE_M)
+            .any(|leg| self.along_m >= leg.end_m())
     }
 
     /// Advances the plan by one step. `behind_m` is the aircraft's tracking error.
@@ -170,13 +172,13 @@ impl Trajectory {
             (self.speed_m_s, self.acceleration_m_s2) = (0.0, 0.0);
         }
         self.along_m = (self.along_m + self.speed_m_s * dt_s).min(self.length_m());
-        self.settle(dt_s);
+        self.decay_join_offset(dt_s);
         self.planned()
     }
 
     /// Third-order critically damped decay, which keeps the acceleration continuous.
-    fn settle(&mut self, dt_s: f64) {
-        let (k, off) = (JOIN_DECAY_PER_S, &mut self.joining);
+    fn decay_join_offset(&mut self, dt_s: f64) {
+        let (k, off) = (JOIN_DECAY_PER_S, &mut self.join_offset);
         let jerk = off.acceleration_m_s2 * (-3.0 * k) + off.velocity_m_s * (-3.0 * k * k) + off.position_m * (-k * k * k);
         off.acceleration_m_s2 += jerk * dt_s;
         off.velocity_m_s += off.acceleration_m_s2 * dt_s;
@@ -188,11 +190,11 @@ impl Trajectory {
     pub fn planned(&self) -> TrajectoryPoint {
         let (place, along, bend) = self.shape(self.along_m);
         TrajectoryPoint {
-            position_m: place + self.joining.position_m,
-            velocity_m_s: along * self.speed_m_s + self.joining.velocity_m_s,
+            position_m: place + self.join_offset.position_m,
+            velocity_m_s: along * self.speed_m_s + self.join_offset.velocity_m_s,
             acceleration_m_s2: along * self.acceleration_m_s2
                 + bend * (self.speed_m_s * self.speed_m_s)
-                + self.joining.acceleration_m_s2,
+                + self.join_offset.acceleration_m_s2,
         }
     }
 

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 /// Burst packets per tick, for all clients together: about 240 kB/s at 1000 ticks/s, below the capacity of a local
 /// link.
-const PACKETS_A_TICK: usize = 1;
+const PACKETS_PER_TICK: usize = 1;
 
 #[derive(Debug, Clone)]
 struct BurstRead {
@@ -28,7 +28,7 @@ impl BurstReads {
     }
 
     /// Checks whether this exact request is still being answered, which means that the network duplicated it.
-    pub fn is_under_way(&self, client: FileClient, request: &FtpPacket) -> bool {
+    pub fn is_active(&self, client: FileClient, request: &FtpPacket) -> bool {
         self.0.iter().any(|burst| burst.client == client && burst.request == *request)
     }
 
@@ -45,7 +45,7 @@ impl BurstReads {
     /// Returns the packets to send in this tick on links that are ready.
     pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(FileClient, FtpPacket)> {
         let mut out = Vec::new();
-        for _ in 0..PACKETS_A_TICK {
+        for _ in 0..PACKETS_PER_TICK {
             let place = self.0.iter().position(|burst| ready(&burst.client.0));
             let Some(mut burst) = place.and_then(|place| self.0.remove(place)) else { break };
             out.extend(burst.packets.pop_front().map(|packet| (burst.client, packet)));

@@ -7,7 +7,7 @@ use spandrel_mavlink::ftp::FtpError;
 /// `crc32fast`), so a long file does not delay a tick.
 pub const CHECKSUM_SLICE: u32 = 131_072;
 /// Maximum size of a file to checksum, bytes: 8,192 slices, about 8 s of simulation time.
-pub const CHECKSUM_MAX: u32 = 8_192 * CHECKSUM_SLICE;
+pub const MAX_CHECKSUM_BYTES: u32 = 8_192 * CHECKSUM_SLICE;
 /// Cost of a directory listing, in jobs; a listing reads every name in the directory.
 const LISTING_COST: u32 = 8;
 

@@ -5,18 +5,18 @@ use super::job::FileAction;
 use spandrel_model::time::SimTime;
 
 /// Maximum number of jobs in a burst after an idle period.
-const SAVED_MAX: u32 = 32;
+const MAX_SAVED_JOBS: u32 = 32;
 
 /// One small job per millisecond of simulation time, accumulated up to a maximum.
 #[derive(Debug, Clone)]
 pub struct JobAllowance {
-    left: u32,
-    counted: SimTime,
+    remaining: u32,
+    updated_at: SimTime,
 }
 
 impl Default for JobAllowance {
     fn default() -> Self {
-        Self { left: SAVED_MAX, counted: SimTime::ZERO }
+        Self { remaining: MAX_SAVED_JOBS, updated_at: SimTime::ZERO }
     }
 }
 
@@ -24,17 +24,17 @@ impl JobAllowance {
     /// Checks whether the allowance covers this action at `now`.
     #[must_use]
     pub fn covers(&self, action: &FileAction, now: SimTime) -> bool {
-        self.left_at(now) >= action.cost()
+        self.remaining_at(now) >= action.cost()
     }
 
     /// Deducts the cost of an action.
     pub fn spend(&mut self, action: &FileAction, now: SimTime) {
-        (self.left, self.counted) = (self.left_at(now).saturating_sub(action.cost()), now);
+        (self.remaining, self.updated_at) = (self.remaining_at(now).saturating_sub(action.cost()), now);
     }
 
-    fn left_at(&self, now: SimTime) -> u32 {
-        let passed_ms = u32::try_from(now.ms() - self.counted.ms()).unwrap_or(0);
-        self.left.saturating_add(passed_ms).min(SAVED_MAX)
+    fn remaining_at(&self, now: SimTime) -> u32 {
+        let passed_ms = u32::try_from(now.ms() - self.updated_at.ms()).unwrap_or(0);
+        self.remaining.saturating_add(passed_ms).min(MAX_SAVED_JOBS)
     }
 }
 
@@ -44,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_flood_gets_one_job_a_millisecond_and_one_listing_in_eight() {
+    fn exact_flood_is_limited_to_one_job_per_ms_and_one_listing_per_8_ms() {
         let path = || FilePath::of(b"a").unwrap();
         for (action, expected) in [(FileAction::Size(path()), 32 + 100), (FileAction::List(path()), (32 + 100) / 8)] {
             let (mut allowance, mut done) = (JobAllowance::default(), 0);

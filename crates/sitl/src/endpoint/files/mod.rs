@@ -12,7 +12,7 @@ mod session;
 use super::link::LinkId;
 use burst::BurstReads;
 pub use client::FileClient;
-use job::{CHECKSUM_MAX, CHECKSUM_SLICE, DirectoryEntry, FileAction, FileError, FileJob, FileJobResult};
+use job::{CHECKSUM_SLICE, DirectoryEntry, FileAction, FileError, FileJob, FileJobResult, MAX_CHECKSUM_BYTES};
 use path::FilePath;
 pub(super) use replies::send_replies;
 use reply_cache::ReplyCache;
@@ -24,8 +24,8 @@ use std::sync::Arc;
 
 /// Maximum number of pending jobs, in total and per client. Further requests are dropped, as in ArduPilot; the client
 /// retries.
-const JOBS_MAX: usize = 64;
-const JOBS_EACH: usize = 32;
+const MAX_JOBS: usize = 64;
+const MAX_JOBS_PER_CLIENT: usize = 32;
 /// Maximum number of packets per burst; the client then requests the next one.
 const BURST_PACKETS: u32 = 128;
 
@@ -52,7 +52,7 @@ struct PendingRequest {
     request: FtpPacket,
     opens: Option<(FilePath, bool)>,
     /// Bytes included in the checksum so far.
-    summed: u32,
+    checksummed_bytes: u32,
 }
 
 impl FileServer {
@@ -97,19 +97,19 @@ impl FileServer {
     }
 
     /// Checks for a repeated request. If its reply is available, it is sent again, without executing the request twice.
-    fn is_again(&mut self, client: FileClient, request: &FtpPacket, now: SimTime) -> bool {
+    fn is_duplicate(&mut self, client: FileClient, request: &FtpPacket, now: SimTime) -> bool {
         if let Some(answer) = self.answered.cached_reply(client, request) {
             self.answers.push_back((client, answer.clone()));
             return true;
         }
-        self.bursts.is_under_way(client, request)
-            || self.sessions.is_repetition(client, request, now)
+        self.bursts.is_active(client, request)
+            || self.sessions.is_repeated_open(client, request, now)
             || self.waiting.values().any(|waiting| waiting.client == client && waiting.request == *request)
     }
 
     /// Opens a file with content generated for this session; later changes do not affect it.
     pub fn open_generated(&mut self, client: FileClient, request: &FtpPacket, content: Vec<u8>, now: SimTime) {
-        if self.is_again(client, request, now) {
+        if self.is_duplicate(client, request, now) {
             return;
         }
         self.sessions.expire(now);
@@ -117,14 +117,14 @@ impl FileServer {
         let path = request.sized().and_then(FilePath::of).map(|path| (path, false));
         let answer = self.opened(client, request, path, size, now);
         if answer.opcode == ACK {
-            self.sessions.hold(client, answer.session, content.into());
+            self.sessions.set_content(client, answer.session, content.into());
         }
         self.queue_reply(client, request, answer);
     }
 
     /// Handles a request.
     pub fn receive(&mut self, client: FileClient, request: &FtpPacket, now: SimTime) {
-        if self.is_again(client, request, now) {
+        if self.is_duplicate(client, request, now) {
             return;
         }
         self.sessions.expire(now);
@@ -143,12 +143,12 @@ impl FileServer {
 
     /// Handles the result of a job.
     pub fn done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>, now: SimTime) {
-        if self.continues(ticket, &outcome) {
+        if self.queue_next_slice(ticket, &outcome) {
             return;
         }
         let Some(PendingRequest { client, request, opens, .. }) = self.waiting.remove(&ticket) else { return };
         let outcome =
-            if request.opcode == Opcode::ListDirectory as u8 { self.with_generated(&request, outcome) } else { outcome };
+            if request.opcode == Opcode::ListDirectory as u8 { self.add_generated_entries(&request, outcome) } else { outcome };
         let answer = match outcome {
             Err(error) => request.error_reply(error.refusal()),
             Ok(FileJobResult::Entries(entries)) => list(&request, entries),
@@ -171,15 +171,15 @@ impl FileServer {
     }
 
     /// Queues the next slice of an unfinished checksum behind other jobs. Returns false if there is none.
-    fn continues(&mut self, ticket: u64, outcome: &Result<FileJobResult, FileError>) -> bool {
+    fn queue_next_slice(&mut self, ticket: u64, outcome: &Result<FileJobResult, FileError>) -> bool {
         let Some(waiting) = self.waiting.get_mut(&ticket) else { return false };
         let Ok(FileJobResult::Checksum { sum, bytes }) = outcome else { return false };
-        waiting.summed = waiting.summed.saturating_add(*bytes);
-        if *bytes < CHECKSUM_SLICE || waiting.summed > CHECKSUM_MAX {
+        waiting.checksummed_bytes = waiting.checksummed_bytes.saturating_add(*bytes);
+        if *bytes < CHECKSUM_SLICE || waiting.checksummed_bytes > MAX_CHECKSUM_BYTES {
             return false;
         }
         let Some(path) = waiting.request.sized().and_then(FilePath::of) else { return false };
-        let action = FileAction::Checksum { path, from: waiting.summed, sum: *sum };
+        let action = FileAction::Checksum { path, from: waiting.checksummed_bytes, sum: *sum };
         self.jobs.push_back(FileJob { ticket, action });
         true
     }
@@ -204,7 +204,7 @@ impl FileServer {
             Opcode::OpenFileRo => self.open(client, request.session, path()?)?,
             Opcode::CreateFile | Opcode::OpenFileWo => {
                 let path = self.writable(path()?)?;
-                self.sessions.room(client, request.session)?;
+                self.sessions.check_capacity(client, request.session)?;
                 let action = if opcode == Opcode::CreateFile { FileAction::Create } else { FileAction::Size };
                 RequestStep::Job(action(path.clone()), Some((path, true)))
             }
@@ -240,7 +240,7 @@ impl FileServer {
     }
 
     fn open(&mut self, client: FileClient, number: u8, path: FilePath) -> Result<RequestStep, FtpError> {
-        self.sessions.room(client, number)?;
+        self.sessions.check_capacity(client, number)?;
         Ok(RequestStep::Job(FileAction::Size(path.clone()), Some((path, false))))
     }
 
@@ -265,7 +265,7 @@ impl FileServer {
         let packets = if opcode == Opcode::BurstReadFile { BURST_PACKETS } else { 1 };
         let most = packets * chunk(request);
         Ok(match self.sessions.content(client, request.session) {
-            Some(content) => RequestStep::Bytes(cut(&content, request.offset, most)),
+            Some(content) => RequestStep::Bytes(slice_at(&content, request.offset, most)),
             None => RequestStep::Job(FileAction::Read(path, request.offset, most), None),
         })
     }
@@ -298,12 +298,12 @@ impl FileServer {
         now: SimTime,
     ) {
         let own = self.waiting.values().filter(|waiting| waiting.client == client).count();
-        if self.waiting.len() >= JOBS_MAX || own >= JOBS_EACH {
+        if self.waiting.len() >= MAX_JOBS || own >= MAX_JOBS_PER_CLIENT {
             return;
         }
         self.tickets += 1;
         let ticket = self.tickets;
-        self.waiting.insert(ticket, PendingRequest { client, request: request.clone(), opens, summed: 0 });
+        self.waiting.insert(ticket, PendingRequest { client, request: request.clone(), opens, checksummed_bytes: 0 });
         if let Some(outcome) = self.is_generated(&action) {
             self.done(ticket, outcome, now);
             return;
@@ -317,7 +317,7 @@ impl FileServer {
         match action {
             FileAction::Size(path) => self.generated.get(path).map(|content| Ok(FileJobResult::Size(content.len() as u32))),
             FileAction::Read(path, offset, most) => {
-                self.generated.get(path).map(|content| Ok(FileJobResult::Bytes(cut(content, *offset, *most))))
+                self.generated.get(path).map(|content| Ok(FileJobResult::Bytes(slice_at(content, *offset, *most))))
             }
             FileAction::List(_)
             | FileAction::Create(_)
@@ -329,10 +329,10 @@ impl FileServer {
             | FileAction::Rename(..)
             | FileAction::Checksum { .. } => None,
         }
-        .or_else(|| (!self.stored).then(|| Self::nothing_stored(action)))
+        .or_else(|| (!self.stored).then(|| Self::without_storage(action)))
     }
 
-    fn nothing_stored(action: &FileAction) -> Result<FileJobResult, FileError> {
+    fn without_storage(action: &FileAction) -> Result<FileJobResult, FileError> {
         match action {
             FileAction::List(path) if path.is_root() => Ok(FileJobResult::Entries(Vec::new())),
             FileAction::Create(_) | FileAction::MakeDirectory(_) => Err(FileError::Protected),
@@ -349,7 +349,11 @@ impl FileServer {
     }
 
     /// Adds the generated files to a directory listing. A directory that contains only generated files also exists.
-    fn with_generated(&self, request: &FtpPacket, outcome: Result<FileJobResult, FileError>) -> Result<FileJobResult, FileError> {
+    fn add_generated_entries(
+        &self,
+        request: &FtpPacket,
+        outcome: Result<FileJobResult, FileError>,
+    ) -> Result<FileJobResult, FileError> {
         let Some(path) = request.sized().and_then(FilePath::of) else { return outcome };
         let mut made_up: Vec<DirectoryEntry> = Vec::new();
         for (name, content) in &self.generated {
@@ -386,7 +390,7 @@ enum RequestStep {
 }
 
 /// Returns at most `most` bytes from an offset.
-fn cut(content: &[u8], offset: u32, most: u32) -> Vec<u8> {
+fn slice_at(content: &[u8], offset: u32, most: u32) -> Vec<u8> {
     let from = (offset as usize).min(content.len());
     let to = from.saturating_add(most as usize).min(content.len());
     content[from..to].to_vec()

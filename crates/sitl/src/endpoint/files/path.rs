@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_same_place_has_one_name() {
+    fn exact_equivalent_paths_are_normalized() {
         for text in ["/log/a.ulg", "log/a.ulg", "//log/./a.ulg/", "log/a.ulg\0rubbish"] {
             assert_eq!(FilePath::of(text.as_bytes()).unwrap().as_str(), "log/a.ulg", "{text:?}");
         }
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_no_user_gains_a_higher_role() {
+    fn exact_paths_outside_the_root_are_rejected() {
         for text in ["..", "/..", "a/../b", "a/..", "..\\..\\b", "C:/x", "a\nb", "../log-of-somebody-else"] {
             assert_eq!(FilePath::of(text.as_bytes()), None, "{text:?}");
         }

@@ -6,7 +6,7 @@ use spandrel_mavlink::ftp::{FtpError, FtpPacket, NAK};
 use std::collections::BTreeMap;
 
 /// Number of sessions for which the last reply is kept.
-const ANSWERS_MAX: usize = 64;
+const MAX_REPLIES: usize = 64;
 
 /// The last request and reply of each session.
 #[derive(Debug, Clone, Default)]
@@ -31,7 +31,7 @@ impl ReplyCache {
         }
         self.count += 1;
         self.last.insert((client, request.session), (self.count, request.clone(), answer.clone()));
-        if self.last.len() > ANSWERS_MAX
+        if self.last.len() > MAX_REPLIES
             && let Some(oldest) = self.last.iter().min_by_key(|(_, (count, ..))| *count).map(|(key, _)| *key)
         {
             self.last.remove(&oldest);

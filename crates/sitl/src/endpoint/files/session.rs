@@ -8,21 +8,21 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Maximum number of open files of all clients.
-const SESSIONS_MAX: usize = 32;
+const MAX_SESSIONS: usize = 32;
 /// Maximum number of open files per client; MAVProxy transfers up to five in parallel.
-const EACH_MAX: usize = 8;
+const MAX_SESSIONS_PER_CLIENT: usize = 8;
 /// Timeout after which an idle session is closed, so that a client that disappeared does not tie up resources.
 const IDLE: SimTime = SimTime::from_ms(60_000);
 /// Time within which an identical open request counts as a repeat, regardless of what arrived in between: networks
 /// duplicate and reorder datagrams. After that, it comes from a client that restarted its sequence numbers (estimate:
 /// longer than network delays).
-const REPETITION: SimTime = SimTime::from_ms(2_000);
+const REPEAT_WINDOW: SimTime = SimTime::from_ms(2_000);
 
 #[derive(Debug, Clone)]
 struct FileSession {
     path: FilePath,
-    writes: bool,
-    used: SimTime,
+    writable: bool,
+    last_used: SimTime,
     opened: SimTime,
     /// The request that opened the session.
     request: FtpPacket,
@@ -37,9 +37,9 @@ pub(super) struct FileSessions(BTreeMap<(FileClient, u8), FileSession>);
 impl FileSessions {
     /// Checks whether this client may open a file under this session number. An open session with the same number is
     /// replaced.
-    pub fn room(&self, client: FileClient, number: u8) -> Result<(), FtpError> {
+    pub fn check_capacity(&self, client: FileClient, number: u8) -> Result<(), FtpError> {
         let own = self.0.keys().filter(|(owner, _)| *owner == client).count();
-        let full = self.0.len() >= SESSIONS_MAX || own >= EACH_MAX;
+        let full = self.0.len() >= MAX_SESSIONS || own >= MAX_SESSIONS_PER_CLIENT;
         if full && !self.0.contains_key(&(client, number)) { Err(FtpError::NoSessionsAvailable) } else { Ok(()) }
     }
 
@@ -49,23 +49,24 @@ impl FileSessions {
         owner: FileClient,
         request: &FtpPacket,
         path: FilePath,
-        writes: bool,
+        writable: bool,
         now: SimTime,
     ) -> Result<(), FtpError> {
-        self.room(owner, request.session)?;
-        let session = FileSession { path, writes, used: now, opened: now, request: request.clone(), content: None };
+        self.check_capacity(owner, request.session)?;
+        let session =
+            FileSession { path, writable: writable, last_used: now, opened: now, request: request.clone(), content: None };
         self.0.insert((owner, request.session), session);
         Ok(())
     }
 
     /// Checks whether this request has just opened its session.
-    pub fn is_repetition(&self, client: FileClient, request: &FtpPacket, now: SimTime) -> bool {
+    pub fn is_repeated_open(&self, client: FileClient, request: &FtpPacket, now: SimTime) -> bool {
         let session = self.0.get(&(client, request.session));
-        session.is_some_and(|session| session.request == *request && now.saturating_sub(session.opened) <= REPETITION)
+        session.is_some_and(|session| session.request == *request && now.saturating_sub(session.opened) <= REPEAT_WINDOW)
     }
 
     /// Stores the content generated for a session.
-    pub fn hold(&mut self, client: FileClient, number: u8, content: Arc<[u8]>) {
+    pub fn set_content(&mut self, client: FileClient, number: u8, content: Arc<[u8]>) {
         if let Some(session) = self.0.get_mut(&(client, number)) {
             session.content = Some(content);
         }
@@ -76,11 +77,11 @@ impl FileSessions {
         self.0.get(&(client, number))?.content.clone()
     }
 
-    /// Returns the path of a session of this client; the session must be open for writing if `writes` is set, for
+    /// Returns the path of a session of this client; the session must be open for writing if `writable` is set, for
     /// reading otherwise.
-    pub fn path(&self, client: FileClient, number: u8, writes: bool) -> Result<FilePath, FtpError> {
+    pub fn path(&self, client: FileClient, number: u8, writable: bool) -> Result<FilePath, FtpError> {
         match self.0.get(&(client, number)) {
-            Some(session) if session.writes == writes => Ok(session.path.clone()),
+            Some(session) if session.writable == writable => Ok(session.path.clone()),
             _ => Err(FtpError::InvalidSession),
         }
     }
@@ -98,12 +99,12 @@ impl FileSessions {
     /// Resets the idle timer of a session.
     pub fn touch(&mut self, client: FileClient, number: u8, now: SimTime) {
         if let Some(session) = self.0.get_mut(&(client, number)) {
-            session.used = now;
+            session.last_used = now;
         }
     }
 
     /// Closes idle sessions.
     pub fn expire(&mut self, now: SimTime) {
-        self.0.retain(|_, session| now.saturating_sub(session.used) <= IDLE);
+        self.0.retain(|_, session| now.saturating_sub(session.last_used) <= IDLE);
     }
 }

@@ -13,7 +13,7 @@ const OTHER: FileClient = (LinkId(2), (254, 190));
 struct MemoryFiles(BTreeMap<String, Vec<u8>>);
 
 impl MemoryFiles {
-    fn work(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
+    fn execute(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
         let key = |path: &FilePath| path.as_str().to_owned();
         match action {
             FileAction::List(path) if path.is_root() => Ok(FileJobResult::Entries(
@@ -49,7 +49,7 @@ impl MemoryFiles {
             }
             FileAction::Checksum { path, from, sum } => {
                 let bytes = self.0.get(&key(path)).ok_or(FileError::NotFound)?;
-                let slice = cut(bytes, *from, CHECKSUM_SLICE);
+                let slice = slice_at(bytes, *from, CHECKSUM_SLICE);
                 Ok(FileJobResult::Checksum { sum: checksum(*sum, &slice), bytes: slice.len() as u32 })
             }
             FileAction::List(_) | FileAction::MakeDirectory(_) | FileAction::RemoveDirectory(_) => Err(FileError::NotFound),
@@ -85,7 +85,7 @@ impl FtpHarness {
 
     fn turn(&mut self, client: FileClient) -> Vec<FtpPacket> {
         while let Some(job) = self.server.poll_job() {
-            let outcome = self.files.work(&job.action);
+            let outcome = self.files.execute(&job.action);
             self.server.done(job.ticket, outcome, self.now);
         }
         self.server.poll(|_| true).into_iter().filter(|(to, _)| *to == client).map(|(_, packet)| packet).collect()
@@ -100,21 +100,21 @@ impl FtpHarness {
     }
 }
 
-fn said(answer: &FtpPacket) -> Result<Vec<u8>, u8> {
+fn result_of(answer: &FtpPacket) -> Result<Vec<u8>, u8> {
     if answer.opcode == ACK { Ok(answer.sized().unwrap().to_vec()) } else { Err(answer.data[0]) }
 }
 
 #[test]
-fn exact_without_a_store_everything_is_refused_at_once() {
+fn exact_requests_without_storage_are_rejected_immediately() {
     let mut bench = FtpHarness::new();
     bench.server = FileServer::default();
-    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")), Err(FtpError::EndOfFile as u8));
-    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"/a")), Err(FtpError::FileNotFound as u8));
-    assert_eq!(said(&bench.ask(Opcode::CreateFile, 0, 0, b"/a")), Err(FtpError::FileProtected as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")), Err(FtpError::EndOfFile as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::OpenFileRo, 0, 0, b"/a")), Err(FtpError::FileNotFound as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::CreateFile, 0, 0, b"/a")), Err(FtpError::FileProtected as u8));
 }
 
 #[test]
-fn exact_every_number_of_an_opcode_is_answered() {
+fn exact_every_opcode_number_is_answered() {
     let mut bench = FtpHarness::new();
     for number in 0..=255u8 {
         let mut packet = bench.packet(Opcode::None, 0, 0, b"x");
@@ -122,85 +122,88 @@ fn exact_every_number_of_an_opcode_is_answered() {
         let answers = bench.put(CLIENT, &packet);
         assert_eq!(answers.len(), 1, "opcode {number}");
         assert!([ACK, NAK].contains(&answers[0].opcode));
-        assert!(number < 16 || said(&answers[0]) == Err(FtpError::UnknownCommand as u8));
+        assert!(number < 16 || result_of(&answers[0]) == Err(FtpError::UnknownCommand as u8));
     }
 }
 
 #[test]
-fn exact_a_file_is_made_written_read_renamed_and_removed() {
+fn exact_file_can_be_created_written_read_renamed_and_removed() {
     let mut bench = FtpHarness::new();
     let session = bench.ask(Opcode::CreateFile, 0, 0, b"/notes.txt").session;
-    assert_eq!(said(&bench.ask(Opcode::WriteFile, session, 0, b"hello")), Ok(Vec::new()));
-    assert_eq!(said(&bench.ask(Opcode::WriteFile, session, 5, b" there")), Ok(Vec::new()));
+    assert_eq!(result_of(&bench.ask(Opcode::WriteFile, session, 0, b"hello")), Ok(Vec::new()));
+    assert_eq!(result_of(&bench.ask(Opcode::WriteFile, session, 5, b" there")), Ok(Vec::new()));
     assert_eq!(
-        said(&bench.ask(Opcode::ReadFile, session, 0, b"")),
+        result_of(&bench.ask(Opcode::ReadFile, session, 0, b"")),
         Err(FtpError::InvalidSession as u8),
         "the session is open for writing"
     );
-    assert_eq!(said(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Ok(Vec::new()));
-    assert_eq!(said(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Err(FtpError::InvalidSession as u8));
-    assert_eq!(said(&bench.ask(Opcode::Rename, 0, 0, b"notes.txt\0words.txt")), Ok(Vec::new()));
-    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")), Ok(b"Fwords.txt\t11\0".to_vec()));
+    assert_eq!(result_of(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Ok(Vec::new()));
+    assert_eq!(result_of(&bench.ask(Opcode::TerminateSession, session, 0, b"")), Err(FtpError::InvalidSession as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::Rename, 0, 0, b"notes.txt\0words.txt")), Ok(Vec::new()));
+    assert_eq!(result_of(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")), Ok(b"Fwords.txt\t11\0".to_vec()));
     let opened = bench.ask(Opcode::OpenFileRo, 0, 0, b"words.txt");
-    assert_eq!(said(&opened), Ok(11u32.to_le_bytes().to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 6, &[0; 20])), Ok(b"there".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 11, &[0; 20])), Err(FtpError::EndOfFile as u8));
+    assert_eq!(result_of(&opened), Ok(11u32.to_le_bytes().to_vec()));
+    assert_eq!(result_of(&bench.ask(Opcode::ReadFile, opened.session, 6, &[0; 20])), Ok(b"there".to_vec()));
+    assert_eq!(result_of(&bench.ask(Opcode::ReadFile, opened.session, 11, &[0; 20])), Err(FtpError::EndOfFile as u8));
     assert_eq!(
-        said(&bench.ask(Opcode::CalcFileCrc32, 0, 0, b"words.txt")),
+        result_of(&bench.ask(Opcode::CalcFileCrc32, 0, 0, b"words.txt")),
         Ok(checksum(0, b"hello there").to_le_bytes().to_vec())
     );
-    assert_eq!(said(&bench.ask(Opcode::RemoveFile, 0, 0, b"words.txt")), Ok(Vec::new()));
-    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"words.txt")), Err(FtpError::FileNotFound as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::RemoveFile, 0, 0, b"words.txt")), Ok(Vec::new()));
+    assert_eq!(result_of(&bench.ask(Opcode::OpenFileRo, 0, 0, b"words.txt")), Err(FtpError::FileNotFound as u8));
 }
 
 #[test]
-fn exact_a_repeated_request_is_answered_again_and_done_once() {
+fn exact_repeated_request_is_answered_again_but_executed_once() {
     let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1]);
     let packet = bench.packet(Opcode::RemoveFile, 0, 0, b"a");
     let first = bench.put(CLIENT, &packet);
-    assert_eq!(said(&first[0]), Ok(Vec::new()));
+    assert_eq!(result_of(&first[0]), Ok(Vec::new()));
     assert_eq!(bench.put(CLIENT, &packet), first, "a duplicate must repeat the first answer, although the file is gone");
 }
 
 #[test]
-fn exact_nobody_uses_another_clients_session_or_more_than_its_share() {
+fn exact_sessions_are_private_and_limited_per_client() {
     let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 10]);
     let own = bench.ask(Opcode::OpenFileRo, 0, 0, b"a").session;
     let theirs = bench.packet(Opcode::ReadFile, own, 0, &[0; 5]);
     let answer = bench.put(OTHER, &theirs);
-    assert_eq!(said(&answer[0]), Err(FtpError::InvalidSession as u8));
+    assert_eq!(result_of(&answer[0]), Err(FtpError::InvalidSession as u8));
     for number in 1..8 {
-        assert!(said(&bench.ask(Opcode::OpenFileRo, number, 0, b"a")).is_ok());
+        assert!(result_of(&bench.ask(Opcode::OpenFileRo, number, 0, b"a")).is_ok());
     }
-    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 8, 0, b"a")), Err(FtpError::NoSessionsAvailable as u8));
-    assert!(said(&bench.ask(Opcode::OpenFileRo, 7, 0, b"a")).is_ok(), "a new session must replace the one with the same number");
+    assert_eq!(result_of(&bench.ask(Opcode::OpenFileRo, 8, 0, b"a")), Err(FtpError::NoSessionsAvailable as u8));
+    assert!(
+        result_of(&bench.ask(Opcode::OpenFileRo, 7, 0, b"a")).is_ok(),
+        "a new session must replace the one with the same number"
+    );
     bench.now += SimTime::from_ms(60_001);
-    assert!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")).is_ok(), "idle sessions must expire");
-    assert!(said(&bench.ask(Opcode::ResetSessions, 0, 0, b"")).is_ok());
+    assert!(result_of(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")).is_ok(), "idle sessions must expire");
+    assert!(result_of(&bench.ask(Opcode::ResetSessions, 0, 0, b"")).is_ok());
 }
 
 /// MAVProxy matches replies by the session it chose; MAVSDK 4 always sends 0; session numbers are per client.
 #[test]
-fn regress_answers_name_the_session_that_was_requested() {
+fn regress_replies_contain_the_requested_session() {
     let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 10]);
     bench.files.0.insert("b".into(), vec![2; 10]);
     for number in [7, 200, 0] {
         let opened = bench.ask(Opcode::OpenFileRo, number, 0, b"a");
-        assert_eq!((said(&opened).is_ok(), opened.session), (true, number));
+        assert_eq!((result_of(&opened).is_ok(), opened.session), (true, number));
         assert_eq!(bench.ask(Opcode::ReadFile, number, 0, &[0; 5]).session, number);
         assert_eq!(bench.ask(Opcode::ListDirectory, number, 0, b"/").session, number);
     }
     let theirs = bench.packet(Opcode::OpenFileRo, 7, 0, b"b");
     assert_eq!(bench.put(OTHER, &theirs)[0].session, 7);
     let read = bench.packet(Opcode::ReadFile, 7, 0, &[0; 3]);
-    assert_eq!(said(&bench.put(OTHER, &read)[0]), Ok(vec![2; 3]));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, 7, 0, &[0; 3])), Ok(vec![1; 3]));
+    assert_eq!(result_of(&bench.put(OTHER, &read)[0]), Ok(vec![2; 3]));
+    assert_eq!(result_of(&bench.ask(Opcode::ReadFile, 7, 0, &[0; 3])), Ok(vec![1; 3]));
     let left_open = bench.ask(Opcode::OpenFileRo, 7, 0, b"b");
     assert_eq!(
-        (left_open.session, said(&bench.ask(Opcode::ReadFile, 7, 0, &[0; 3]))),
+        (left_open.session, result_of(&bench.ask(Opcode::ReadFile, 7, 0, &[0; 3]))),
         (7, Ok(vec![2; 3])),
         "the newest session must be used"
     );
@@ -209,7 +212,7 @@ fn regress_answers_name_the_session_that_was_requested() {
 /// The last packet of a burst completes it: if it is lost, MAVSDK 4 would treat an additional NAK as its last failed
 /// attempt.
 #[test]
-fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
+fn regress_burst_to_the_end_of_the_file_completes_without_a_nak() {
     let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 2 * DATA_MAX + 7]);
     bench.files.0.insert("empty".into(), Vec::new());
@@ -220,14 +223,14 @@ fn regress_a_burst_to_the_end_of_the_file_ends_without_a_refusal() {
     let shape: Vec<(u8, u32, u8, bool)> = heard.iter().map(|p| (p.opcode, p.offset, p.size, p.burst_complete)).collect();
     let full = DATA_MAX as u8;
     assert_eq!(shape, [(ACK, 0, full, false), (ACK, 239, full, false), (ACK, 478, 7, true)]);
-    assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 485, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::BurstReadFile, 0, 485, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
     bench.ask(Opcode::OpenFileRo, 0, 0, b"empty");
-    assert_eq!(said(&bench.ask(Opcode::BurstReadFile, 0, 0, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::BurstReadFile, 0, 0, &[0; DATA_MAX])), Err(FtpError::EndOfFile as u8));
 }
 
 /// A duplicated or delayed request must not restart a burst or truncate a file being written.
 #[test]
-fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
+fn regress_late_duplicate_request_has_no_effect() {
     let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 1000]);
     bench.ask(Opcode::OpenFileRo, 3, 0, b"a");
@@ -252,7 +255,7 @@ fn regress_a_doubled_request_disturbs_nothing_that_came_after_it() {
 
 /// A long file must be checksummed slice by slice, with other clients' jobs in between.
 #[test]
-fn regress_a_checksum_is_made_in_slices() {
+fn regress_checksum_is_computed_in_slices() {
     let mut bench = FtpHarness::new();
     let slice = CHECKSUM_SLICE as usize;
     for length in [0, 5, slice, 3 * slice, 3 * slice + 1] {
@@ -262,34 +265,34 @@ fn regress_a_checksum_is_made_in_slices() {
         bench.server.receive(CLIENT, &request, bench.now);
         let mut jobs = 0;
         while let Some(job) = bench.server.poll_job() {
-            let outcome = bench.files.work(&job.action);
+            let outcome = bench.files.execute(&job.action);
             bench.server.done(job.ticket, outcome, bench.now);
             jobs += 1;
         }
         assert_eq!(jobs, length / slice + 1);
-        assert_eq!(said(&bench.turn(CLIENT)[0]), Ok(checksum(0, &file).to_le_bytes().to_vec()), "{length} bytes");
+        assert_eq!(result_of(&bench.turn(CLIENT)[0]), Ok(checksum(0, &file).to_le_bytes().to_vec()), "{length} bytes");
     }
 }
 
 #[test]
-fn exact_made_up_files_are_listed_read_and_never_written() {
+fn exact_generated_files_are_listed_and_read_only() {
     let mut bench = FtpHarness::new();
     bench.files.0.insert("b.ulg".into(), vec![0; 3]);
     bench.server.generate("/general.json", b"{}".to_vec());
     bench.server.generate("/extras/deep.json", b"[1]".to_vec());
-    let listed = said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")).unwrap();
+    let listed = result_of(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")).unwrap();
     assert_eq!(String::from_utf8(listed).unwrap(), "Dextras\0Fgeneral.json\t2\0Fb.ulg\t3\0");
-    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/extras")), Ok(b"Fdeep.json\t3\0".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::ListDirectory, 0, 1, b"/extras")), Err(FtpError::EndOfFile as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::ListDirectory, 0, 0, b"/extras")), Ok(b"Fdeep.json\t3\0".to_vec()));
+    assert_eq!(result_of(&bench.ask(Opcode::ListDirectory, 0, 1, b"/extras")), Err(FtpError::EndOfFile as u8));
     let opened = bench.ask(Opcode::OpenFileRo, 0, 0, b"general.json");
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, opened.session, 0, &[0; 200])), Ok(b"{}".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::RemoveFile, 0, 0, b"general.json")), Err(FtpError::FileProtected as u8));
-    assert_eq!(said(&bench.ask(Opcode::CreateFile, 0, 0, b"/")), Err(FtpError::FileProtected as u8));
-    assert_eq!(said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"../b.ulg")), Err(FtpError::FileNotFound as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::ReadFile, opened.session, 0, &[0; 200])), Ok(b"{}".to_vec()));
+    assert_eq!(result_of(&bench.ask(Opcode::RemoveFile, 0, 0, b"general.json")), Err(FtpError::FileProtected as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::CreateFile, 0, 0, b"/")), Err(FtpError::FileProtected as u8));
+    assert_eq!(result_of(&bench.ask(Opcode::OpenFileRo, 0, 0, b"../b.ulg")), Err(FtpError::FileNotFound as u8));
 }
 
 #[test]
-fn exact_what_is_made_for_a_session_stays_as_it_was_when_it_was_opened() {
+fn exact_generated_session_content_does_not_change_after_opening() {
     let mut bench = FtpHarness::new();
     let mut open = |number: u8, content: &[u8]| {
         let request = bench.packet(Opcode::OpenFileRo, number, 0, b"@PARAM/param.pck");
@@ -300,26 +303,26 @@ fn exact_what_is_made_for_a_session_stays_as_it_was_when_it_was_opened() {
         answers[0].clone()
     };
     let (old, new) = (open(0, b"before"), open(1, b"after it"));
-    assert_eq!((said(&old), said(&new)), (Ok(6u32.to_le_bytes().to_vec()), Ok(8u32.to_le_bytes().to_vec())));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, old.session, 0, &[0; 100])), Ok(b"before".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, new.session, 6, &[0; 100])), Ok(b"it".to_vec()));
-    assert_eq!(said(&bench.ask(Opcode::ReadFile, new.session, 8, &[0; 100])), Err(FtpError::EndOfFile as u8));
+    assert_eq!((result_of(&old), result_of(&new)), (Ok(6u32.to_le_bytes().to_vec()), Ok(8u32.to_le_bytes().to_vec())));
+    assert_eq!(result_of(&bench.ask(Opcode::ReadFile, old.session, 0, &[0; 100])), Ok(b"before".to_vec()));
+    assert_eq!(result_of(&bench.ask(Opcode::ReadFile, new.session, 6, &[0; 100])), Ok(b"it".to_vec()));
+    assert_eq!(result_of(&bench.ask(Opcode::ReadFile, new.session, 8, &[0; 100])), Err(FtpError::EndOfFile as u8));
     assert_eq!(
-        said(&bench.ask(Opcode::OpenFileRo, 0, 0, b"@PARAM/param.pck")),
+        result_of(&bench.ask(Opcode::OpenFileRo, 0, 0, b"@PARAM/param.pck")),
         Err(FtpError::FileNotFound as u8),
         "generated content must not be stored"
     );
 }
 
 #[test]
-fn exact_a_long_listing_is_reached_entry_by_entry() {
+fn exact_long_listing_can_be_read_entry_by_entry() {
     let mut bench = FtpHarness::new();
     let names: Vec<String> = (0..40).map(|k| format!("flight-{k:02}.ulg")).chain(["x".repeat(250), "y".into()]).collect();
     for name in &names {
         bench.files.0.insert(name.clone(), Vec::new());
     }
     let (mut seen, mut offset) = (Vec::new(), 0);
-    while let Ok(part) = said(&bench.ask(Opcode::ListDirectory, 0, offset, b"")) {
+    while let Ok(part) = result_of(&bench.ask(Opcode::ListDirectory, 0, offset, b"")) {
         let entries: Vec<String> = String::from_utf8(part).unwrap().split_terminator('\0').map(str::to_owned).collect();
         offset += entries.len() as u32;
         seen.extend(entries);
@@ -344,7 +347,7 @@ fn impair(packets: Vec<FtpPacket>, random: &mut RandomStream) -> Vec<FtpPacket> 
 }
 
 #[test]
-fn prop_a_burst_download_is_whole_over_a_link_that_loses_repeats_and_reorders() {
+fn prop_burst_download_survives_loss_duplication_and_reordering() {
     for seed in 0..20 {
         let mut random = RandomStream::new(seed, "ftp link");
         let mut bench = FtpHarness::new();
@@ -378,7 +381,7 @@ fn prop_a_burst_download_is_whole_over_a_link_that_loses_repeats_and_reorders() 
 }
 
 #[test]
-fn prop_rubbish_is_answered_and_leaves_nothing_behind() {
+fn prop_invalid_requests_are_answered_and_leave_no_state() {
     let mut random = RandomStream::new(5, "ftp rubbish");
     let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![7; 1000]);
@@ -402,5 +405,5 @@ fn prop_rubbish_is_answered_and_leaves_nothing_behind() {
         bench.server.forget(LinkId(link));
     }
     assert!(bench.server.answered.len() == 0 && bench.server.bursts.is_empty());
-    assert!(said(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")).is_ok() || bench.files.0.is_empty());
+    assert!(result_of(&bench.ask(Opcode::ListDirectory, 0, 0, b"/")).is_ok() || bench.files.0.is_empty());
 }

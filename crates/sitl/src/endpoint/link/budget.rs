@@ -3,20 +3,20 @@
 use spandrel_model::time::SimTime;
 
 /// Fraction of the link capacity available to streams; the rest is for responses, lists and files.
-const STREAMS_SHARE: f64 = 0.75;
+const STREAM_SHARE: f64 = 0.75;
 /// Assumed stream frame size before any is measured, bytes (estimate: mean of the shipped streams).
 const FRAME_BYTES: f64 = 50.0;
 /// Maximum factor by which stream intervals are stretched.
-const SLOWEST: f64 = 200.0;
+const MAX_STRETCH: f64 = 200.0;
 /// Maximum burst after an idle period, s of link capacity, and its minimum (one datagram), bytes.
 const BURST_S: f64 = 0.05;
 const BURST_BYTES: f64 = 300.0;
 /// Backlog above which lists and files wait and streams and forwarded frames are skipped, s of link capacity.
-const BUSY_S: f64 = 0.25;
+const SATURATED_BACKLOG_S: f64 = 0.25;
 /// Backlog above which data is dropped, s of link capacity.
-const FULL_S: f64 = 2.0;
+const MAX_BACKLOG_S: f64 = 2.0;
 /// Interval between adjustments of the stream intervals.
-const LOOK: SimTime = SimTime::from_ms(1_000);
+const ADJUST_INTERVAL: SimTime = SimTime::from_ms(1_000);
 
 /// Capacity of a link and its current use.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ impl LinkBudget {
     /// frames/s.
     #[must_use]
     pub fn new(bytes_s: f64, frames_s: f64, now: SimTime) -> Self {
-        let stretch = (frames_s * FRAME_BYTES / (bytes_s * STREAMS_SHARE)).clamp(1.0, SLOWEST);
+        let stretch = (frames_s * FRAME_BYTES / (bytes_s * STREAM_SHARE)).clamp(1.0, MAX_STRETCH);
         Self { bytes_s, tokens: 0.0, at: now, last_adjusted: now, streamed: 0.0, stretch }
     }
 
@@ -43,10 +43,10 @@ impl LinkBudget {
         self.tokens = (self.tokens + self.bytes_s * (now - self.at).s()).min(BURST_BYTES.max(self.bytes_s * BURST_S));
         self.at = now;
         let window_s = (now - self.last_adjusted).s();
-        if now - self.last_adjusted >= LOOK {
-            let used = self.streamed / (window_s * self.bytes_s * STREAMS_SHARE);
+        if now - self.last_adjusted >= ADJUST_INTERVAL {
+            let used = self.streamed / (window_s * self.bytes_s * STREAM_SHARE);
             // Move halfway each time, so that a second with few slow streams does not make the intervals jump.
-            self.stretch = (self.stretch * f64::midpoint(1.0, used)).clamp(1.0, SLOWEST);
+            self.stretch = (self.stretch * f64::midpoint(1.0, used)).clamp(1.0, MAX_STRETCH);
             self.streamed = 0.0;
             self.last_adjusted = now;
         }
@@ -75,13 +75,13 @@ impl LinkBudget {
     /// Checks whether the backlog is large enough to hold back more data. `waiting` is in bytes.
     #[must_use]
     pub fn is_saturated(&self, waiting: usize) -> bool {
-        waiting as f64 > self.bytes_s * BUSY_S
+        waiting as f64 > self.bytes_s * SATURATED_BACKLOG_S
     }
 
     /// Returns the maximum backlog, bytes.
     #[must_use]
-    pub fn most_waiting(&self) -> usize {
-        (self.bytes_s * FULL_S) as usize
+    pub fn max_backlog(&self) -> usize {
+        (self.bytes_s * MAX_BACKLOG_S) as usize
     }
 }
 
@@ -95,7 +95,7 @@ mod tests {
     const TOLERANCE: f64 = 0.02;
 
     #[test]
-    fn exact_what_leaves_is_what_the_link_carries() {
+    fn exact_output_matches_the_link_capacity() {
         let mut budget = LinkBudget::new(RADIO, 0.0, SimTime::ZERO);
         let mut sent = 0;
         for ms in 1..=10_000 {
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_streams_settle_at_their_share_of_the_link_from_either_side() {
+    fn exact_stream_rate_converges_to_its_share_from_both_sides() {
         for (frames_s, bytes) in [(400.0, 20), (100.0, 200)] {
             let mut budget = LinkBudget::new(RADIO, frames_s, SimTime::ZERO);
             let mut asked = 0.0;
@@ -121,12 +121,12 @@ mod tests {
                 }
             }
             let share = frames_s * bytes as f64 / budget.interval_factor() / RADIO;
-            assert!((share / STREAMS_SHARE - 1.0).abs() < 0.1, "{share}: whole frames in one second's count");
+            assert!((share / STREAM_SHARE - 1.0).abs() < 0.1, "{share}: whole frames in one second's count");
         }
     }
 
     #[test]
-    fn exact_a_fast_link_is_not_slowed() {
+    fn exact_fast_link_is_not_throttled() {
         assert_eq!(LinkBudget::new(1e6, 800.0, SimTime::ZERO).interval_factor(), 1.0);
     }
 }

@@ -44,7 +44,7 @@ impl Links {
     /// Removes a link.
     pub fn close(&mut self, id: LinkId) {
         self.dropped_by_closed += self.peers.remove(&id).map_or(0, |link| link.dropped());
-        self.router.forget_link(id);
+        self.router.remove_link(id);
     }
 
     /// Sends only responses on a link until a heartbeat is received: the sender's address may be forged, and streams

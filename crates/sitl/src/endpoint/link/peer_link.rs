@@ -14,7 +14,7 @@ const DATAGRAM: usize = 1_200;
 /// Datagram size on a rate-limited link, bytes: small, to keep the latency low.
 const SMALL_DATAGRAM: usize = 280;
 /// Maximum backlog of an unlimited link, bytes; the host empties it in every iteration.
-const BACKLOG_MAX: usize = 4_194_304;
+const MAX_BACKLOG: usize = 4_194_304;
 /// Maximum number of frames per tick that are forwarded from one link to other links.
 const FORWARDED_PER_TICK: usize = 16;
 /// Interval between heartbeats of a component (MAVLink: 1 Hz).
@@ -61,18 +61,25 @@ pub struct PeerLink {
     /// Current signing timestamp.
     pub stamp: u64,
     /// Stream rows requested by REQUEST_MESSAGE, sent after the acknowledgment.
-    pub after_acknowledgement: Vec<usize>,
+    pub after_acknowledgment: Vec<usize>,
     /// Whether the peer must request its streams.
-    must_ask: bool,
+    must_request_streams: bool,
     /// Whether the peer has addressed the camera.
     uses_camera: bool,
 }
 
 impl PeerLink {
-    /// Creates a link with its streams. With `must_ask`, the peer receives the scoring data only if it requests the
+    /// Creates a link with its streams. With `must_request_streams`, the peer receives the scoring data only if it requests the
     /// ground truth.
     #[must_use]
-    pub fn new(kind: LinkKind, lockstep: bool, system_id: u8, must_ask: bool, streams: StreamSchedule, now: SimTime) -> Self {
+    pub fn new(
+        kind: LinkKind,
+        lockstep: bool,
+        system_id: u8,
+        must_request_streams: bool,
+        streams: StreamSchedule,
+        now: SimTime,
+    ) -> Self {
         Self {
             kind,
             lockstep,
@@ -90,8 +97,8 @@ impl PeerLink {
             budget: None,
             signing: None,
             stamp: 0,
-            after_acknowledgement: Vec::new(),
-            must_ask,
+            after_acknowledgment: Vec::new(),
+            must_request_streams: must_request_streams,
             uses_camera: false,
         }
     }
@@ -152,8 +159,8 @@ impl PeerLink {
 
     /// Checks whether the peer receives the scoring data: either by default, or because it requested the ground truth.
     #[must_use]
-    pub fn wants_truth(&self) -> bool {
-        !self.must_ask || self.streams.is_on(TRUTH)
+    pub fn receives_truth(&self) -> bool {
+        !self.must_request_streams || self.streams.is_on(TRUTH)
     }
 
     /// Restores the default rates of all streams.
@@ -247,8 +254,8 @@ impl PeerLink {
 
     fn queue(&mut self, frame: Vec<u8>) {
         let (most, datagram) = match &self.budget {
-            Some(budget) => (budget.most_waiting(), SMALL_DATAGRAM),
-            None => (BACKLOG_MAX, DATAGRAM),
+            Some(budget) => (budget.max_backlog(), SMALL_DATAGRAM),
+            None => (MAX_BACKLOG, DATAGRAM),
         };
         if self.waiting + frame.len() > most {
             self.dropped += 1;

@@ -8,7 +8,7 @@ use spandrel_mavlink::signing::SigningKey;
 impl Links {
     /// Signs all outgoing frames and requires signatures with this key, except for unsigned frames on trusted kinds of
     /// links. `stamp` is the current signing timestamp.
-    pub fn demand_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
+    pub fn require_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
         self.signing = Some(SigningPolicy::new(key, stamp, trusted));
         self.sign_links();
     }
@@ -22,7 +22,7 @@ impl Links {
 
     /// Returns the signing state to save for the next start; `None` if signing is off.
     #[must_use]
-    pub fn signing_memory(&self) -> Option<String> {
+    pub fn signing_state(&self) -> Option<String> {
         self.signing.as_ref().map(SigningPolicy::memory)
     }
 

@@ -3,7 +3,7 @@
 use spandrel_model::time::SimTime;
 
 /// Maximum stream rate that can be requested, Hz: the rate of the control loop.
-const FASTEST_HZ: f64 = 400.0;
+const MAX_RATE_HZ: f64 = 400.0;
 /// Message ID of the heartbeat, which is never slowed down because clients detect the vehicle by it.
 const HEARTBEAT: u32 = 0;
 
@@ -97,7 +97,7 @@ impl StreamSchedule {
         stream.interval = match us {
             us if us < 0.0 => None,
             0.0 => stream.default_interval,
-            us => period((1e6 / us).min(FASTEST_HZ)),
+            us => period((1e6 / us).min(MAX_RATE_HZ)),
         };
         stream.next = now;
         self.next_due = now;

@@ -9,7 +9,7 @@ use spandrel_model::vehicle::Camera;
 pub const DEVICE: u8 = 1;
 /// Tolerance within which an angle beyond the limit is accepted and clamped, rad (about one degree, because clients
 /// round).
-const SLACK_RAD: f64 = 0.02;
+const TOLERANCE_RAD: f64 = 0.02;
 
 /// Target of the gimbal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,11 +17,11 @@ pub enum GimbalTarget {
     /// A pitch angle, rad.
     Angle(f64),
     /// A pitch angle, rad, and the rate at which to approach it, rad/s.
-    Slowly(f64, f64),
+    AngleAtRate(f64, f64),
     /// A pitch rate, rad/s.
     Rate(f64),
     /// A position to point at, m.
-    Place(Vec3<Enu>),
+    Position(Vec3<Enu>),
     /// Level, facing forward.
     Neutral,
 }
@@ -31,7 +31,7 @@ impl GimbalTarget {
     #[must_use]
     pub fn of(angle_rad: Option<f64>, rate_rad_s: Option<f64>) -> Option<Self> {
         match (angle_rad, rate_rad_s) {
-            (Some(angle), Some(rate)) if rate != 0.0 => Some(Self::Slowly(angle, rate.abs())),
+            (Some(angle), Some(rate)) if rate != 0.0 => Some(Self::AngleAtRate(angle, rate.abs())),
             (Some(angle), _) => Some(Self::Angle(angle)),
             (None, Some(rate)) => Some(Self::Rate(rate)),
             (None, None) => None,
@@ -87,19 +87,19 @@ impl GimbalState {
     /// Converts a stick deflection in [-1, 1], up positive, to an angle; full deflection corresponds to the limit on
     /// that side.
     #[must_use]
-    pub fn deflected(camera: &Camera, deflection: f64) -> GimbalTarget {
+    pub fn angle_for_stick(camera: &Camera, deflection: f64) -> GimbalTarget {
         let stop = if deflection < 0.0 { -camera.gimbal_pitch_min_rad } else { camera.gimbal_pitch_max_rad };
         GimbalTarget::Angle(deflection.clamp(-1.0, 1.0) * stop)
     }
 
     /// Sets a new target. Returns false if it is not finite or out of range.
     pub fn set(&mut self, aim: GimbalTarget, camera: &Camera) -> bool {
-        let reached = (camera.gimbal_pitch_min_rad - SLACK_RAD)..=(camera.gimbal_pitch_max_rad + SLACK_RAD);
+        let reached = (camera.gimbal_pitch_min_rad - TOLERANCE_RAD)..=(camera.gimbal_pitch_max_rad + TOLERANCE_RAD);
         let is_valid = match aim {
             GimbalTarget::Angle(angle) => reached.contains(&angle),
-            GimbalTarget::Slowly(angle, rate) => reached.contains(&angle) && rate.is_finite() && rate > 0.0,
+            GimbalTarget::AngleAtRate(angle, rate) => reached.contains(&angle) && rate.is_finite() && rate > 0.0,
             GimbalTarget::Rate(rate) => rate.is_finite(),
-            GimbalTarget::Place(place) => place.is_finite(),
+            GimbalTarget::Position(place) => place.is_finite(),
             GimbalTarget::Neutral => true,
         };
         if is_valid {
@@ -110,7 +110,7 @@ impl GimbalState {
 
     /// Moves the gimbal for `dt_s`, s.
     pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, dt_s: f64) {
-        let fastest = if let GimbalTarget::Slowly(_, rate) = self.aim {
+        let fastest = if let GimbalTarget::AngleAtRate(_, rate) = self.aim {
             rate.min(camera.gimbal_rate_rad_s)
         } else {
             camera.gimbal_rate_rad_s
@@ -118,9 +118,9 @@ impl GimbalState {
         let limit = fastest * dt_s;
         let before = self.pitch_rad;
         let requested_rad = match self.aim {
-            GimbalTarget::Angle(angle) | GimbalTarget::Slowly(angle, _) => angle,
+            GimbalTarget::Angle(angle) | GimbalTarget::AngleAtRate(angle, _) => angle,
             GimbalTarget::Rate(rate) => before + rate * dt_s,
-            GimbalTarget::Place(place) => {
+            GimbalTarget::Position(place) => {
                 let line = place - position_m;
                 math::atan2(line.up(), line.horizontal_norm())
             }
@@ -129,7 +129,7 @@ impl GimbalState {
         let target_rad = requested_rad.clamp(camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad);
         self.pitch_rad = before + (target_rad - before).clamp(-limit, limit);
         self.rate_rad_s = (self.pitch_rad - before) / dt_s;
-        let tolerance_rad = if let GimbalTarget::Rate(_) = self.aim { 0.0 } else { SLACK_RAD };
+        let tolerance_rad = if let GimbalTarget::Rate(_) = self.aim { 0.0 } else { TOLERANCE_RAD };
         self.at_stop = self.pitch_rad == target_rad && (requested_rad - target_rad).abs() > tolerance_rad;
     }
 }

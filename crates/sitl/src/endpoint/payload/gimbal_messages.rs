@@ -61,7 +61,7 @@ pub(super) fn manual_control(p: &mut PayloadLink, m: &GIMBAL_MANAGER_SET_MANUAL_
     if m.flags.bits() & (RETRACT | NEUTRAL) != 0 {
         move_gimbal(gimbal, m.flags.bits(), (f32::NAN, f32::NAN), a);
     } else if m.pitch.is_finite() {
-        gimbal.set(GimbalState::deflected(camera, f64::from(m.pitch)), camera);
+        gimbal.set(GimbalState::angle_for_stick(camera, f64::from(m.pitch)), camera);
     } else if m.pitch_rate.is_finite() {
         let rate = f64::from(m.pitch_rate).clamp(-1.0, 1.0) * camera.gimbal_rate_rad_s;
         gimbal.set(GimbalTarget::Rate(rate), camera);

@@ -58,7 +58,7 @@ impl PayloadInput<'_> {
 
     /// Returns the height above home, m.
     #[must_use]
-    pub fn over_home_m(&self) -> f64 {
+    pub fn height_above_home_m(&self) -> f64 {
         self.home_m.map_or(0.0, |home| home.down()) - self.position_m.down()
     }
 }

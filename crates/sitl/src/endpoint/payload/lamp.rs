@@ -6,8 +6,8 @@ use spandrel_mavlink::dialect::ILLUMINATOR_STATUS_DATA;
 use spandrel_model::time::SimTime;
 
 /// Allowed number of cycles, and allowed cycle time, s.
-const CYCLES: std::ops::RangeInclusive<f64> = 1.0..=10_000.0;
-const CYCLE_S: std::ops::RangeInclusive<f64> = 0.04..=3_600.0;
+const ALLOWED_CYCLES: std::ops::RangeInclusive<f64> = 1.0..=10_000.0;
+const ALLOWED_CYCLE_S: std::ops::RangeInclusive<f64> = 0.04..=3_600.0;
 
 /// State of the lamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,8 +20,8 @@ pub struct LampState {
 /// Remaining toggles of a blink sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct BlinkSequence {
-    left: u32,
-    every: SimTime,
+    remaining: u32,
+    half_period: SimTime,
     next: SimTime,
 }
 
@@ -37,10 +37,10 @@ impl LampState {
     /// Toggles the lamp and restores it `cycles` times, each cycle `cycle_s` long, starting now. Returns false if a
     /// value is out of range.
     pub fn repeat(&mut self, cycles: f64, cycle_s: f64, now: SimTime) -> bool {
-        let is_valid = CYCLES.contains(&cycles) && CYCLE_S.contains(&cycle_s);
+        let is_valid = ALLOWED_CYCLES.contains(&cycles) && ALLOWED_CYCLE_S.contains(&cycle_s);
         if is_valid {
             let left = 2 * cycles as u32;
-            self.blinking = Some(BlinkSequence { left, every: SimTime::from_s(0.5 * cycle_s), next: now });
+            self.blinking = Some(BlinkSequence { remaining: left, half_period: SimTime::from_s(0.5 * cycle_s), next: now });
         }
         is_valid
     }
@@ -49,9 +49,9 @@ impl LampState {
     pub fn step(&mut self, now: SimTime, changes: &mut PayloadChange) {
         let Some(blinking) = self.blinking.as_mut().filter(|blinking| blinking.next <= now) else { return };
         self.on = !self.on;
-        blinking.left -= 1;
-        blinking.next += blinking.every;
-        if blinking.left == 0 {
+        blinking.remaining -= 1;
+        blinking.next += blinking.half_period;
+        if blinking.remaining == 0 {
             self.blinking = None;
         }
         changes.add_message(ILLUMINATOR_STATUS_DATA::ID);
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_repetition_changes_over_and_back_as_often_as_requested_and_ends_as_it_began() {
+    fn exact_blinking_toggles_the_requested_number_of_times_and_restores_the_state() {
         let mut lamp = LampState::OFF;
         lamp.switch(true);
         assert!(lamp.repeat(3.0, 0.2, SimTime::ZERO));
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_senseless_repetitions_are_refused_and_a_switch_ends_one() {
+    fn exact_invalid_blink_values_are_rejected_and_switching_ends_blinking() {
         let mut lamp = LampState::OFF;
         for (cycles, cycle_s) in [(0.0, 1.0), (1e9, 1.0), (1.0, 0.0), (1.0, f64::NAN), (f64::NAN, 1.0)] {
             assert!(!lamp.repeat(cycles, cycle_s, SimTime::ZERO), "{cycles} {cycle_s}");

@@ -11,12 +11,13 @@ use spandrel_model::time::SimTime;
 /// Timeout of a stream's reports, s of the sender's time; reports arrive every second.
 const REPORT_TIMEOUT_S: f64 = 3.5;
 /// Maximum accepted frame rate, Hz.
-const RATE_MAX_HZ: f32 = 240.0;
+const MAX_FRAME_RATE_HZ: f32 = 240.0;
 
 /// Handles VIDEO_STREAM_STATUS for stream 1 from any sender other than the vehicle's own components.
 pub(super) fn status(p: &mut PayloadLink, m: &VIDEO_STREAM_STATUS_DATA, a: &mut PayloadMessage) {
     let own = a.from.0 == a.links.system_id() && matches!(a.from.1, AUTOPILOT | CAMERA);
-    let valid = m.framerate.is_finite() && (0.0..=RATE_MAX_HZ).contains(&m.framerate) && m.resolution_h > 0 && m.resolution_v > 0;
+    let valid =
+        m.framerate.is_finite() && (0.0..=MAX_FRAME_RATE_HZ).contains(&m.framerate) && m.resolution_h > 0 && m.resolution_v > 0;
     if own || m.stream_id != 1 || !valid {
         return;
     }

@@ -18,7 +18,7 @@ const DO_AUX_FUNCTION: u16 = 218;
 /// Maximum throttle pulse that counts as throttle down, microseconds (ArduPilot: RC3_MIN and RC3_DZ).
 const THROTTLE_DOWN_US: u16 = 1_030;
 /// Minimum height of the takeoff item added before the first saved waypoint, m (ArduPilot: SAVE_WP).
-const LEAST_TAKEOFF_M: f32 = 1.0;
+const MIN_TAKEOFF_M: f32 = 1.0;
 /// First channel that is not a stick.
 const FIRST_CHANNEL: usize = 5;
 
@@ -42,7 +42,7 @@ const MODES: &[(u16, u32)] = &[
 
 /// Runs the function of every switch that has moved. The first reading of a switch does not count as a movement.
 pub(super) fn read_switches(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
-    for (k, us) in manual::aux_of(c).into_iter().enumerate() {
+    for (k, us) in manual::aux_channels(c).into_iter().enumerate() {
         if !manual::PULSES_US.contains(&us) {
             continue;
         }
@@ -87,7 +87,7 @@ fn run(v: &mut VehicleLink, function: u16, position: SwitchPosition, a: &mut Inb
         28 if position != SwitchPosition::Middle => run_equipment_command(v, MavCmd::MAV_CMD_DO_SET_RELAY, [0.0, on, 0.0], a),
         41 | 153 if position != SwitchPosition::Middle => arm(v, high, a),
         58 if high => {
-            v.plans.drop_mission();
+            v.plans.clear_mission();
             v.update_autopilot_plan(MavMissionType::MAV_MISSION_TYPE_MISSION, a.aircraft.plane, a.autopilot);
         }
         7 | 9 | 24 | 28 | 41 | 58 | 153 => {}
@@ -153,7 +153,7 @@ fn save_waypoint(v: &mut VehicleLink, a: &mut InboundMessage) {
     };
     let here = (deg_e7(geo.latitude_deg), deg_e7(geo.longitude_deg));
     if v.plans.mission().is_empty() {
-        v.plans.add(item(MavCmd::MAV_CMD_NAV_TAKEOFF, (0, 0), over_home_m.max(LEAST_TAKEOFF_M)));
+        v.plans.add(item(MavCmd::MAV_CMD_NAV_TAKEOFF, (0, 0), over_home_m.max(MIN_TAKEOFF_M)));
     }
     let command = if down { MavCmd::MAV_CMD_NAV_LAND } else { MavCmd::MAV_CMD_NAV_WAYPOINT };
     v.plans.add(item(command, here, over_home_m));

@@ -50,7 +50,7 @@ pub(super) struct ButtonContext {
     /// Gimbal pitch relative to the horizon, degrees.
     pub pitch_deg: f64,
     /// Minimum and maximum gimbal pitch, degrees.
-    pub reach_deg: (f64, f64),
+    pub pitch_range_deg: (f64, f64),
     /// Takeoff height above home, m.
     pub take_off_m: f64,
 }
@@ -58,7 +58,7 @@ pub(super) struct ButtonContext {
 /// Gimbal pitch change for each press, degrees.
 const STEP_DEG: f64 = 10.0;
 /// MAV_FRAME_GLOBAL_RELATIVE_ALT: altitude relative to home.
-const OVER_HOME: u8 = 3;
+const RELATIVE_ALT_FRAME: u8 = 3;
 
 /// Returns the command assigned to a button, executed and rejected like a received command. `None` if no action is
 /// assigned.
@@ -66,7 +66,7 @@ pub(super) fn command(button: usize, params: &Params, context: &ButtonContext, f
     use MavCmd as M;
     let standard = |mode: MavStandardMode| (M::MAV_CMD_DO_SET_STANDARD_MODE, [f64::from(mode as u32), 0.0, 0.0]);
     let aim = |pitch_deg: f64| {
-        let (low, high) = context.reach_deg;
+        let (low, high) = context.pitch_range_deg;
         (M::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [pitch_deg.clamp(low, high), f64::NAN, f64::NAN])
     };
     let (number, [a, b, c]) = match params.whole(NAMES[button])? {
@@ -88,5 +88,5 @@ pub(super) fn command(button: usize, params: &Params, context: &ButtonContext, f
     };
     let p = [a, b, c, 0.0, 0.0, 0.0, if number == M::MAV_CMD_NAV_TAKEOFF { context.take_off_m } else { 0.0 }];
     let number = number as u16;
-    Some(VehicleCommand { number, p, frame: OVER_HOME, component: AUTOPILOT, system: 0, from, whole: false, own: false })
+    Some(VehicleCommand { number, p, frame: RELATIVE_ALT_FRAME, component: AUTOPILOT, system: 0, from, whole: false, own: false })
 }

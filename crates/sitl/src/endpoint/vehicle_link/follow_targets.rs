@@ -42,11 +42,11 @@ fn report_target(
     let Some(geo) = units::geo(lat, lon, alt_m).filter(|_| alt_m.is_finite()) else { return };
     let position_m = a.aircraft.plane.enu_from_geo(geo).ned();
     let velocity_m_s = velocity_m_s.unwrap_or_else(|| a.autopilot.target_velocity(position_m, a.now()));
-    if position_m.norm() < FAR_M && velocity_m_s.norm() < FAST_M_S {
+    if position_m.norm() < MAX_DISTANCE_M && velocity_m_s.norm() < MAX_SPEED_M_S {
         a.autopilot.report_target(FollowTarget { position_m, velocity_m_s, heading_rad }, a.now());
     }
 }
 
 /// Maximum distance of a target from the origin, m, and maximum speed, m/s; targets beyond either limit are ignored.
-const FAR_M: f64 = 20_000.0;
-const FAST_M_S: f64 = 1_000.0;
+const MAX_DISTANCE_M: f64 = 20_000.0;
+const MAX_SPEED_M_S: f64 = 1_000.0;

@@ -15,15 +15,15 @@ const SUFFIX: &str = ".ulg";
 /// Extension of the recordings stored with the logs and erased together with them.
 const RECORDING_SUFFIX: &str = ".mcap";
 /// Data bytes in one LOG_DATA message.
-const PIECE: usize = 90;
+const DATA_BYTES: usize = 90;
 /// Bytes per file read.
-const CHUNK: u32 = 64 * PIECE as u32;
+const CHUNK: u32 = 64 * DATA_BYTES as u32;
 /// Messages per tick for each download: about 180 kB/s at 1000 ticks a second.
-const PIECES_A_TICK: usize = 2;
+const MESSAGES_PER_TICK: usize = 2;
 /// Entries per tick for each listing.
-const ENTRIES_A_TICK: usize = 4;
+const ENTRIES_PER_TICK: usize = 4;
 /// Maximum number of queued listings.
-const LISTINGS_MAX: usize = 64;
+const MAX_LISTINGS: usize = 64;
 
 /// A log file.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,7 +91,7 @@ impl LogTransfers {
 
     fn begin(&mut self, purpose: ListingPurpose) {
         let again = self.listings.iter().any(|listing| listing.purpose == purpose);
-        if !again && self.listings.len() < LISTINGS_MAX {
+        if !again && self.listings.len() < MAX_LISTINGS {
             let folders = FilePath::of(FOLDER.as_bytes()).into_iter().collect();
             self.listings.push_back(LogListing { purpose, folders, found: Vec::new() });
             self.continue_listing();
@@ -196,7 +196,7 @@ impl LogTransfers {
             self.entries.entry(link).or_default().push_back(MavMessage::LOG_DATA(end));
             return;
         }
-        for piece in bytes.chunks(PIECE) {
+        for piece in bytes.chunks(DATA_BYTES) {
             let mut data =
                 LOG_DATA_DATA { id: download.id, ofs: download.at, count: piece.len() as u8, ..LOG_DATA_DATA::default() };
             data.data[..piece.len()].copy_from_slice(piece);
@@ -232,13 +232,13 @@ impl LogTransfers {
     pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(LinkId, MavMessage)> {
         let mut out = Vec::new();
         for (link, entries) in self.entries.iter_mut().filter(|(link, _)| ready(link)) {
-            let few = entries.len().min(ENTRIES_A_TICK);
+            let few = entries.len().min(ENTRIES_PER_TICK);
             out.extend(entries.drain(..few).map(|entry| (*link, entry)));
         }
         self.entries.retain(|_, entries| !entries.is_empty());
         let mut reads = Vec::new();
         for (link, download) in self.downloads.iter_mut().filter(|(link, _)| ready(link)) {
-            let few = download.pieces.len().min(PIECES_A_TICK);
+            let few = download.pieces.len().min(MESSAGES_PER_TICK);
             out.extend(download.pieces.drain(..few).map(|piece| (*link, piece)));
             if download.pieces.is_empty() && download.reading.is_none() && download.at < download.end {
                 reads.push((*link, FileAction::Read(download.path.clone(), download.at, CHUNK.min(download.end - download.at))));
@@ -296,7 +296,7 @@ mod tests {
     }
 
     /// Executes jobs on a simulated folder with two days and three logs.
-    fn work(logs: &mut LogTransfers, removed: &mut Vec<String>) {
+    fn execute_jobs(logs: &mut LogTransfers, removed: &mut Vec<String>) {
         while let Some(job) = logs.poll_job() {
             let outcome = match &job.action {
                 FileAction::List(path) => Ok(FileJobResult::Entries(match path.as_str() {
@@ -320,14 +320,14 @@ mod tests {
     fn run(logs: &mut LogTransfers) -> Vec<MavMessage> {
         let mut out = Vec::new();
         for _ in 0..200 {
-            work(logs, &mut Vec::new());
+            execute_jobs(logs, &mut Vec::new());
             out.extend(logs.poll(|_| true).into_iter().map(|(_, message)| message));
         }
         out
     }
 
     #[test]
-    fn exact_logs_of_all_days_are_listed_in_order_with_their_time() {
+    fn exact_logs_of_all_days_are_listed_chronologically() {
         let mut logs = logs();
         logs.list(LINK, 0, u16::MAX);
         let entries: Vec<(u16, u16, u32, u32)> = run(&mut logs)
@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_log_comes_whole_and_in_order_and_a_part_as_asked() {
+    fn exact_log_downloads_completely_in_order_or_in_part() {
         let mut logs = logs();
         logs.list(LINK, 0, u16::MAX);
         run(&mut logs);
@@ -363,15 +363,15 @@ mod tests {
     }
 
     #[test]
-    fn exact_erasing_removes_the_logs_alone() {
+    fn exact_erase_removes_only_logs() {
         let (mut logs, mut removed) = (logs(), Vec::new());
         logs.erase();
-        work(&mut logs, &mut removed);
+        execute_jobs(&mut logs, &mut removed);
         assert_eq!(removed, ["log/2026-11-20/15_08_00.ulg", "log/2026-11-21/09_00_00.ulg", "log/2026-11-21/10_00_00.ulg"]);
     }
 
     #[test]
-    fn exact_without_a_folder_there_are_no_logs_and_no_silence() {
+    fn exact_log_requests_without_a_folder_are_answered_with_no_logs() {
         let mut logs = LogTransfers::default();
         logs.list(LINK, 0, u16::MAX);
         logs.read(LINK, 3, 0, 90);

@@ -17,15 +17,15 @@ const REPORT_INTERVAL_S: f64 = 5.0;
 pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
 const MIDDLE_US: u16 = 1500;
 /// Number of channels other than the sticks.
-pub const AUX: usize = 12;
+pub const AUX_COUNT: usize = 12;
 /// Number of these channels that a value of 0 releases: channels 5 to 8.
-const LOW_AUX: usize = 4;
+const LOW_AUX_COUNT: usize = 4;
 /// Default values of channels 5 to 16, microseconds (ArduPilot's SITL: SIM RC defaults).
-const AUX_US: [u16; AUX] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
+const AUX_US: [u16; AUX_COUNT] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
 /// Value that releases channels 9 and up; 0 releases channels 1 to 8 (MAVLink common).
 const RELEASE_HIGH: u16 = 65_534;
 /// Maximum number of remembered senders with a signed throttle, to limit memory use.
-const FULL_RANGE_MAX: usize = 64;
+const MAX_FULL_RANGE_SENDERS: usize = 64;
 /// Minimum change of the gimbal axis that has an effect, as a fraction of full deflection.
 const GIMBAL_STEP: f64 = 0.01;
 /// Bits of `enabled_extensions`.
@@ -45,21 +45,21 @@ pub struct ManualControl {
     last_input: SimTime,
     sticks: Sticks,
     pulses_us: [u16; 4],
-    aux_us: [u16; AUX],
+    aux_us: [u16; AUX_COUNT],
     /// Senders with a throttle range of -1000 to 1000.
     full_range: Vec<StickSender>,
     gimbal: Option<f64>,
     last_report: Option<(StickSender, SimTime)>,
     texts: VecDeque<String>,
     /// Button state of the sender in control.
-    pub presses: ButtonState,
+    pub button_state: ButtonState,
 }
 
 impl Default for ManualControl {
     fn default() -> Self {
         Self {
             release_timeout_s: crate::autopilot::Tuning::default().manual_timeout_s(),
-            policy: StickPolicy::FirstKeeps,
+            policy: StickPolicy::FirstSenderKeeps,
             holder: None,
             last_input: SimTime::ZERO,
             sticks: Sticks::default(),
@@ -69,7 +69,7 @@ impl Default for ManualControl {
             gimbal: None,
             last_report: None,
             texts: VecDeque::new(),
-            presses: ButtonState::default(),
+            button_state: ButtonState::default(),
         }
     }
 }
@@ -89,17 +89,20 @@ impl ManualControl {
 
     /// Returns channels 5 to 16, microseconds.
     #[must_use]
-    pub fn aux_us(&self) -> [u16; AUX] {
+    pub fn aux_us(&self) -> [u16; AUX_COUNT] {
         self.aux_us
     }
 
     /// Applies channels 5 to 16 of an override, if this sender may take control.
     pub fn take_aux(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
-        if self.policy == StickPolicy::FirstKeeps && self.holder.is_some_and(|holder| holder != from) && self.has_holder(now) {
+        if self.policy == StickPolicy::FirstSenderKeeps
+            && self.holder.is_some_and(|holder| holder != from)
+            && self.has_holder(now)
+        {
             return;
         }
-        for (k, us) in aux_of(c).into_iter().enumerate() {
-            let released = if k < LOW_AUX { us == 0 } else { us == RELEASE_HIGH };
+        for (k, us) in aux_channels(c).into_iter().enumerate() {
+            let released = if k < LOW_AUX_COUNT { us == 0 } else { us == RELEASE_HIGH };
             if released {
                 self.aux_us[k] = AUX_US[k];
             } else if PULSES_US.contains(&us) {
@@ -126,7 +129,7 @@ impl ManualControl {
         let another = self.holder.filter(|holder| *holder != from && self.has_holder(now));
         if let Some(holder) = another {
             let moved = [sticks.forward, sticks.right, sticks.up, sticks.yaw].iter().any(|axis| axis.abs() > 0.1);
-            if self.policy == StickPolicy::FirstKeeps || !moved {
+            if self.policy == StickPolicy::FirstSenderKeeps || !moved {
                 self.report_ignored_sender(from, holder, now);
                 return None;
             }
@@ -135,7 +138,7 @@ impl ManualControl {
             if self.holder.is_some() {
                 self.texts.push_back(format!("{} took control of the sticks", sender_name(from)));
             }
-            self.presses = ButtonState::default();
+            self.button_state = ButtonState::default();
             self.gimbal = None;
         }
         (self.holder, self.last_input, self.sticks, self.pulses_us) = (Some(from), now, sticks, pulses_us);
@@ -166,7 +169,7 @@ impl ManualControl {
     /// Checks whether a sender uses a signed throttle. Reports it once when first detected.
     fn has_signed_throttle(&mut self, from: StickSender, z: f64) -> bool {
         let known = self.full_range.contains(&from);
-        if !known && z < 0.0 && self.full_range.len() < FULL_RANGE_MAX {
+        if !known && z < 0.0 && self.full_range.len() < MAX_FULL_RANGE_SENDERS {
             self.full_range.push(from);
             self.texts.push_back(format!("{}: throttle range -1000 to 1000", sender_name(from)));
             return true;
@@ -227,7 +230,7 @@ impl ManualControl {
 }
 
 /// Returns channels 5 to 16 of an override, microseconds.
-pub fn aux_of(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX] {
+pub fn aux_channels(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX_COUNT] {
     [
         c.chan5_raw,
         c.chan6_raw,

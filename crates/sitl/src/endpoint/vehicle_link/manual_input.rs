@@ -10,7 +10,7 @@ use crate::endpoint::payload::gimbal::GimbalState;
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavResult, MavSeverity, RC_CHANNELS_OVERRIDE_DATA};
 
 /// Applies stick input. In the mode that accepts go-to commands, the yaw stick does not trigger a takeover.
-fn fly_by_sticks(v: &VehicleLink, sticks: Sticks, a: &mut InboundMessage) {
+fn apply_sticks(v: &VehicleLink, sticks: Sticks, a: &mut InboundMessage) {
     let is_guided = v.is_guided(a.autopilot);
     a.autopilot.set_sticks_in_guided(is_guided);
     a.autopilot.sticks(sticks, a.now());
@@ -22,18 +22,18 @@ pub(super) fn manual_control(v: &mut VehicleLink, m: &MANUAL_CONTROL_DATA, a: &m
     }
     let from = (a.link, a.from);
     if let Some(sticks) = v.manual.manual_control(from, m, a.now()) {
-        fly_by_sticks(v, sticks, a);
+        apply_sticks(v, sticks, a);
     }
     if let Some(pitch) = v.manual.gimbal(from, m)
         && a.payload.gimbal.accepts_control_from(a.from)
     {
         let camera = &a.aircraft.vehicle.camera;
-        a.payload.gimbal.set(GimbalState::deflected(camera, pitch), camera);
+        a.payload.gimbal.set(GimbalState::angle_for_stick(camera, pitch), camera);
     }
     if v.manual.is_holder(from) {
         press_buttons(v, m, a);
     }
-    announce_stick_changes(v);
+    broadcast_stick_changes(v);
 }
 
 pub(super) fn channels(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
@@ -45,23 +45,23 @@ pub(super) fn channels(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &m
     let from = (a.link, a.from);
     let was_holder = v.manual.is_holder(from);
     if let Some(sticks) = v.manual.channels(from, c, a.now()) {
-        fly_by_sticks(v, sticks, a);
+        apply_sticks(v, sticks, a);
     } else if was_holder && !v.manual.is_holder((a.link, a.from)) {
         a.autopilot.release_sticks();
     }
     v.manual.take_aux(from, c, a.now());
     mode_requests::apply_mode_switch(v, c, a);
     aux_functions::read_switches(v, c, a);
-    announce_stick_changes(v);
+    broadcast_stick_changes(v);
 }
 
 fn press_buttons(v: &mut VehicleLink, m: &MANUAL_CONTROL_DATA, a: &mut InboundMessage) {
-    for button in v.manual.presses.of(m) {
+    for button in v.manual.button_state.of(m) {
         let camera = &a.aircraft.vehicle.camera;
         let context = ButtonContext {
             lamp_on: a.payload.lamp.on,
             pitch_deg: a.payload.gimbal.pitch_rad.to_degrees(),
-            reach_deg: (camera.gimbal_pitch_min_rad.to_degrees(), camera.gimbal_pitch_max_rad.to_degrees()),
+            pitch_range_deg: (camera.gimbal_pitch_min_rad.to_degrees(), camera.gimbal_pitch_max_rad.to_degrees()),
             take_off_m: a.autopilot.tuning.takeoff_height_m,
         };
         let Some(command) = buttons::command(button, &v.params, &context, a.from) else { continue };
@@ -74,7 +74,7 @@ fn press_buttons(v: &mut VehicleLink, m: &MANUAL_CONTROL_DATA, a: &mut InboundMe
 }
 
 /// Broadcasts every change of the stick control source.
-fn announce_stick_changes(v: &mut VehicleLink) {
+fn broadcast_stick_changes(v: &mut VehicleLink) {
     while let Some(text) = v.manual.poll_text() {
         v.push_text(MavSeverity::MAV_SEVERITY_NOTICE, &text);
     }

@@ -26,7 +26,7 @@ pub(super) fn item_int(v: &mut VehicleLink, r: &MISSION_REQUEST_INT_DATA, a: &mu
 /// expect.
 pub(super) fn item(v: &mut VehicleLink, r: &MISSION_REQUEST_DATA, a: &mut InboundMessage) {
     let message = match plan_item(v, r.mission_type, r.seq, a) {
-        MavMessage::MISSION_ITEM_INT(item) if v.flavour.float_items => {
+        MavMessage::MISSION_ITEM_INT(item) if v.flavour.uses_float_items => {
             MavMessage::MISSION_ITEM(ardupilot_items::in_degrees(&item))
         }
         other => other,
@@ -44,12 +44,12 @@ pub(super) fn count(v: &mut VehicleLink, c: &MISSION_COUNT_DATA, a: &mut Inbound
 }
 
 pub(super) fn receive_int(v: &mut VehicleLink, item: &MISSION_ITEM_INT_DATA, a: &mut InboundMessage) {
-    v.plans.note_form(a.from, ItemEncoding::Int);
+    v.plans.use_encoding_of(a.from, ItemEncoding::Int);
     receive_item(v, item, a);
 }
 
 fn receive_item(v: &mut VehicleLink, item: &MISSION_ITEM_INT_DATA, a: &mut InboundMessage) {
-    if v.flavour.errands.is_some() && ardupilot_items::is_fly_now_item(item) {
+    if v.flavour.goto_mode.is_some() && ardupilot_items::is_fly_now_item(item) {
         let result = ardupilot_items::fly_now(v, item, a);
         let message = ack(a.from, item.mission_type, result);
         a.answer(&message);
@@ -79,7 +79,7 @@ pub(super) fn receive(v: &mut VehicleLink, item: &MISSION_ITEM_DATA, a: &mut Inb
         autocontinue: item.autocontinue,
         mission_type: item.mission_type,
     };
-    v.plans.note_form(a.from, ItemEncoding::Float);
+    v.plans.use_encoding_of(a.from, ItemEncoding::Float);
     receive_item(v, &whole, a);
 }
 
@@ -117,15 +117,15 @@ pub(super) fn request_partial(_: &mut VehicleLink, r: &MISSION_REQUEST_PARTIAL_L
 }
 
 pub(super) fn write_partial(v: &mut VehicleLink, w: &MISSION_WRITE_PARTIAL_LIST_DATA, a: &mut InboundMessage) {
-    let reply = v.plans.begin_part(a.from, w.mission_type, (w.start_index, w.end_index), a.now());
+    let reply = v.plans.begin_partial(a.from, w.mission_type, (w.start_index, w.end_index), a.now());
     apply_plan_reply(v, reply, a);
 }
 
 /// Rejects an upload that contains an item with a command, frame or plan type that MAVLink does not define.
 pub(super) fn unknown_item(v: &mut VehicleLink, mission_type: u8, a: &mut InboundMessage) {
-    match v.plans.receive_unknown(a.from) {
+    match v.plans.receive_undefined_item(a.from) {
         PlanReply::Nothing => unknown_plan(mission_type, a),
-        reply @ (PlanReply::Say(_) | PlanReply::New(..)) => apply_plan_reply(v, reply, a),
+        reply @ (PlanReply::Reply(_) | PlanReply::Updated(..)) => apply_plan_reply(v, reply, a),
     }
 }
 
@@ -139,8 +139,8 @@ pub(super) fn unknown_plan(mission_type: u8, a: &mut InboundMessage) {
 
 fn apply_plan_reply(v: &mut VehicleLink, reply: PlanReply, a: &mut InboundMessage) {
     match reply {
-        PlanReply::Say(message) => a.answer(&message),
-        PlanReply::New(kind, message) => {
+        PlanReply::Reply(message) => a.answer(&message),
+        PlanReply::Updated(kind, message) => {
             v.update_autopilot_plan(kind, a.aircraft.plane, a.autopilot);
             a.answer(&message);
             if kind == MavMissionType::MAV_MISSION_TYPE_FENCE && v.plans.has_fence_return() {

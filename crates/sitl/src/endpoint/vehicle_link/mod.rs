@@ -91,7 +91,7 @@ pub struct VehicleLink {
     /// Last position of the mode switch, from 0.
     mode_switch: Option<usize>,
     /// Last positions of the auxiliary switches on channels 5 to 16.
-    switches: [Option<SwitchPosition>; manual::AUX],
+    switches: [Option<SwitchPosition>; manual::AUX_COUNT],
     texts: TextQueue,
     /// Messages to broadcast once, with the next tick.
     announcements: BTreeSet<u32>,
@@ -133,11 +133,11 @@ impl VehicleLink {
             accepts_sticks: true,
             plans: PlanStore::with_lead_items(u16::from(flavour.home_item))
                 .with_splines(flavour.splines)
-                .with_zero_as_here(flavour.zero_is_here)
-                .with_encoding(if flavour.float_items { ItemEncoding::Float } else { ItemEncoding::Int }),
+                .with_zero_as_current_position(flavour.zero_means_current_position)
+                .with_encoding(if flavour.uses_float_items { ItemEncoding::Float } else { ItemEncoding::Int }),
             manual: ManualControl::default(),
             mode_switch: None,
-            switches: [None; manual::AUX],
+            switches: [None; manual::AUX_COUNT],
             texts: TextQueue::default(),
             announcements: BTreeSet::new(),
             speed_factor: 1.0,
@@ -218,7 +218,7 @@ impl VehicleLink {
     }
 
     /// Removes and returns the next failure to inject.
-    pub fn poll_injection(&mut self) -> Option<FailureInjection> {
+    pub fn next_injection(&mut self) -> Option<FailureInjection> {
         self.injections.pop_front()
     }
 
@@ -232,7 +232,7 @@ impl VehicleLink {
     pub fn set_speed_factor(&mut self, factor: f64, autopilot: &mut Autopilot) {
         self.speed_factor = factor;
         self.plans.set_speed_factor(factor);
-        autopilot.tuning.client_pace = factor;
+        autopilot.tuning.client_speed_factor = factor;
         self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
     }
 
@@ -281,7 +281,7 @@ impl VehicleLink {
     /// Checks whether the mode that accepts go-to commands (GUIDED) is active, for flavors that have one.
     fn is_guided(&self, autopilot: &Autopilot) -> bool {
         let row = self.flavour.row_of(autopilot.status().mode, self.requested_mode);
-        self.flavour.errands == Some(row.number)
+        self.flavour.goto_mode == Some(row.number)
     }
 }
 

@@ -9,15 +9,15 @@ use spandrel_mavlink::dialect::{MavModeFlag, MavSeverity, RC_CHANNELS_OVERRIDE_D
 
 /// Upper limits of the first five positions of a six-position mode switch, microseconds (ArduPilot: RC_Channel,
 /// read_6pos_switch).
-const POSITIONS_US: [u16; 5] = [1230, 1360, 1490, 1620, 1749];
-const MODE_OF_POSITION: [&str; 6] = ["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"];
+const POSITION_LIMITS_US: [u16; 5] = [1230, 1360, 1490, 1620, 1749];
+const MODE_PARAMS: [&str; 6] = ["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"];
 
 /// Enters the mode assigned to a new position of the mode switch (FLTMODE_CH).
 pub(super) fn apply_mode_switch(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
-    let pulses = manual::aux_of(c);
+    let pulses = manual::aux_channels(c);
     let channel = v.params.whole("FLTMODE_CH").and_then(|channel| usize::try_from(channel - 5).ok());
     let Some(pulse) = channel.and_then(|k| pulses.get(k)).filter(|us| manual::PULSES_US.contains(us)) else { return };
-    let position = POSITIONS_US.iter().filter(|end| *pulse > **end).count();
+    let position = POSITION_LIMITS_US.iter().filter(|end| *pulse > **end).count();
     if v.mode_switch.replace(position) == Some(position) {
         return;
     }
@@ -28,7 +28,7 @@ pub(super) fn apply_mode_switch(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DA
 
 /// Returns the mode assigned to a position of the mode switch.
 pub(super) fn mode_for_switch(v: &VehicleLink, position: usize) -> Option<u32> {
-    v.params.whole(MODE_OF_POSITION.get(position)?).map(i32::unsigned_abs)
+    v.params.whole(MODE_PARAMS.get(position)?).map(i32::unsigned_abs)
 }
 
 pub(super) fn set_mode(v: &mut VehicleLink, m: &SET_MODE_DATA, a: &mut InboundMessage) {

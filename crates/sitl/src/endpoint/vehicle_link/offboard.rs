@@ -13,11 +13,11 @@ use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::math;
 
 /// Maximum value of a field, m, m/s and m/s²; larger values are rejected.
-const FAR: f32 = 1e5;
+const MAX_VALUE: f32 = 1e5;
 /// Maximum distance of a position from the origin, m.
-const FAR_M: f64 = 20_000.0;
+const MAX_DISTANCE_M: f64 = 20_000.0;
 /// Maximum rotation rate, rad/s.
-const FAST_RAD_S: f32 = 100.0;
+const MAX_RATE_RAD_S: f32 = 100.0;
 
 /// A setpoint, or the reason for its rejection.
 pub type SetpointResult = Result<OffboardSetpoint, &'static str>;
@@ -70,7 +70,7 @@ fn axes(values: [f32; 3], ignored: [bool; 3]) -> Result<AxisSetpoints, &'static 
         if ignored[k] || values[k].is_nan() {
             continue;
         }
-        if values[k].abs() > FAR {
+        if values[k].abs() > MAX_VALUE {
             return Err("Setpoint rejected: out of range");
         }
         out[k] = Some(f64::from(values[k]));
@@ -83,11 +83,11 @@ fn angle(value: f32, ignored: bool) -> Option<f64> {
 }
 
 fn rate(value: f32, ignored: bool) -> Option<f64> {
-    (!ignored && value.is_finite() && value.abs() <= FAST_RAD_S).then(|| f64::from(value))
+    (!ignored && value.is_finite() && value.abs() <= MAX_RATE_RAD_S).then(|| f64::from(value))
 }
 
 /// Requires at least one of position, velocity and acceleration.
-fn checked(s: OffboardSetpoint) -> SetpointResult {
+fn require_setpoint(s: OffboardSetpoint) -> SetpointResult {
     let is_set = s.position_m.iter().chain(&s.velocity_m_s).chain(&s.acceleration_m_s2).any(Option::is_some);
     if is_set { Ok(s) } else { Err("Setpoint has no position, velocity or acceleration") }
 }
@@ -104,20 +104,20 @@ pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &VehicleSnapshot) -> 
     match t.coordinate_frame {
         F::MAV_FRAME_LOCAL_NED => {
             let position_m = from_local(axes([t.x, t.y, t.z], mask.position)?, view);
-            checked(OffboardSetpoint { position_m, ..fixed })
+            require_setpoint(OffboardSetpoint { position_m, ..fixed })
         }
         F::MAV_FRAME_LOCAL_OFFSET_NED if view.flavour.offsets => {
             let offset = axes([t.x, t.y, t.z], mask.position)?;
-            checked(OffboardSetpoint { position_m: relative_to_vehicle(offset, view), ..fixed })
+            require_setpoint(OffboardSetpoint { position_m: relative_to_vehicle(offset, view), ..fixed })
         }
         F::MAV_FRAME_BODY_NED | F::MAV_FRAME_BODY_OFFSET_NED | F::MAV_FRAME_BODY_FRD => {
             let heading = view.estimate.attitude.yaw_rad();
             let offsets = view.flavour.offsets && t.coordinate_frame != F::MAV_FRAME_BODY_FRD;
-            let offset = if offsets { turned(axes([t.x, t.y, t.z], mask.position)?, heading)? } else { [None; 3] };
-            checked(OffboardSetpoint {
+            let offset = if offsets { rotate_to_ned(axes([t.x, t.y, t.z], mask.position)?, heading)? } else { [None; 3] };
+            require_setpoint(OffboardSetpoint {
                 position_m: relative_to_vehicle(offset, view),
-                velocity_m_s: turned(velocity_m_s, heading)?,
-                acceleration_m_s2: turned(acceleration_m_s2, heading)?,
+                velocity_m_s: rotate_to_ned(velocity_m_s, heading)?,
+                acceleration_m_s2: rotate_to_ned(acceleration_m_s2, heading)?,
                 yaw_rad: if offsets { yaw_rad.map(|yaw| math::wrap_pi(heading + yaw)) } else { yaw_rad },
                 ..fixed
             })
@@ -139,7 +139,7 @@ fn relative_to_vehicle(offset: AxisSetpoints, view: &VehicleSnapshot) -> AxisSet
 }
 
 /// Converts forward, right, down to north, east, down. Forward and right must be given together.
-fn turned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static str> {
+fn rotate_to_ned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static str> {
     let (s, c) = math::sin_cos(heading);
     match (frd[0], frd[1]) {
         (Some(f), Some(r)) => Ok([Some(c * f - s * r), Some(s * f + c * r), frd[2]]),
@@ -165,7 +165,7 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -
     };
     let mut position_m = [None; 3];
     if !mask.position[2] && !t.alt.is_nan() {
-        position_m[2] = Some(origin.altitude_m - over - f64::from(t.alt)).filter(|d| d.abs() < FAR_M);
+        position_m[2] = Some(origin.altitude_m - over - f64::from(t.alt)).filter(|d| d.abs() < MAX_DISTANCE_M);
         if position_m[2].is_none() {
             return Err("Setpoint rejected: out of range");
         }
@@ -173,12 +173,12 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -
     if !mask.position[0] || !mask.position[1] {
         let geo = units::geo(t.lat_int, t.lon_int, origin.altitude_m).ok_or("Setpoint rejected: out of range")?;
         let place = view.plane.enu_from_geo(geo);
-        if place.norm() > FAR_M {
+        if place.norm() > MAX_DISTANCE_M {
             return Err("Setpoint rejected: out of range");
         }
         (position_m[0], position_m[1]) = (Some(place.north()), Some(place.east()));
     }
-    checked(OffboardSetpoint {
+    require_setpoint(OffboardSetpoint {
         position_m,
         velocity_m_s: axes([t.vx, t.vy, t.vz], mask.velocity)?,
         acceleration_m_s2: axes([t.afx, t.afy, t.afz], mask.acceleration)?,
@@ -201,7 +201,7 @@ pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult
         return Err("Setpoint rejected: no thrust");
     }
     let thrust = f64::from(t.thrust);
-    let climb_m_s = tuning.rules.guided.thrust_climbs.then(|| {
+    let climb_m_s = tuning.rules.guided.thrust_is_climb_rate.then(|| {
         let share = 2.0 * (thrust.clamp(0.0, 1.0) - 0.5);
         share * if share > 0.0 { tuning.climb_m_s } else { tuning.descend_m_s }
     });

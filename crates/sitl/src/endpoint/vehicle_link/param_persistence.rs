@@ -11,7 +11,7 @@ use crate::endpoint::link::Links;
 use crate::endpoint::payload::Payload;
 
 /// Number of parameters sent per tick on each link that receives the list.
-const PARAMS_A_TICK: usize = 2;
+const PARAMS_PER_TICK: usize = 2;
 
 impl VehicleLink {
     /// Returns the number of parameter changes so far.
@@ -43,17 +43,17 @@ impl VehicleLink {
     }
 
     /// Declares that the host stores the parameters.
-    pub fn keep_parameters(&mut self) {
+    pub fn enable_parameter_storage(&mut self) {
         self.storage.has_file = true;
     }
 
     /// Removes and returns a client's storage request.
-    pub fn poll_storage(&mut self) -> Option<StorageRequest> {
+    pub fn take_storage_request(&mut self) -> Option<StorageRequest> {
         self.storage.request.take()
     }
 
     /// Updates and broadcasts the geofence parameter after a command or mission switched the geofence.
-    pub(super) fn note_fence_switch(&mut self, enabled: bool, links: &mut Links) {
+    pub(super) fn sync_fence_parameter(&mut self, enabled: bool, links: &mut Links) {
         if self.params.fence_enabled().is_some_and(|shown| shown != enabled)
             && self.params.set_value(FENCE_SWITCH, ParamValue::Int(i32::from(enabled))).is_ok()
             && let Some(message) = param_named(self, FENCE_SWITCH)
@@ -87,7 +87,7 @@ impl VehicleLink {
         let count = self.params.count() as u16;
         for (id, list) in &mut self.param_lists {
             let Some(link) = links.get_mut(*id) else { continue };
-            for _ in 0..PARAMS_A_TICK {
+            for _ in 0..PARAMS_PER_TICK {
                 if link.is_busy() {
                     break;
                 }

@@ -42,7 +42,7 @@ pub(super) fn set(v: &mut VehicleLink, set: &PARAM_SET_DATA, a: &mut InboundMess
         v.param_lists.remove(&a.link);
         return;
     }
-    v.note_fence_switch(a.autopilot.tuning.fence_enabled, a.links);
+    v.sync_fence_parameter(a.autopilot.tuning.fence_enabled, a.links);
     match v.params.set(name, set.param_value, set.param_type) {
         Err(refusal) => {
             let error = match refusal {
@@ -51,7 +51,7 @@ pub(super) fn set(v: &mut VehicleLink, set: &PARAM_SET_DATA, a: &mut InboundMess
                 ParamRefusal::Type => MavParamError::MAV_PARAM_ERROR_TYPE_MISMATCH,
                 ParamRefusal::ReadOnly => MavParamError::MAV_PARAM_ERROR_READ_ONLY,
             };
-            refuse_param(v, name, error, a);
+            reject_param(v, name, error, a);
         }
         Ok(()) => {
             v.apply_parameters(a.autopilot, a.payload);
@@ -62,7 +62,7 @@ pub(super) fn set(v: &mut VehicleLink, set: &PARAM_SET_DATA, a: &mut InboundMess
     }
 }
 
-fn refuse_param(v: &mut VehicleLink, name: &str, error: MavParamError, a: &mut InboundMessage) {
+fn reject_param(v: &mut VehicleLink, name: &str, error: MavParamError, a: &mut InboundMessage) {
     let message = param_error(a.from, name, -1, error);
     a.answer(&message);
     if let Some(message) = param_named(v, name) {
@@ -73,7 +73,7 @@ fn refuse_param(v: &mut VehicleLink, name: &str, error: MavParamError, a: &mut I
 /// Rejects a PARAM_SET with a type that MAVLink does not define.
 pub(super) fn unknown_type(v: &mut VehicleLink, name: &[u8], a: &mut InboundMessage) {
     let name = name.split(|byte| *byte == 0).next().unwrap_or_default();
-    refuse_param(v, std::str::from_utf8(name).unwrap_or_default(), MavParamError::MAV_PARAM_ERROR_TYPE_UNSUPPORTED, a);
+    reject_param(v, std::str::from_utf8(name).unwrap_or_default(), MavParamError::MAV_PARAM_ERROR_TYPE_UNSUPPORTED, a);
 }
 
 fn param_error(to: (u8, u8), name: &str, index: i16, error: MavParamError) -> MavMessage {

@@ -20,8 +20,8 @@ impl VehicleLink {
         self.flight.update(std::mem::replace(&mut self.was_armed, view.status.armed), view.status, view.clock.now);
         let shown = Some((self.params.changes(), self.plans.totals(), view.fence_enabled));
         if self.shown_by_params != shown {
-            self.note_fence_switch(view.fence_enabled, links);
-            self.params.note_plans(self.plans.totals());
+            self.sync_fence_parameter(view.fence_enabled, links);
+            self.params.update_plan_counts(self.plans.totals());
             self.shown_by_params = shown;
         }
     }
@@ -47,7 +47,7 @@ impl VehicleLink {
                 Severity::Warning => MavSeverity::MAV_SEVERITY_WARNING,
                 Severity::Info => MavSeverity::MAV_SEVERITY_INFO,
             };
-            let (severity, text) = event.sensor.and_then(self.flavour.sensor_words).unwrap_or((severity, event.text));
+            let (severity, text) = event.sensor.and_then(self.flavour.sensor_text).unwrap_or((severity, event.text));
             self.texts.push_always(severity, text);
         }
     }
@@ -60,7 +60,7 @@ impl VehicleLink {
     }
 
     fn execute_equipment_item(&mut self, seq: usize, lead: u16, input: &PayloadInput, payload: &mut Payload) {
-        let Some(item) = items::aimed(self.plans.mission(), seq) else { return };
+        let Some(item) = items::resolve_next_waypoint(self.plans.mission(), seq) else { return };
         let command = VehicleCommand::from_item(&item, (self.system_id, AUTOPILOT));
         if let Some(result) = payload::handle(&command, input, payload)
             && result != MavResult::MAV_RESULT_ACCEPTED
@@ -90,7 +90,7 @@ impl VehicleLink {
     }
 
     /// Repeats an unanswered request for a mission item.
-    pub(crate) fn repeat_plan_request(&mut self, view: &VehicleSnapshot, links: &mut Links) {
+    pub(crate) fn retry_plan_request(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         if let Some((peer, message)) = self.plans.poll_retries(view.clock.now) {
             links.send_to(AUTOPILOT, peer, &message);
         }
@@ -98,9 +98,9 @@ impl VehicleLink {
 
     /// Applies parameters and plans to a restarted autopilot.
     pub(crate) fn boot(&mut self, plane: &LocalPlane, autopilot: &mut Autopilot, payload: &mut Payload) {
-        (self.mode_switch, self.switches) = (None, [None; super::manual::AUX]);
+        (self.mode_switch, self.switches) = (None, [None; super::manual::AUX_COUNT]);
         if self.params.drops_mission_at_boot() {
-            self.plans.drop_mission();
+            self.plans.clear_mission();
         }
         self.apply_parameters(autopilot, payload);
         self.update_autopilot_plan(MavMissionType::MAV_MISSION_TYPE_ALL, plane, autopilot);

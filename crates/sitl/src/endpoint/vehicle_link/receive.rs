@@ -65,12 +65,12 @@ impl VehicleLink {
     pub(crate) fn receive(&mut self, frame: &ReceivedFrame, a: &mut InboundMessage) {
         match &frame.message {
             Some(message) => dispatch(self, message, a),
-            None => self.answer_unreadable(frame, a),
+            None => self.reject_unknown_enum(frame, a),
         }
     }
 
     /// Handles messages that contain an enum value unknown to the dialect.
-    fn answer_unreadable(&mut self, frame: &ReceivedFrame, a: &mut InboundMessage) {
+    fn reject_unknown_enum(&mut self, frame: &ReceivedFrame, a: &mut InboundMessage) {
         let p = frame.payload(255);
         match frame.message_id {
             SET_MODE_DATA::ID => mode_requests::enter_mode(self, u32::from_le_bytes([p[0], p[1], p[2], p[3]]), a),

@@ -2,7 +2,7 @@
 
 use super::flavour::{Flavour, ModeRow};
 use super::flight_times::FlightTimes;
-use super::manual::AUX;
+use super::manual::AUX_COUNT;
 use super::mission::PlanSummary;
 use crate::autopilot::{AutopilotStatus, Estimate, Sticks};
 use crate::endpoint::clock::VehicleClock;
@@ -49,7 +49,7 @@ pub struct VehicleSnapshot<'a> {
     /// The same as transmitter channels 1 to 4, microseconds.
     pub pulses_us: Option<[u16; 4]>,
     /// Channels 5 to 16, microseconds.
-    pub aux_us: [u16; AUX],
+    pub aux_us: [u16; AUX_COUNT],
     /// Gimbal state.
     pub gimbal: GimbalState,
     /// Lamp state.
@@ -130,7 +130,7 @@ impl VehicleSnapshot<'_> {
 
     /// Returns the height above home, m.
     #[must_use]
-    pub fn over_home_m(&self) -> f64 {
+    pub fn height_above_home_m(&self) -> f64 {
         let home = self.status.home_m.map_or(0.0, |h| h.down());
         home - self.estimate.position_m.down()
     }

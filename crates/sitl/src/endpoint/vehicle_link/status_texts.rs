@@ -1,7 +1,7 @@
 //! Status texts, split into chunks as the protocol requires.
 
 use super::VehicleLink;
-use super::events::says_all;
+use super::events::covers_whole_text;
 use super::snapshot::VehicleSnapshot;
 use crate::endpoint::component_ids::AUTOPILOT;
 use crate::endpoint::link::{LinkKind, Links};
@@ -13,9 +13,9 @@ impl VehicleLink {
     pub(crate) fn send_texts(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         for (severity, text) in self.texts.take() {
             self.send_notice(&text, view.clock.boot_ms(), links);
-            let marked = self.flavour.events && says_all(&text);
-            let plain = pieces(&text);
-            let tabbed = if marked { pieces(&format!("{text}\t")) } else { Vec::new() };
+            let marked = self.flavour.events && covers_whole_text(&text);
+            let plain = chunks(&text);
+            let tabbed = if marked { chunks(&format!("{text}\t")) } else { Vec::new() };
             let whole = plain.len() == 1 && tabbed.len() <= 1;
             let id = if whole { 0 } else { self.texts.next_id() };
             for link in links.listeners() {
@@ -31,19 +31,19 @@ impl VehicleLink {
 }
 
 /// Splits a text into chunks of at most 50 bytes, at character boundaries.
-fn pieces(text: &str) -> Vec<String> {
-    const LONGEST: usize = 50;
+fn chunks(text: &str) -> Vec<String> {
+    const MAX_CHUNK_BYTES: usize = 50;
     let mut out = vec![String::new()];
     for character in text.chars() {
         let last = out.len() - 1;
-        if out[last].len() + character.len_utf8() > LONGEST {
+        if out[last].len() + character.len_utf8() > MAX_CHUNK_BYTES {
             out.push(String::new());
         }
         let last = out.len() - 1;
         out[last].push(character);
     }
     // A full chunk means that more follows, so the last of several must not be full.
-    if out.len() > 1 && out.last().is_some_and(|last| last.len() == LONGEST) {
+    if out.len() > 1 && out.last().is_some_and(|last| last.len() == MAX_CHUNK_BYTES) {
         out.push(String::new());
     }
     out
@@ -54,10 +54,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_last_of_several_pieces_is_never_full() {
+    fn exact_last_chunk_of_several_is_never_full() {
         for (long, count) in [(0, 1), (49, 1), (50, 1), (51, 2), (99, 2), (100, 3), (150, 4)] {
             let text = "x".repeat(long);
-            let pieces = pieces(&text);
+            let pieces = chunks(&text);
             assert_eq!((pieces.len(), pieces.concat()), (count, text), "{long}");
             assert!(count == 1 || pieces[count - 1].len() < 50, "{long}");
         }

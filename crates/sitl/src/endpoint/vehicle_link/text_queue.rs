@@ -3,7 +3,7 @@
 use spandrel_mavlink::dialect::MavSeverity;
 
 /// Maximum number of queued texts; further ones are dropped.
-const TEXTS_MAX: usize = 32;
+const MAX_TEXTS: usize = 32;
 
 /// The queued texts, and the ID of the last text that was sent in several messages.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,7 +15,7 @@ pub struct TextQueue {
 impl TextQueue {
     /// Adds a text, unless the queue is full.
     pub fn push(&mut self, severity: MavSeverity, text: &str) {
-        if self.texts.len() < TEXTS_MAX {
+        if self.texts.len() < MAX_TEXTS {
             self.texts.push((severity, text.to_string()));
         }
     }

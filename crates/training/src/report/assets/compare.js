@@ -13,10 +13,10 @@
   const drones = all('.drone').map((node) => ({ flight: Number(node.dataset.flight), drone: Flight.drone(node) }));
   let times = [], now = 0;
 
-  // Converts the common time, which is 0 at the point of alignment, to a flight's own time.
+  // Converts the common time, which is 0 at the alignment point, to a flight's own time.
   const start = (k) => flights[k].starts[Number(select.value)];
   const own = (k, t) => t + start(k);
-  // Returns the index into a flight's series; null before lift-off and after the end.
+  // Returns an index into a flight's series; null before lift-off and after the end.
   function index(k, t) {
     const series = flights[k].series.t, at = own(k, t);
     if (at < series[0] - STEP || at > series[series.length - 1] + STEP) return null;
@@ -65,7 +65,7 @@
   function lineUp() {
     const from = Math.min(...flights.map((flight, k) => flight.series.t[0] - start(k)));
     const to = Math.max(...flights.map((flight, k) => flight.series.t[flight.series.t.length - 1] - start(k)));
-    // 0 is always one of the steps, so that the slider can show the exact point of alignment.
+    // 0 is always one of the steps so that the slider can show the exact alignment point.
     const first = Math.floor(from / STEP), count = Math.ceil(to / STEP) - first + 1;
     times = Array.from({ length: count }, (_, k) => (first + k) * STEP);
     slider.max = String(count - 1);

@@ -95,7 +95,7 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   });
 
-  // 3D view. Its library is embedded as text and loaded only when the user opens the view.
+  // 3D view. The library is embedded as text and loaded only when the user opens the view.
   let model = null;
   const open = byId('model-open');
   const probe = document.createElement('canvas').getContext('webgl2');

@@ -12,7 +12,7 @@ pub struct SurfaceCoverage {
     pub elements: BTreeMap<Element, ElementSurface>,
 }
 
-/// Surface coverage of one element, or of all.
+/// Surface coverage of one or all elements.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ElementSurface {
     /// Surface that can be inspected from the reference paths, m².
@@ -23,7 +23,7 @@ pub struct ElementSurface {
     pub(crate) sums: PictureSums,
 }
 
-/// Area-weighted sums of the best pictures' properties.
+/// Area-weighted sums of best-picture properties.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct PictureSums {
     area_m2: f64,
@@ -33,20 +33,20 @@ pub(crate) struct PictureSums {
     ln_lux: f64,
 }
 
-/// Area-weighted average of the pictures that show a surface.
+/// Area-weighted average over the pictures that show a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AveragePicture {
     /// Incidence angle from the surface normal, rad.
     pub incidence_rad: f64,
     /// Ground sampling distance: size of a pixel on the surface, m.
     pub gsd_m: f64,
-    /// Motion blur in the picture, px.
+    /// Motion blur, px.
     pub blur_px: f64,
     /// Illuminance including the lamp, lx (geometric mean, because perceived brightness depends on ratios).
     pub lux: f64,
 }
 
-/// The best picture of a patch found so far.
+/// The best picture of a patch so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BestPicture {
     pub fate: SurfaceOutcome,
@@ -57,7 +57,7 @@ pub(super) struct BestPicture {
 }
 
 impl ElementSurface {
-    /// Adds the area of a surface patch with its outcome and best picture.
+    /// Adds a surface patch's area with its outcome and best picture.
     pub(super) fn add(&mut self, area_m2: f64, fate: SurfaceOutcome, best: Option<&BestPicture>) {
         self.inspectable_m2 += area_m2;
         *self.area_by_outcome_m2.entry(fate).or_default() += area_m2;

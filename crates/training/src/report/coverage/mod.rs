@@ -1,5 +1,6 @@
-//! Surface coverage: the fraction of the inspectable surface that the pictures show well enough, why the rest does not count, and
-//! how much of it the camera saw during the flight. Size, angle and light are evaluated with the scorer's functions.
+//! Surface coverage: how much of the inspectable surface the pictures capture well, why the rest does not count, and
+//! how much of it was in the camera's view during the flight. Size, angle and light are evaluated with the scorer's
+//! functions.
 
 mod element;
 mod outcome;
@@ -27,11 +28,11 @@ use std::collections::BTreeMap;
 
 /// Maximum motion blur, px (one pixel, as published for defect detection).
 pub const BLUR_MAX_PX: f64 = 1.0;
-/// Surface counts as background beyond this multiple of the distance at which a pixel has the required size.
+/// Multiple of the required-pixel-size distance beyond which a surface counts as background.
 const BACKGROUND_DISTANCE_FACTOR: f64 = 3.0;
-/// Sampling interval at which the camera's view during the flight is evaluated.
+/// Sampling interval for evaluating the camera's view during the flight.
 const VIEW_SAMPLE_INTERVAL: SimTime = SimTime::from_ms(2_000);
-/// Size of the cells in which patches with the same orientation share their ambient light, m.
+/// Size of the cells in which patches with the same orientation share ambient light, m.
 const LIGHT_CELL_M: f64 = 5.0;
 
 /// A surface patch with the best picture of it.
@@ -66,8 +67,8 @@ impl EvaluatedPatch {
     }
 }
 
-/// Returns the distance, m, and the cosine of the incidence angle for a patch that is inside the image and faces the camera. Does
-/// not check whether the sight line is clear.
+/// Returns the distance, m, and the cosine of the incidence angle for a patch that is inside the image and faces the
+/// camera. Does not check for a clear line of sight.
 fn in_image(patch: &SurfacePatch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
     let to = patch.point_m - pose.position_m;
     let away_m = to.norm();
@@ -89,7 +90,8 @@ fn add_picture(pieces: &mut [EvaluatedPatch], picture: &ReviewedPicture, light: 
     let reach = reach_m(camera);
     for piece in pieces {
         let Some((away_m, cosine)) = in_image(&piece.patch, pose, camera, BACKGROUND_DISTANCE_FACTOR * reach) else { continue };
-        // Best outcome possible for this picture. If an equal or better picture is known, the sight line is not tested.
+        // Best possible outcome of this picture. If an equal or better picture is known, the line of sight is not
+        // tested.
         let most = if away_m > reach {
             SurfaceOutcome::TooFar
         } else if cosine < math::cos(MAX_INCIDENCE_RAD) {
@@ -114,7 +116,7 @@ fn add_picture(pieces: &mut [EvaluatedPatch], picture: &ReviewedPicture, light: 
     }
 }
 
-/// Returns the outcome of a picture that meets the required pixel size and angle, from its light and blur.
+/// Returns the outcome of a picture that meets the required pixel size and angle, based on its light and blur.
 fn outcome_of_light_and_blur(lux: f64, blur_px: f64, picture: &ReviewedPicture) -> SurfaceOutcome {
     if lux < needed_lux(&picture.camera) {
         if picture.pose.lamp_on { SurfaceOutcome::DarkLampOn } else { SurfaceOutcome::DarkLampOff }
@@ -140,15 +142,15 @@ fn add_flight(pieces: &mut [EvaluatedPatch], scene: &ReviewContext<'_>) {
     }
 }
 
-/// Cache of the ambient light by grid cell and surface orientation.
+/// Cache of ambient light by grid cell and surface orientation.
 struct LightCache<'a> {
     scene: &'a ReviewContext<'a>,
     cells: BTreeMap<[i64; 6], f64>,
 }
 
 impl LightCache<'_> {
-    /// Returns the illuminance of a patch in a picture, including the lamp, lx, and the motion blur at the shortest exposure that
-    /// this light allows, px.
+    /// Returns a patch's illuminance in a picture, including the lamp, lx, and the motion blur at the shortest exposure
+    /// possible in this light, px.
     fn with_motion_blur(&mut self, patch: &SurfacePatch, picture: &ReviewedPicture) -> (f64, f64) {
         let (pose, camera) = (&picture.pose, &picture.camera);
         let lamp = lamp_lux(&self.scene.vehicle.lamp, pose, patch.point_m, patch.normal);

@@ -1,13 +1,13 @@
 //! Possible outcomes of surface coverage.
 
-/// Coverage outcome of a surface patch, from worst to best. If there are several pictures, the best one counts.
+/// Coverage outcome of a surface patch, from worst to best. If several pictures show the patch, the best one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SurfaceOutcome {
     /// Never in the camera's view at the required distance and angle.
     NeverInView,
     /// In view but not photographed.
     NotPhotographed,
-    /// Photographed from too far away: the pixel size is too large.
+    /// Photographed from too far away, so the pixel size is too large.
     TooFar,
     /// Photographed at more than 60 degrees from the surface normal.
     TooOblique,
@@ -15,9 +15,9 @@ pub enum SurfaceOutcome {
     DarkLampOff,
     /// Too dark, even with the lamp on.
     DarkLampOn,
-    /// Motion blur is too large.
+    /// Too much motion blur.
     Blurred,
-    /// Shown well in a picture.
+    /// Captured well in a picture.
     Shown,
 }
 
@@ -38,13 +38,13 @@ impl SurfaceOutcome {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Shown => "shown well",
+            Self::Shown => "captured well",
             Self::Blurred => "blurred",
             Self::DarkLampOn => "too dark, lamp on",
             Self::DarkLampOff => "too dark, lamp off",
             Self::TooOblique => "too oblique",
             Self::TooFar => "too far",
-            Self::NotPhotographed => "in view, no picture",
+            Self::NotPhotographed => "in view, not photographed",
             Self::NeverInView => "never in view",
         }
     }

@@ -1,4 +1,4 @@
-//! Inspectable surface: the part that is visible from at least one point of a reference path, sampled in patches of about 1 m².
+//! Inspectable surface: the part visible from at least one reference path point, sampled in patches of about 1 m².
 
 use super::sight::{is_clear, reach_m};
 use crate::report::context::ReviewContext;
@@ -10,9 +10,9 @@ use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 
 /// Side length of a patch, m.
 const PATCH_M: f64 = 1.0;
-/// Minimum area of a face, m². Smaller faces, such as edges of plates and posts, are skipped.
+/// Minimum face area, m². Smaller faces, such as the edges of plates and posts, are skipped.
 const MIN_FACE_M2: f64 = 0.1;
-/// Distance from the surface at which sight lines start, m.
+/// Distance between the surface and the start of a line of sight, m.
 const SURFACE_OFFSET_M: f64 = 0.02;
 /// Maximum number of reference points tested per patch, nearest first.
 const MAX_POINTS_TESTED: usize = 8;
@@ -20,9 +20,9 @@ const MAX_POINTS_TESTED: usize = 8;
 /// A patch of a member's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePatch {
-    /// Element of the member.
+    /// The member's element.
     pub element: Element,
-    /// End point for sight lines, slightly in front of the center, m.
+    /// End point for lines of sight, slightly in front of the center, m.
     pub above_m: Vec3<Enu>,
     /// Center of the patch, m.
     pub point_m: Vec3<Enu>,
@@ -32,7 +32,7 @@ pub struct SurfacePatch {
     pub area_m2: f64,
 }
 
-/// Returns the patches that can be inspected from at least one point of a reference path.
+/// Returns the patches that can be inspected from at least one reference path point.
 #[must_use]
 pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
     let reach = reach_m(&scene.vehicle.camera);
@@ -64,7 +64,7 @@ fn points_within_reach(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> V
     stations.iter().copied().filter(|s| away_squared(s.array()) <= reach_m * reach_m).collect()
 }
 
-/// Samples a solid's faces and returns the points with their outward normals and areas.
+/// Samples a solid's faces and returns points with outward normals and areas.
 fn sample_faces(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
     let mut samples = Vec::new();
     for face in &solid.faces {
@@ -82,7 +82,7 @@ fn sample_faces(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
     samples
 }
 
-/// Returns the points of a grid over a convex polygon, [`PATCH_M`] apart, or the center if the polygon is smaller than that.
+/// Returns grid points over a convex polygon, [`PATCH_M`] apart, or the center of a smaller polygon.
 fn sample_polygon(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
     let u = (corners[1] - corners[0]).unit();
     let v = normal.cross(u);
@@ -110,7 +110,7 @@ fn sample_polygon(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
     points
 }
 
-/// Returns whether a point is inside a convex polygon with counterclockwise corners.
+/// Returns whether a point is inside a convex polygon with counterclockwise vertices.
 fn is_inside(flat: &[(f64, f64)], p: (f64, f64)) -> bool {
     (0..flat.len()).all(|k| {
         let (a, b) = (flat[k], flat[(k + 1) % flat.len()]);
@@ -138,7 +138,7 @@ fn is_visible_from(
 mod tests {
     use super::*;
 
-    /// Returns a box of 4 by 3 by 2 m.
+    /// Returns a 4 m by 3 m by 2 m box.
     fn box_solid() -> Solid {
         let corner = |k: u32| {
             let pick = |bit: u32, length: f64| if k >> bit & 1 == 1 { length } else { 0.0 };

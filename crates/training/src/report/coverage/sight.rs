@@ -1,4 +1,4 @@
-//! Sight lines, and the distance at which a picture is fine enough.
+//! Lines of sight, and the distance at which a picture has sufficient resolution.
 
 use crate::report::context::ReviewContext;
 use spandrel_model::frames::{Enu, Vec3};
@@ -7,12 +7,12 @@ use spandrel_model::vehicle::Camera;
 
 /// Crack width that separates condition states 2 and 3 of reinforced concrete (0.05 in, AASHTO MBEI), m.
 const CRACK_WIDTH_M: f64 = 0.001_27;
-/// Pixel size on the surface at which that crack covers the half pixel that a hit requires, m.
+/// Pixel size on the surface at which that crack covers half a pixel, as a hit requires, m.
 pub const REQUIRED_GSD_M: f64 = CRACK_WIDTH_M / MIN_LINE_WIDTH_PX;
-/// Sight lines end at this distance in front of the surface, m.
+/// Distance between the end of a line of sight and the surface, m.
 const SIGHT_LINE_MARGIN_M: f64 = 0.02;
 
-/// Returns the distance at which a pixel has the required size on the surface, m.
+/// Returns the distance at which pixels have the required size on the surface, m.
 #[must_use]
 pub fn reach_m(camera: &Camera) -> f64 {
     REQUIRED_GSD_M * camera.focal_px()

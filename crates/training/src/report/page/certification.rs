@@ -16,10 +16,10 @@ pub fn section(review: &Review) -> Markup {
         ("every task attempted", c.gates.all_tasks_attempted),
         ("no person or vehicle hit", c.gates.no_person_or_vehicle_hit),
         ("landed near the ground team", c.gates.landed_at_home),
-        ("at least 20 % battery left at landing", c.gates.battery_reserve),
+        ("at least 20 % battery at landing", c.gates.battery_reserve),
     ];
     html! {
-        p { "A second profile with pass/fail requirements. It complements the four scores of TASBID by closing their loopholes. "
+        p { "This second profile adds pass/fail requirements that close loopholes in the four TASBID scores. "
             b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet)) "." } } }
         ul.gates {
             @for (words, open) in gates {
@@ -28,8 +28,8 @@ pub fn section(review: &Review) -> Markup {
         }
         @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
         p { "Closer than " (formatting::number(review.scenario.scoring.clearance_m, 1)) " m to a surface for " (formatting::number(c.exposure_s, 1))
-            " s; " (c.crash_onsets) " contacts, " (c.crashes.len()) " after merging those less than a second apart; "
-            (formatting::number(c.battery_at_end_pct, 0)) " % battery at the end." }
+            " s; " (c.crash_onsets) " contacts, or " (c.crashes.len()) " after merging contacts less than a second apart; "
+            (formatting::number(c.battery_at_end_pct, 0)) " % battery remaining at the end." }
         (visits_table(review).folded())
         (detection_table(review).folded())
     }

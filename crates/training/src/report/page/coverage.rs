@@ -1,4 +1,4 @@
-//! Surface coverage by element: the area that the pictures show well, and why the rest does not count.
+//! Surface coverage by element: the area that the pictures capture well, and why the rest does not count.
 
 use super::figure::{figure, legend};
 use crate::report::Review;
@@ -12,7 +12,7 @@ use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 
 /// Maximum number of reasons named in the summary.
 const MAX_REASONS: usize = 3;
-/// Minimum fraction of the inspectable surface at which a reason is named.
+/// Minimum fraction of the inspectable surface for a reason to be named.
 const MIN_REASON_SHARE: f64 = 0.01;
 
 /// Renders the "Coverage" section of a session report.
@@ -24,17 +24,17 @@ pub fn section(review: &Review) -> Markup {
     let share = |area: f64| formatting::number(100.0 * area / total.inspectable_m2, 0);
     let key: Vec<(&str, String)> = SurfaceOutcome::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
     html! {
-        p { "Of " (formatting::number(total.inspectable_m2, 0)) " m² that can be inspected from the reference paths, pictures show "
-            b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " well enough." @if let Some(why) = reasons_not_shown(&total) { " The rest: " (why) "." } }
+        p { "The pictures capture " b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " of the inspectable bridge surface well ("
+            (formatting::number(total.inspectable_m2, 0)) " m² can be inspected from the reference paths)." @if let Some(why) = reasons_not_shown(&total) { " The rest: " (why) "." } }
         p.note { "A surface is inspectable if it is visible from at least one point of a reference path at " (formatting::number(1000.0 * REQUIRED_GSD_M, 2))
             " mm per pixel or finer (a 1.27 mm crack, the limit between condition states 2 and 3, then covers half a pixel; with this camera, this corresponds to a distance of "
-            (formatting::number(reach_m(&review.vehicle.camera), 1)) " m) and at most "
-            (formatting::number(MAX_INCIDENCE_RAD.to_degrees(), 0)) "° from normal. It is shown well if a picture meets these limits, has enough light (including the lamp) for an exposure within the camera's limits, and has at most "
-            (formatting::number(BLUR_MAX_PX, 0)) " px of motion blur. If several pictures show the same surface, the best one counts." }
+            (formatting::number(reach_m(&review.vehicle.camera), 1)) " m) and at an angle of at most "
+            (formatting::number(MAX_INCIDENCE_RAD.to_degrees(), 0)) "° from the surface normal. It is captured well if a picture meets both limits, has enough light (including the lamp) for an exposure within the camera's limits, and has at most "
+            (formatting::number(BLUR_MAX_PX, 0)) " px of motion blur. If several pictures show the same patch of surface, the best one counts." }
         (figure("Coverage of each element's inspectable surface", &html! {
             (legend(&key))
             div.split {
-                // Distributes the rows over two columns of about equal length.
+                // Distributes the rows between two columns of about equal length.
                 @let rows = rows(&review.coverage);
                 @let (left, right) = rows.split_at(rows.len().div_ceil(2));
                 (stacks(left, "Surface coverage by element"))
@@ -45,7 +45,7 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-/// Returns the main reasons why surface is not shown well; `None` if each is below [`MIN_REASON_SHARE`].
+/// Returns the main reasons that surface is not captured well; `None` if each is below [`MIN_REASON_SHARE`].
 fn reasons_not_shown(total: &ElementSurface) -> Option<String> {
     let share = |fate: &SurfaceOutcome| total.area_m2(*fate) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> = SurfaceOutcome::ALL
@@ -86,13 +86,13 @@ fn table(coverage: &SurfaceCoverage) -> Table {
     rows.push(row(&coverage.total(), ["all".into(), TableCell::Empty]));
     let mut columns = vec!["element", "name", "inspectable, m²"];
     columns.extend([
-        "shown well, m²",
+        "captured well, m²",
         "blurred, m²",
         "too dark, lamp on, m²",
         "too dark, lamp off, m²",
         "too oblique, m²",
         "too far, m²",
-        "in view, no picture, m²",
+        "in view, not photographed, m²",
         "never in view, m²",
         "pixel size, mm",
         "angle from normal, deg",
@@ -101,7 +101,7 @@ fn table(coverage: &SurfaceCoverage) -> Table {
     ]);
     Table {
         name: "coverage",
-        caption: "surface coverage; pixel size, angle, light and blur are averages over pictures at the required resolution and angle",
+        caption: "surface coverage; pixel size, angle, light and blur are averages over pictures that meet the required resolution and angle",
         columns,
         rows,
     }

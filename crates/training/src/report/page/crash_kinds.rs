@@ -1,4 +1,4 @@
-//! Kinds of crashes, as grouped in figures that cover several sessions.
+//! Kinds of crashes, as grouped in multi-session figures.
 
 use crate::record::Crashes;
 
@@ -16,7 +16,7 @@ pub fn counted(crashes: &Crashes) -> [usize; 5] {
     [crashes.bridge, crashes.terrain, crashes.water, crashes.other, crashes.person + crashes.vehicle]
 }
 
-/// Returns the number of crashes of each kind with its CSS class.
+/// Returns the CSS class and number of crashes of each kind.
 pub fn segments(crashes: &Crashes) -> Vec<(&'static str, usize)> {
     KINDS.iter().zip(counted(crashes)).map(|((class, _), count)| (*class, count)).collect()
 }

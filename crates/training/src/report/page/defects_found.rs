@@ -1,5 +1,5 @@
-//! Defects found and missed, marked on the bridges. For missed defects, also how close the flight came and how they would have
-//! looked.
+//! Found and missed defects, marked on the bridges. For missed defects, also shows how close the flight came and how
+//! they would have looked.
 
 use super::figure::figure;
 use super::gallery::{DefectMark, frame};
@@ -31,7 +31,7 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
         }
         @if !missed.is_empty() {
             h3 { "Missed defects" }
-            p.note { "Each drawing shows the defect from 4 m away at a right angle, with the lamp on." }
+            p.note { "Each drawing shows the defect from 4 m away, viewed head-on with the lamp on." }
             ul.gallery { @for fate in &missed { (card(review, fate, sketcher)) } }
         }
         (table(review).folded())
@@ -40,8 +40,8 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
 
 fn drawings(review: &Review, bridge: &Bridge) -> Markup {
     let scroll = |title: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label={ "Defects: " (title) } { (body) } };
-    let side = format!("Bridge '{}' from the side", bridge.name);
-    let under = format!("Bridge '{}' from above", bridge.name);
+    let side = format!("Side view of bridge '{}'", bridge.name);
+    let under = format!("Top view of bridge '{}'", bridge.name);
     let above = ParallelView { right: ParallelView::side(bridge).right, up: ParallelView::side(bridge).towards() * -1.0 };
     html! {
         (figure(&side, &scroll(&side, &map::findings(review, bridge, ParallelView::side(bridge), &side))))

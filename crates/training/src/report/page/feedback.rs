@@ -1,4 +1,4 @@
-//! Feedback given during the flight, and the trainee's reaction times.
+//! In-flight feedback and the trainee's reaction times.
 
 use super::figure::{figure, scrolling};
 use crate::report::Review;
@@ -20,16 +20,16 @@ pub fn section(review: &Review) -> Markup {
     let present: Vec<usize> = (0..KINDS.len()).filter(|kind| of(review, *kind).next().is_some()).collect();
     html! {
         @if present.is_empty() { p.calm { "No feedback was given." } } @else {
-            div.scroll tabindex="0" role="region" aria-label="Feedback in numbers" {
+            div.scroll tabindex="0" role="region" aria-label="Feedback summary" {
                 table {
                     thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "total duration, s" } th scope="col" { "stick reactions" } th scope="col" { "median reaction, s" } } }
                     tbody { @for kind in &present { (row(review, *kind)) } }
                 }
             }
             @if reactions_by_kind(review).next().is_some() {
-                (figure("Time from the cue to the first stick movement; each dot is one cue, the bar is the median", &scrolling("Reaction times", &reactions(review))))
+                (figure("Time from the cue to the first stick movement; each dot is one cue; the bar marks the median", &scrolling("Reaction times", &reactions(review))))
             }
-            p.note { "A reaction is a stick movement of at least 10 % of full travel within 5 s of the cue. A stick that was already moving may count as a reaction by coincidence." }
+            p.note { "A reaction is a stick movement of at least 10 % of full travel within 5 s of the cue. If a stick was already moving, it may count as a reaction by coincidence." }
         }
         @if !review.feedback.notes.is_empty() { (notes(review).shown()) }
         (episodes(review).folded())
@@ -76,7 +76,7 @@ fn reactions(review: &Review) -> Markup {
     let bottom = ROW * kinds.len() as f64 + 4.0;
     sheet(
         (WIDTH, bottom + 24.0),
-        "Reaction times by feedback",
+        "Reaction times by cue",
         "reactions",
         &html! {
             @for tick in ticks(MAX_REACTION_S, 5) {
@@ -106,7 +106,7 @@ fn episodes(review: &Review) -> Table {
     Table {
         name: "feedback",
         caption: "feedback shown",
-        columns: vec!["time", "feedback", "duration, s", "reaction after, s", "task"],
+        columns: vec!["time", "feedback", "duration, s", "reaction time, s", "task"],
         rows: review.feedback.episodes.iter().map(row).collect(),
     }
 }

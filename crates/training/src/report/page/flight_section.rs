@@ -1,4 +1,4 @@
-//! The flight on the site, its timeline and its charts, linked by a slider.
+//! The flight on the site, its timeline and charts, linked by a slider.
 
 use super::figure::{figure, legend, scrolling};
 use crate::report::feedback::KINDS;
@@ -8,13 +8,13 @@ use crate::report::table::{Table, TableCell};
 use crate::report::{Review, formatting};
 use maud::{Markup, html};
 
-/// Id, title and data columns of each chart.
+/// ID, title and data columns of each chart.
 const CHARTS: [(&str, &str, &str); 5] = [
     ("speed", "Speed, m/s", "speed"),
-    ("distance", "Distance to the path of the task flown, m", "distance"),
+    ("distance", "Distance to the current task's path, m", "distance"),
     ("clearance", "Clearance to the nearest surface, m", "clearance"),
     ("battery", "Battery, %", "battery"),
-    ("sticks", "Sticks, full travel = 1", "fb rl ud rt"),
+    ("sticks", "Stick positions (full travel = 1)", "fb rl ud rt"),
 ];
 
 /// Renders the "Flight" section of a session report.
@@ -37,7 +37,7 @@ pub fn section(review: &Review) -> Markup {
         }
         p.note { "Drag across a chart to zoom in. Double-click to reset the zoom. Click to move the slider." }
         (series_table(review).folded())
-        p.download { button type="button" id="series-csv" hidden { "Download the time series as CSV" } " "
+        p.download { button type="button" id="series-csv" hidden { "Download time series as CSV" } " "
             span.note { "To export every frame: " code { "spandrel export SESSION --frames frames.csv" } } }
     }
 }
@@ -99,10 +99,10 @@ fn drawings(review: &Review) -> Markup {
     html! {
         (figure("From above, north up", &scroll("Plan", &map::plan(review))))
         @if review.scenario.bridges.is_empty() {
-            (figure("From the south", &scroll("Elevation", &map::south_elevation(review))))
+            (figure("View from the south", &scroll("Elevation", &map::south_elevation(review))))
         }
         @for bridge in &review.scenario.bridges {
-            @let title = format!("Bridge '{}' from the side, with the flight near it", bridge.name);
+            @let title = format!("Side view of bridge '{}', with the nearby flight path", bridge.name);
             (figure(&title, &scroll(&title, &map::elevation(review, bridge))))
         }
         figure.model id="model" {
@@ -180,7 +180,7 @@ fn control_intervals(review: &Review) -> TimeStrip {
     TimeStrip { name: "flown by".into(), stretches: review.assessment.flown_by.iter().map(stretch).collect(), marks: Vec::new() }
 }
 
-/// Returns the periods without received telemetry, in which frames are interpolated or missing.
+/// Returns the periods without telemetry, in which frames are interpolated or missing.
 fn gaps(review: &Review) -> TimeStrip {
     let mut stretches: Vec<(String, f64, f64, String)> = Vec::new();
     let mut open: Option<usize> = None;
@@ -230,7 +230,7 @@ fn series_table(review: &Review) -> Table {
     };
     Table {
         name: "flight",
-        caption: "the flight, sampled every few seconds",
+        caption: "flight data, sampled every few seconds",
         columns: vec![
             "time",
             "task",

@@ -1,5 +1,5 @@
-//! The pictures that the trainee took, with their verdicts. Shows the photograph if the session contains it, otherwise a drawing
-//! of the camera's view.
+//! The trainee's pictures and their verdicts. Shows the photograph if the session contains it; otherwise, a drawing of
+//! the camera's view.
 
 use crate::report::Review;
 use crate::report::assets::base64;
@@ -110,19 +110,19 @@ fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mar
 
 /// A defect to mark in a drawing.
 pub struct DefectMark {
-    /// Number of the defect, from 1.
+    /// Defect number, from 1.
     pub id: u32,
     /// Position in the site frame (ENU), m.
     pub at_m: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>,
-    /// Largest dimension of the defect, m.
+    /// The defect's largest dimension, m.
     pub length_m: f64,
     /// CSS class of the mark.
     pub class: &'static str,
-    /// Whether the structure hides the defect from the camera.
+    /// Whether the structure occludes the defect.
     pub hidden: bool,
 }
 
-/// Renders a drawing of the camera's view, with the marked defects and the frame in which defects count.
+/// Renders a drawing of the camera's view with marked defects and the frame inside which defects count.
 pub fn frame(
     sketcher: &Sketcher,
     (pose, camera): (&CameraPose, &Camera),

@@ -24,10 +24,10 @@ use super::Review;
 use super::assets;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-/// Renders the page of one session.
+/// Renders a session's report page.
 #[must_use]
 pub fn session(review: &Review) -> String {
-    let title = format!("Session of {}, {}", review.about.trainee, review.about.started_utc);
+    let title = format!("Session report: {}, {}", review.about.trainee, review.about.started_utc);
     let sketcher = gallery::sketcher(review);
     let sections = [
         ("scores", "Scores", summary::scores(review)),
@@ -57,7 +57,7 @@ pub fn session(review: &Review) -> String {
     )
 }
 
-/// Interactive content of a page: its embedded data and the scripts that it needs.
+/// A page's interactive content: embedded data and the scripts that use it.
 enum PageScripts {
     /// The page is static.
     None,

@@ -1,5 +1,6 @@
-//! One trainee's progress on one job, by repetition, as the TASBID paper shows it for participant 18: scores, on-path share by
-//! task, crashes by kind and, after four repetitions, learning curves. Used in the trainee's page and the cohort pages.
+//! One trainee's progress on one job by repetition, as shown in the TASBID paper for participant 18: scores, on-path
+//! share by task, crashes by kind and, after four repetitions, learning curves. Used on the trainee's page and the
+//! cohort pages.
 
 use super::crash_kinds::{KINDS, counted, segments};
 use super::figure::{figure, legend};
@@ -20,7 +21,7 @@ pub fn most(score: &str) -> f64 {
     if score == "overall" { 400.0 } else { 100.0 }
 }
 
-/// Renders the progress on one job.
+/// Renders a trainee's progress on one job.
 #[must_use]
 pub fn job_progress(job: &JobProgress) -> Markup {
     let progress = &job.progress;
@@ -57,7 +58,7 @@ pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
         div.three {
             (figure("The four scores by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
             @if !tasks.is_empty() {
-                (figure("On-path share of each task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
+                (figure("On-path share by task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
             }
             (figure("Crashes by object", &html! {
                 @if seen.is_empty() { p.calm { "None." } } @else { (legend(&seen)) (counts(&rows, "Crashes by kind and repetition")) }
@@ -105,7 +106,7 @@ fn learning(progress: &TraineeProgress) -> Markup {
                 (figure(&curve.score, &practice(&drawn, &format!("Learning curve of {}", curve.score))))
             }
         }
-        p.note { "Power laws of practice, fitted to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
+        p.note { "The curves are power laws of practice fitted to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
         (curve_numbers(&progress.curves).folded())
     }
 }
@@ -145,7 +146,7 @@ fn numbers(scenario: &str, progress: &TraineeProgress) -> Table {
     let crashes = ["bridge crashes", "ground crashes", "water crashes", "other crashes", "person or vehicle crashes"];
     Table {
         name: "progress",
-        caption: "each repetition: scores, time, crashes",
+        caption: "scores, time and crashes by repetition",
         columns: columns.into_iter().chain(crashes).collect(),
         rows: progress.repetitions.iter().map(row).collect(),
     }
@@ -164,7 +165,7 @@ fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table
     }
 }
 
-/// Returns the message shown if there are too few repetitions for a learning curve.
+/// Returns the message for too few repetitions for a learning curve.
 pub fn too_few() -> String {
     format!(
         "A learning curve requires {} repetitions of the same job.",
@@ -193,7 +194,8 @@ mod tests {
     fn exact_progress_lists_each_repetition() {
         let text = progress_page(3).into_string();
         assert_eq!(text.matches("class=\"lines\"").count(), 2);
-        // Four score lines with three points each. The task lines have one point less, because one task was not attempted once.
+        // Four score lines with three points each. The task lines have one point fewer, because one task was once not
+        // attempted.
         assert_eq!(text.matches("<circle class=\"dot-").count(), 12 + 11);
         assert!(text.contains("water: 2") && text.contains("person or vehicle: 1") && !text.contains("bridge: "), "{text}");
         assert!(text.contains("not attempted") && text.contains("&lt;b&gt;slab") && !text.contains("<b>slab"));

@@ -11,7 +11,7 @@ pub fn section(review: &Review) -> Markup {
     html! {
         p { (gaps(review)) }
         @if telemetry.missing_frames > 0 {
-            p.note { "In gaps longer than 1 s, missing frames repeat the last position and are scored at that position." }
+            p.note { "In gaps longer than 1 s, missing frames repeat the last known position and are scored there." }
         }
         (control_intervals(review).shown())
         (files(review).shown())

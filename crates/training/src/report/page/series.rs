@@ -1,5 +1,5 @@
-//! The data block for the page's script: time series, marks, reference paths and the 3D model. The JSON contains no `<`, so that
-//! it cannot end the surrounding script element.
+//! The data block for the page's script: time series, marks, reference paths and the 3D model. The JSON contains no
+//! `<`, so it cannot end the surrounding script element.
 
 use crate::report::Review;
 use crate::report::assets::base64;
@@ -15,10 +15,10 @@ const RATE_HZ: f64 = 10.0;
 const MAX_SAMPLES: usize = 15_000;
 /// Number of terrain samples along each side of the 3D model.
 const TERRAIN_SAMPLES: usize = 72;
-/// Offset of a defect's mark from the surface along the normal, m. It keeps the mark invisible from the other side.
+/// Offset of a defect's mark from the surface along the normal, m, so that the mark cannot be seen from the other side.
 const DEFECT_MARK_OFFSET_M: f64 = 0.5;
 
-/// Returns the data block of a session report as JSON.
+/// Returns a session report's data block as JSON.
 #[must_use]
 pub fn data(review: &Review) -> String {
     let block = json!({
@@ -38,7 +38,8 @@ pub fn data(review: &Review) -> String {
     escape_json(&block.to_string())
 }
 
-/// Returns the data block of a comparison as JSON: the time series of both flights and the events at which they can be aligned.
+/// Returns a comparison's data block as JSON: the time series of both flights and the events at which they can be
+/// aligned.
 #[must_use]
 pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> String {
     let flight = |k: usize| {
@@ -54,7 +55,7 @@ pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> St
     escape_json(&block.to_string())
 }
 
-/// An event in both flights at which their times can be aligned.
+/// An event in both flights at which they can be aligned in time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlignmentEvent {
     /// Name of the event, shown in the alignment menu.
@@ -63,7 +64,7 @@ pub struct AlignmentEvent {
     pub at_s: [f64; 2],
 }
 
-/// Returns lift-off and, if both flights are of the same job, the start of each task that both entered.
+/// Returns lift-off and, if both flights are from the same job, the start of each task that both entered.
 #[must_use]
 pub fn alignment_events(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
     let mut found = vec![AlignmentEvent { name: "lift-off".into(), at_s: [0.0, 0.0] }];
@@ -75,7 +76,7 @@ pub fn alignment_events(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEven
     found
 }
 
-/// Escapes `<` in JSON, so that the text cannot end the surrounding script element.
+/// Escapes `<` in JSON so that the text cannot end the surrounding script element.
 fn escape_json(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
@@ -121,7 +122,7 @@ fn place(point: Vec3<Enu>) -> [Value; 3] {
     point.array().map(|value| rounded(value, 2))
 }
 
-/// Rounds a value to `digits` decimals (0 to 2), which keeps the data block small.
+/// Rounds a value to `digits` decimals (0 to 2) to keep the data block small.
 fn rounded(value: f64, digits: i32) -> Value {
     let scale = match digits {
         0 => 1.0,

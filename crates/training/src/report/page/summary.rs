@@ -1,4 +1,4 @@
-//! Page header and the four scores with their components.
+//! Page header and the four scores with explanations.
 
 use super::figure::figure;
 use crate::report::Review;
@@ -10,13 +10,13 @@ use spandrel_monitor::assessment::Scores;
 use spandrel_monitor::score::Score;
 use spandrel_monitor::score::completion::verdict;
 
-/// Renders trainee, job, date and overall score.
+/// Renders the trainee, job, date and overall score.
 pub fn header(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let end = &review.assessment.end;
     let certification = &review.assessment.certification;
     html! {
-        a.skip href="#scores" { "Skip to the scores" }
+        a.skip href="#scores" { "Skip to scores" }
         header {
             div {
                 p.kicker { "Session report" }
@@ -54,7 +54,7 @@ fn telemetry_summary(review: &Review) -> String {
     }
 }
 
-/// Renders the diagram, the score cards and their table.
+/// Renders the radar chart, the score cards and their table.
 pub fn scores(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let spokes: Vec<RadarAxis> = scores_by_name(scores)
@@ -79,7 +79,7 @@ pub fn scores(review: &Review) -> Markup {
     }
 }
 
-/// Returns the name and value of the four scores, in the order of the diagram.
+/// Returns the names and values of the four scores, in chart order.
 pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     [
         ("Conformity", scores.conformity),
@@ -105,8 +105,8 @@ fn score_explanation(review: &Review, name: &str) -> String {
             let crashes = &assessment.crashes;
             match (crashes.person + crashes.vehicle, crashes.other) {
                 (0, 0) => "no contacts".into(),
-                (0, 1) => "1 contact, 3 points".into(),
-                (0, other) => format!("{other} contacts, 3 points each"),
+                (0, 1) => "1 contact, 3 points lost".into(),
+                (0, other) => format!("{other} contacts, 3 points lost each"),
                 _ => "a person or vehicle was hit: 0 points".into(),
             }
         }
@@ -126,14 +126,14 @@ fn conformity(review: &Review) -> String {
     let Some(worst) = tasks.iter().min_by(|a, b| a.on_path.total_cmp(&b.on_path)) else { return "no tasks in this job".into() };
     let skipped = tasks.iter().filter(|task| !task.attempted).count();
     if skipped == tasks.len() {
-        return "no task attempted (the TASBID formula then gives 50)".into();
+        return "no tasks attempted (the TASBID formula gives 50 points)".into();
     }
     if skipped > 0 {
         return format!("{skipped} of {} tasks not attempted", tasks.len());
     }
     let speeding: f64 = review.tasks.iter().map(|task| task.speeding_s).sum();
     let lowest = formatting::number(100.0 * worst.on_path, 0);
-    format!("lowest on-path share: {lowest} % (task {}); too fast for {} s", worst.id, formatting::number(speeding, 0))
+    format!("lowest on-path share: {lowest} % (task {}); speeding for {} s", worst.id, formatting::number(speeding, 0))
 }
 
 fn table(review: &Review) -> Table {

@@ -24,8 +24,8 @@ pub fn section(review: &Review) -> Markup {
     let done_share = review.assessment.completion.done_share;
     html! {
         div.split {
-            (figure("Fraction of each task's time on the path and above the speed limit", &html! {
-                (legend(&[("b-on", "on the path".into()), ("b-speeding", "above the speed limit".into())]))
+            (figure("Share of each task's time spent on the path and over the speed limit", &html! {
+                (legend(&[("b-on", "on the path".into()), ("b-speeding", "over the speed limit".into())]))
                 (bars::shares(&rows(review), "On-path share and speeding by task"))
             }))
             (figure("Contacts by task and object", &html! {

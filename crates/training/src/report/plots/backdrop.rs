@@ -54,7 +54,7 @@ fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
     if (a.1 > 0.0) == (b.1 > 0.0) { b.0 } else { a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1) }
 }
 
-/// Draws a bridge's side view background: the ground below the bridge axis and the water.
+/// Draws the background of a bridge's side view: the ground below the bridge axis and the water.
 pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &Bridge) -> Markup {
     let axis = map.view.right;
     let middle = map.view.at(bridge.center_m).0;

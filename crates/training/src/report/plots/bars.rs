@@ -1,4 +1,4 @@
-//! Bar charts in rows: fractions of a whole, and counts by kind.
+//! Horizontal bar charts: fractions of a whole and counts by kind.
 
 use super::{sheet, unit};
 use crate::report::formatting;
@@ -16,7 +16,7 @@ pub struct ShareRow {
     pub name: String,
     /// CSS class and fraction (0 to 1) of each bar, from top to bottom.
     pub bars: Vec<(&'static str, f64)>,
-    /// Text shown instead of the bars, such as "not attempted".
+    /// Text shown in place of the bars, such as "not attempted".
     pub instead: Option<&'static str>,
 }
 
@@ -26,7 +26,7 @@ pub fn length(share: f64, full: f64) -> f64 {
     if full > 0.0 { (RIGHT - LEFT) * (share / full).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Draws rows of fractions with the label above the bars of each row.
+/// Draws rows of fractions, each with its label above the bars.
 #[must_use]
 pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
     let mut y = 4.0;
@@ -101,7 +101,7 @@ pub struct StackedBar {
     pub parts: Vec<(&'static str, f64)>,
 }
 
-/// Draws stacked bars, all of the same length.
+/// Draws stacked bars of equal length.
 #[must_use]
 pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
     sheet(
@@ -123,7 +123,7 @@ pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
     )
 }
 
-/// Returns CSS class, offset and length of each nonempty part.
+/// Returns the CSS class, offset and length of each nonempty part.
 fn parts(parts: &[(&'static str, f64)]) -> Vec<(&'static str, f64, f64)> {
     let mut before = 0.0;
     let mut out = Vec::new();

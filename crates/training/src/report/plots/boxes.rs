@@ -11,12 +11,12 @@ const BOTTOM: f64 = 190.0;
 const BOX_SPACING: f64 = 56.0;
 const HALF_BOX_WIDTH: f64 = 15.0;
 
-/// A box plot with its label.
+/// A labeled box plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedBox<'a> {
     /// Label below the box.
     pub name: String,
-    /// Values that the box plot shows.
+    /// Box plot data.
     pub plot: &'a BoxPlot,
 }
 
@@ -30,7 +30,7 @@ pub fn y_of(value: f64, (low, high): (f64, f64)) -> f64 {
 /// Draws box plots on a vertical scale from 0 to `most`.
 #[must_use]
 pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
-    // Keeps a minimum width, so that a few boxes are not enlarged.
+    // Keeps a minimum width so that a few boxes are not enlarged.
     let width = LEFT + BOX_SPACING * named.len().max(5) as f64 + 10.0;
     let y = |value: f64| y_of(value, (0.0, most));
     sheet(
@@ -63,7 +63,7 @@ pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
     )
 }
 
-/// Returns the vertical positions of the outliers (ascending), rounded to whole units. Duplicates are removed.
+/// Returns the vertical positions of the outliers, ascending, rounded to whole units and without duplicates.
 fn places(outliers: &[f64], y: impl Fn(f64) -> f64) -> Vec<String> {
     let mut places: Vec<String> = outliers.iter().map(|value| unit(y(*value).round())).collect();
     places.dedup();

@@ -7,20 +7,20 @@ use crate::report::formatting;
 use spandrel_mavlink::contract::continuity::is_jump;
 use spandrel_mavlink::telemetry::Frame;
 
-/// Limits of the clearance colors, m, from the closest to the farthest.
+/// Limits of the clearance colors, m, ascending.
 pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
 
-/// Color modes of the flight path: label in the selection and CSS class of the layer.
+/// Color modes of the flight path: selection label and CSS class of the layer.
 pub const COLOR_MODES: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
 
-/// Returns the flight path of one color mode: CSS class and path data of each color, in class order.
+/// Returns the flight path in one color mode: the CSS class and path data of each color, in class order.
 pub(super) fn track(review: &Review, map: &PlotMap, layer: usize, shown: &dyn Fn(&Frame) -> bool) -> Vec<(&'static str, String)> {
     let names = classes(layer);
     let color_segments = color_segments(review, map, names.len(), &|i| class_of(review, i, layer), shown);
     names.iter().copied().zip(color_segments).filter(|(_, data)| !data.is_empty()).collect()
 }
 
-/// Returns the path data of the whole flight path in a single color.
+/// Returns the path data of the entire flight path in a single color.
 pub(super) fn plain_color(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> String {
     color_segments(review, map, 1, &|_| 0, shown).swap_remove(0)
 }
@@ -58,7 +58,7 @@ fn color_segments(
         let now = colour_of(i);
         let here = map.at(frame.position_m);
         if now != colour {
-            // The line between two points of different colors gets the first point's color.
+            // A line between two points of different colors gets the first point's color.
             if !run.is_empty() {
                 run.push(here);
             }

@@ -1,4 +1,4 @@
-//! Histogram of one score, with the mean marked.
+//! Histogram of one score with the mean marked.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::formatting;

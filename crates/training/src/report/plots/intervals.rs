@@ -1,4 +1,4 @@
-//! Estimates with their confidence intervals, one per row, with a line at zero.
+//! Estimates with confidence intervals, one per row, with a line at zero.
 
 use super::{line, sheet, ticks, unit};
 use crate::report::formatting;
@@ -18,11 +18,11 @@ pub struct IntervalEstimate {
     pub name: String,
     /// Estimated value, shown as a dot.
     pub value: f64,
-    /// Lower and upper end of the interval, if one could be computed.
+    /// Lower and upper bounds of the interval, if one could be computed.
     pub interval: Option<[f64; 2]>,
 }
 
-/// Returns the ends of the axis: the range of all estimates, their intervals and zero, plus a margin.
+/// Returns the axis range: all estimates, intervals and zero, plus a margin.
 #[must_use]
 pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
     let all = estimates.iter().flat_map(|one| [Some(one.value), one.interval.map(|i| i[0]), one.interval.map(|i| i[1])]);
@@ -31,7 +31,7 @@ pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
     (low - room, high + room)
 }
 
-/// Returns the horizontal position of a value on an axis with these ends.
+/// Returns the horizontal position of a value on an axis with this range.
 #[must_use]
 pub fn x_of(value: f64, (low, high): (f64, f64)) -> f64 {
     LEFT + (RIGHT - LEFT) * if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }

@@ -12,7 +12,7 @@ use spandrel_model::site::Site;
 
 /// Margin beyond each end of a bridge in its side view, m.
 const END_MARGIN_M: f64 = 25.0;
-/// Margin above a bridge, m, so that a drone above the deck is inside the drawing.
+/// Margin above a bridge, m, which keeps a drone above the deck inside the drawing.
 const TOP_MARGIN_M: f64 = 15.0;
 
 /// Draws the plan view with north up.
@@ -21,7 +21,7 @@ pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
     sheet(
         map.size,
-        "The job from above, north up",
+        "Job site from above, north up",
         "map",
         &html! {
             (lake(scenario, site, &map))
@@ -52,7 +52,7 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
         points.push(Vec3::new(end.east(), end.north(), top_m + TOP_MARGIN_M));
     }
     let map = PlotMap::around(view, &points);
-    let title = format!("The bridge '{}' from the side", bridge.name);
+    let title = format!("Side view of bridge '{}'", bridge.name);
     sheet(
         map.size,
         &title,
@@ -76,11 +76,11 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     points.push(Vec3::new(pad_m.east() + END_MARGIN_M, pad_m.north(), pad_m.up() + TOP_MARGIN_M));
     let map = PlotMap::around(ParallelView::from_south(), &points);
     let body = html! { (structure(site, &map, None)) (references(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
-    sheet(map.size, "The job from the south", "map", &body)
+    sheet(map.size, "Job site viewed from the south", "map", &body)
 }
 
-/// Draws the drone and its trail, which a script moves. They are hidden until the script runs; in a bridge's side view, they are
-/// also hidden while the drone is far from that bridge.
+/// Draws the drone and its trail, which a script updates. They are hidden until the script runs and, in a bridge's side
+/// view, while the drone is far from that bridge.
 fn drone(map: &PlotMap, bridge: Option<&Bridge>) -> Markup {
     html! {
         path.trail data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] d="" {}

@@ -5,9 +5,9 @@ use maud::{Markup, html};
 
 const WIDTH: f64 = 640.0;
 const MIDDLE: f64 = 320.0;
-/// Width of 100 %, in drawing units. A row with full agreement fits on the left half.
+/// Width of 100 %, in drawing units. A row with full agreement fits in the left half.
 const FULL_WIDTH: f64 = 300.0;
-/// Height of a question with its bar, in drawing units; additional lines of text increase it.
+/// Height of a question and its bar, in drawing units; extra lines of text add to it.
 const ROW: f64 = 42.0;
 const LINE: f64 = 15.0;
 /// Maximum number of characters per line of text (for a wide sans-serif font at the label size).
@@ -16,7 +16,7 @@ const MAX_LINE_CHARACTERS: usize = 84;
 /// A question with its answer counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LikertQuestion {
-    /// Text of the question.
+    /// Question text.
     pub name: String,
     /// Counts from strongly agree to strongly disagree.
     pub counts: [usize; 5],

@@ -34,7 +34,7 @@ pub fn place(k: usize, count: usize, value: f64, most: f64) -> (f64, f64) {
 #[must_use]
 pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
     let count = lines.iter().map(|line| line.values.len()).max().unwrap_or(0);
-    // If there are many sessions, only some are numbered.
+    // With many sessions, only some are numbered.
     let step = count.div_ceil(12).max(1);
     sheet(
         SIZE,

@@ -1,5 +1,5 @@
-//! The flight on the site in a parallel projection: silhouettes of members, reference paths, the flight path in one of three
-//! color modes, marks for pictures, crashes and defects, and the drone, which the page's slider moves.
+//! The flight on the site in a parallel projection: member silhouettes, reference paths, the flight path in one of
+//! three color modes, marks for pictures, crashes and defects, and the drone, which follows the page's slider.
 
 use super::backdrop::{ground, lake};
 use super::colors::{COLOR_MODES, track};
@@ -16,9 +16,9 @@ use spandrel_model::site::Site;
 
 /// Minimum size of a shape, in drawing units; smaller shapes are omitted.
 const MIN_SHAPE_SIZE: f64 = 1.6;
-/// Maximum distance of a frame from a bridge's axis at which it is drawn in the bridge's side view, m.
+/// Maximum distance from a bridge's axis at which a frame is drawn in the bridge's side view, m.
 const MAX_SIDE_DISTANCE_M: f64 = 45.0;
-/// Number of pictures above which their marks are small and unnumbered.
+/// Maximum number of pictures with numbered marks; more get small, unnumbered marks.
 const MAX_NUMBERED_PICTURES: usize = 40;
 
 /// Draws the plan view of a flight.
@@ -51,13 +51,13 @@ pub fn oblique(review: &Review) -> Markup {
     )
 }
 
-/// Draws one bridge from the side, with the flight near it.
+/// Draws one bridge from the side with the nearby flight path.
 #[must_use]
 pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
     let near = is_beside(bridge);
     let map = side_view_map(&review.scenario, &review.site, bridge, review.frames.iter().filter(|frame| near(frame)));
     let prefix = format!("{}/", bridge.name);
-    let title = format!("Flight at the bridge '{}' from the side", bridge.name);
+    let title = format!("Side view of the flight at bridge '{}'", bridge.name);
     sheet(
         map.size,
         &title,
@@ -70,8 +70,8 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
     )
 }
 
-/// Returns the values with which the page's script decides whether the drone is near a bridge: east and north of the center and
-/// of the axis, and the limits along and across the bridge, m.
+/// Returns the values that the page's script uses to decide whether the drone is near a bridge: the center's east and
+/// north, the axis's east and north, and the limits along and across the bridge, m.
 pub(super) fn nearness_data(bridge: &Bridge) -> String {
     let axis = ParallelView::side(bridge).right;
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
@@ -80,7 +80,7 @@ pub(super) fn nearness_data(bridge: &Bridge) -> String {
         .join(" ")
 }
 
-/// Returns a function that decides whether a frame belongs in the side view of this bridge.
+/// Returns a function that decides whether a frame belongs in this bridge's side view.
 pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
     let (view, center_m) = (ParallelView::side(bridge), bridge.center_m);
     let (axis, towards) = (view.right, view.towards());
@@ -116,13 +116,13 @@ pub fn south_elevation(review: &Review) -> Markup {
     let all = |_: &Frame| true;
     sheet(
         map.size,
-        "Flight from the south",
+        "Flight viewed from the south",
         "map",
         &html! { (structure(&review.site, &map, None)) (job(review, &map, None, &all)) },
     )
 }
 
-/// Draws one bridge with its defects, found and missed.
+/// Draws one bridge with its found and missed defects.
 #[must_use]
 pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &str) -> Markup {
     let prefix = format!("{}/", bridge.name);
@@ -177,7 +177,7 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
     }
 }
 
-/// Draws the reference paths (of one bridge, or all), flight path, marks, drone and scale.
+/// Draws the reference paths (of one bridge or all), flight path, marks, drone and scale.
 fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         (references(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
@@ -192,7 +192,7 @@ fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&
     }
 }
 
-/// Draws the reference paths of one bridge, or all.
+/// Draws the reference paths of one bridge or all.
 pub(super) fn references(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
     let of = |task: &&Task| {
         let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());

@@ -1,5 +1,5 @@
-//! Figures in SVG, one file per figure. Colors are CSS classes, so that light mode, dark mode and print can differ. Coordinates
-//! are in drawing units. A table in the report contains the data of every figure.
+//! Figures in SVG, one file per figure. Colors are CSS classes so that light mode, dark mode and print can differ.
+//! Coordinates are in drawing units. The report has a table with the data for each figure.
 
 mod backdrop;
 pub mod bars;
@@ -44,7 +44,7 @@ pub fn line(points: &[(f64, f64)], closed: bool) -> String {
     data
 }
 
-/// Simplifies a polyline with the Ramer-Douglas-Peucker algorithm. Every omitted point is at most `within` from the result.
+/// Simplifies a polyline with the Ramer-Douglas-Peucker algorithm. Omitted points are at most `within` from the result.
 #[must_use]
 pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
     if points.len() < 3 {
@@ -76,7 +76,7 @@ fn distance_to_segment(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
     spandrel_model::math::hypot(p.0 - a.0 - t * dx, p.1 - a.1 - t * dy)
 }
 
-/// Returns round values for axis ticks from 0 to `most`, at most `about` + 1 of them.
+/// Returns at most `about` + 1 round values for axis ticks from 0 to `most`.
 #[must_use]
 pub fn ticks(most: f64, about: usize) -> Vec<f64> {
     if most.is_nan() || most <= 0.0 || about == 0 {

@@ -1,4 +1,4 @@
-//! Two flights of one job in the same drawing, each in its own color. The page's slider moves both drones.
+//! Two flights of the same job in one drawing, each in its own color. Both drones follow the page's slider.
 
 use super::backdrop::{ground, lake};
 use super::colors::plain_color;
@@ -12,7 +12,7 @@ use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::scenario::Bridge;
 
-/// Draws the plan view, north up.
+/// Draws the plan view with north up.
 #[must_use]
 pub fn plan(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &both.map(bounding_points).concat());
@@ -38,7 +38,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
     let map = side_view_map(&first.scenario, &first.site, bridge, flown);
     sheet(
         map.size,
-        &format!("Both flights at the bridge '{}' from the side", bridge.name),
+        &format!("Side view of both flights at bridge '{}'", bridge.name),
         "map",
         &html! {
             (ground(&first.scenario, &first.site, &map, bridge))
@@ -53,7 +53,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
 pub fn from_south(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::from_south(), &both.map(bounding_points).concat());
     let body = html! { (structure(&both[0].site, &map, None)) (flights(both, &map, None, &|_| true)) };
-    sheet(map.size, "Both flights from the south", "map", &body)
+    sheet(map.size, "Both flights viewed from the south", "map", &body)
 }
 
 fn flights(both: [&Review; 2], map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {

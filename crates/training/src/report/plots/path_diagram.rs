@@ -15,7 +15,7 @@ const FEEDBACK: (f64, f64) = (182.0, 10.0);
 /// Half the width of an arrowhead, in drawing units.
 const ARROWHEAD_HALF_WIDTH: f64 = 5.0;
 
-/// An effect in the model and whether it is distinguishable from zero.
+/// An effect in the model and whether its confidence interval contains zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PathEffect {
     /// Estimate and confidence interval, as text.

@@ -1,4 +1,4 @@
-//! A projection of the site fitted to a sheet.
+//! A site projection fitted to a drawing.
 
 use crate::report::outline::ParallelView;
 use spandrel_model::frames::{Enu, Vec3};
@@ -16,7 +16,7 @@ pub(super) const TRACK_TOLERANCE: f64 = 0.35;
 pub struct PlotMap {
     /// Projection of site coordinates to the drawing.
     pub view: ParallelView,
-    /// Upper left corner of the drawing in the projection, m right and up.
+    /// Upper-left corner of the drawing in projected coordinates, m right and up.
     pub(super) corner_m: (f64, f64),
     /// Drawing units per meter.
     pub(super) scale: f64,
@@ -25,7 +25,7 @@ pub struct PlotMap {
 }
 
 impl PlotMap {
-    /// Creates a map that contains all of the points.
+    /// Creates a map that contains all points.
     #[must_use]
     pub fn around(view: ParallelView, points_m: &[Vec3<Enu>]) -> Self {
         let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();

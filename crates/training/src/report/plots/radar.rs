@@ -1,4 +1,4 @@
-//! Radar chart (Kiviat diagram): one axis per score, 0 at the center, 100 at the edge.
+//! Radar chart (Kiviat diagram) with one axis per score, 0 at the center and 100 at the edge.
 
 use super::{line, sheet, unit};
 use crate::report::formatting;
@@ -12,7 +12,7 @@ const RADIUS: f64 = 118.0;
 /// One axis of the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadarAxis {
-    /// Name of the score.
+    /// Score name.
     pub name: &'static str,
     /// Value for each session, 0 to 100; `None` if the score does not apply.
     pub values: Vec<Option<f64>>,
@@ -27,7 +27,7 @@ pub fn place(k: usize, count: usize, pct: f64) -> (f64, f64) {
     (r * s, -r * c)
 }
 
-/// Draws the chart of one session, or of several sessions in the same chart.
+/// Draws one or more sessions in the same chart.
 #[must_use]
 pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     let count = spokes.len();

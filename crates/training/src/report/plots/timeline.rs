@@ -30,7 +30,7 @@ pub fn x_of(t_s: f64, end_s: f64) -> f64 {
 #[must_use]
 pub fn strips(rows: &[TimeStrip], end_s: f64, title: &str) -> Markup {
     let bottom = 6.0 + ROW * rows.len() as f64;
-    // Ticks at whole or half minutes are easier to read than at tenths of a minute.
+    // Ticks at whole or half minutes are easier to read than ticks at tenths of a minute.
     let minutes = ticks(end_s / 60.0, 8);
     sheet(
         (WIDTH, bottom + 26.0),

@@ -1,9 +1,9 @@
-// Saves every answer immediately, one request at a time, so that the latest one is kept. Without this script, users save with the
-// button.
+// Saves every answer immediately, one request at a time so that the latest one wins. Without this script, users save with
+// the button.
 "use strict";
 const form = document.querySelector("form[data-save]");
 const status = form.querySelector("[data-status]");
-// Answers not yet confirmed by the server; they are included in the next save.
+// Answers not yet confirmed by the server; included in the next save.
 const unsaved = new Map();
 let queue = Promise.resolve();
 

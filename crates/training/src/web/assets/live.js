@@ -86,7 +86,7 @@ function show(now) {
     location.reload();
     return;
   }
-  state.textContent = now.heard ? (now.armed ? "live, motors armed" : "live, motors off") : "no telemetry";
+  state.textContent = now.heard ? (now.armed ? "live, motors armed" : "live, motors disarmed") : "no telemetry";
   state.classList.toggle("on", now.heard);
   if (!job) return;
   if (now.place) {
@@ -100,7 +100,7 @@ function show(now) {
   put("clearance", number(now.clearance_m, 1, "m"));
   put("battery", number(now.battery_pct, 0, "%"));
   put("traffic", now.traffic);
-  put("contact", now.contact === "none" ? "nothing" : now.contact);
+  put("contact", now.contact);
   picture(now.picture);
   cues(now.cues);
   tell(now.words);
@@ -117,7 +117,7 @@ function picture(version) {
   image.src = `/live/camera.jpg?vehicle=${root.dataset.vehicle}&v=${version}`;
 }
 
-// Without a vehicle, no events are sent.
+// Without a vehicle, there are no events.
 if ("live" in root.dataset) {
   const source = new EventSource(`/live/stream?vehicle=${root.dataset.vehicle}`);
   source.onmessage = (event) => show(JSON.parse(event.data));
@@ -138,7 +138,7 @@ for (const form of root.querySelectorAll("form[data-act]")) {
       else state.textContent = `Failed: ${answer.status ? `HTTP status ${answer.status}` : "please log in"}`;
     } catch (error) {
       console.error(error);
-      state.textContent = "Failed: no answer from the server";
+      state.textContent = "Failed: no response from the server";
     }
   });
 }

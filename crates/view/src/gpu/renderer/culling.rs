@@ -41,8 +41,8 @@ impl ShotView {
         Frustum::of(&self.projection.after(&Matrix::mirror(self.water_m)))
     }
 
-    /// Returns the moving objects that may be visible directly or in the lake; `model_radii_m` holds the distance from each
-    /// model's origin to its farthest vertex, m.
+    /// Returns the moving objects that may be visible directly or in the lake; `model_radii_m` contains the distance
+    /// from each model's origin to its farthest vertex, m.
     pub fn visible_objects(&self, moving: &[(MoverModel, Instance)], model_radii_m: &[f64]) -> Vec<(MoverModel, Instance)> {
         let (straight, mirrored) = (self.direct_view(), self.mirrored());
         let shows = |(model, instance): &&(MoverModel, Instance)| {
@@ -67,7 +67,7 @@ mod tests {
 
     const ASPECT: f64 = 1.5;
 
-    /// Returns a camera 10 m above the lake that looks north and rises by `rise_m` over 50 m.
+    /// Returns a camera 10 m above the lake that looks north, with a view direction that rises by `rise_m` over 50 m.
     fn eye(rise_m: f64) -> PinholeCamera {
         PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 50.0, 10.0 + rise_m), 1.0, ASPECT)
     }
@@ -95,7 +95,7 @@ mod tests {
         let [ahead, behind, beside, above] =
             [at(0.0, 50.0, 10.0), at(0.0, -50.0, 10.0), at(90.0, 50.0, 10.0), at(0.0, 40.0, 40.0)];
         assert_eq!(visible_from(0.0, &[ahead, behind, beside, above]), [ahead]);
-        // In a view down into the lake, the reflection shows objects ahead and above.
+        // In a downward view of the lake, the reflection shows objects ahead and above.
         assert_eq!(visible_from(-45.0, &[ahead, behind, beside, above]), [ahead, above]);
         assert_eq!(visible_from(-400.0, &[ahead]), []);
     }

@@ -12,9 +12,9 @@ pub struct StaticCell {
     pub solid: Arc<GpuMesh>,
     /// Instances.
     pub copies: MeshInstances,
-    /// Whether it casts shadows.
+    /// Whether it is drawn into shadow maps.
     pub casts: bool,
-    /// Distances at which it is drawn.
+    /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
     /// Bounds for culling.
     pub bounds: CellBounds,

@@ -25,23 +25,23 @@ pub use summary::CameraSummary;
 use zoom::{ZoomCommand, ZoomLens};
 
 /// Time within which a capture command with the previous sequence number counts as a repeat.
-const REPEATED_WITHIN: SimTime = SimTime::from_ms(5_000);
+const REPEAT_WINDOW: SimTime = SimTime::from_ms(5_000);
 /// Maximum rate of recording status messages, Hz.
-const STATUS_RATE_MAX_HZ: f64 = 10.0;
+const MAX_STATUS_RATE_HZ: f64 = 10.0;
 const MIB: f64 = 1_048_576.0;
 
 /// Camera settings other than mode and zoom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CameraSettings {
     /// Whether images are saved at high quality, which takes more storage.
-    pub fine: bool,
+    pub high_quality: bool,
     /// Video bit rate, Mbit/s.
     pub video_mbit_s: u32,
 }
 
 impl Default for CameraSettings {
     fn default() -> Self {
-        Self { fine: true, video_mbit_s: 60 }
+        Self { high_quality: true, video_mbit_s: 60 }
     }
 }
 
@@ -49,7 +49,7 @@ impl CameraSettings {
     /// Size of one image, MiB (estimate: 12 MP JPEG at low and high compression).
     #[must_use]
     pub fn picture_mib(&self) -> f64 {
-        if self.fine { 6.0 } else { 3.0 }
+        if self.high_quality { 6.0 } else { 3.0 }
     }
 
     /// Video data rate, MiB/s.
@@ -101,12 +101,12 @@ pub struct CameraAnnouncement {
     /// Enabled by the parameter.
     pub parameter: bool,
     /// Disabled when the program was started.
-    pub silenced: bool,
+    pub disabled_at_start: bool,
 }
 
 impl Default for CameraAnnouncement {
     fn default() -> Self {
-        Self { parameter: true, silenced: false }
+        Self { parameter: true, disabled_at_start: false }
     }
 }
 
@@ -134,7 +134,7 @@ impl CameraState {
     #[must_use]
     pub fn summary(&self, now: SimTime) -> CameraSummary {
         CameraSummary {
-            announced: self.announced.parameter && !self.announced.silenced,
+            announced: self.announced.parameter && !self.announced.disabled_at_start,
             pictures: self.image_count(),
             interval_s: self.series.interval_s(),
             series: self.series.is_by_distance(),
@@ -192,7 +192,7 @@ impl CameraState {
     /// acknowledgment.
     #[must_use]
     pub fn is_repeated(&self, from: (u8, u8), number: u32, now: SimTime) -> bool {
-        self.last.is_some_and(|(who, last, at)| who == from && last == number && now - at <= REPEATED_WITHIN)
+        self.last.is_some_and(|(who, last, at)| who == from && last == number && now - at <= REPEAT_WINDOW)
     }
 
     /// Records a single-image command as executed.
@@ -232,7 +232,7 @@ impl CameraState {
         if !(status_hz.is_finite() && status_hz >= 0.0) {
             return Err(CameraError::Invalid);
         }
-        let every = (status_hz > 0.0).then(|| SimTime::period(status_hz.clamp(1e-3, STATUS_RATE_MAX_HZ)));
+        let every = (status_hz > 0.0).then(|| SimTime::period(status_hz.clamp(1e-3, MAX_STATUS_RATE_HZ)));
         let since = self.recording.map_or(now, |running| running.since);
         self.recording = Some(VideoRecording { since, status: every.map(|every| (every, now + every)) });
         Ok(())
@@ -344,7 +344,7 @@ mod tests {
     const FIXED: Camera = spandrel_model::site::defects::REFERENCE_CAMERA;
 
     #[test]
-    fn exact_a_full_card_ends_a_series_and_every_picture_has_its_own_index() {
+    fn exact_full_card_ends_a_series_and_picture_indices_are_unique() {
         let (mut camera, mut now) = (CameraState::default(), SimTime::ZERO);
         let here = Vec3::zero();
         assert!(camera.start(1.0, 0.0, now).is_ok());
@@ -368,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_single_pictures_that_are_requested_within_one_tick_are_all_taken_beside_a_series() {
+    fn regress_single_pictures_requested_in_one_tick_are_all_taken_during_a_series() {
         let (mut camera, now, here) = (CameraState::default(), SimTime::ZERO, Vec3::zero());
         for (interval_s, count) in [(0.0, 1.0), (0.0, 1.0), (1.0, 2.0), (0.0, 1.0)] {
             assert!(camera.start(interval_s, count, now).is_ok());
@@ -388,7 +388,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_recording_takes_its_rate_of_the_card_and_ends_when_the_card_is_full() {
+    fn exact_recording_fills_the_card_at_its_rate_and_stops_when_full() {
         let mut camera = CameraState { mode: CaptureMode::Video, ..CameraState::default() };
         let mut changes = PayloadChange::default();
         assert_eq!(camera.start_recording(0.0, SimTime::ZERO), Ok(()));
@@ -405,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_recording_keeps_mode_and_card_as_they_are_and_reports_its_status_as_often_as_requested() {
+    fn exact_recording_locks_mode_and_card_and_reports_status_at_the_requested_rate() {
         let mut camera = CameraState::default();
         assert_eq!(camera.start_recording(1.0, SimTime::ZERO), Err(CameraError::PhotoMode));
         assert_eq!(camera.set_mode(CaptureMode::Video), Ok(()));
@@ -429,7 +429,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_only_the_same_number_from_the_same_sender_soon_after_is_a_repetition() {
+    fn exact_only_a_recent_command_with_the_same_sender_and_number_is_a_repeat() {
         let mut camera = CameraState::default();
         let at = SimTime::from_ms;
         assert!(!camera.is_repeated((255, 190), 1, at(0)));
@@ -437,6 +437,6 @@ mod tests {
         assert!(camera.is_repeated((255, 190), 1, at(500)));
         assert!(!camera.is_repeated((255, 190), 2, at(500)));
         assert!(!camera.is_repeated((254, 190), 1, at(500)));
-        assert!(!camera.is_repeated((255, 190), 1, REPEATED_WITHIN + at(1)));
+        assert!(!camera.is_repeated((255, 190), 1, REPEAT_WINDOW + at(1)));
     }
 }

@@ -4,13 +4,13 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 
 /// Minimum distance between images of a series, m.
-const LEAST_DISTANCE_M: f64 = 0.1;
+const MIN_DISTANCE_M: f64 = 0.1;
 /// Minimum and maximum interval between images of a series, s.
-const LEAST_INTERVAL_S: f64 = 0.2;
-const LONGEST_INTERVAL_S: f64 = 86_400.0;
+const MIN_INTERVAL_S: f64 = 0.2;
+const MAX_INTERVAL_S: f64 = 86_400.0;
 /// Maximum accepted count and distance.
-const MOST_PICTURES: f64 = 1e6;
-const LONGEST_DISTANCE_M: f64 = 1e5;
+const MAX_PICTURES: f64 = 1e6;
+const MAX_DISTANCE_M: f64 = 1e5;
 
 /// Images still to be taken.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,14 +39,14 @@ impl CaptureSeries {
 
     /// Starts a series or takes one image. A `count` of 0 means until stopped. Returns false if a value is invalid.
     pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> bool {
-        if !(0.0..=MOST_PICTURES).contains(&count) || !(0.0..=LONGEST_INTERVAL_S).contains(&interval_s) {
+        if !(0.0..=MAX_PICTURES).contains(&count) || !(0.0..=MAX_INTERVAL_S).contains(&interval_s) {
             return false;
         }
         if count as u32 == 1 {
             self.singles = self.singles.saturating_add(1);
             return true;
         }
-        self.interval_s = Some(interval_s.max(LEAST_INTERVAL_S));
+        self.interval_s = Some(interval_s.max(MIN_INTERVAL_S));
         self.left = (count as u32 > 0).then_some(count as u32);
         self.next = Some(now);
         true
@@ -55,10 +55,10 @@ impl CaptureSeries {
     /// Takes an image every `distance_m` meters, starting at `here`, and one immediately if `first` is set. A distance
     /// of 0 stops the series. Returns false if the value is invalid.
     pub fn start_by_distance(&mut self, distance_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> bool {
-        if !(0.0..=LONGEST_DISTANCE_M).contains(&distance_m) {
+        if !(0.0..=MAX_DISTANCE_M).contains(&distance_m) {
             return false;
         }
-        self.by_distance = (distance_m > 0.0).then_some((distance_m.max(LEAST_DISTANCE_M), here));
+        self.by_distance = (distance_m > 0.0).then_some((distance_m.max(MIN_DISTANCE_M), here));
         if first && distance_m > 0.0 {
             self.next = Some(now);
         }

@@ -40,8 +40,8 @@ pub const ALL: &[CameraSetting] = &[
         description: "Photo quality",
         allowed: AllowedValues::Options(&[("Normal", 0), ("Fine", 1)]),
         default: 1,
-        get: |camera| u32::from(camera.settings.fine),
-        set: |camera, value| camera.set(CameraSettings { fine: value == 1, ..camera.settings }),
+        get: |camera| u32::from(camera.settings.high_quality),
+        set: |camera, value| camera.set(CameraSettings { high_quality: value == 1, ..camera.settings }),
     },
     CameraSetting {
         name: "CAM_VIDRATE",
@@ -119,7 +119,7 @@ mod tests {
     use spandrel_model::time::SimTime;
 
     #[test]
-    fn exact_settings_take_what_their_description_allows_and_nothing_else() {
+    fn exact_settings_accept_only_values_allowed_by_their_description() {
         for setting in ALL {
             assert!(setting.name.len() <= 16);
             let mut camera = CameraState::default();
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_settings_change_what_pictures_and_recordings_take_of_the_card() {
+    fn exact_settings_affect_the_storage_used_by_pictures_and_recordings() {
         let mut camera = CameraState::default();
         let mib = |camera: &CameraState| (camera.settings.picture_mib(), camera.settings.video_mib_s());
         let before = mib(&camera);

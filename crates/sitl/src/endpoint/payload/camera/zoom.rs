@@ -5,11 +5,11 @@ use spandrel_model::vehicle::Camera;
 pub use spandrel_model::vehicle::SENSOR_WIDTH_MM;
 
 /// Time to travel the whole zoom range, s (estimate: small motorized zooms take 2 to 4 s).
-const SWEEP_S: f64 = 3.0;
+const FULL_TRAVEL_S: f64 = 3.0;
 /// Number of zoom steps across the range (estimate).
 const STEPS: f64 = 10.0;
 /// Relative tolerance within which an out-of-range focal length or field of view is clamped, because clients round.
-const SLACK: f64 = 0.01;
+const TOLERANCE: f64 = 0.01;
 
 /// A zoom command.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,7 +66,7 @@ impl ZoomLens {
             return false;
         }
         let level_of = |ratio: f64| {
-            let inside = ratio >= 1.0 - SLACK && ratio <= camera.zoom_max * (1.0 + SLACK);
+            let inside = ratio >= 1.0 - TOLERANCE && ratio <= camera.zoom_max * (1.0 + TOLERANCE);
             inside.then(|| ((ratio - 1.0) / (camera.zoom_max - 1.0)).clamp(0.0, 1.0))
         };
         let drive = match request {
@@ -91,7 +91,7 @@ impl ZoomLens {
 
     /// Moves the lens for `dt_s`, s. Returns true when it stops.
     pub fn step(&mut self, dt_s: f64) -> bool {
-        let most = dt_s / SWEEP_S;
+        let most = dt_s / FULL_TRAVEL_S;
         let moved = match self.drive {
             ZoomDrive::Rest => return false,
             ZoomDrive::To(target) => (target - self.level).clamp(-most, most),
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_way_of_asking_comes_to_the_focal_length_that_is_requested() {
+    fn exact_every_zoom_command_reaches_the_requested_focal_length() {
         // tan 45 deg is 1: the focal length is half the sensor's width, and doubling it results in a field of view of 2
         // atan(1/2).
         let field = 2.0 * math::atan2(1.0, 2.0);
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_back_at_the_wide_end_the_camera_is_the_same_to_the_bit() {
+    fn exact_wide_end_is_restored_bit_exactly() {
         let mut zoom = at_rest(ZoomCommand::Level(0.37));
         assert!(zoom.command(ZoomCommand::Rate(-1.0), &CAMERA));
         while !zoom.step(0.0025) {}
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_lies_out_of_the_range_is_refused_and_a_fixed_lens_refuses_all() {
+    fn exact_out_of_range_zoom_is_rejected_and_fixed_lens_rejects_all() {
         let fixed = Camera { zoom_max: 1.0, ..CAMERA };
         for request in [
             ZoomCommand::Level(1.01),
@@ -186,15 +186,15 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_whole_range_takes_its_time_and_a_stop_holds_where_it_is() {
+    fn exact_full_range_takes_the_travel_time_and_stop_keeps_the_position() {
         let mut zoom = ZoomLens::default();
         zoom.command(ZoomCommand::Rate(1.0), &CAMERA);
         for _ in 0..100 {
             assert!(!zoom.step(0.01));
         }
-        assert!((zoom.level() - 1.0 / SWEEP_S).abs() < NEAR);
+        assert!((zoom.level() - 1.0 / FULL_TRAVEL_S).abs() < NEAR);
         zoom.command(ZoomCommand::Rate(0.0), &CAMERA);
         assert!(!zoom.step(1.0));
-        assert!((zoom.level() - 1.0 / SWEEP_S).abs() < NEAR);
+        assert!((zoom.level() - 1.0 / FULL_TRAVEL_S).abs() < NEAR);
     }
 }

@@ -88,7 +88,7 @@ fn roi(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavRe
         return aim(GimbalTarget::Angle(0.0), c, input, payload);
     }
     let place = c.finite_param(6).and_then(|altitude_m| position(c, input, altitude_m));
-    place.map_or(DENIED, |place| aim(GimbalTarget::Place(place), c, input, payload))
+    place.map_or(DENIED, |place| aim(GimbalTarget::Position(place), c, input, payload))
 }
 
 /// Mount modes that this gimbal supports (MAV_MOUNT_MODE).
@@ -114,7 +114,7 @@ impl MountMode {
 }
 
 fn point_at_home(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
-    input.home_m.map_or(DENIED, |home| aim(GimbalTarget::Place(home.enu()), c, input, payload))
+    input.home_m.map_or(DENIED, |home| aim(GimbalTarget::Position(home.enu()), c, input, payload))
 }
 
 /// Parameter 7 is the mode. Parameter 1 is the pitch angle, or a rate if DO_MOUNT_CONFIGURE selected rates; 5, 6 and 4
@@ -129,7 +129,7 @@ fn mount_control(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload
         }
         Some(MountMode::Point) => {
             let place = c.finite_param(3).and_then(|altitude_m| position(c, input, altitude_m));
-            place.map_or(DENIED, |place| aim(GimbalTarget::Place(place), c, input, payload))
+            place.map_or(DENIED, |place| aim(GimbalTarget::Position(place), c, input, payload))
         }
         Some(MountMode::Home) => point_at_home(c, input, payload),
         None => DENIED,

@@ -9,7 +9,7 @@ use spandrel_mavlink::dialect::{MavCmd, MavResult};
 /// Servo output of the lamp: the first after eight motors, ArduPilot's first auxiliary output.
 const SERVO: f64 = 9.0;
 /// Pulse width above which the lamp is on, and the range of valid pulses, microseconds.
-const MIDDLE_US: f64 = 1_500.0;
+const ON_THRESHOLD_US: f64 = 1_500.0;
 const PULSES_US: std::ops::RangeInclusive<f64> = 800.0..=2_200.0;
 
 pub(super) const ROWS: &[PayloadCommand] = &[
@@ -22,7 +22,7 @@ pub(super) const ROWS: &[PayloadCommand] = &[
     (MavCmd::MAV_CMD_DO_SET_ACTUATOR, actuator),
     (MavCmd::MAV_CMD_DO_SET_SERVO, |c, i, p| {
         let is_valid = c.p[0] == SERVO && PULSES_US.contains(&c.p[1]);
-        if is_valid { switch(f64::from(u8::from(c.p[1] > MIDDLE_US)), i, p) } else { DENIED }
+        if is_valid { switch(f64::from(u8::from(c.p[1] > ON_THRESHOLD_US)), i, p) } else { DENIED }
     }),
 ];
 

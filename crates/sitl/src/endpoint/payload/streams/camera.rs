@@ -176,7 +176,7 @@ pub(crate) fn capture_record(v: &PayloadSnapshot) -> CaptureRecord {
         lat: deg_e7(geo.latitude_deg),
         lon: deg_e7(geo.longitude_deg),
         alt: mm(geo.altitude_m),
-        relative_alt: mm(v.input.over_home_m()),
+        relative_alt: mm(v.input.height_above_home_m()),
         q: v.camera_attitude().map(|c| c as f32),
         image_index: v.camera.pictures as i32,
         camera_id: 0,

@@ -7,16 +7,16 @@ use spandrel_model::math::GRAVITY_M_S2;
 use spandrel_model::time::SimTime;
 
 /// Averaging time, s (PX4's gyro calibration takes about as long).
-pub(super) const MEASURE_S: f64 = 4.0;
+pub(super) const MEASUREMENT_S: f64 = 4.0;
 /// Maximum rate difference between the two halves of the measurement at rest, rad/s (PX4: gyro calibration, 0.01
 /// rad/s).
-const STILL_RAD_S: f64 = 0.01;
+const MAX_RATE_CHANGE_RAD_S: f64 = 0.01;
 /// Maximum specific force difference between the halves, m/s² (estimate: ten times the noise of the mean).
-const STILL_M_S2: f64 = 0.05;
+const MAX_FORCE_CHANGE_M_S2: f64 = 0.05;
 /// Maximum deviation from 1 g at rest, m/s².
-const REST_M_S2: f64 = 1.0;
+const MAX_GRAVITY_ERROR_M_S2: f64 = 1.0;
 /// Maximum horizontal component of gravity for a level vehicle, m/s² (30 degrees; PX4: level calibration).
-const LEVEL_M_S2: f64 = 0.5 * GRAVITY_M_S2;
+const MAX_LEVEL_ERROR_M_S2: f64 = 0.5 * GRAVITY_M_S2;
 
 /// Sums over one half of the measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -51,13 +51,13 @@ impl Calibration {
     /// Adds the latest reading. Returns true once the measuring time has passed.
     pub(super) fn measure(&mut self, readings: &Readings, now: SimTime) -> bool {
         let age_s = (now - self.since).s();
-        let half = &mut self.halves[usize::from(age_s > 0.5 * MEASURE_S)];
+        let half = &mut self.halves[usize::from(age_s > 0.5 * MEASUREMENT_S)];
         if let Some(imu) = readings.imu {
             half.rates += imu.rates_rad_s;
             half.force += imu.specific_force_m_s2;
             half.samples += 1;
         }
-        age_s >= MEASURE_S
+        age_s >= MEASUREMENT_S
     }
 
     /// Returns the gyroscope bias, rad/s, or the reason for the failure.
@@ -67,11 +67,14 @@ impl Calibration {
         if self.halves.iter().any(|half| half.samples == 0) {
             return Err("reading sensor");
         }
-        let turned = (rates_1 - rates_0).array().iter().any(|rate| rate.abs() > STILL_RAD_S);
-        if turned || (force_1 - force_0).norm() > STILL_M_S2 || (force.norm() - GRAVITY_M_S2).abs() > REST_M_S2 {
+        let turned = (rates_1 - rates_0).array().iter().any(|rate| rate.abs() > MAX_RATE_CHANGE_RAD_S);
+        if turned
+            || (force_1 - force_0).norm() > MAX_FORCE_CHANGE_M_S2
+            || (force.norm() - GRAVITY_M_S2).abs() > MAX_GRAVITY_ERROR_M_S2
+        {
             return Err("vehicle moved");
         }
-        if self.sensor == CalibratedSensor::Level && force.forward().abs().max(force.right().abs()) > LEVEL_M_S2 {
+        if self.sensor == CalibratedSensor::Level && force.forward().abs().max(force.right().abs()) > MAX_LEVEL_ERROR_M_S2 {
             return Err("excess roll or pitch angle");
         }
         Ok((rates_0 + rates_1) * 0.5)

@@ -10,7 +10,7 @@ use super::params::ParamValue;
 use super::snapshot::VehicleSnapshot;
 use crate::endpoint::vehicle_command::VehicleCommand;
 pub use measurement::Calibration;
-use measurement::MEASURE_S;
+use measurement::MEASUREMENT_S;
 use spandrel_mavlink::dialect::MavResult;
 use texts::CalibratedSensor;
 pub use texts::CalibrationTexts;
@@ -31,7 +31,7 @@ pub(super) fn command(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessag
         return R::MAV_RESULT_ACCEPTED;
     }
     if a.autopilot.status().armed || v.calibration.is_some() {
-        return v.flavour.refusals.for_now;
+        return v.flavour.refusals.temporarily;
     }
     // The radio is calibrated by the ground station; the vehicle only reads its channels.
     if param(3) != 0.0 {
@@ -65,7 +65,7 @@ impl VehicleLink {
         let Some(mut running) = self.calibration.take() else { return };
         let texts = self.flavour.calibration;
         let done = running.measure(view.readings, view.clock.now);
-        let steps = ((view.clock.now - running.since).s() / MEASURE_S * f64::from(STEPS)) as u32;
+        let steps = ((view.clock.now - running.since).s() / MEASUREMENT_S * f64::from(STEPS)) as u32;
         if steps > running.steps && steps <= STEPS {
             running.steps = steps;
             texts.progress(100 / STEPS * steps).into_iter().for_each(|text| self.inform(&text));

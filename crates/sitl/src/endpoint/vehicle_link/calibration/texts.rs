@@ -11,7 +11,7 @@ pub(super) enum CalibratedSensor {
 
 impl CalibratedSensor {
     /// Returns the keyword that QGroundControl expects in the texts.
-    fn word(self) -> &'static str {
+    fn keyword(self) -> &'static str {
         match self {
             Self::Gyro => "gyro",
             Self::Barometer => "baro",
@@ -33,7 +33,7 @@ pub enum CalibrationTexts {
 impl CalibrationTexts {
     pub(super) fn start(self, sensor: CalibratedSensor) -> Option<String> {
         match (self, sensor) {
-            (Self::Px4, _) => Some(format!("[cal] calibration started: 2 {}", sensor.word())),
+            (Self::Px4, _) => Some(format!("[cal] calibration started: 2 {}", sensor.keyword())),
             (Self::ArduPilot, CalibratedSensor::Barometer) => Some("Updating barometer calibration".into()),
             (Self::ArduPilot, CalibratedSensor::Gyro) => Some("Initialising ArduPilot".into()),
             (Self::ArduPilot, CalibratedSensor::Level | CalibratedSensor::Accelerometer) => None,
@@ -46,7 +46,7 @@ impl CalibrationTexts {
 
     pub(super) fn done(self, sensor: CalibratedSensor) -> Option<String> {
         match (self, sensor) {
-            (Self::Px4, _) => Some(format!("[cal] calibration done: {}", sensor.word())),
+            (Self::Px4, _) => Some(format!("[cal] calibration done: {}", sensor.keyword())),
             (Self::ArduPilot, CalibratedSensor::Barometer) => Some("Barometer calibration complete".into()),
             (Self::ArduPilot, _) => None,
         }

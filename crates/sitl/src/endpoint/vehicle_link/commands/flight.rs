@@ -28,7 +28,7 @@ use Step::{Answer, Request};
 
 pub(super) fn handle(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<MavResult> {
     let mut step = modes(c, v, a);
-    for group in [places, missions, limits, services] {
+    for group in [navigation, missions, limits, services] {
         step = step.or_else(|| group(c, v, a));
     }
     let request = match step? {
@@ -63,8 +63,10 @@ fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Opt
         n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request(AutopilotRequest::SetMode(FlightMode::Return)),
         n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => {
             let flavour = v.flavour;
-            let row =
-                flavour.loiters.and_then(|number| flavour.row(number)).unwrap_or_else(|| flavour.default_mode(FlightMode::Hold));
+            let row = flavour
+                .loiter_mode
+                .and_then(|number| flavour.row(number))
+                .unwrap_or_else(|| flavour.default_mode(FlightMode::Hold));
             Answer(enter(row, v, a))
         }
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 => match c.p[0] {
@@ -77,7 +79,7 @@ fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Opt
 }
 
 /// Takeoff, landing and go-to commands.
-fn places(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
+fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
         n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match take_off::height_m(c, v, a) {
@@ -86,12 +88,12 @@ fn places(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Op
         },
         n if n == M::MAV_CMD_NAV_LAND as u16 => Request(AutopilotRequest::Land),
         n if n == M::MAV_CMD_NAV_VTOL_LAND as u16 && v.flavour.home_item => Request(AutopilotRequest::Land),
-        n if n == M::MAV_CMD_DO_REPOSITION as u16 => Answer(go(c, v, a)),
+        n if n == M::MAV_CMD_DO_REPOSITION as u16 => Answer(go_to(c, v, a)),
         n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, a) {
             Some(orbit) => Request(AutopilotRequest::Orbit(orbit)),
             None => Answer(v.deny("Orbit: center within 20 km, yaw behavior 0 to 5")),
         },
-        n if n == M::MAV_CMD_CONDITION_YAW as u16 => match turn(c, a) {
+        n if n == M::MAV_CMD_CONDITION_YAW as u16 => match condition_yaw(c, a) {
             Some(request) => Request(request),
             None => Answer(v.deny("Yaw: angle is not a number")),
         },
@@ -166,8 +168,8 @@ fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
     Some(Answer(match c.number {
         n if n == M::MAV_CMD_INJECT_FAILURE as u16 => inject(c, v, a),
         n if n == M::MAV_CMD_PREFLIGHT_CALIBRATION as u16 => calibration::command(c, v, a),
-        n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => storage::preflight(c, v),
-        n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => checks(v, a),
+        n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => storage::preflight_storage(c, v),
+        n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => prearm_checks(v, a),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => reboot(c, v, a),
         _ => return None,
     }))
@@ -202,7 +204,7 @@ fn reboot(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
         1.0 | 3.0 if a.autopilot.status().armed => {
             v.warn("Reboot denied: armed");
-            v.flavour.refusals.for_now
+            v.flavour.refusals.temporarily
         }
         1.0 | 3.0 => {
             v.restart_requested = true;
@@ -225,20 +227,20 @@ fn arm(c: &VehicleCommand, v: &VehicleLink) -> Option<AutopilotRequest> {
 /// go-to commands (GUIDED), arming by a transmitter switch must be allowed (`GUID_OPTIONS`).
 fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let (flavour, now) = (v.flavour, a.now());
-    if let Some(words) = flavour.arm_words
+    if let Some(words) = flavour.arming_check_prefix
         && !a.autopilot.status().armed
     {
         let row = flavour.row_of(a.autopilot.status().mode, v.requested_mode);
         let mut reasons = if force { Vec::new() } else { a.autopilot.arming_reasons(now) };
-        let allowed = row.armable || row.mode == FlightMode::Mission && v.params.arms_in_auto();
+        let allowed = row.armable || row.mode == FlightMode::Mission && v.params.can_arm_in_auto();
         let by_transmitter = c.own && v.is_guided(a.autopilot);
-        let allowed = allowed && (!by_transmitter || a.autopilot.tuning.rules.guided.transmitter_arms);
+        let allowed = allowed && (!by_transmitter || a.autopilot.tuning.rules.guided.transmitter_can_arm);
         if !allowed && !force {
             reasons.insert(0, format!("{} mode not armable", row.name.to_uppercase()));
         }
         if !reasons.is_empty() {
             reasons.iter().for_each(|reason| v.warn(&format!("{words}{reason}")));
-            return flavour.refusals.for_now;
+            return flavour.refusals.temporarily;
         }
     }
     let outcome = a.autopilot.request(AutopilotRequest::Arm { force }, now);
@@ -263,7 +265,7 @@ fn set_mode(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         Some(row) => enter(row, v, a),
         None => {
             v.warn(&format!("No such mode {main}"));
-            v.flavour.refusals.no_mode
+            v.flavour.refusals.unknown_mode
         }
     }
 }
@@ -290,9 +292,9 @@ fn set_current(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) 
 
 /// DO_REPOSITION. If the flavor has a go-to mode (GUIDED), it must be active, or parameter 2 must request the change
 /// (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).
-fn go(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
+fn go_to(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let changes = c.finite_param(1).is_some_and(|flags| (flags as i64) & 1 == 1);
-    let errands = v.flavour.errands;
+    let errands = v.flavour.goto_mode;
     if !(errands.is_none() || changes || v.is_guided(a.autopilot)) {
         return v.deny("Go-to: not allowed in this mode");
     }
@@ -355,7 +357,7 @@ fn orbit(c: &VehicleCommand, a: &InboundMessage) -> Option<OrbitRequest> {
 }
 
 /// Parameters 1 angle in degrees, 2 rate in deg/s (0: default), 3 direction, 4 whether relative to the current heading.
-fn turn(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest> {
+fn condition_yaw(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest> {
     let angle = c.finite_param(0)?.to_radians();
     let relative = c.is_one(3);
     let signed = if c.p[2] < 0.0 { -angle } else { angle };
@@ -367,7 +369,7 @@ fn turn(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest> {
 }
 
 fn home(c: &VehicleCommand, v: &VehicleLink, a: &InboundMessage) -> Option<AutopilotRequest> {
-    let unnamed = v.flavour.zero_is_here && c.p[4] == 0.0 && c.p[5] == 0.0;
+    let unnamed = v.flavour.zero_means_current_position && c.p[4] == 0.0 && c.p[5] == 0.0;
     if c.is_one(0) || unnamed {
         let estimate = a.autopilot.estimate();
         return estimate.position_valid.then_some(AutopilotRequest::SetHome(estimate.position_m));
@@ -380,11 +382,11 @@ fn home(c: &VehicleCommand, v: &VehicleLink, a: &InboundMessage) -> Option<Autop
     (local.norm() < 20_000.0).then(|| AutopilotRequest::SetHome(local.ned()))
 }
 
-fn checks(v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
+fn prearm_checks(v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     v.events.requested = true;
     let reasons = a.autopilot.status().arming_reasons.clone();
     for reason in &reasons {
-        v.warn(&format!("{}{reason}", v.flavour.check_words));
+        v.warn(&format!("{}{reason}", v.flavour.prearm_reason_prefix));
     }
     MavResult::MAV_RESULT_ACCEPTED
 }

@@ -7,7 +7,7 @@ use spandrel_mavlink::dialect::MavResult;
 
 /// Handles PREFLIGHT_STORAGE: parameter 1 is 0 to load the file, 1 to save it, 2 to restore the defaults (MAVLink
 /// common).
-pub(super) fn preflight(c: &VehicleCommand, v: &mut VehicleLink) -> MavResult {
+pub(super) fn preflight_storage(c: &VehicleCommand, v: &mut VehicleLink) -> MavResult {
     let request = match c.p[0] {
         0.0 => StorageRequest::Load,
         1.0 => StorageRequest::Save,

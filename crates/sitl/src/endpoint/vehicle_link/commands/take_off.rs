@@ -8,7 +8,7 @@ use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::dialect::MavResult;
 
 /// Maximum height above home, m.
-const HIGHEST_M: f64 = 500.0;
+const MAX_HEIGHT_M: f64 = 500.0;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 
@@ -23,14 +23,14 @@ pub(super) fn height_m(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessa
 
 /// Without an altitude, or too close to the ground, the parameter's height is used.
 fn above_sea_level(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> Result<Option<f64>, MavResult> {
-    const LOWEST_M: f64 = 0.5;
+    const MIN_HEIGHT_M: f64 = 0.5;
     let relative = c.is_home_relative().ok_or(DENIED)?;
     let Some(z) = c.finite_param(6) else { return Ok(None) };
     let height_m = if relative { z } else { z - a.aircraft.plane.origin().altitude_m - a.home_up_m() };
-    if height_m > HIGHEST_M {
+    if height_m > MAX_HEIGHT_M {
         Err(v.deny("Takeoff height: at most 500 m above home"))
     } else {
-        Ok(Some(height_m).filter(|height| *height >= LOWEST_M))
+        Ok(Some(height_m).filter(|height| *height >= MIN_HEIGHT_M))
     }
 }
 
@@ -53,7 +53,7 @@ fn above_home_in_guided(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMess
     if c.whole && c.is_home_relative() != Some(true) {
         return Err(DENIED);
     }
-    let height = c.finite_param(6).filter(|height| *height > 0.0 && *height <= HIGHEST_M);
+    let height = c.finite_param(6).filter(|height| *height > 0.0 && *height <= MAX_HEIGHT_M);
     if height.is_none() {
         v.warn("Takeoff height: above 0, at most 500 m above home");
     }

@@ -12,9 +12,9 @@ use crate::endpoint::component_ids::AUTOPILOT;
 use crate::endpoint::link::{LinkKind, Links, PeerLink};
 pub use definitions::definitions;
 use definitions::{ARMING_SUMMARY, GROUPS, HEALTH_SUMMARY, check};
-pub(super) use notices::says_all;
+pub(super) use notices::covers_whole_text;
 pub use reports::EventReports;
-use reports::{KEPT, masks};
+use reports::{HISTORY_LENGTH, masks};
 use spandrel_mavlink::dialect::{
     CURRENT_EVENT_SEQUENCE_DATA, MavEventCurrentSequenceFlags, MavEventErrorReason, MavMessage, REQUEST_EVENT_DATA,
     RESPONSE_EVENT_ERROR_DATA,
@@ -22,10 +22,10 @@ use spandrel_mavlink::dialect::{
 use spandrel_model::time::SimTime;
 
 /// Maximum number of events for each request (estimate: a whole report; clients request the remainder again).
-const AT_ONCE: u16 = 10;
+const MAX_EVENTS_PER_REQUEST: u16 = 10;
 /// Minimum interval between reports, and interval of the sequence number message.
-const REPORT_EVERY: SimTime = SimTime::from_ms(500);
-const SEQUENCE_EVERY: SimTime = SimTime::from_ms(2_000);
+const REPORT_INTERVAL: SimTime = SimTime::from_ms(500);
+const SEQUENCE_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// PX4's log levels: internal in the upper four bits, external in the lower.
 const PROTOCOL: u8 = 0x88;
 const ERROR: u8 = 0x33;
@@ -40,19 +40,22 @@ impl VehicleLink {
         let changed = self.events.reported.as_ref().is_none_or(|(known, before)| (known, before) != (&reasons, &masks));
         if self.events.requested || (changed && view.clock.now >= self.events.next_report) {
             self.events.requested = false;
-            self.events.next_report = view.clock.now + REPORT_EVERY;
+            self.events.next_report = view.clock.now + REPORT_INTERVAL;
             let before = self.events.sequence;
             self.add_report(&reasons, masks, view);
             self.events.reported = Some((reasons, masks));
-            let fresh =
-                self.events.history.iter().filter(|event| event.sequence.wrapping_sub(before.wrapping_add(1)) < KEPT as u16);
+            let fresh = self
+                .events
+                .history
+                .iter()
+                .filter(|event| event.sequence.wrapping_sub(before.wrapping_add(1)) < HISTORY_LENGTH as u16);
             let fresh: Vec<MavMessage> = fresh.cloned().map(MavMessage::EVENT).collect();
             for link in event_links(links) {
                 fresh.iter().for_each(|event| link.stream(AUTOPILOT, event));
             }
         }
         if view.clock.now >= self.events.next_sequence {
-            self.events.next_sequence = view.clock.now + SEQUENCE_EVERY;
+            self.events.next_sequence = view.clock.now + SEQUENCE_INTERVAL;
             let flags = MavEventCurrentSequenceFlags::empty();
             let sequence = self.events.sequence;
             let message = MavMessage::CURRENT_EVENT_SEQUENCE(CURRENT_EVENT_SEQUENCE_DATA { sequence, flags });
@@ -97,7 +100,7 @@ pub(super) fn request(v: &mut VehicleLink, r: &REQUEST_EVENT_DATA, a: &mut Inbou
     if !v.flavour.events {
         return;
     }
-    let count = r.last_sequence.wrapping_sub(r.first_sequence).min(AT_ONCE - 1);
+    let count = r.last_sequence.wrapping_sub(r.first_sequence).min(MAX_EVENTS_PER_REQUEST - 1);
     for sequence in (0..=count).map(|k| r.first_sequence.wrapping_add(k)) {
         if let Some(event) = v.events.history.iter().find(|event| event.sequence == sequence) {
             let again = MavMessage::EVENT(event.clone());

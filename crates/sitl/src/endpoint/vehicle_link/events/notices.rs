@@ -12,15 +12,15 @@ const INFO: u8 = 0x66;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Notice {
     /// Beginning of the text.
-    pub words: &'static str,
+    pub text_prefix: &'static str,
     /// Name of the event.
     pub name: &'static str,
     /// Log levels.
     pub levels: u8,
 }
 
-const fn notice(words: &'static str, name: &'static str, levels: u8) -> Notice {
-    Notice { words, name, levels }
+const fn notice(text_prefix: &'static str, name: &'static str, levels: u8) -> Notice {
+    Notice { text_prefix: text_prefix, name, levels }
 }
 
 /// All notices.
@@ -64,20 +64,20 @@ pub const NOTICES: [Notice; 34] = [
 /// Returns the event that corresponds to a text.
 #[must_use]
 pub fn of(text: &str) -> Option<&'static Notice> {
-    NOTICES.iter().find(|notice| text.starts_with(notice.words))
+    NOTICES.iter().find(|notice| text.starts_with(notice.text_prefix))
 }
 
 /// Checks whether the event conveys the whole text, so a ground station that shows events does not have to show the
 /// text. PX4 marks such texts with a trailing tab, and QGroundControl hides them.
 #[must_use]
-pub fn says_all(text: &str) -> bool {
-    of(text).is_some_and(|notice| notice.words == text)
+pub fn covers_whole_text(text: &str) -> bool {
+    of(text).is_some_and(|notice| notice.text_prefix == text)
 }
 
 /// Returns the event definitions.
 #[must_use]
 pub fn definitions(id: impl Fn(&str) -> u32) -> Json {
-    let events = NOTICES.iter().map(|n| (id(n.name).to_string(), json!({ "name": n.name, "message": n.words })));
+    let events = NOTICES.iter().map(|n| (id(n.name).to_string(), json!({ "name": n.name, "message": n.text_prefix })));
     json!({ "events": events.collect::<serde_json::Map<String, Json>>() })
 }
 
@@ -89,10 +89,14 @@ mod tests {
     fn exact_every_text_has_one_event() {
         for (k, notice) in NOTICES.iter().enumerate() {
             let others = NOTICES.iter().enumerate().filter(|(other, _)| *other != k);
-            assert!(others.clone().all(|(_, other)| !notice.words.starts_with(other.words)), "{}", notice.words);
+            assert!(
+                others.clone().all(|(_, other)| !notice.text_prefix.starts_with(other.text_prefix)),
+                "{}",
+                notice.text_prefix
+            );
             assert!(others.clone().all(|(_, other)| notice.name != other.name), "{}", notice.name);
         }
         assert_eq!(of("Mission finished").map(|n| n.name), Some("mission_finished"));
-        assert!(says_all("Mission finished") && !says_all("Low battery: 29 %") && of("Armed").is_none());
+        assert!(covers_whole_text("Mission finished") && !covers_whole_text("Low battery: 29 %") && of("Armed").is_none());
     }
 }

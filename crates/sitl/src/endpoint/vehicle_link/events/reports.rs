@@ -7,7 +7,7 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Number of events kept for retransmission (estimate: several reports).
-pub(super) const KEPT: usize = 64;
+pub(super) const HISTORY_LENGTH: usize = 64;
 
 /// Events sent, and the contents of the last report.
 #[derive(Debug, Clone, Default)]
@@ -36,7 +36,7 @@ impl EventReports {
             log_levels,
             arguments,
         };
-        if self.history.len() == KEPT {
+        if self.history.len() == HISTORY_LENGTH {
             self.history.pop_front();
         }
         self.history.push_back(event);

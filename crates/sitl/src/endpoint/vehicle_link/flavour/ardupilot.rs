@@ -19,16 +19,16 @@ const LOITER: u32 = 5;
 const AUTO_RTL: u32 = 27;
 const BASE: F =
     F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED).union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
-const PLACED: F = BASE.union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
+const POSITION_CONTROLLED: F = BASE.union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
 
 const fn row(number: u32, mode: FlightMode, name: &'static str, base: F) -> ModeRow {
     ModeRow {
         number,
         mode,
         request: AutopilotRequest::SetMode(mode),
-        unattended: None,
+        mode_without_sticks: None,
         only_if_requested: false,
-        covers: &[],
+        also_shown_for: &[],
         name,
         standard: S::MAV_STANDARD_MODE_NON_STANDARD,
         base,
@@ -50,9 +50,9 @@ impl ModeRow {
     }
 
     /// Makes the vehicle hold position while armed without stick input, still reporting this mode number.
-    const fn holds_unattended(mut self) -> Self {
-        self.unattended = Some(FlightMode::Hold);
-        self.covering(&[FlightMode::Hold])
+    const fn hold_without_sticks(mut self) -> Self {
+        self.mode_without_sticks = Some(FlightMode::Hold);
+        self.also_showing(&[FlightMode::Hold])
     }
 
     const fn entered_by(mut self, request: AutopilotRequest) -> Self {
@@ -65,25 +65,27 @@ impl ModeRow {
 /// without the modes not supported here. ArduCopter reports no standard modes and no properties. LOITER and POSHOLD
 /// behave the same.
 const MODES: &[ModeRow] = &[
-    row(AUTO_RTL, FlightMode::Mission, "AUTO RTL", PLACED)
+    row(AUTO_RTL, FlightMode::Mission, "AUTO RTL", POSITION_CONTROLLED)
         .entered_by(AutopilotRequest::LandingSequence)
         .without_arming()
         .only_if_requested(),
-    row(3, FlightMode::Mission, "AUTO", PLACED).without_arming(),
+    row(3, FlightMode::Mission, "AUTO", POSITION_CONTROLLED).without_arming(),
     row(1, FlightMode::Acro, "ACRO", BASE),
     row(0, FlightMode::Stabilized, "STABILIZE", BASE),
     row(2, FlightMode::Altitude, "ALT_HOLD", BASE),
-    row(7, FlightMode::Orbit, "CIRCLE", PLACED).entered_by(AutopilotRequest::CircleAhead).without_arming(),
-    row(LOITER, FlightMode::Position, "LOITER", PLACED).holds_unattended(),
-    row(GUIDED, FlightMode::Hold, "GUIDED", PLACED).covering(&[FlightMode::Takeoff, FlightMode::Offboard]).only_if_requested(),
-    row(9, FlightMode::Land, "LAND", PLACED).without_arming(),
-    row(6, FlightMode::Return, "RTL", PLACED).without_arming(),
-    row(16, FlightMode::Position, "POSHOLD", PLACED).holds_unattended(),
+    row(7, FlightMode::Orbit, "CIRCLE", POSITION_CONTROLLED).entered_by(AutopilotRequest::CircleAhead).without_arming(),
+    row(LOITER, FlightMode::Position, "LOITER", POSITION_CONTROLLED).hold_without_sticks(),
+    row(GUIDED, FlightMode::Hold, "GUIDED", POSITION_CONTROLLED)
+        .also_showing(&[FlightMode::Takeoff, FlightMode::Offboard])
+        .only_if_requested(),
+    row(9, FlightMode::Land, "LAND", POSITION_CONTROLLED).without_arming(),
+    row(6, FlightMode::Return, "RTL", POSITION_CONTROLLED).without_arming(),
+    row(16, FlightMode::Position, "POSHOLD", POSITION_CONTROLLED).hold_without_sticks(),
     // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and it is the
     // final mode after a landing.
-    row(17, FlightMode::Hold, "BRAKE", PLACED),
-    row(21, FlightMode::SmartReturn, "SMARTRTL", PLACED).without_arming(),
-    row(23, FlightMode::Follow, "FOLLOW", PLACED).without_arming(),
+    row(17, FlightMode::Hold, "BRAKE", POSITION_CONTROLLED),
+    row(21, FlightMode::SmartReturn, "SMARTRTL", POSITION_CONTROLLED).without_arming(),
+    row(23, FlightMode::Follow, "FOLLOW", POSITION_CONTROLLED).without_arming(),
 ];
 
 /// ArduPilot's interface. Reports a development version of the series that the parameter names come from.
@@ -97,29 +99,29 @@ pub static FLAVOUR: Flavour = Flavour {
     custom_mode: |number, _| if (0.0..256.0).contains(&number) { number as u32 } else { u32::MAX },
     custom_flag: true,
     state,
-    errands: Some(GUIDED),
+    goto_mode: Some(GUIDED),
     take_off: TakeOffRule::AboveHomeInGuided,
     // The second value is ArduPilot's magic number for arming.
     force: &[FORCE, 2989.0],
-    looks_over_sea: false,
+    roi_altitude_above_sea_level: false,
     refusals: RefusalResults {
-        for_now: MavResult::MAV_RESULT_FAILED,
+        temporarily: MavResult::MAV_RESULT_FAILED,
         denied: MavResult::MAV_RESULT_FAILED,
-        no_mode: MavResult::MAV_RESULT_FAILED,
+        unknown_mode: MavResult::MAV_RESULT_FAILED,
         message: MavResult::MAV_RESULT_FAILED,
         interval: MavResult::MAV_RESULT_DENIED,
     },
-    arm_words: Some("Arm: "),
-    check_words: "PreArm: ",
-    sensor_words,
-    mode_words: |row, why| format!("Mode change to {} failed: {why}", row.name.to_uppercase()),
+    arming_check_prefix: Some("Arm: "),
+    prearm_reason_prefix: "PreArm: ",
+    sensor_text: sensor_words,
+    mode_rejection_text: |row, why| format!("Mode change to {} failed: {why}", row.name.to_uppercase()),
     banner: &[
         concat!("ArduCopter V4.6.0-dev (Spandrel ", env!("CARGO_PKG_VERSION"), ")"),
         "Spandrel emulation of ArduPilot, not ArduPilot",
         "Frame: QUAD/X",
     ],
-    answers_after_acknowledgement: true,
-    asks_first: true,
+    sends_message_after_ack: true,
+    streams_on_request_only: true,
     groups: &[
         (1, &[27, 105, 29]),
         (2, &[1, 125, 152, 62, 42, 24, 162, 87]),
@@ -129,26 +131,26 @@ pub static FLAVOUR: Flavour = Flavour {
         (11, &[74]),
         (12, &[163, 2, 168, 193, 147, 231, 241, 230, 132, 285]),
     ],
-    dialect_of_ardupilot: true,
+    ardupilot_dialect: true,
     calibration: CalibrationTexts::ArduPilot,
     shell: false,
     events: false,
-    loiters: Some(LOITER),
+    loiter_mode: Some(LOITER),
     offsets: true,
     pauses: true,
     vtol_state: MavVtolState::MAV_VTOL_STATE_MC,
     splines: true,
-    zero_is_here: true,
+    zero_means_current_position: true,
     home_item: true,
-    float_items: true,
+    uses_float_items: true,
     params: &param_view::COPTER,
     tune: |tuning| {
-        tuning.setpoints_end = true;
+        tuning.setpoint_end_is_normal = true;
         tuning.takeoff_at_climb_speed = true;
-        tuning.arms_by_mode = true;
-        tuning.mission_mode_stays = true;
+        tuning.arming_depends_on_mode = true;
+        tuning.keeps_mission_mode = true;
         tuning.first_item = 1;
-        tuning.fence_switch_stays = true;
+        tuning.fence_switch_persists = true;
     },
 };
 
@@ -169,7 +171,7 @@ fn state(estimate: &Estimate, status: &AutopilotStatus) -> MavState {
 /// compass by instance, as in its checks.
 fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
     let text = match (change.sensor, change.fault) {
-        (_, Some(SensorFault::Silent)) => return None,
+        (_, Some(SensorFault::NoReadings)) => return None,
         (MonitoredSensor::Gnss, Some(_)) => "GPS Glitch or Compass error",
         (MonitoredSensor::Gnss, None) => "Glitch cleared",
         (MonitoredSensor::Compass, Some(_)) => "Compass 1 not healthy",

@@ -20,11 +20,11 @@ pub struct ModeRow {
     /// The request that enters the mode.
     pub request: AutopilotRequest,
     /// Mode used instead while the vehicle is armed without stick input.
-    pub unattended: Option<FlightMode>,
+    pub mode_without_sticks: Option<FlightMode>,
     /// Whether the mode is shown only after it has been requested by its number.
     pub only_if_requested: bool,
     /// Other internal modes shown under the same number.
-    pub covers: &'static [FlightMode],
+    pub also_shown_for: &'static [FlightMode],
     /// Display name.
     pub name: &'static str,
     /// The corresponding standard mode.
@@ -41,13 +41,13 @@ pub struct ModeRow {
 
 impl ModeRow {
     /// Also shows this row for other internal modes.
-    pub(super) const fn covering(mut self, modes: &'static [FlightMode]) -> Self {
-        self.covers = modes;
+    pub(super) const fn also_showing(mut self, modes: &'static [FlightMode]) -> Self {
+        self.also_shown_for = modes;
         self
     }
 
     pub(super) fn shows(&self, mode: FlightMode) -> bool {
-        self.mode == mode || self.covers.contains(&mode)
+        self.mode == mode || self.also_shown_for.contains(&mode)
     }
 }
 
@@ -55,11 +55,11 @@ impl ModeRow {
 #[derive(Debug, Clone, Copy)]
 pub struct RefusalResults {
     /// Temporarily rejected.
-    pub for_now: MavResult,
+    pub temporarily: MavResult,
     /// Rejected in the current state.
     pub denied: MavResult,
     /// Unknown mode.
-    pub no_mode: MavResult,
+    pub unknown_mode: MavResult,
     /// REQUEST_MESSAGE for an unsupported message.
     pub message: MavResult,
     /// SET_MESSAGE_INTERVAL for an unsupported message.
@@ -102,33 +102,33 @@ pub struct Flavour {
     pub state: fn(&Estimate, &AutopilotStatus) -> MavState,
     /// Number of the mode that accepts go-to commands and offboard setpoints directly (GUIDED). `None`: offboard
     /// setpoints have their own mode, and go-to commands are accepted in any mode.
-    pub errands: Option<u32>,
+    pub goto_mode: Option<u32>,
     /// Interpretation of NAV_TAKEOFF.
     pub take_off: TakeOffRule,
     /// Values in COMPONENT_ARM_DISARM that force arming or disarming.
     pub force: &'static [f64],
     /// Whether the altitude of a region of interest command is above mean sea level, regardless of its frame.
-    pub looks_over_sea: bool,
+    pub roi_altitude_above_sea_level: bool,
     /// Results for rejected requests.
     pub refusals: RefusalResults,
     /// Prefix of the text sent for each failed arming check; `None`: a single text from the autopilot.
-    pub arm_words: Option<&'static str>,
+    pub arming_check_prefix: Option<&'static str>,
     /// Prefix of each reason reported by RUN_PREARM_CHECKS.
-    pub check_words: &'static str,
+    pub prearm_reason_prefix: &'static str,
     /// Returns the text and severity for a sensor that failed or recovered; `None`: the default text.
-    pub sensor_words: fn(SensorChange) -> Option<(MavSeverity, String)>,
+    pub sensor_text: fn(SensorChange) -> Option<(MavSeverity, String)>,
     /// Returns the text for a rejected mode change.
-    pub mode_words: fn(&ModeRow, String) -> String,
+    pub mode_rejection_text: fn(&ModeRow, String) -> String,
     /// Identification texts sent with the parameter list and for DO_SEND_BANNER; empty if unsupported.
     pub banner: &'static [&'static str],
     /// Whether ground stations and SDKs receive only heartbeats until they request streams.
-    pub asks_first: bool,
+    pub streams_on_request_only: bool,
     /// Whether the message requested by REQUEST_MESSAGE follows the acknowledgment; otherwise it precedes it.
-    pub answers_after_acknowledgement: bool,
+    pub sends_message_after_ack: bool,
     /// Message groups of REQUEST_DATA_STREAM.
     pub groups: &'static [(u8, &'static [u32])],
     /// Whether messages of ArduPilot's dialect are sent.
-    pub dialect_of_ardupilot: bool,
+    pub ardupilot_dialect: bool,
     /// Format of the calibration texts.
     pub calibration: CalibrationTexts,
     /// Whether SERIAL_CONTROL opens a shell.
@@ -136,7 +136,7 @@ pub struct Flavour {
     /// Whether arming checks and health are reported as events.
     pub events: bool,
     /// Number of the mode that NAV_LOITER_UNLIM enters; `None`: Hold mode.
-    pub loiters: Option<u32>,
+    pub loiter_mode: Option<u32>,
     /// Whether setpoint positions in body and offset frames are relative to the vehicle; otherwise they are ignored.
     pub offsets: bool,
     /// Whether DO_PAUSE_CONTINUE pauses the current operation; otherwise it enters Hold mode.
@@ -147,11 +147,11 @@ pub struct Flavour {
     pub splines: bool,
     /// Whether coordinates of 0, 0 in a mission item or in DO_SET_HOME mean the vehicle's position at that time, and an
     /// item altitude of 0 its altitude.
-    pub zero_is_here: bool,
+    pub zero_means_current_position: bool,
     /// Whether mission item 0 is home.
     pub home_item: bool,
     /// Whether MISSION_REQUEST is answered with MISSION_ITEM, and uploaded items are requested with MISSION_REQUEST.
-    pub float_items: bool,
+    pub uses_float_items: bool,
     /// The parameters presented to clients.
     pub params: &'static ParamView,
     /// Adjusts the autopilot to this flavor's behavior.
@@ -191,14 +191,16 @@ impl Flavour {
     pub fn enter(&self, row: &ModeRow, requested: &mut u32, autopilot: &mut Autopilot, now: SimTime) -> RequestOutcome {
         let before = autopilot.status().mode;
         let from = self.row_of(before, *requested).number;
-        let unattended = row.unattended.filter(|_| autopilot.is_unattended(now));
+        let unattended = row.mode_without_sticks.filter(|_| autopilot.is_unattended(now));
         let request = unattended.map_or(row.request, AutopilotRequest::SetMode);
         let outcome = autopilot.request(request, now);
         if outcome != RequestOutcome::Accepted {
             return match outcome {
-                RequestOutcome::TemporarilyRejected(why) => RequestOutcome::TemporarilyRejected((self.mode_words)(row, why)),
-                RequestOutcome::Denied(why) => RequestOutcome::Denied((self.mode_words)(row, why)),
-                RequestOutcome::Failed(why) => RequestOutcome::Failed((self.mode_words)(row, why)),
+                RequestOutcome::TemporarilyRejected(why) => {
+                    RequestOutcome::TemporarilyRejected((self.mode_rejection_text)(row, why))
+                }
+                RequestOutcome::Denied(why) => RequestOutcome::Denied((self.mode_rejection_text)(row, why)),
+                RequestOutcome::Failed(why) => RequestOutcome::Failed((self.mode_rejection_text)(row, why)),
                 unchanged @ (RequestOutcome::Accepted | RequestOutcome::Unsupported) => unchanged,
             };
         }
@@ -213,8 +215,8 @@ impl Flavour {
 
     /// Checks whether links of this kind must request their streams.
     #[must_use]
-    pub fn is_silent_until_asked(&self, kind: LinkKind) -> bool {
-        self.asks_first && kind != LinkKind::Payload
+    pub fn must_request_streams(&self, kind: LinkKind) -> bool {
+        self.streams_on_request_only && kind != LinkKind::Payload
     }
 }
 

@@ -36,7 +36,7 @@ mod tests {
     ];
 
     #[test]
-    fn exact_every_flavour_shows_every_mode_and_every_number_leads_back_to_its_row() {
+    fn exact_every_flavor_shows_every_mode_and_mode_numbers_are_unique() {
         for flavour in ["px4", "ardupilot", "generic"].map(|name| named(name).unwrap()) {
             for mode in ALL {
                 assert!(flavour.default_mode(mode).shows(mode), "{}: {mode:?}", flavour.name);
@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_guided_stays_guided_from_take_off_to_go_to_and_gives_way_to_the_pilot() {
+    fn exact_guided_persists_through_takeoff_and_goto_until_the_pilot_takes_over() {
         let copter = &ardupilot::FLAVOUR;
         for mode in [FlightMode::Hold, FlightMode::Takeoff, FlightMode::Offboard] {
             assert_eq!(copter.row_of(mode, 4).number, 4);

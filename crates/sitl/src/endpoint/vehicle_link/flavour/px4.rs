@@ -11,8 +11,8 @@ use spandrel_mavlink::dialect::{
 };
 
 const BASE: F = F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED);
-const BY_HAND: F = BASE.union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
-const BY_ITSELF: F = BASE.union(F::MAV_MODE_FLAG_AUTO_ENABLED).union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
+const MANUAL: F = BASE.union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
+const AUTONOMOUS: F = BASE.union(F::MAV_MODE_FLAG_AUTO_ENABLED).union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
 
 /// Creates a row from main and sub mode.
 pub(super) const fn row(
@@ -27,12 +27,12 @@ pub(super) const fn row(
         number: (main as u32) << 16 | (sub as u32) << 24,
         mode,
         request: AutopilotRequest::SetMode(mode),
-        unattended: None,
+        mode_without_sticks: None,
         only_if_requested: false,
-        covers: &[],
+        also_shown_for: &[],
         name,
         standard,
-        base: if auto { BY_ITSELF } else { BY_HAND },
+        base: if auto { AUTONOMOUS } else { MANUAL },
         auto,
         selectable,
         armable: true,
@@ -47,7 +47,7 @@ const MODES: &[ModeRow] = &[
     row(FlightMode::Takeoff, (4, 2), "Takeoff", S::MAV_STANDARD_MODE_TAKEOFF, true, true),
     row(FlightMode::Mission, (4, 4), "Mission", S::MAV_STANDARD_MODE_MISSION, true, true),
     row(FlightMode::Return, (4, 5), "Return", S::MAV_STANDARD_MODE_SAFE_RECOVERY, true, true)
-        .covering(&[FlightMode::SmartReturn]),
+        .also_showing(&[FlightMode::SmartReturn]),
     row(FlightMode::Land, (4, 6), "Land", S::MAV_STANDARD_MODE_LAND, true, true),
     row(FlightMode::Orbit, (3, 1), "Orbit", S::MAV_STANDARD_MODE_ORBIT, true, false),
     row(FlightMode::Offboard, (6, 0), "Offboard", S::MAV_STANDARD_MODE_NON_STANDARD, true, false),
@@ -69,33 +69,33 @@ pub static FLAVOUR: Flavour = Flavour {
     custom_mode: main_and_sub,
     custom_flag: false,
     state,
-    errands: None,
+    goto_mode: None,
     take_off: TakeOffRule::AboveSeaLevel,
     force: &[FORCE],
     // PX4's navigator uses the altitude without checking the frame. MAVSDK's gimbal plugin relies on it: it sends
     // altitudes above mean sea level in a home-relative frame.
-    looks_over_sea: true,
+    roi_altitude_above_sea_level: true,
     refusals: REFUSALS,
-    arm_words: None,
-    check_words: "Preflight Fail: ",
-    sensor_words,
-    mode_words: named_mode,
+    arming_check_prefix: None,
+    prearm_reason_prefix: "Preflight Fail: ",
+    sensor_text: sensor_words,
+    mode_rejection_text: named_mode,
     banner: &[],
-    answers_after_acknowledgement: false,
-    asks_first: false,
+    sends_message_after_ack: false,
+    streams_on_request_only: false,
     groups: GROUPS,
-    dialect_of_ardupilot: false,
+    ardupilot_dialect: false,
     calibration: CalibrationTexts::Px4,
     shell: true,
     events: true,
-    loiters: None,
+    loiter_mode: None,
     offsets: false,
     pauses: false,
     vtol_state: MavVtolState::MAV_VTOL_STATE_UNDEFINED,
     splines: false,
-    zero_is_here: false,
+    zero_means_current_position: false,
     home_item: false,
-    float_items: false,
+    uses_float_items: false,
     params: &param_view::PX4,
     tune: |_| {},
 };
@@ -104,9 +104,9 @@ pub static FLAVOUR: Flavour = Flavour {
 pub(super) const FORCE: f64 = 21196.0;
 /// PX4's results.
 pub(super) const REFUSALS: RefusalResults = RefusalResults {
-    for_now: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+    temporarily: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
     denied: MavResult::MAV_RESULT_DENIED,
-    no_mode: MavResult::MAV_RESULT_DENIED,
+    unknown_mode: MavResult::MAV_RESULT_DENIED,
     message: MavResult::MAV_RESULT_DENIED,
     interval: MavResult::MAV_RESULT_FAILED,
 };
@@ -142,7 +142,7 @@ pub(super) fn state(_: &Estimate, status: &AutopilotStatus) -> MavState {
 /// default text.
 fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
     let reason = match change.fault? {
-        SensorFault::Silent => return None,
+        SensorFault::NoReadings => return None,
         SensorFault::Stuck => "STALE",
         SensorFault::Inconsistent => "INCONSISTENT",
     };

@@ -29,7 +29,7 @@ pub(super) fn of(item: &MISSION_ITEM_INT_DATA) -> DeferredFields {
 }
 
 /// Returns the item with a placeholder for the open position, so that its other fields can be checked.
-pub(super) fn filled(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSION_ITEM_INT_DATA {
+pub(super) fn with_placeholder(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSION_ITEM_INT_DATA {
     let mut item = item.clone();
     if of(&item).place {
         let origin = plane.origin();
@@ -55,7 +55,7 @@ pub(super) fn filled(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSIO
 }
 
 /// Fills open fields with the position of the previous step, where the vehicle will be when the step starts.
-pub(super) fn assume_previous_positions(steps: &mut [MissionStep], open: &[DeferredFields], home_m: Option<Vec3<Ned>>) {
+pub(super) fn fill_from_previous_steps(steps: &mut [MissionStep], open: &[DeferredFields], home_m: Option<Vec3<Ned>>) {
     let mut before = home_m;
     for (step, open) in steps.iter_mut().zip(open) {
         if let (MissionStep::Takeoff { up_m: Some(up_m) }, Some(over)) = (&step, before) {

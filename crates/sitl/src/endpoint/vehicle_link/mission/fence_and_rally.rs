@@ -91,7 +91,7 @@ pub(super) fn zones(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane) -> Vec<
 /// Returns the rally points.
 pub(super) fn rally_points(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane, home_up_m: f64) -> Vec<RallyPoint> {
     let refuge = |item: &MISSION_ITEM_INT_DATA| {
-        Some(RallyPoint { place_m: place(item, plane, home_up_m)?, over_home: relative(item.frame) == Some(true) })
+        Some(RallyPoint { position_m: place(item, plane, home_up_m)?, home_relative: relative(item.frame) == Some(true) })
     };
     items.iter().filter_map(refuge).collect()
 }

@@ -2,26 +2,26 @@
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::fence_and_rally;
-use super::positions::{HIGHEST_M, flyable_position, place, relative, without_position};
+use super::positions::{MAX_ALTITUDE_M, flyable_position, has_no_position, place, relative};
 use crate::autopilot::{MissionStep, TimeOfDay};
 use crate::endpoint::payload::commands as payload;
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavFrame, MavMissionResult, MavMissionType};
 use spandrel_model::geodesy::LocalPlane;
 
 /// Maximum hold time of an item, s.
-const LONGEST_S: f32 = 86_400.0;
+const MAX_HOLD_S: f32 = 86_400.0;
 /// Allowed circle radii, m.
 const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;
 /// Default circle radius, m.
-const RADIUS_M: f64 = 5.0;
+const DEFAULT_RADIUS_M: f64 = 5.0;
 /// Allowed speeds, m/s; -1 means no change, -2 restores the parameter's value (MAVLink common).
 const SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
 /// Minimum number of repetitions that counts as an endless jump.
-const ENDLESS: f32 = 64.0;
+const ENDLESS_REPETITIONS: f32 = 64.0;
 
 type ItemResult = Result<(), MavMissionResult>;
 
-fn span(value: f32, (low, high): (f32, f32), wrong: MavMissionResult) -> ItemResult {
+fn check_range(value: f32, (low, high): (f32, f32), wrong: MavMissionResult) -> ItemResult {
     if value.is_nan() || (low..=high).contains(&value) { Ok(()) } else { Err(wrong) }
 }
 
@@ -34,32 +34,32 @@ pub(super) fn check_item(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u1
     }
     match item.command {
         MavCmd::MAV_CMD_NAV_WAYPOINT | MavCmd::MAV_CMD_NAV_LOITER_TIME | MavCmd::MAV_CMD_NAV_LOITER_UNLIM => {
-            span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)?;
+            check_range(item.param1, (0.0, MAX_HOLD_S), R::MAV_MISSION_INVALID_PARAM1)?;
             flyable_position(item, plane)
         }
         MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT => {
-            span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)?;
+            check_range(item.param1, (0.0, MAX_HOLD_S), R::MAV_MISSION_INVALID_PARAM1)?;
             flyable_position(item, plane)
         }
         MavCmd::MAV_CMD_NAV_LOITER_TO_ALT | MavCmd::MAV_CMD_CONDITION_GATE => flyable_position(item, plane),
-        MavCmd::MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET => straight(item),
+        MavCmd::MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET => check_no_offsets(item),
         MavCmd::MAV_CMD_NAV_LOITER_TURNS => circle(item).and_then(|()| flyable_position(item, plane)),
-        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND if without_position(item) => {
+        MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND if has_no_position(item) => {
             if relative(item.frame).is_none() && item.frame != MavFrame::MAV_FRAME_MISSION {
                 return Err(R::MAV_MISSION_UNSUPPORTED_FRAME);
             }
-            span(item.z, (-HIGHEST_M, HIGHEST_M), R::MAV_MISSION_INVALID_PARAM7)
+            check_range(item.z, (-MAX_ALTITUDE_M, MAX_ALTITUDE_M), R::MAV_MISSION_INVALID_PARAM7)
         }
         MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_NAV_LAND => flyable_position(item, plane),
         MavCmd::MAV_CMD_NAV_DELAY if item.param1 == -1.0 => time_of_day(item).map(|_| ()),
         MavCmd::MAV_CMD_NAV_DELAY | MavCmd::MAV_CMD_CONDITION_DELAY | MavCmd::MAV_CMD_CONDITION_DISTANCE => {
-            span(item.param1, (0.0, LONGEST_S), R::MAV_MISSION_INVALID_PARAM1)
+            check_range(item.param1, (0.0, MAX_HOLD_S), R::MAV_MISSION_INVALID_PARAM1)
         }
         MavCmd::MAV_CMD_CONDITION_YAW => turn(item),
         MavCmd::MAV_CMD_DO_JUMP => {
             let inside = (f32::from(flown.start)..f32::from(flown.end)).contains(&item.param1);
             if inside {
-                span(item.param2, (-1.0, 1e6), R::MAV_MISSION_INVALID_PARAM2)
+                check_range(item.param2, (-1.0, 1e6), R::MAV_MISSION_INVALID_PARAM2)
             } else {
                 Err(R::MAV_MISSION_INVALID_PARAM1)
             }
@@ -75,7 +75,7 @@ pub(super) fn check_item(item: &MISSION_ITEM_INT_DATA, flown: std::ops::Range<u1
             }
         }
         MavCmd::MAV_CMD_DO_SET_ROI_LOCATION => flyable_position(item, plane),
-        MavCmd::MAV_CMD_DO_SET_ROI if !without_position(item) => flyable_position(item, plane),
+        MavCmd::MAV_CMD_DO_SET_ROI if !has_no_position(item) => flyable_position(item, plane),
         MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH | MavCmd::MAV_CMD_DO_LAND_START => Ok(()),
         command if payload::is_supported(command) => Ok(()),
         _ => Err(R::MAV_MISSION_UNSUPPORTED),
@@ -99,7 +99,7 @@ fn time_of_day(item: &MISSION_ITEM_INT_DATA) -> Result<TimeOfDay, MavMissionResu
 
 /// Parameter 1 is the number of turns, 3 the radius, negative for counterclockwise; 0 or NaN selects the default.
 fn circle(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
-    span(item.param1, (0.0, 1_000.0), MavMissionResult::MAV_MISSION_INVALID_PARAM1)?;
+    check_range(item.param1, (0.0, 1_000.0), MavMissionResult::MAV_MISSION_INVALID_PARAM1)?;
     let radius = item.param3.abs();
     let known = radius.is_nan() || radius == 0.0 || RADII_M.contains(&radius);
     if known { Ok(()) } else { Err(MavMissionResult::MAV_MISSION_INVALID_PARAM3) }
@@ -112,7 +112,7 @@ fn turn(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if !(-360.0..=360.0).contains(&item.param1) {
         return Err(R::MAV_MISSION_INVALID_PARAM1);
     }
-    span(item.param3, (-1.0, 1.0), R::MAV_MISSION_INVALID_PARAM3)?;
+    check_range(item.param3, (-1.0, 1.0), R::MAV_MISSION_INVALID_PARAM3)?;
     if [0.0, 1.0].contains(&item.param4) { Ok(()) } else { Err(R::MAV_MISSION_INVALID_PARAM4) }
 }
 
@@ -124,7 +124,7 @@ fn speed(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if [-1.0, -2.0].contains(&item.param2) {
         return Ok(());
     }
-    span(item.param2, SPEEDS_M_S, MavMissionResult::MAV_MISSION_INVALID_PARAM2)
+    check_range(item.param2, SPEEDS_M_S, MavMissionResult::MAV_MISSION_INVALID_PARAM2)
 }
 
 /// Rejects a mission with an endless jump loop that contains no flight or wait items.
@@ -134,8 +134,9 @@ pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> ItemResult {
             && item.command != MavCmd::MAV_CMD_CONDITION_GATE
             && !matches!(item.command, MavCmd::MAV_CMD_CONDITION_DELAY if item.param1 > 0.0)
     };
-    let endless =
-        |item: &MISSION_ITEM_INT_DATA| item.command == MavCmd::MAV_CMD_DO_JUMP && !(0.0..ENDLESS).contains(&item.param2);
+    let endless = |item: &MISSION_ITEM_INT_DATA| {
+        item.command == MavCmd::MAV_CMD_DO_JUMP && !(0.0..ENDLESS_REPETITIONS).contains(&item.param2)
+    };
     let after = |at: usize| if endless(&items[at]) { items[at].param1 as usize } else { at + 1 };
     for (start, _) in items.iter().enumerate().filter(|(_, item)| endless(item)) {
         let mut at = start;
@@ -156,12 +157,12 @@ pub(super) fn whole(items: &[MISSION_ITEM_INT_DATA]) -> ItemResult {
 const NAV_LAST: u16 = 95;
 
 /// Returns a mission item; DO_SET_ROI_WPNEXT_OFFSET is resolved to the position of the next waypoint.
-pub(crate) fn aimed(items: &[MISSION_ITEM_INT_DATA], index: usize) -> Option<MISSION_ITEM_INT_DATA> {
+pub(crate) fn resolve_next_waypoint(items: &[MISSION_ITEM_INT_DATA], index: usize) -> Option<MISSION_ITEM_INT_DATA> {
     let item = items.get(index)?;
     if item.command != MavCmd::MAV_CMD_DO_SET_ROI_WPNEXT_OFFSET {
         return Some(item.clone());
     }
-    let flown = |item: &&MISSION_ITEM_INT_DATA| has_position(item.command) && !without_position(item);
+    let flown = |item: &&MISSION_ITEM_INT_DATA| has_position(item.command) && !has_no_position(item);
     let command = MavCmd::MAV_CMD_DO_SET_ROI_LOCATION;
     let next = items.iter().skip(index + 1).find(flown);
     // After the last position there is no target.
@@ -174,7 +175,7 @@ fn has_position(command: MavCmd) -> bool {
 }
 
 /// Checks that DO_SET_ROI_WPNEXT_OFFSET has no offsets: pitch in parameter 5, roll in 6 and yaw in 7 are not supported.
-fn straight(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
+fn check_no_offsets(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     use MavMissionResult as R;
     let none = |offset: i32| matches!(offset, 0 | i32::MAX);
     match (none(item.x), none(item.y), item.z == 0.0 || item.z.is_nan()) {
@@ -201,7 +202,7 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
         MavCmd::MAV_CMD_NAV_LOITER_TURNS => match place(item, plane, home_up_m) {
             Some(center_m) => MissionStep::Circle {
                 center_m,
-                radius_m: if item.param3.abs() > 0.0 { number(item.param3, RADIUS_M) } else { RADIUS_M },
+                radius_m: if item.param3.abs() > 0.0 { number(item.param3, DEFAULT_RADIUS_M) } else { DEFAULT_RADIUS_M },
                 turns: number(item.param1, 1.0),
             },
             None => MissionStep::Payload,
@@ -212,7 +213,7 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
             MissionStep::Takeoff { up_m: (!item.z.is_nan()).then(|| base + f64::from(item.z)) }
         }
         MavCmd::MAV_CMD_NAV_LAND => {
-            MissionStep::Land { position_m: if without_position(item) { None } else { place(item, plane, home_up_m) } }
+            MissionStep::Land { position_m: if has_no_position(item) { None } else { place(item, plane, home_up_m) } }
         }
         MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH => MissionStep::Return,
         MavCmd::MAV_CMD_DO_CHANGE_SPEED if item.param2 > 0.0 => MissionStep::Speed(Some(number(item.param2, 5.0))),
@@ -228,7 +229,7 @@ pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: 
         MavCmd::MAV_CMD_DO_SET_HOME => somewhere(|place| MissionStep::Home(Some(place))),
         MavCmd::MAV_CMD_DO_FENCE_ENABLE => MissionStep::Fence(item.param1 == 1.0),
         MavCmd::MAV_CMD_DO_SET_ROI_NONE => MissionStep::LookAt(None),
-        MavCmd::MAV_CMD_DO_SET_ROI if without_position(item) => MissionStep::LookAt(None),
+        MavCmd::MAV_CMD_DO_SET_ROI if has_no_position(item) => MissionStep::LookAt(None),
         MavCmd::MAV_CMD_DO_SET_ROI_LOCATION | MavCmd::MAV_CMD_DO_SET_ROI => somewhere(|place| MissionStep::LookAt(Some(place))),
         MavCmd::MAV_CMD_DO_JUMP => {
             let times = number(item.param2, 0.0);
@@ -275,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_endless_jumps_without_flight_between_them_are_refused() {
+    fn exact_endless_jump_loops_without_flight_items_are_rejected() {
         let fly = || other(MavCmd::MAV_CMD_NAV_WAYPOINT);
         let photo = || other(MavCmd::MAV_CMD_IMAGE_START_CAPTURE);
         let refused = Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);

@@ -17,18 +17,18 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 
 /// Maximum number of items in a plan.
-const MOST_ITEMS: u16 = 2_000;
+const MAX_ITEMS: u16 = 2_000;
 /// Timeout after which a stalled upload is canceled, s; longer than clients keep retrying.
 const STALL_S: f64 = 10.0;
 /// Every n-th retry of the first item request uses the other encoding (estimate: one second at the usual timeout).
-const OTHER_FORM_EVERY: u8 = 4;
+const SWITCH_ENCODING_EVERY: u8 = 4;
 /// Timeout after which a mission item request is repeated, s, as in PX4.
-const ASK_AGAIN_S: f64 = 0.25;
+const RETRY_INTERVAL_S: f64 = 0.25;
 /// For an uploader that usually responds faster, the request is repeated sooner: after this multiple of its usual
 /// delay, but not before the minimum interval, s. MAVSDK gives up on an item after five half-seconds without a request;
 /// at 0.25 s only one retry fits into each.
-const OVERDUE: f64 = 4.0;
-const ASK_AGAIN_SOONEST_S: f64 = 0.12;
+const RETRY_DELAY_FACTOR: f64 = 4.0;
+const MIN_RETRY_INTERVAL_S: f64 = 0.12;
 /// Number of unanswered requests after which earlier items are requested on a link that reorders datagrams, stepping
 /// further back each time: an uploader that a delayed request has set back ignores requests for later items (MAVSDK). A
 /// lower number would use up MAVSDK's five attempts where requests are merely lost.
@@ -39,7 +39,7 @@ const STEPS_BACK: u8 = 8;
 /// Weight of the latest delay in the moving average.
 const DELAY_WEIGHT: f64 = 0.25;
 /// Number of times the acknowledgment of an upload over a lossy link is repeated.
-const ACKNOWLEDGED_AGAIN: u8 = 4;
+const ACK_REPEATS: u8 = 4;
 
 /// A peer: its system and component ID.
 pub type PlanPeer = (u8, u8);
@@ -60,9 +60,9 @@ pub struct PlanStore {
     /// Whether items specific to ArduPilot are accepted: splines, delays until a time of day.
     splines: bool,
     /// Whether zero coordinates in an item mean the vehicle's position at that time.
-    zero_is_here: bool,
+    zero_means_current_position: bool,
     /// Encoding that is tried first when requesting items.
-    form: ItemEncoding,
+    encoding: ItemEncoding,
 }
 
 /// The two messages that request an item of an upload. Clients support one or both.
@@ -95,8 +95,8 @@ impl Default for PlanStore {
             speed_factor: 1.0,
             lead: 0,
             splines: false,
-            zero_is_here: false,
-            form: ItemEncoding::Int,
+            zero_means_current_position: false,
+            encoding: ItemEncoding::Int,
         }
     }
 }
@@ -107,14 +107,14 @@ struct PlanUpload {
     kind: MavMissionType,
     items: Vec<MISSION_ITEM_INT_DATA>,
     /// Whether the items replace part of the plan, starting at `first`.
-    part: bool,
+    is_partial: bool,
     first: u16,
     count: u16,
     last_received: SimTime,
     last_request: SimTime,
     /// Whether a request had to be repeated, which means that the link loses datagrams.
     is_lossy: bool,
-    form: ItemEncoding,
+    encoding: ItemEncoding,
     /// Whether the current item was requested again, which makes its delay meaningless.
     is_retry: bool,
     /// Number of unanswered requests since the last item.
@@ -131,18 +131,18 @@ struct PlanUpload {
 }
 
 impl PlanUpload {
-    fn begin(from: PlanPeer, kind: MavMissionType, form: ItemEncoding, now: SimTime) -> Self {
+    fn begin(from: PlanPeer, kind: MavMissionType, encoding: ItemEncoding, now: SimTime) -> Self {
         Self {
             from,
             kind,
             items: Vec::new(),
-            part: false,
+            is_partial: false,
             first: 0,
             count: 0,
             last_received: now,
             last_request: now,
             is_lossy: false,
-            form,
+            encoding: encoding,
             is_retry: false,
             unanswered: 0,
             delay_s: None,
@@ -163,7 +163,7 @@ impl PlanUpload {
     fn repeated(&mut self, seq: u16, now: SimTime) -> Option<MavMessage> {
         if seq == self.requested {
             (self.requested, self.last_request, self.is_retry, self.unanswered) = (seq + 1, now, true, 0);
-            return Some(self.question());
+            return Some(self.item_request());
         }
         (self.set_back_to, self.reorders) = (Some(seq + 1), true);
         None
@@ -183,9 +183,9 @@ impl PlanUpload {
     }
 
     /// Returns the timeout of a request, s.
-    fn patience_s(&self, pace: f64) -> f64 {
-        let usual_s = self.delay_s.map_or(ASK_AGAIN_S * pace, |delay_s| OVERDUE * delay_s);
-        usual_s.clamp(ASK_AGAIN_SOONEST_S * pace, ASK_AGAIN_S * pace)
+    fn retry_interval_s(&self, pace: f64) -> f64 {
+        let usual_s = self.delay_s.map_or(RETRY_INTERVAL_S * pace, |delay_s| RETRY_DELAY_FACTOR * delay_s);
+        usual_s.clamp(MIN_RETRY_INTERVAL_S * pace, RETRY_INTERVAL_S * pace)
     }
 
     /// Records the arrival of the expected item.
@@ -213,9 +213,9 @@ struct AckRepeat {
 #[derive(Debug, Clone, PartialEq)]
 pub enum PlanReply {
     /// Send a reply.
-    Say(MavMessage),
+    Reply(MavMessage),
     /// A plan was completed or cleared: send a reply and update the autopilot.
-    New(MavMissionType, MavMessage),
+    Updated(MavMissionType, MavMessage),
     /// No action.
     Nothing,
 }
@@ -232,11 +232,11 @@ fn slot(kind: MavMissionType) -> Option<usize> {
 /// Creates an acknowledgment.
 #[must_use]
 pub fn ack(to: PlanPeer, kind: MavMissionType, result: MavMissionResult) -> MavMessage {
-    ack_with(to, kind, result, 0)
+    ack_with_id(to, kind, result, 0)
 }
 
 /// Creates an acknowledgment with the ID of the accepted plan.
-fn ack_with(to: PlanPeer, kind: MavMissionType, result: MavMissionResult, opaque_id: u32) -> MavMessage {
+fn ack_with_id(to: PlanPeer, kind: MavMissionType, result: MavMissionResult, opaque_id: u32) -> MavMessage {
     MavMessage::MISSION_ACK(MISSION_ACK_DATA {
         target_system: to.0,
         target_component: to.1,
@@ -277,40 +277,40 @@ impl PlanStore {
 
     /// Sets whether zero coordinates mean the vehicle's position at that time.
     #[must_use]
-    pub fn with_zero_as_here(self, zero_is_here: bool) -> Self {
-        Self { zero_is_here, ..self }
+    pub fn with_zero_as_current_position(self, zero_means_current_position: bool) -> Self {
+        Self { zero_means_current_position: zero_means_current_position, ..self }
     }
 
     /// Sets the encoding that is tried first when requesting items.
     #[must_use]
-    pub fn with_encoding(self, form: ItemEncoding) -> Self {
-        Self { form, ..self }
+    pub fn with_encoding(self, encoding: ItemEncoding) -> Self {
+        Self { encoding: encoding, ..self }
     }
 
     /// Returns the item for validation and conversion, with a placeholder for an open position.
     fn with_default_position(&self, item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> MISSION_ITEM_INT_DATA {
-        if self.zero_is_here { deferred_fields::filled(item, plane) } else { item.clone() }
+        if self.zero_means_current_position { deferred_fields::with_placeholder(item, plane) } else { item.clone() }
     }
 
     /// Returns the fields that each mission item leaves open.
     #[must_use]
     pub fn deferred_fields(&self) -> Vec<DeferredFields> {
-        if self.zero_is_here { self.plans[0].iter().map(deferred_fields::of).collect() } else { Vec::new() }
+        if self.zero_means_current_position { self.plans[0].iter().map(deferred_fields::of).collect() } else { Vec::new() }
     }
 
     /// Requests further items in the encoding that an uploader used, unless the autopilot supports only one.
-    pub fn note_form(&mut self, from: PlanPeer, form: ItemEncoding) {
-        if let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && self.form == ItemEncoding::Int) {
-            upload.form = form;
+    pub fn use_encoding_of(&mut self, from: PlanPeer, encoding: ItemEncoding) {
+        if let Some(upload) = self.upload.as_mut().filter(|u| u.from == from && self.encoding == ItemEncoding::Int) {
+            upload.encoding = encoding;
         }
     }
 
     /// Switches the encoding for an uploader that does not support the current one, and returns the new request.
     pub fn switch_encoding(&mut self, from: PlanPeer, now: SimTime) -> Option<MavMessage> {
         let upload = self.upload.as_mut().filter(|u| u.from == from)?;
-        upload.form = upload.form.other();
+        upload.encoding = upload.encoding.other();
         upload.last_request = now;
-        Some(upload.question())
+        Some(upload.item_request())
     }
 
     /// Checks whether the fence contains a return point.
@@ -374,14 +374,14 @@ impl PlanStore {
     /// Appends an item to the mission.
     pub fn add(&mut self, item: MISSION_ITEM_INT_DATA) {
         let seq = self.plans[0].len() as u16;
-        if seq < MOST_ITEMS {
+        if seq < MAX_ITEMS {
             self.plans[0].push(MISSION_ITEM_INT_DATA { seq, ..item });
             self.ids[0] = id_of(&self.plans[0]);
         }
     }
 
     /// Deletes the mission.
-    pub fn drop_mission(&mut self) {
+    pub fn clear_mission(&mut self) {
         self.plans[0].clear();
         self.ids[0] = 0;
     }
@@ -389,7 +389,7 @@ impl PlanStore {
     /// Handles a list request; returns the item count.
     #[must_use]
     pub fn list(&mut self, from: PlanPeer, kind: MavMissionType) -> MavMessage {
-        self.forget_acknowledged(from);
+        self.stop_ack_repeats(from);
         let Some(slot) = slot(kind) else { return ack(from, kind, MavMissionResult::MAV_MISSION_UNSUPPORTED) };
         MavMessage::MISSION_COUNT(MISSION_COUNT_DATA {
             count: self.count(kind, slot),
@@ -407,7 +407,7 @@ impl PlanStore {
         let item = slot(kind).zip(index).and_then(|(slot, index)| self.plans[slot].get(index));
         match item {
             Some(item) => {
-                let mut item = renumbered(item.clone(), i32::from(self.lead(kind)));
+                let mut item = shift_sequence(item.clone(), i32::from(self.lead(kind)));
                 (item.target_system, item.target_component) = from;
                 MavMessage::MISSION_ITEM_INT(item)
             }
@@ -417,19 +417,19 @@ impl PlanStore {
 
     /// Stops repeating the acknowledgment to a peer that sends another plan message: it has received it or no longer
     /// waits for it.
-    fn forget_acknowledged(&mut self, from: PlanPeer) {
+    fn stop_ack_repeats(&mut self, from: PlanPeer) {
         self.ack_repeat.take_if(|echo| echo.to == from);
     }
 
     /// Starts an upload. Rejected while another station is uploading.
     pub fn begin(&mut self, from: PlanPeer, kind: MavMissionType, count: u16, now: SimTime) -> PlanReply {
-        self.forget_acknowledged(from);
-        let refuse = |result| PlanReply::Say(ack(from, kind, result));
+        self.stop_ack_repeats(from);
+        let refuse = |result| PlanReply::Reply(ack(from, kind, result));
         if self.is_busy(from, now) {
             return refuse(MavMissionResult::MAV_MISSION_DENIED);
         }
         let Some(slot) = slot(kind) else { return refuse(MavMissionResult::MAV_MISSION_UNSUPPORTED) };
-        if count > MOST_ITEMS {
+        if count > MAX_ITEMS {
             return refuse(MavMissionResult::MAV_MISSION_NO_SPACE);
         }
         self.done = None;
@@ -438,16 +438,16 @@ impl PlanStore {
             self.plans[slot].clear();
             self.ids[slot] = 0;
             let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
-            return PlanReply::New(kind, done);
+            return PlanReply::Updated(kind, done);
         }
-        let upload = PlanUpload { count, ..PlanUpload::begin(from, kind, self.form, now) };
-        PlanReply::Say(self.upload.insert(upload).question())
+        let upload = PlanUpload { count, ..PlanUpload::begin(from, kind, self.encoding, now) };
+        PlanReply::Reply(self.upload.insert(upload).item_request())
     }
 
     /// Starts a partial upload that replaces the existing items `first` to `last`.
-    pub fn begin_part(&mut self, from: PlanPeer, kind: MavMissionType, (first, last): (i16, i16), now: SimTime) -> PlanReply {
-        self.forget_acknowledged(from);
-        let refuse = |result| PlanReply::Say(ack(from, kind, result));
+    pub fn begin_partial(&mut self, from: PlanPeer, kind: MavMissionType, (first, last): (i16, i16), now: SimTime) -> PlanReply {
+        self.stop_ack_repeats(from);
+        let refuse = |result| PlanReply::Reply(ack(from, kind, result));
         if self.is_busy(from, now) {
             return refuse(MavMissionResult::MAV_MISSION_DENIED);
         }
@@ -461,13 +461,13 @@ impl PlanStore {
         }
         self.done = None;
         let upload = PlanUpload {
-            part: true,
+            is_partial: true,
             first,
             requested: first,
             count: last - first + 1,
-            ..PlanUpload::begin(from, kind, self.form, now)
+            ..PlanUpload::begin(from, kind, self.encoding, now)
         };
-        PlanReply::Say(self.upload.insert(upload).question())
+        PlanReply::Reply(self.upload.insert(upload).item_request())
     }
 
     /// Checks whether another peer is uploading.
@@ -485,7 +485,7 @@ impl PlanStore {
         upload.last_received = now;
         let missing = upload.missing();
         if item.seq < missing && item.seq >= upload.first {
-            return upload.repeated(item.seq, now).map_or(PlanReply::Nothing, PlanReply::Say);
+            return upload.repeated(item.seq, now).map_or(PlanReply::Nothing, PlanReply::Reply);
         }
         if item.seq != missing {
             // Out of order: the missing item has been requested, and `poll_retries` requests it again.
@@ -493,7 +493,7 @@ impl PlanStore {
         }
         upload.answered(now);
         let stored = slot(upload.kind).map_or(0, |slot| self.plans[slot].len());
-        let total = if upload.part { stored as u16 + lead } else { upload.count };
+        let total = if upload.is_partial { stored as u16 + lead } else { upload.count };
         // The home item is ignored: the vehicle keeps its own home.
         let spline = item.command == MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT && !self.splines;
         let day = item.command == MavCmd::MAV_CMD_NAV_DELAY && item.param1 < 0.0 && !self.splines;
@@ -504,39 +504,39 @@ impl PlanStore {
         if let Some(result) = refusal {
             let kind = upload.kind;
             self.upload = None;
-            return PlanReply::Say(ack(from, kind, result));
+            return PlanReply::Reply(ack(from, kind, result));
         }
         let mut item = item.clone();
         item.current = 0;
         upload.items.push(item);
         upload.requested = upload.missing();
         if (upload.items.len() as u16) < upload.count {
-            return PlanReply::Say(upload.question());
+            return PlanReply::Reply(upload.item_request());
         }
         self.upload.take().map_or(PlanReply::Nothing, |upload| self.complete(upload, now))
     }
 
     /// Finishes an upload once all items have arrived.
     fn complete(&mut self, upload: PlanUpload, now: SimTime) -> PlanReply {
-        let PlanUpload { from, kind, items, first, part, is_lossy: loses, .. } = upload;
+        let PlanUpload { from, kind, items, first, is_partial: part, is_lossy: loses, .. } = upload;
         let Some(slot) = slot(kind) else { return PlanReply::Nothing };
         let lead = self.lead(kind);
         let mut whole = if part { self.plans[slot].clone() } else { Vec::new() };
         let last = first + items.len().saturating_sub(1) as u16;
         let flown = items.into_iter().skip(usize::from(lead.saturating_sub(first)));
-        let items: Vec<_> = flown.map(|item| renumbered(item, -i32::from(lead))).collect();
+        let items: Vec<_> = flown.map(|item| shift_sequence(item, -i32::from(lead))).collect();
         let first = usize::from(first.saturating_sub(lead));
         let until = (first + items.len()).min(whole.len());
         whole.splice(first.min(until)..until, items);
         if let Err(result) = fence_and_rally::is_complete(&whole).and_then(|()| items::whole(&whole)) {
-            return PlanReply::Say(ack(from, kind, result));
+            return PlanReply::Reply(ack(from, kind, result));
         }
         self.ids[slot] = id_of(&whole);
         self.plans[slot] = whole;
         self.done = Some((from, kind, last));
-        let done = ack_with(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED, self.ids[slot]);
-        self.ack_repeat = loses.then(|| AckRepeat { to: from, message: done.clone(), sent: now, left: ACKNOWLEDGED_AGAIN });
-        PlanReply::New(kind, done)
+        let done = ack_with_id(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED, self.ids[slot]);
+        self.ack_repeat = loses.then(|| AckRepeat { to: from, message: done.clone(), sent: now, left: ACK_REPEATS });
+        PlanReply::Updated(kind, done)
     }
 
     /// Handles an item without an upload: an error, unless it repeats an item of the plan that this peer has just
@@ -544,17 +544,17 @@ impl PlanStore {
     /// delayed, and an error would invalidate the acknowledgment in transit.
     fn reply_without_upload(&self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA) -> PlanReply {
         let last = self.done.filter(|&(peer, kind, _)| (peer, kind) == (from, item.mission_type)).map(|(_, _, last)| last);
-        match last.filter(|_| self.is_kept(item)) {
+        match last.filter(|_| self.matches_stored(item)) {
             Some(last) if item.seq < last => PlanReply::Nothing,
             Some(last) if item.seq == last => {
-                PlanReply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ACCEPTED))
+                PlanReply::Reply(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ACCEPTED))
             }
-            _ => PlanReply::Say(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ERROR)),
+            _ => PlanReply::Reply(ack(from, item.mission_type, MavMissionResult::MAV_MISSION_ERROR)),
         }
     }
 
     /// Checks whether a received item matches the stored item with its number.
-    fn is_kept(&self, item: &MISSION_ITEM_INT_DATA) -> bool {
+    fn matches_stored(&self, item: &MISSION_ITEM_INT_DATA) -> bool {
         let lead = self.lead(item.mission_type);
         let index = item.seq.checked_sub(lead).map(usize::from);
         let stored = slot(item.mission_type).zip(index).and_then(|(slot, index)| self.plans[slot].get(index));
@@ -568,16 +568,16 @@ impl PlanStore {
     }
 
     /// Rejects an upload with an item that the dialect cannot represent (unknown command or frame).
-    pub fn receive_unknown(&mut self, from: PlanPeer) -> PlanReply {
+    pub fn receive_undefined_item(&mut self, from: PlanPeer) -> PlanReply {
         match self.upload.take_if(|u| u.from == from) {
-            Some(upload) => PlanReply::Say(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),
+            Some(upload) => PlanReply::Reply(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),
             None => PlanReply::Nothing,
         }
     }
 
     /// Clears plans.
     pub fn clear(&mut self, from: PlanPeer, kind: MavMissionType) -> PlanReply {
-        self.forget_acknowledged(from);
+        self.stop_ack_repeats(from);
         self.upload.take_if(|u| u.from == from);
         self.done = None;
         match slot(kind) {
@@ -591,7 +591,7 @@ impl PlanStore {
             }
         }
         let done = ack(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED);
-        PlanReply::New(kind, done)
+        PlanReply::Updated(kind, done)
     }
 
     /// Ends an upload that the client canceled or finished.
@@ -602,31 +602,31 @@ impl PlanStore {
     /// Repeats an overdue request, cancels a stalled upload, or repeats an acknowledgment. Returns the message and its
     /// recipient.
     pub fn poll_retries(&mut self, now: SimTime) -> Option<(PlanPeer, MavMessage)> {
-        let Some(upload) = self.upload.as_mut() else { return self.acknowledge_again(now) };
+        let Some(upload) = self.upload.as_mut() else { return self.repeat_acknowledgment(now) };
         let (from, kind) = (upload.from, upload.kind);
         if (now - upload.last_received).s() > STALL_S * self.speed_factor {
             self.upload = None;
             return Some((from, ack(from, kind, MavMissionResult::MAV_MISSION_OPERATION_CANCELLED)));
         }
-        if (now - upload.last_request).s() > upload.patience_s(self.speed_factor) {
+        if (now - upload.last_request).s() > upload.retry_interval_s(self.speed_factor) {
             upload.last_request = now;
             (upload.is_lossy, upload.is_retry) = (true, true);
             upload.unanswered = upload.unanswered.saturating_add(1);
             upload.requested = upload.overdue();
             // A client that has not sent any item yet may support only the other encoding. On a lossy link, most
             // clients support the first.
-            if upload.items.is_empty() && self.form == ItemEncoding::Int {
-                upload.form =
-                    if upload.unanswered.is_multiple_of(OTHER_FORM_EVERY) { ItemEncoding::Float } else { ItemEncoding::Int };
+            if upload.items.is_empty() && self.encoding == ItemEncoding::Int {
+                upload.encoding =
+                    if upload.unanswered.is_multiple_of(SWITCH_ENCODING_EVERY) { ItemEncoding::Float } else { ItemEncoding::Int };
             }
-            return Some((from, upload.question()));
+            return Some((from, upload.item_request()));
         }
         None
     }
 
-    fn acknowledge_again(&mut self, now: SimTime) -> Option<(PlanPeer, MavMessage)> {
+    fn repeat_acknowledgment(&mut self, now: SimTime) -> Option<(PlanPeer, MavMessage)> {
         let echo = self.ack_repeat.as_mut()?;
-        if (now - echo.sent).s() <= ASK_AGAIN_S * self.speed_factor {
+        if (now - echo.sent).s() <= RETRY_INTERVAL_S * self.speed_factor {
             return None;
         }
         (echo.sent, echo.left) = (now, echo.left - 1);
@@ -640,9 +640,10 @@ impl PlanStore {
     pub fn steps(&self, plane: &LocalPlane, home_m: Option<Vec3<Ned>>) -> Vec<MissionStep> {
         let all = &self.plans[0];
         let home_up_m = home_m.map_or(0.0, |home| -home.down());
-        let step = |k| Some(items::step(&self.with_default_position(&items::aimed(all, k)?, plane), plane, home_up_m));
+        let step =
+            |k| Some(items::step(&self.with_default_position(&items::resolve_next_waypoint(all, k)?, plane), plane, home_up_m));
         let mut steps: Vec<MissionStep> = (0..all.len()).filter_map(step).collect();
-        deferred_fields::assume_previous_positions(&mut steps, &self.deferred_fields(), home_m);
+        deferred_fields::fill_from_previous_steps(&mut steps, &self.deferred_fields(), home_m);
         steps
     }
 
@@ -654,7 +655,7 @@ impl PlanStore {
 }
 
 /// Shifts an item's sequence number, and the target of a jump, by `by`.
-fn renumbered(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA {
+fn shift_sequence(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA {
     item.seq = (i32::from(item.seq) + by).max(0) as u16;
     if item.command == MavCmd::MAV_CMD_DO_JUMP {
         item.param1 = (item.param1 + by as f32).max(0.0);
@@ -664,10 +665,10 @@ fn renumbered(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA
 
 impl PlanUpload {
     /// Creates the request for the next item.
-    fn question(&self) -> MavMessage {
+    fn item_request(&self) -> MavMessage {
         let seq = self.requested;
         let ((target_system, target_component), mission_type) = (self.from, self.kind);
-        match self.form {
+        match self.encoding {
             ItemEncoding::Int => {
                 MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA { seq, target_system, target_component, mission_type })
             }

@@ -7,7 +7,7 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 
 /// Maximum altitude, m.
-pub(super) const HIGHEST_M: f32 = 10_000.0;
+pub(super) const MAX_ALTITUDE_M: f32 = 10_000.0;
 
 /// Checks whether a frame's altitude is relative to home. `None` for frames without a global position and for
 /// terrain-relative altitudes: the vehicle has no terrain map, and bridge decks and water are not terrain.
@@ -30,7 +30,7 @@ pub(super) fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m:
 }
 
 /// Checks whether an item has no position, which means the vehicle's position at that time.
-pub(super) fn without_position(item: &MISSION_ITEM_INT_DATA) -> bool {
+pub(super) fn has_no_position(item: &MISSION_ITEM_INT_DATA) -> bool {
     (item.x, item.y) == (0, 0) || item.x == i32::MAX || item.y == i32::MAX
 }
 
@@ -39,7 +39,7 @@ pub(super) fn flyable_position(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane)
     if relative(item.frame).is_none() {
         return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED_FRAME);
     }
-    if !(-HIGHEST_M..=HIGHEST_M).contains(&item.z) {
+    if !(-MAX_ALTITUDE_M..=MAX_ALTITUDE_M).contains(&item.z) {
         return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM7);
     }
     let (lat, lon) = (f64::from(item.x) * 1e-7, f64::from(item.y) * 1e-7);

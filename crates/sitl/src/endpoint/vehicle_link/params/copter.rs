@@ -14,25 +14,32 @@ use std::sync::LazyLock;
 /// Timeouts that differ from this software's defaults: overrides time out after 3 s, the ground station after 5 s.
 pub const DEFAULTS: &[(&str, ParamValue)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
 
-const LOSS: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
+const LOSS_VALUES: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
 /// ArduPilot's link loss actions, and the corresponding internal ones.
-const LOSSES: &[(i32, i32)] = &[(0, 0), (1, 2), (5, 3), (7, 1)];
-const STICK_LOSS: &[(i32, &str)] = &[(1, "Return"), (3, "Land"), (7, "Brake")];
-const STICK_LOSSES: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
-const FENCE_ACT: &[(i32, &str)] = &[(0, "Report only"), (1, "Return"), (2, "Land"), (4, "Brake")];
+const LOSS_ACTIONS: &[(i32, i32)] = &[(0, 0), (1, 2), (5, 3), (7, 1)];
+const STICK_LOSS_VALUES: &[(i32, &str)] = &[(1, "Return"), (3, "Land"), (7, "Brake")];
+const STICK_LOSS_ACTIONS: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
+const FENCE_VALUES: &[(i32, &str)] = &[(0, "Report only"), (1, "Return"), (2, "Land"), (4, "Brake")];
 /// Breach actions. The internal terminate and warn actions have no equivalent here.
-const FENCE_ACTS: &[(i32, i32)] = &[(0, 1), (1, 3), (2, 5), (4, 2)];
+const FENCE_ACTIONS: &[(i32, i32)] = &[(0, 1), (1, 3), (2, 5), (4, 2)];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
-const ONE: &[(i32, &str)] = &[(1, "Fixed")];
+const FIXED_VALUE: &[(i32, &str)] = &[(1, "Fixed")];
 
 /// Returns the rows, sorted by name.
 #[must_use]
 pub fn rows() -> &'static [Row] {
     static ALL: LazyLock<Vec<Row>> = LazyLock::new(|| {
         let shared = ROWS.iter().chain(behavior::ROWS);
-        let shared = shared.filter(|row| matches!(row.group, "Simulation" | "Joystick") || OURS.contains(&row.name));
-        let mut all: Vec<Row> =
-            [active_rows(), copter_behavior::rows(), fixed(), radio(), circling_and_following(), mode_switch()].concat();
+        let shared = shared.filter(|row| matches!(row.group, "Simulation" | "Joystick") || OWN_NAMES.contains(&row.name));
+        let mut all: Vec<Row> = [
+            active_rows(),
+            copter_behavior::rows(),
+            read_only_rows(),
+            rc_channel_rows(),
+            circle_and_follow_rows(),
+            mode_switch(),
+        ]
+        .concat();
         all.extend(shared.copied());
         stored::fill_missing(all, stored::COPTER)
     });
@@ -40,10 +47,10 @@ pub fn rows() -> &'static [Row] {
 }
 
 /// This software's own parameters, with unchanged names.
-const OURS: [&str; 4] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
+const OWN_NAMES: [&str; 4] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
 
 /// Creates a read-only row that describes the vehicle.
-fn outgoing(name: &'static str, value: ParamValue, wire: MavParamType, group: &'static str, short: &'static str) -> Row {
+fn read_only_row(name: &'static str, value: ParamValue, wire: MavParamType, group: &'static str, short: &'static str) -> Row {
     let number = value.number();
     let mut out = row(name, value, (number.min(0.0), number.max(0.0)), "", group, short).read_only().token();
     out.wire = wire;
@@ -66,13 +73,13 @@ fn active_rows() -> Vec<Row> {
         of_capacity("BATT_CRT_MAH", "BAT_CRIT_THR", "Critical battery level (remaining charge)"),
         of_capacity("BATT_LOW_MAH", "BAT_LOW_THR", "Low battery level (remaining charge)"),
         scaled("DISARM_DELAY", "COM_DISARM_PRFLT", 1.0, REAL32, "s", "ARMING"),
-        mapped("FENCE_ACTION", "GF_ACTION", FENCE_ACTS, FENCE_ACT, "FENCE"),
+        mapped("FENCE_ACTION", "GF_ACTION", FENCE_ACTIONS, FENCE_VALUES, "FENCE"),
         enable("FENCE_ENABLE", "FENCE", "Enable the geofence"),
         scaled("FENCE_ALT_MAX", "GF_MAX_VER_DIST", 1.0, REAL32, "m", "FENCE"),
         scaled("FENCE_RADIUS", "GF_MAX_HOR_DIST", 1.0, REAL32, "m", "FENCE"),
-        mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSSES, LOSS, "FS"),
+        mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSS_ACTIONS, LOSS_VALUES, "FS"),
         scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
-        mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSSES, STICK_LOSS, "FS"),
+        mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSS_ACTIONS, STICK_LOSS_VALUES, "FS"),
         // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies to targets directly and
         // never turns into the wind.
         row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "GUIDED mode options").wire(INT32).bits(&[
@@ -95,13 +102,13 @@ fn active_rows() -> Vec<Row> {
 }
 
 /// Returns the read-only rows.
-fn fixed() -> Vec<Row> {
+fn read_only_rows() -> Vec<Row> {
     // Clients interpret zero as an uncalibrated sensor; a simulated sensor needs no calibration.
     let nominal = Real(0.001);
-    let offset = |name| outgoing(name, nominal, REAL32, "INS", "Accelerometer offset (nominal)").unit("m/s^2");
+    let offset = |name| read_only_row(name, nominal, REAL32, "INS", "Accelerometer offset (nominal)").unit("m/s^2");
     let none = |name, wire, group| {
         let zero = if wire == REAL32 { Real(0.0) } else { Int(0) };
-        let row = outgoing(name, zero, wire, group, "Not present: the vehicle has only one such sensor");
+        let row = read_only_row(name, zero, wire, group, "Not present: the vehicle has only one such sensor");
         if wire == REAL32 {
             row.unit("mGauss")
         } else if wire == INT8 {
@@ -110,17 +117,17 @@ fn fixed() -> Vec<Row> {
             row
         }
     };
-    let compass = |name| outgoing(name, nominal, REAL32, "COMPASS", "Compass offset (nominal)").unit("mGauss");
+    let compass = |name| read_only_row(name, nominal, REAL32, "COMPASS", "Compass offset (nominal)").unit("mGauss");
     vec![
         row("ARMING_CHECK", Int(1), (0.0, 1_048_575.0), "", "ARMING", "Arming checks; all are performed")
             .bits(&[(0, "All")])
             .token(),
-        outgoing("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Require arming").values(ONE),
+        read_only_row("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Require arming").values(FIXED_VALUE),
         row("BATT_CAPACITY", Int(0), (0.0, 1e6), "mAh", "BATT", "Battery capacity").read_only(),
-        outgoing("BATT_MONITOR", Int(4), INT8, "BATT", "Battery monitor type").values(&[(4, "Voltage and current")]),
-        outgoing("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Compass ID"),
-        outgoing("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "Enable the compass").values(ONE),
-        outgoing("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "External compass"),
+        read_only_row("BATT_MONITOR", Int(4), INT8, "BATT", "Battery monitor type").values(&[(4, "Voltage and current")]),
+        read_only_row("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Compass ID"),
+        read_only_row("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "Enable the compass").values(FIXED_VALUE),
+        read_only_row("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "External compass"),
         none("COMPASS_DEV_ID2", INT32, "COMPASS"),
         none("COMPASS_DEV_ID3", INT32, "COMPASS"),
         none("COMPASS_OFS2_X", REAL32, "COMPASS"),
@@ -136,21 +143,21 @@ fn fixed() -> Vec<Row> {
         compass("COMPASS_OFS_X"),
         compass("COMPASS_OFS_Y"),
         compass("COMPASS_OFS_Z"),
-        outgoing("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "ID of the primary compass"),
-        outgoing("COMPASS_USE", Int(1), INT8, "COMPASS", "Use the compass").values(ONE),
-        outgoing("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Parameter format version"),
-        outgoing("FRAME_CLASS", Int(1), INT8, "FRAME", "Frame class").values(&[(1, "Quad")]),
-        outgoing("FRAME_TYPE", Int(1), INT8, "FRAME", "Frame type").values(&[(1, "X")]),
+        read_only_row("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "ID of the primary compass"),
+        read_only_row("COMPASS_USE", Int(1), INT8, "COMPASS", "Use the compass").values(FIXED_VALUE),
+        read_only_row("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Parameter format version"),
+        read_only_row("FRAME_CLASS", Int(1), INT8, "FRAME", "Frame class").values(&[(1, "Quad")]),
+        read_only_row("FRAME_TYPE", Int(1), INT8, "FRAME", "Frame type").values(&[(1, "X")]),
         offset("INS_ACCOFFS_X"),
         offset("INS_ACCOFFS_Y"),
         offset("INS_ACCOFFS_Z"),
-        outgoing("INS_USE", Int(1), INT8, "INS", "Use the inertial sensor").values(ONE),
-        outgoing("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "Function of relay 1, the lamp").values(&[(1, "Relay")]),
+        read_only_row("INS_USE", Int(1), INT8, "INS", "Use the inertial sensor").values(FIXED_VALUE),
+        read_only_row("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "Function of relay 1, the lamp").values(&[(1, "Relay")]),
     ]
 }
 
 /// Modes for a switch position, with ArduCopter's numbers.
-const SWITCHED: &[(i32, &str)] = &[
+const FLIGHT_MODES: &[(i32, &str)] = &[
     (0, "Stabilize"),
     (1, "Acro"),
     (2, "Altitude Hold"),
@@ -185,7 +192,8 @@ fn mode_switch() -> Vec<Row> {
         row.wire = INT8;
         row
     };
-    let position = |name| small(row(name, Int(5), (0.0, 27.0), "", "FLTMODE", "Mode at this switch position").values(SWITCHED));
+    let position =
+        |name| small(row(name, Int(5), (0.0, 27.0), "", "FLTMODE", "Mode at this switch position").values(FLIGHT_MODES));
     let channel = row("FLTMODE_CH", Int(5), (0.0, 16.0), "", "FLTMODE", "Mode switch channel").values(&SWITCH_CHANNELS);
     let mut out = vec![small(channel)];
     out.extend(["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"].map(position));
@@ -193,7 +201,7 @@ fn mode_switch() -> Vec<Row> {
 }
 
 /// Returns the parameters of CIRCLE and FOLLOW modes, with ArduCopter's defaults.
-fn circling_and_following() -> Vec<Row> {
+fn circle_and_follow_rows() -> Vec<Row> {
     let whole = |name, default, high, wire, short| {
         let mut out = row(name, Int(default), (0.0, high), "", "FOLL", short);
         out.wire = wire;
@@ -215,20 +223,20 @@ fn circling_and_following() -> Vec<Row> {
 }
 
 /// Returns the parameters for RC_CHANNELS_OVERRIDE.
-fn radio() -> Vec<Row> {
+fn rc_channel_rows() -> Vec<Row> {
     const CHANNELS: [[&str; 4]; 4] = [
         ["RC1_MIN", "RC1_MAX", "RC1_TRIM", "RC1_REVERSED"],
         ["RC2_MIN", "RC2_MAX", "RC2_TRIM", "RC2_REVERSED"],
         ["RC3_MIN", "RC3_MAX", "RC3_TRIM", "RC3_REVERSED"],
         ["RC4_MIN", "RC4_MAX", "RC4_TRIM", "RC4_REVERSED"],
     ];
-    let map = |name, channel| outgoing(name, Int(channel), INT8, "RCMAP", "RC channel for this axis");
+    let map = |name, channel| read_only_row(name, Int(channel), INT8, "RCMAP", "RC channel for this axis");
     let mut out = vec![map("RCMAP_PITCH", 2), map("RCMAP_ROLL", 1), map("RCMAP_THROTTLE", 3), map("RCMAP_YAW", 4)];
     for [low, high, middle, reversed] in CHANNELS {
-        out.push(outgoing(low, Int(1_000), INT16, "RC", "Minimum pulse width").unit("us"));
-        out.push(outgoing(high, Int(2_000), INT16, "RC", "Maximum pulse width").unit("us"));
-        out.push(outgoing(middle, Int(1_500), INT16, "RC", "Center pulse width").unit("us"));
-        out.push(outgoing(reversed, Int(0), INT8, "RC", "Channel direction").values(&[(0, "Normal"), (1, "Reversed")]));
+        out.push(read_only_row(low, Int(1_000), INT16, "RC", "Minimum pulse width").unit("us"));
+        out.push(read_only_row(high, Int(2_000), INT16, "RC", "Maximum pulse width").unit("us"));
+        out.push(read_only_row(middle, Int(1_500), INT16, "RC", "Center pulse width").unit("us"));
+        out.push(read_only_row(reversed, Int(0), INT8, "RC", "Channel direction").values(&[(0, "Normal"), (1, "Reversed")]));
     }
     out
 }
@@ -239,7 +247,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_names_are_distinct_fit_the_wire_and_stand_for_rows_that_are_there() {
+    fn exact_names_are_unique_short_enough_and_refer_to_existing_rows() {
         for pair in rows().windows(2) {
             assert!(pair[0].name < pair[1].name, "{} twice", pair[0].name);
         }

@@ -21,11 +21,11 @@ const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 
 /// Rows, in any order.
 pub(super) fn rows() -> Vec<Row> {
-    [failsafes(), returning(), limits(), missions()].concat()
+    [failsafes(), return_rows(), limits(), missions()].concat()
 }
 
 fn failsafes() -> Vec<Row> {
-    let mut station = row("MAV_GCS_SYSID", Int(0), (0.0, 255.0), "", "MAV", STATION).wire(INT16);
+    let mut station = row("MAV_GCS_SYSID", Int(0), (0.0, 255.0), "", "MAV", STATION_ID_TEXT).wire(INT16);
     station.source = ParamSource::Scaled("SYSID_MYGCS", 1.0);
     vec![
         row("BATT_ARM_VOLT", Real(0.0), (0.0, 100.0), "V", "BATT", "Minimum voltage for arming; 0: disabled"),
@@ -64,14 +64,14 @@ fn failsafes() -> Vec<Row> {
         row("FS_THR_VALUE", Int(975), (910.0, 1100.0), "us", "FS", "Throttle pulse width that signals manual control loss")
             .wire(INT16),
         station,
-        row("SYSID_MYGCS", Int(0), (0.0, 255.0), "", "SYSID", STATION).wire(INT16),
+        row("SYSID_MYGCS", Int(0), (0.0, 255.0), "", "SYSID", STATION_ID_TEXT).wire(INT16),
     ]
 }
 
 /// The default is 0 instead of ArduPilot's 255, because the window and the instructor use other IDs.
-const STATION: &str = "System ID of the ground station that may send stick input; 0: any";
+const STATION_ID_TEXT: &str = "System ID of the ground station that may send stick input; 0: any";
 
-fn returning() -> Vec<Row> {
+fn return_rows() -> Vec<Row> {
     vec![
         row("RALLY_INCL_HOME", Int(1), (0.0, 1.0), "", "RALLY", "Include home in the rally point selection")
             .wire(INT8)

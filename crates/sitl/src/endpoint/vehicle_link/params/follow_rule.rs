@@ -4,9 +4,9 @@ use super::Params;
 use crate::autopilot::follow::{FollowPosition, FollowRule};
 
 /// FLW_TGT_ALT_M value: height above the target.
-const OVER_TARGET: i32 = 2;
+const HEIGHT_ABOVE_TARGET: i32 = 2;
 /// FOLL_OFS_TYPE value: offset relative to the target's course.
-const ALONG_COURSE: i32 = 1;
+const RELATIVE_TO_COURSE: i32 = 1;
 
 impl Params {
     /// Returns the rule for following a target: from FOLL_* if the flavor has them, otherwise from FLW_TGT_*.
@@ -15,26 +15,26 @@ impl Params {
         let Some(enable) = self.whole("FOLL_ENABLE") else {
             return FollowRule {
                 enabled: true,
-                place: FollowPosition::Around {
+                position: FollowPosition::Around {
                     distance_m: self.number("FLW_TGT_DST"),
                     angle_rad: self.number("FLW_TGT_FA").to_radians(),
                     height_m: self.number("FLW_TGT_HT"),
-                    over_target: self.whole("FLW_TGT_ALT_M") == Some(OVER_TARGET),
+                    relative_to_target: self.whole("FLW_TGT_ALT_M") == Some(HEIGHT_ABOVE_TARGET),
                 },
-                farthest_m: f64::INFINITY,
-                fastest_m_s: self.number("FLW_TGT_MAX_VEL").min(fastest_m_s),
+                max_distance_m: f64::INFINITY,
+                max_speed_m_s: self.number("FLW_TGT_MAX_VEL").min(fastest_m_s),
                 smoothing: self.number("FLW_TGT_RS"),
             };
         };
         let offset = ["FOLL_OFS_X", "FOLL_OFS_Y", "FOLL_OFS_Z"].map(|name| self.number(name));
         FollowRule {
             enabled: enable != 0,
-            place: FollowPosition::Offset {
+            position: FollowPosition::Offset {
                 offset_m: Some(offset).filter(|offset| *offset != [0.0; 3]),
-                along_course: self.whole("FOLL_OFS_TYPE") == Some(ALONG_COURSE),
+                along_course: self.whole("FOLL_OFS_TYPE") == Some(RELATIVE_TO_COURSE),
             },
-            farthest_m: self.number("FOLL_DIST_MAX"),
-            fastest_m_s,
+            max_distance_m: self.number("FOLL_DIST_MAX"),
+            max_speed_m_s: fastest_m_s,
             smoothing: 0.0,
         }
     }

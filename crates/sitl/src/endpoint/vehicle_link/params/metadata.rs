@@ -132,20 +132,20 @@ mod tests {
     use super::super::table;
     use super::*;
 
-    fn unpacked(file: &MetadataFile) -> Json {
+    fn decompressed(file: &MetadataFile) -> Json {
         let mut text = Vec::new();
         lzma_rs::xz_decompress(&mut Cursor::new(&file.bytes), &mut text).unwrap();
         serde_json::from_slice(&text).unwrap()
     }
 
     #[test]
-    fn exact_the_files_lead_to_each_other_and_describe_every_parameter() {
+    fn exact_metadata_files_reference_each_other_and_describe_every_parameter() {
         let MetadataFiles { general, parameter, .. } = files(&PX4);
-        let general = unpacked(general);
+        let general = decompressed(general);
         let entry = &general["metadataTypes"][0];
         assert_eq!((entry["type"].as_u64(), entry["uri"].as_str()), (Some(1), Some(parameter.uri.as_str())));
         assert_eq!(entry["fileCrc"], parameter.crc);
-        let described = unpacked(parameter);
+        let described = decompressed(parameter);
         let names: Vec<&str> = described["parameters"].as_array().unwrap().iter().filter_map(|p| p["name"].as_str()).collect();
         assert_eq!(names, table::rows().iter().map(|row| row.name).collect::<Vec<_>>());
         // MAVLink's schema for parameter.json requires these fields and type names.

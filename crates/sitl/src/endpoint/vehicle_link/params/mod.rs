@@ -70,7 +70,7 @@ pub struct AircraftValues {
 
 impl AircraftValues {
     /// A small aircraft for tests that do not depend on the aircraft.
-    pub const SMALL: Self = Self {
+    pub const SMALL_AIRCRAFT: Self = Self {
         cells: 3,
         capacity_mah: 5_200.0,
         thresholds: BatteryThresholds { low_pct: 30.0, critical_pct: 10.0 },
@@ -116,9 +116,9 @@ pub struct InstructorSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StickPolicy {
     /// The sender in control keeps it until it times out or releases the sticks.
-    FirstKeeps,
+    FirstSenderKeeps,
     /// A sender that deflects a stick takes control.
-    LatestTakes,
+    LastMoverTakes,
 }
 
 /// The parameter table: current values by name.
@@ -328,7 +328,7 @@ impl Params {
     /// Returns the arbitration policy for several stick senders.
     #[must_use]
     pub fn stick_policy(&self) -> StickPolicy {
-        if self.whole("SPAN_STICKS") == Some(1) { StickPolicy::LatestTakes } else { StickPolicy::FirstKeeps }
+        if self.whole("SPAN_STICKS") == Some(1) { StickPolicy::LastMoverTakes } else { StickPolicy::FirstSenderKeeps }
     }
 
     /// Checks whether the camera component sends heartbeats.
@@ -387,12 +387,12 @@ impl Params {
 
     /// Checks whether arming is allowed in AUTO.
     #[must_use]
-    pub fn arms_in_auto(&self) -> bool {
+    pub fn can_arm_in_auto(&self) -> bool {
         self.whole("AUTO_OPTIONS").is_some_and(|bits| bits & 1 != 0)
     }
 
     /// Updates the parameters for the number of mission, fence and rally items.
-    pub fn note_plans(&mut self, items: [u16; 3]) {
+    pub fn update_plan_counts(&mut self, items: [u16; 3]) {
         for (name, count) in ["MIS_TOTAL", "FENCE_TOTAL", "RALLY_TOTAL"].into_iter().zip(items) {
             if let Some(value) = self.values.get_mut(name) {
                 *value = Int(i32::from(count));

@@ -8,12 +8,12 @@ use spandrel_mavlink::dialect::MavParamType;
 
 /// Path of the file.
 const PATH: &str = "@PARAM/param.pck";
-const PLAIN: u16 = 0x671b;
+const WITHOUT_DEFAULTS: u16 = 0x671b;
 const WITH_DEFAULTS: u16 = 0x671c;
 /// Flag: a default follows the value.
 const HAS_DEFAULT: u8 = 0x10;
 /// Maximum length of the name prefix shared with the previous parameter.
-const COMMON_MAX: usize = 15;
+const MAX_COMMON_PREFIX: usize = 15;
 
 /// The requested part of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,14 +53,14 @@ fn parse_selection(options: &str) -> Option<ParamSelection> {
 fn pack(selection: ParamSelection, params: &Params, defaults: &Params) -> Vec<u8> {
     let rows: Vec<&Row> = params.face.rows().iter().skip(selection.first).take(selection.count).collect();
     let mut out = Vec::new();
-    for number in [if selection.defaults { WITH_DEFAULTS } else { PLAIN }, rows.len() as u16, params.count() as u16] {
+    for number in [if selection.defaults { WITH_DEFAULTS } else { WITHOUT_DEFAULTS }, rows.len() as u16, params.count() as u16] {
         out.extend(number.to_le_bytes());
     }
     let mut last = "";
     for row in rows {
         let (value, default) = (params.shown(row), defaults.shown(row));
         let differs = selection.defaults && value != default;
-        let common = last.bytes().zip(row.name.bytes()).take_while(|(a, b)| a == b).count().min(COMMON_MAX);
+        let common = last.bytes().zip(row.name.bytes()).take_while(|(a, b)| a == b).count().min(MAX_COMMON_PREFIX);
         let rest = &row.name.as_bytes()[common..];
         out.push(kind(row.wire) | if differs { HAS_DEFAULT } else { 0 });
         out.push(((rest.len() - 1) as u8) << 4 | common as u8);
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_first_entries_byte_by_byte() {
+    fn exact_first_entries_match_byte_by_byte() {
         let (params, defaults) = (of(&param_view::COPTER), of(&param_view::COPTER));
         let rows = param_view::COPTER.rows();
         let first = rows.iter().position(|row| row.name == "AUTOTUNE_AXES").unwrap();
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_default_stands_beside_what_differs_from_it() {
+    fn exact_changed_values_include_their_default() {
         let (mut params, defaults) = (of(&param_view::COPTER), of(&param_view::COPTER));
         let plain = file(b"/@PARAM/param.pck?withdefaults=1", &params, &defaults).unwrap();
         assert_eq!(plain[..2], [0x1c, 0x67]);
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_other_paths_and_options_are_no_such_file() {
+    fn exact_other_paths_and_options_are_rejected() {
         let params = of(&param_view::COPTER);
         for path in
             ["param.pck", "@PARAM/param.pck.bak", "@PARAM/param.pck?start", "@PARAM/param.pck?start=-1", "@PARAM/param.pck?x=1"]

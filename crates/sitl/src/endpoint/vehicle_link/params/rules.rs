@@ -2,8 +2,8 @@
 
 use super::Params;
 use crate::autopilot::operator_rules::{
-    BatteryResponses, FailsafeResponse, FenceParts, FenceSwitching, FlightEnvelope, GuidedOptions, HeadingRule, HeightReference,
-    LinkLossExceptions, MissionNeeds, OffboardLoss, OperatorRules, ReturnRules, ReturnTargets, SCENARIO_BATTERY_ACTIONS,
+    BatteryResponses, FailsafeResponse, FenceAutoEnable, FenceParts, FlightEnvelope, GuidedOptions, HeadingRule, HeightReference,
+    LinkLossExceptions, MissionRequirement, OffboardLoss, OperatorRules, ReturnRules, ReturnTargets, SCENARIO_BATTERY_ACTIONS,
 };
 
 /// Bits of ArduPilot's `FS_OPTIONS`.
@@ -41,16 +41,16 @@ impl Params {
     pub(super) fn apply_rules(&self, rules: &mut OperatorRules) {
         let copter = self.face.cast;
         self.apply_responses(rules);
-        rules.homeward = if copter { self.copter_return() } else { self.px4_return() };
+        rules.return_rules = if copter { self.copter_return() } else { self.px4_return() };
         rules.envelope = self.envelope();
         rules.heading = self.heading();
-        rules.mission_needs = MissionNeeds::from_number(self.integer("MIS_TKO_LAND_REQ")).unwrap_or_default();
+        rules.mission_requirement = MissionRequirement::from_number(self.integer("MIS_TKO_LAND_REQ")).unwrap_or_default();
         rules.height_reference = HeightReference::from_number(self.integer("EKF2_HGT_REF"));
-        rules.no_aid_s = f64::from(self.integer("EKF2_NOAID_TOUT")) * 1e-6;
+        rules.dead_reckoning_limit_s = f64::from(self.integer("EKF2_NOAID_TOUT")) * 1e-6;
         rules.first_waypoint_m = self.number("MIS_DIST_1WP");
         if copter {
             rules.mission_restarts = self.integer("MIS_RESTART") == 1;
-            rules.mission_starts_armed = self.integer("AUTO_OPTIONS") & 1 << 1 != 0;
+            rules.mission_takes_off_when_armed = self.integer("AUTO_OPTIONS") & 1 << 1 != 0;
             rules.orbit_radius_m = self.number("CIRCLE_RADIUS") / 100.0;
             rules.fence = self.fence_parts();
             rules.guided = GuidedOptions::from_bits(self.integer("GUID_OPTIONS"));
@@ -72,11 +72,11 @@ impl Params {
         out.motor_failure = if detected { actuator_response(self.integer("COM_ACT_FAIL_ACT")) } else { FailsafeResponse::Warn };
         out.battery = self.battery_responses();
         out.battery_emergency_pct = 100.0 * self.number("BAT_EMERGEN_THR");
-        out.blind_lands = self.integer("COM_POSCTL_NAVL") == 1;
-        out.takeover_share = self.number("COM_RC_STICK_OV") / 100.0;
-        out.takeover_offboard = self.integer("COM_RC_OVERRIDE") & 1 << 1 != 0;
+        out.lands_without_position = self.integer("COM_POSCTL_NAVL") == 1;
+        out.takeover_deflection = self.number("COM_RC_STICK_OV") / 100.0;
+        out.takeover_in_offboard = self.integer("COM_RC_OVERRIDE") & 1 << 1 != 0;
         out.arm_charge_pct = 100.0 * self.number("COM_ARM_BAT_MIN").max(0.0);
-        out.arm_needs_mission = self.integer("COM_ARM_MIS_REQ") == 1;
+        out.arming_requires_mission = self.integer("COM_ARM_MIS_REQ") == 1;
         if self.face.cast {
             let options = self.integer("FS_OPTIONS");
             let has = |bit: i32| options & bit != 0;
@@ -93,7 +93,7 @@ impl Params {
             };
             out.battery_low_v = [self.number("BATT_LOW_VOLT"), self.number("BATT_CRT_VOLT")];
             out.battery_low_s = self.number("BATT_LOW_TIMER");
-            out.blind_lands = self.integer("FS_EKF_ACTION") != 2;
+            out.lands_without_position = self.integer("FS_EKF_ACTION") != 2;
             out.crash_check = self.integer("FS_CRASH_CHECK") != 0;
             out.arm_voltage_v = self.number("BATT_ARM_VOLT");
         }
@@ -119,11 +119,11 @@ impl Params {
             speed_m_s: None,
             climb_min_m: 0.0,
             cone_slope: if angle_rad > 0.0 { 1.0 / spandrel_model::math::tan(angle_rad) } else { 0.0 },
-            near_m: self.number("RTL_MIN_DIST"),
+            no_climb_distance_m: self.number("RTL_MIN_DIST"),
             loiter_height_m: Some(self.number("RTL_DESCEND_ALT")),
             wait_s: self.number("RTL_LAND_DELAY"),
             rally_height: false,
-            turns_back: false,
+            turns_to_takeoff_heading: false,
             final_height_m: 0.0,
         }
     }
@@ -134,11 +134,11 @@ impl Params {
             speed_m_s: Some(self.number("RTL_SPEED") / 100.0).filter(|speed| *speed > 0.0),
             climb_min_m: self.number("RTL_CLIMB_MIN") / 100.0,
             cone_slope: self.number("RTL_CONE_SLOPE"),
-            near_m: OperatorRules::default().homeward.near_m,
+            no_climb_distance_m: OperatorRules::default().return_rules.no_climb_distance_m,
             loiter_height_m: None,
             wait_s: self.number("RTL_LOIT_TIME") / 1000.0,
             rally_height: true,
-            turns_back: matches!(self.integer("WP_YAW_BEHAVIOR"), 1 | 3),
+            turns_to_takeoff_heading: matches!(self.integer("WP_YAW_BEHAVIOR"), 1 | 3),
             final_height_m: self.number("RTL_ALT_FINAL") / 100.0,
         }
     }
@@ -188,7 +188,7 @@ impl Params {
             distance: has(1),
             areas: has(2),
             floor_m: has(3).then(|| self.number("FENCE_ALT_MIN")),
-            auto: FenceSwitching::from_number(self.integer("FENCE_AUTOENABLE")),
+            auto: FenceAutoEnable::from_number(self.integer("FENCE_AUTOENABLE")),
         }
     }
 }

@@ -225,7 +225,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_table_is_in_the_order_of_its_names_which_fit_the_wire() {
+    fn exact_table_is_sorted_by_name_and_names_fit_the_wire() {
         for pair in ROWS.windows(2) {
             assert!(pair[0].name < pair[1].name, "{} {}", pair[0].name, pair[1].name);
         }

@@ -6,11 +6,11 @@ const REAL: MavParamType = MavParamType::MAV_PARAM_TYPE_REAL32;
 const INT: MavParamType = MavParamType::MAV_PARAM_TYPE_INT32;
 
 pub fn of(face: &'static ParamView) -> Params {
-    Params::new(1, AircraftValues::SMALL, face)
+    Params::new(1, AircraftValues::SMALL_AIRCRAFT, face)
 }
 
 #[test]
-fn exact_integers_travel_byte_wise_and_bad_values_change_nothing() {
+fn exact_integers_are_encoded_bytewise_and_invalid_values_change_nothing() {
     let mut params = of(&param_view::PX4);
     let before = params.clone();
     assert_eq!(params.set("MIS_TAKEOFF_ALT", f32::NAN, REAL), Err(ParamRefusal::OutOfRange));
@@ -24,7 +24,7 @@ fn exact_integers_travel_byte_wise_and_bad_values_change_nothing() {
 }
 
 #[test]
-fn exact_copters_names_show_and_set_what_is_behind_them_in_their_units() {
+fn exact_copter_names_read_and_set_the_underlying_parameter_in_their_units() {
     let mut params = of(&param_view::COPTER);
     assert_eq!(params.set("WPNAV_SPEED", 350.0, REAL), Ok(()));
     assert_eq!((params.cruise_m_s(), params.find("WPNAV_SPEED").map(|p| p.2)), (3.5, Some(Real(350.0))));
@@ -41,7 +41,7 @@ fn exact_copters_names_show_and_set_what_is_behind_them_in_their_units() {
 }
 
 #[test]
-fn exact_every_bound_that_is_shown_can_be_set_and_reads_back() {
+fn exact_every_reported_bound_can_be_set_and_read_back() {
     for face in [&param_view::PX4, &param_view::COPTER, &param_view::GENERIC] {
         let mut params = of(face);
         for row in face.rows().iter().filter(|row| !row.read_only && !matches!(row.source, ParamSource::Mapped(..))) {
@@ -70,7 +70,7 @@ fn regress_every_value_has_the_type_of_its_row() {
 
 /// Computes the checksum bit by bit: polynomial 0xEDB88320, register starts at zero, no inversion.
 #[test]
-fn exact_the_checksum_is_the_plain_polynomial_and_changes_with_every_value() {
+fn exact_checksum_uses_the_plain_polynomial_and_depends_on_every_value() {
     let mut params = of(&param_view::PX4);
     let mut register = 0u32;
     for row in table::rows().iter().filter(|row| !row.volatile) {

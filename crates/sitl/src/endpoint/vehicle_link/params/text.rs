@@ -6,7 +6,7 @@ use super::{ParamRefusal, ParamValue, Params};
 const INT32: &str = "6";
 const REAL32: &str = "9";
 /// MAV_PARAM_TYPE_INT8 and MAV_PARAM_TYPE_INT16, which ArduPilot also uses.
-const NARROW: [&str; 2] = ["2", "4"];
+const NARROW_TYPES: [&str; 2] = ["2", "4"];
 
 /// An error in a line of a parameter file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -63,7 +63,7 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
         return Ok(());
     }
     let no_number = |allowed| format!("{name} = '{value}' is not a number (allowed: {allowed})");
-    let narrow = params.param_view().cast && NARROW.contains(&kind);
+    let narrow = params.param_view().cast && NARROW_TYPES.contains(&kind);
     let value_read = match kind {
         REAL32 => ParamValue::Real(value.parse().map_err(|_| no_number("a real number"))?),
         _ if kind == INT32 || narrow => ParamValue::Int(value.parse().map_err(|_| no_number("a whole number"))?),
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_written_reads_back_the_same() {
+    fn exact_written_parameters_read_back_identically() {
         let mut changed = params();
         changed.set_value("MIS_TAKEOFF_ALT", ParamValue::Real(7.3)).unwrap();
         changed.set_value("GF_ACTION", ParamValue::Int(3)).unwrap();
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_wrong_line_is_named_and_nothing_is_set() {
+    fn exact_every_invalid_line_is_reported_and_nothing_is_set() {
         let mut before = params();
         let text = "# a comment\n1\t1\tMIS_TAKEOFF_ALT\t900\t9\n1\t1\tGF_ACTION\tmuch\t6\n1\t1\tOTHER_VEHICLE\t1\t2\n1\t1\n1\t1\tGF_ACTION\t1\t2\n1\t1\tNAV_ACC_RAD\t3\t9\n";
         let problems = read(&mut before, text).unwrap_err();

@@ -16,9 +16,9 @@ use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult, SERIAL_CONTROL_DA
 /// Data bytes in SERIAL_CONTROL.
 const CHUNK: usize = 70;
 /// Maximum line length, bytes.
-const LONGEST_LINE: usize = 256;
+const MAX_LINE_BYTES: usize = 256;
 /// Maximum number of messages per tick.
-const MESSAGES_A_TICK: usize = 4;
+const MESSAGES_PER_TICK: usize = 4;
 const PROMPT: &str = "nsh> ";
 /// PX4's mode numbers, by their names in its shell.
 const MODES: [(&str, f64, f64); 11] = [
@@ -43,13 +43,13 @@ pub(super) fn bytes(v: &mut VehicleLink, m: &SERIAL_CONTROL_DATA, a: &mut Inboun
     }
     let from = (a.link, a.from);
     if !m.flags.contains(SerialControlFlag::SERIAL_CONTROL_FLAG_RESPOND) {
-        if v.shell.user == Some(from) {
+        if v.shell.client == Some(from) {
             v.shell = NshShell::default();
         }
         return;
     }
-    if v.shell.user != Some(from) {
-        v.shell = NshShell { user: Some(from), ..NshShell::default() };
+    if v.shell.client != Some(from) {
+        v.shell = NshShell { client: Some(from), ..NshShell::default() };
         v.shell.print(PROMPT);
     }
     let data = &m.data[..usize::from(m.count).min(CHUNK)];
@@ -60,7 +60,7 @@ pub(super) fn bytes(v: &mut VehicleLink, m: &SERIAL_CONTROL_DATA, a: &mut Inboun
             '\u{8}' | '\u{7f}' => {
                 v.shell.line.pop();
             }
-            other if !other.is_control() && v.shell.line.len() < LONGEST_LINE => {
+            other if !other.is_control() && v.shell.line.len() < MAX_LINE_BYTES => {
                 v.shell.line.push(other);
                 v.shell.print(other.encode_utf8(&mut [0; 4]));
             }
@@ -188,9 +188,9 @@ fn status(v: &VehicleLink, a: &InboundMessage) -> String {
 impl VehicleLink {
     /// Sends pending shell output, a few messages per tick.
     pub(super) fn send_shell(&mut self, links: &mut Links) {
-        let Some((id, (target_system, target_component))) = self.shell.user else { return };
+        let Some((id, (target_system, target_component))) = self.shell.client else { return };
         let Some(link) = links.get_mut(id) else { return };
-        for _ in 0..MESSAGES_A_TICK {
+        for _ in 0..MESSAGES_PER_TICK {
             if self.shell.out.is_empty() || link.is_busy() {
                 return;
             }

@@ -61,7 +61,7 @@ pub(crate) fn simulation(v: &VehicleSnapshot) -> Option<DialectMessage> {
     Some(SIMSTATE.message(&[roll, pitch, yaw, xa, ya, za, xr, yr, zr, lat, lng]))
 }
 
-pub(crate) fn simulated(v: &VehicleSnapshot) -> Option<MavMessage> {
+pub(crate) fn sim_state(v: &VehicleSnapshot) -> Option<MavMessage> {
     let real = |value: f64| value as f32;
     let (roll, pitch, yaw) = v.truth.attitude.euler();
     let [q1, q2, q3, q4] = v.truth.attitude.wxyz().map(real);

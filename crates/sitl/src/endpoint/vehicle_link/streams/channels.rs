@@ -4,12 +4,12 @@ use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{MavMessage, RC_CHANNELS_DATA};
 
 /// Throttle down, other sticks centered: the values of ArduPilot's SITL without a transmitter, microseconds.
-const UNTOUCHED_US: [u16; 4] = [1500, 1500, 1000, 1500];
+const NO_TRANSMITTER_US: [u16; 4] = [1500, 1500, 1000, 1500];
 
 /// Builds the sender's pulses, or their equivalent on a transmitter, where forward is below center. ArduPilot sends all
 /// 16 channels, with or without stick input.
 pub(crate) fn pulses(v: &VehicleSnapshot) -> Option<MavMessage> {
-    if v.flavour.dialect_of_ardupilot {
+    if v.flavour.ardupilot_dialect {
         return Some(all_channels(v));
     }
     let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us?;
@@ -30,7 +30,7 @@ pub(crate) fn pulses(v: &VehicleSnapshot) -> Option<MavMessage> {
 }
 
 fn all_channels(v: &VehicleSnapshot) -> MavMessage {
-    let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us.unwrap_or(UNTOUCHED_US);
+    let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us.unwrap_or(NO_TRANSMITTER_US);
     let a = v.aux_us;
     MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {
         time_boot_ms: v.clock.boot_ms(),

@@ -29,7 +29,7 @@ pub(crate) fn global(v: &VehicleSnapshot) -> Option<MavMessage> {
         lat: deg_e7(geo.latitude_deg),
         lon: deg_e7(geo.longitude_deg),
         alt: mm(geo.altitude_m),
-        relative_alt: mm(v.over_home_m()),
+        relative_alt: mm(v.height_above_home_m()),
         vx: cm(velocity.north()),
         vy: cm(velocity.east()),
         vz: cm(velocity.down()),
@@ -52,17 +52,17 @@ pub(crate) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
 }
 
 /// Type mask that ignores everything except the position.
-const PLACE_ALONE: PositionTargetTypemask = NO_VELOCITY.union(NO_ACCELERATION).union(NO_HEADING);
-const NO_PLACE: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_X_IGNORE
+const POSITION_ONLY: PositionTargetTypemask = IGNORE_VELOCITY.union(IGNORE_ACCELERATION).union(IGNORE_HEADING);
+const IGNORE_POSITION: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_X_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_Y_IGNORE)
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_Z_IGNORE);
-const NO_VELOCITY: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VX_IGNORE
+const IGNORE_VELOCITY: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VX_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VY_IGNORE)
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_VZ_IGNORE);
-const NO_ACCELERATION: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AX_IGNORE
+const IGNORE_ACCELERATION: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AX_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AY_IGNORE)
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_AZ_IGNORE);
-const NO_HEADING: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_IGNORE
+const IGNORE_HEADING: PositionTargetTypemask = PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_IGNORE
     .union(PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE);
 
 /// Undefined bits that ArduCopter sets in POSITION_TARGET_GLOBAL_INT.
@@ -71,10 +71,10 @@ const UNUSED_BITS: PositionTargetTypemask = PositionTargetTypemask::from_bits_re
 /// POSITION_TARGET_LOCAL_NED as in PX4: the target position. ArduCopter sends it only in GUIDED, with the fields of the
 /// last setpoint.
 pub(crate) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
-    if v.flavour.errands.is_some() {
+    if v.flavour.goto_mode.is_some() {
         return guided_target(v);
     }
-    let mask = NO_VELOCITY | NO_ACCELERATION | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE;
+    let mask = IGNORE_VELOCITY | IGNORE_ACCELERATION | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE;
     let place = v.local_from_site(v.status.target_m?).array();
     Some(target_message(v, mask, [place, [0.0; 3], [0.0; 3]]))
 }
@@ -82,13 +82,13 @@ pub(crate) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
 /// Selects position, velocity and acceleration by ArduCopter's rules: position alone, all three, velocity and
 /// acceleration, or acceleration alone; `None` for attitude setpoints.
 fn guided_target(v: &VehicleSnapshot) -> Option<MavMessage> {
-    if v.flavour.errands != Some(v.flavour.row_of(v.status.mode, v.requested_mode).number) {
+    if v.flavour.goto_mode != Some(v.flavour.row_of(v.status.mode, v.requested_mode).number) {
         return None;
     }
     let place = || Some(v.local_from_site(v.status.target_m?).array());
     let still = [0.0; 3];
     let Some(setpoint) = v.status.setpoint else {
-        return Some(target_message(v, PLACE_ALONE, [place()?, still, still]));
+        return Some(target_message(v, POSITION_ONLY, [place()?, still, still]));
     };
     if setpoint.attitude.is_some() || setpoint.rates.is_some() {
         return None;
@@ -98,10 +98,10 @@ fn guided_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     let (velocity, acceleration) = (number(setpoint.velocity_m_s), number(setpoint.acceleration_m_s2));
     let moves = has_any(setpoint.velocity_m_s) || has_any(setpoint.acceleration_m_s2);
     let (mask, parts) = match (has_any(setpoint.position_m), moves) {
-        (true, false) => (PLACE_ALONE, [place()?, still, still]),
-        (true, true) => (NO_HEADING, [place()?, velocity, acceleration]),
-        _ if has_any(setpoint.velocity_m_s) => (NO_PLACE | NO_HEADING, [still, velocity, acceleration]),
-        _ => (NO_PLACE | NO_VELOCITY | NO_HEADING, [still, still, acceleration]),
+        (true, false) => (POSITION_ONLY, [place()?, still, still]),
+        (true, true) => (IGNORE_HEADING, [place()?, velocity, acceleration]),
+        _ if has_any(setpoint.velocity_m_s) => (IGNORE_POSITION | IGNORE_HEADING, [still, velocity, acceleration]),
+        _ => (IGNORE_POSITION | IGNORE_VELOCITY | IGNORE_HEADING, [still, still, acceleration]),
     };
     Some(target_message(v, mask, parts))
 }
@@ -136,7 +136,7 @@ pub(crate) fn global_target(v: &VehicleSnapshot) -> Option<MavMessage> {
         lat_int: deg_e7(geo.latitude_deg),
         lon_int: deg_e7(geo.longitude_deg),
         alt: geo.altitude_m as f32,
-        type_mask: PLACE_ALONE | UNUSED_BITS,
+        type_mask: POSITION_ONLY | UNUSED_BITS,
         coordinate_frame: MavFrame::MAV_FRAME_GLOBAL,
         ..Default::default()
     }))
@@ -153,7 +153,7 @@ pub(crate) fn altitude(v: &VehicleSnapshot) -> Option<MavMessage> {
             altitude_monotonic: amsl as f32,
             altitude_amsl: amsl as f32,
             altitude_local: -local_down as f32,
-            altitude_relative: v.over_home_m() as f32,
+            altitude_relative: v.height_above_home_m() as f32,
             altitude_terrain: f32::NAN,
             bottom_clearance: below.map_or(f32::NAN, |r| r as f32),
         })

@@ -112,7 +112,7 @@ pub(crate) fn raw_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
 const SECTOR_DEG: u8 = 5;
 
 /// Returns the index of the range finder closest to a sector, clockwise from the nose.
-fn finder_of(sector: usize, finders: usize) -> usize {
+fn nearest_finder(sector: usize, finders: usize) -> usize {
     let between_deg = 360 / finders.max(1);
     (sector * usize::from(SECTOR_DEG) + between_deg / 2) / between_deg % finders.max(1)
 }
@@ -123,7 +123,7 @@ pub(crate) fn obstacles(v: &VehicleSnapshot) -> Option<MavMessage> {
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
     let mut distances = [u16::MAX; 72];
     for (sector, slot) in distances.iter_mut().enumerate() {
-        let range = around[finder_of(sector, around.len())];
+        let range = around[nearest_finder(sector, around.len())];
         *slot = if range.is_finite() { cm_u16(range).min(reach) } else { reach + 1 };
     }
     Some(MavMessage::OBSTACLE_DISTANCE(OBSTACLE_DISTANCE_DATA {
@@ -150,7 +150,7 @@ pub(crate) fn range_up(v: &VehicleSnapshot) -> Option<MavMessage> {
 
 /// Orientations of the horizontal range finders, clockwise from the nose. MAVLink's documentation swaps left and right;
 /// PX4, ArduPilot and QGroundControl all interpret 90 degrees as right.
-const AROUND: [MavSensorOrientation; 8] = [
+const HORIZONTAL_ORIENTATIONS: [MavSensorOrientation; 8] = [
     MavSensorOrientation::MAV_SENSOR_ROTATION_NONE,
     MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_45,
     MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_90,
@@ -161,7 +161,7 @@ const AROUND: [MavSensorOrientation; 8] = [
     MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_315,
 ];
 /// ID of the first horizontal range finder; 0 is down, 1 is up.
-const FIRST_AROUND: u8 = 2;
+const FIRST_HORIZONTAL_ID: u8 = 2;
 
 /// The horizontal range finder at the nose.
 pub(crate) fn range_ahead(v: &VehicleSnapshot) -> Option<MavMessage> {
@@ -170,7 +170,7 @@ pub(crate) fn range_ahead(v: &VehicleSnapshot) -> Option<MavMessage> {
 
 /// One of the eight horizontal range finders.
 pub(crate) fn range_beside(v: &VehicleSnapshot, k: usize) -> Option<MavMessage> {
-    Some(range(v, FIRST_AROUND + k as u8, *v.readings.range_around_m?.get(k)?, *AROUND.get(k)?))
+    Some(range(v, FIRST_HORIZONTAL_ID + k as u8, *v.readings.range_around_m?.get(k)?, *HORIZONTAL_ORIENTATIONS.get(k)?))
 }
 
 /// Reports slightly more than the maximum range if nothing is within range.

@@ -88,7 +88,7 @@ fn percent(v: &VehicleSnapshot) -> i8 {
 pub(crate) fn battery(v: &VehicleSnapshot) -> Option<MavMessage> {
     let cells = v.vehicle.battery.cells.clamp(1, 10);
     let mut voltages = [u16::MAX; 10];
-    let live = v.battery.live_cells(cells).max(1);
+    let live = v.battery.working_cells(cells).max(1);
     voltages[..cells as usize].fill((v.battery.voltage_v / f64::from(live) * 1000.0).round() as u16);
     voltages
         .iter_mut()

@@ -1,4 +1,4 @@
-//! Questionnaire answers and their relation to the measured scores.
+//! Questionnaire answers compared with measured scores.
 
 use super::super::figure::{figure, legend, scrolling};
 use super::lists_individuals::lists_individuals;
@@ -31,9 +31,9 @@ pub fn answers(cohort: &Cohort) -> Markup {
     let first = of(None);
     html! {
         (legend(&key))
-        (figure(&format!("All first sessions, up to {} answers", cohort.trainees), &chart(&first, "Answers of all first sessions")))
+        (figure(&format!("All first sessions, up to {} answers", cohort.trainees), &chart(&first, "Answers from all first sessions")))
         @for (k, questions) in &later {
-            details.numbers { summary { "Trainees with repeated sessions, repetition " (k) } (chart(questions, &format!("Answers in repetition {k}"))) }
+            details.numbers { summary { "Trainees with repeat sessions: repetition " (k) } (chart(questions, &format!("Answers for repetition {k}"))) }
         }
     }
 }
@@ -42,7 +42,7 @@ fn chart(questions: &[LikertQuestion], title: &str) -> Markup {
     scrolling(title, &likert(questions, title))
 }
 
-/// Returns the text of a question in English, or its key if it is unknown.
+/// Returns a question's English text, or its key if it is unknown.
 fn question_text(one: &Likert) -> String {
     let wording = read_wording(SHIPPED[0].0, SHIPPED[0].1).ok();
     match (QuestionnaireItem::from_key(&one.question), wording) {
@@ -58,12 +58,12 @@ fn question_text(one: &Likert) -> String {
     }
 }
 
-/// Renders the comparison of self-rating and measured score.
+/// Renders the comparison of self-ratings with measured scores.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rating = &cohort.self_rating;
     html! {
         @if let Some(overall) = &rating.overall {
-            p { "Spearman's correlation of self-rating and overall score: " (formatting::number(overall.r, 2)) ", " (overall.n) " trainees." }
+            p { "Spearman correlation between self-rating and overall score: " (formatting::number(overall.r, 2)) ", " (overall.n) " trainees." }
         }
         @if lists_individuals(cohort) {
             @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }
@@ -79,7 +79,7 @@ fn self_rating_table(cohort: &Cohort) -> Table {
     });
     Table {
         name: "self_rating",
-        caption: "self-rating and measured score",
+        caption: "self-rating vs. measured score",
         columns: vec!["trainee", "self-rating, 1 to 5", "measured, %"],
         rows: rows.collect(),
     }

@@ -12,10 +12,10 @@ use maud::{Markup, html};
 /// Renders the section on the causal model.
 pub fn causal(cohort: &Cohort) -> Markup {
     html! {
-        p { "Does demand increase strain, does strain reduce performance, and does in-flight feedback weaken the effect of demand on strain? Estimated from the first sessions of all trainees who answered." }
+        p { "Does demand increase strain, does strain reduce performance, and does in-flight feedback weaken the effect of demand on strain? Estimated from the first sessions of all trainees who answered the questionnaire." }
         @match &cohort.causal {
             Some(model) => (model_section(model)),
-            None => p.caution { "No estimate available: too few trainees answered, or their answers do not vary. At least " (RECOMMENDED_TRAINEES) " trainees with complete answers are recommended." },
+            None => p.caution { "No estimate available: too few trainees answered the questionnaire, or their answers do not vary. At least " (RECOMMENDED_TRAINEES) " trainees with complete answers are recommended." },
         }
     }
 }
@@ -25,9 +25,9 @@ fn model_section(model_: &MediationModel) -> Markup {
         @if model_.n < RECOMMENDED_TRAINEES {
             p.caution { b { (model_.n) " trainees with complete answers." } " With fewer than " (RECOMMENDED_TRAINEES) ", the model can miss medium effects. It describes these trainees only and does not generalize." }
         }
-        (figure("Path diagram; dashed arrows mark effects whose 95 % interval contains zero", &scrolling("The causal model", &model(&effects(model_), "Demand, strain, performance and feedback"))))
-        p.note { "Demand, strain and feedback are scales from 1 to 5; performance is the overall score in % of the maximum." }
-        (figure("Indirect effect of one unit of demand on performance through strain, by helpfulness of feedback, with 95 % intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of the overall score per unit of demand", "Indirect effect of demand by helpfulness of feedback"))))
+        (figure("Path diagram; dashed arrows mark effects whose 95 % confidence interval includes zero", &scrolling("Causal model", &model(&effects(model_), "Demand, strain, performance and feedback"))))
+        p.note { "Demand, strain and feedback are rated from 1 to 5; performance is the overall score as a percentage of the maximum." }
+        (figure("Indirect effect of one unit of demand on performance via strain, by feedback helpfulness, with 95 % confidence intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of overall score per unit of demand", "Indirect effect of demand by feedback helpfulness"))))
         (effects_table(model_).shown())
         (coefficients(model_).folded())
     }
@@ -74,11 +74,11 @@ fn effects_table(model: &MediationModel) -> Table {
     };
     let mut rows: Vec<Vec<TableCell>> =
         model.indirect.iter().enumerate().map(|(k, one)| row(feedback_level_name(k), one)).collect();
-    rows.push(row("moderation: change per unit of feedback", &model.moderation));
+    rows.push(row("moderation: change in effect per unit of feedback", &model.moderation));
     Table {
         name: "indirect_effects",
-        caption: "performance per unit of demand through strain; bootstrap intervals",
-        columns: vec!["where", "feedback", "effect, %", "95 % from", "to"],
+        caption: "indirect effect of demand on performance via strain, with bootstrap confidence intervals",
+        columns: vec!["feedback level", "feedback", "effect, %", "95 % CI, lower", "upper"],
         rows,
     }
 }
@@ -103,7 +103,7 @@ fn coefficients(model: &MediationModel) -> Table {
     Table {
         name: "causal_model",
         caption: "coefficients of the two regressions",
-        columns: vec!["outcome", "term", "estimate", "standard error", "t", "p", "95 % from", "to"],
+        columns: vec!["outcome", "term", "estimate", "standard error", "t", "p", "95 % CI, lower", "upper"],
         rows: [of("strain", &model.strain), of("performance", &model.performance)].concat(),
     }
 }

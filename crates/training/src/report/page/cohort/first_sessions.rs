@@ -26,14 +26,14 @@ pub fn distributions(cohort: &Cohort) -> Markup {
     html! {
         div.trio {
             @for one in &cohort.distributions {
-                (figure(&one.score, &histogram(&one.histogram, one.summary.mean, &format!("Histogram of {}; the line is the mean", one.score))))
+                (figure(&one.score, &histogram(&one.histogram, one.summary.mean, &format!("Histogram of {}; the line marks the mean", one.score))))
             }
         }
         (table.shown())
     }
 }
 
-/// Renders each trainee's scores and tasks, or their distributions if there are too many trainees to list.
+/// Renders each trainee's scores and tasks, or distributions if there are too many trainees to list.
 pub fn people(cohort: &Cohort) -> Markup {
     if lists_individuals(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
 }
@@ -80,8 +80,8 @@ fn one_by_one(cohort: &Cohort) -> Markup {
     let table = Table { name: "individuals", caption: "first session of each trainee", columns, rows: table.collect() };
     html! {
         (table.shown())
-        details.numbers { summary { "On-path share of each task, by trainee" }
-            (figure("Share of the time on the path", &html! { (legend(&key)) (shares(&rows, "On-path share by trainee and task")) }))
+        details.numbers { summary { "On-path share by trainee and task" }
+            (figure("Share of time on the path", &html! { (legend(&key)) (shares(&rows, "On-path share by trainee and task")) }))
         }
     }
 }

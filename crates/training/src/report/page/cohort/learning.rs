@@ -1,4 +1,4 @@
-//! Practice effects: the group's learning curves and the trainees with repeated sessions.
+//! Practice effects: the group's learning curves and the trainees with repeat sessions.
 
 use super::super::figure::{figure, legend};
 use super::super::progress::{most, pictures, too_few};
@@ -8,21 +8,21 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
-/// Maximum number of individual curves drawn behind the group's curve; more would be indistinguishable.
+/// Maximum number of individual curves drawn behind the group's curve; more would be hard to tell apart.
 const MAX_INDIVIDUAL_CURVES: usize = 40;
 /// Maximum number of trainees shown individually.
 const MAX_INDIVIDUAL_TRAINEES: usize = 24;
 
-/// Renders the group's curves, or the reason why there are none.
+/// Renders the group's curves, or the reason that there are none.
 pub fn curves(cohort: &Cohort) -> Markup {
     let key = [
         ("dot-1", "mean".to_owned()),
-        ("fitted-key", "curve through the means".into()),
+        ("fitted-key", "curve fitted to the means".into()),
         ("one-of-many-key", "one trainee".into()),
     ];
     html! {
         @if cohort.learning.is_empty() {
-            p.calm { (too_few()) " No trainee has flown that often yet." }
+            p.calm { (too_few()) " No trainee has flown that many yet." }
         } @else {
             (legend(&key))
             div.trio {
@@ -32,7 +32,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
                     (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
                 }
             }
-            p.note { "The curves are power laws of practice. The ring marks the prediction for the next repetition. The curve through the means is flatter than the curves of individual trainees." }
+            p.note { "The curves are power laws of practice. The ring marks the prediction for the next repetition. The group curve is flatter than the curves of individual trainees." }
             (numbers(&cohort.learning).shown())
         }
     }
@@ -69,7 +69,7 @@ fn numbers(curves: &[GroupCurve]) -> Table {
     };
     Table {
         name: "learning_of_the_group",
-        caption: "learning curves through the means",
+        caption: "group learning curves, fitted to the means",
         columns: vec!["score", "trainees", "repetitions", "first mean", "last mean", "exponent", "R²", "next"],
         rows: curves.iter().map(row).collect(),
     }
@@ -94,7 +94,7 @@ pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress> {
     cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
 }
 
-/// Returns number and name of the tasks, as given in the trainee's first session.
+/// Returns the task numbers and names from the trainee's first session.
 fn tasks(cohort: &Cohort, one: &TraineeProgress) -> Vec<(u32, String)> {
     let first = cohort.individuals.iter().find(|first| first.trainee == one.trainee);
     first.map(|first| first.tasks.iter().map(|task| (task.id, task.name.clone())).collect()).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! Limit up to which the page lists trainees individually.
+//! Limit on listing trainees individually.
 
 use crate::cohort::Cohort;
 

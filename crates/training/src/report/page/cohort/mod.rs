@@ -1,4 +1,4 @@
-//! Cohort results, as a standalone page or as sections of another page: the figures of the TASBID paper with the underlying
+//! Cohort results, as a standalone page or as sections of another page: the TASBID paper's figures with the underlying
 //! numbers. For large cohorts, the page shows distributions; the CSV files contain the individual data.
 
 mod answers;
@@ -18,12 +18,12 @@ use crate::report::table::download;
 use lists_individuals::lists_individuals;
 use maud::{Markup, html};
 
-/// Location of the table files.
+/// Where the table files are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableLinks<'a> {
     /// Embedded in the page. Tables with one row per trainee are included only if the page lists trainees individually.
     Embedded,
-    /// Downloaded from the server: URL prefix and query, placed before and after the file name.
+    /// Downloaded from the server: URL prefix and query, which surround the file name.
     Served(&'a str, &'a str),
 }
 
@@ -46,17 +46,17 @@ pub fn cohort(cohort: &Cohort) -> String {
     )
 }
 
-/// Renders the number of trainees and sessions.
+/// Renders the numbers of trainees and sessions.
 #[must_use]
 pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
         p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
-            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " trainees flew " (cohort.repetitions) " times or more." }
+            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " trainees flew " (cohort.repetitions) " or more times." }
             @if let Some(words) = omitted_summary(cohort.left_out) { " " (words) "." } }
     }
 }
 
-/// Returns id, name and body of each section. Empty sections are skipped.
+/// Returns the ID, name and body of each section, omitting empty sections.
 #[must_use]
 pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str, &'static str, Markup)> {
     let mut sections = Vec::new();
@@ -64,7 +64,7 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
         sections.push(("mind", "Limitations", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
     }
     sections.push(("distributions", "Scores of the first sessions", first_sessions::distributions(cohort)));
-    sections.push(("people", "Trainees and tasks", first_sessions::people(cohort)));
+    sections.push(("people", "Scores by trainee and task", first_sessions::people(cohort)));
     sections.push(("crashes", "Crashes", first_sessions::crashes(cohort)));
     if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
         sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
@@ -77,12 +77,12 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
         sections.push(("answers", "Answers", answers::answers(cohort)));
     }
     if !cohort.self_rating.people.is_empty() {
-        sections.push(("self-rating", "Self-rating and measured score", answers::self_rating(cohort)));
+        sections.push(("self-rating", "Self-rating vs. measured score", answers::self_rating(cohort)));
     }
     if !cohort.likert.is_empty() {
         sections.push(("causal", "Demand, strain, performance", causal::causal(cohort)));
     }
-    sections.push(("files", "All tables as files", files(cohort, files_at)));
+    sections.push(("files", "Table downloads", files(cohort, files_at)));
     sections
 }
 
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn exact_causal_model_is_drawn_or_explained() {
-        // All test answers are equal, so the model cannot be estimated.
+        // All test answers are identical, so the model cannot be estimated.
         let page = super::cohort(&of(
             &group(),
             &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude },
@@ -209,9 +209,7 @@ mod tests {
         let few = super::cohort(&people(MAX_LISTED_TRAINEES));
         assert!(few.contains("By trainee") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
         let (some, many) = (super::cohort(&people(MAX_LISTED_TRAINEES + 1)), super::cohort(&people(20 * MAX_LISTED_TRAINEES)));
-        assert!(
-            !some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are not listed individually")
-        );
+        assert!(!some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are too many to list"));
         assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
         assert!(some.contains("Histogram of crashes per trainee") && some.contains("On-path share by task"));
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());

@@ -1,4 +1,4 @@
-//! Distributions shown in place of individual lists for large cohorts.
+//! Distributions that replace individual lists for large cohorts.
 
 use super::super::figure::figure;
 use crate::cohort::{Cohort, SelfRatingPair};
@@ -8,14 +8,14 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::{BoxPlot, HistogramBin, box_plot};
 use maud::{Markup, html};
 
-/// Maximum number of bins in the crash histogram; above it, each bin covers several counts.
+/// Maximum number of bins in the crash histogram; beyond it, each bin covers several counts.
 const MAX_BINS: usize = 20;
 
 fn too_many_note(cohort: &Cohort, file: &str) -> Markup {
-    html! { p.note { (cohort.trainees) " trainees are not listed individually. The figures show distributions; individual data is in " (file) "." } }
+    html! { p.note { (cohort.trainees) " trainees are too many to list. The figures show distributions; for individual data, see " (file) "." } }
 }
 
-/// A box plot with its label.
+/// A labeled box plot.
 type LabeledBox = (String, BoxPlot);
 
 fn draw_boxes(of: &[LabeledBox], most: f64, title: &str) -> Markup {
@@ -43,8 +43,8 @@ pub fn tasks(cohort: &Cohort) -> Markup {
     html! {
         (too_many_note(cohort, "individuals.csv"))
         @if !all.is_empty() {
-            (figure("On-path share of each task, %", &draw_boxes(&all, 100.0, "On-path share by task")))
-            (table("on_path_by_task", "on-path share by task, %, for trainees who attempted it", "task", &all).shown())
+            (figure("On-path share by task, %", &draw_boxes(&all, 100.0, "On-path share by task")))
+            (table("on_path_by_task", "on-path share by task, %, only for trainees who attempted the task", "task", &all).shown())
         }
     }
 }
@@ -63,12 +63,12 @@ pub fn crashes(cohort: &Cohort) -> Markup {
         rows: bins.iter().map(row).collect(),
     };
     html! {
-        (figure("Trainees by number of crashes; the line is the mean", &histogram(&bins, mean, "Histogram of crashes per trainee")))
+        (figure("Trainees by number of crashes; the line marks the mean", &histogram(&bins, mean, "Histogram of crashes per trainee")))
         (table.folded())
     }
 }
 
-/// Returns bins of equal width that cover the counts from 0 to the maximum.
+/// Returns equal-width bins that cover the counts from 0 to the maximum.
 fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     let most = counts.iter().copied().max().unwrap_or(0);
     let wide = (most + 1).div_ceil(MAX_BINS).max(1);
@@ -79,7 +79,7 @@ fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     (0..=most).step_by(wide).map(bin).collect()
 }
 
-/// Renders measured scores for each self-rating, rounded to an integer.
+/// Renders measured scores by self-rating, rounded to an integer.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rated = |rating: usize| {
         let people = cohort.self_rating.people.iter();
@@ -90,7 +90,7 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
     html! {
         (too_many_note(cohort, "self_rating.csv"))
         @if !all.is_empty() {
-            (figure("Overall score, % of the maximum, by self-rating (5 is best)", &draw_boxes(&all, 100.0, "Measured score by self-rating")))
+            (figure("Overall score (% of maximum) by self-rating (5 is best)", &draw_boxes(&all, 100.0, "Measured score by self-rating")))
             (table("measured_by_self_rating", "measured score by self-rating, %", "self-rating", &all).shown())
         }
         p { (cohort.self_rating.contradictions.len()) " contradictions are listed in contradictions.csv." }

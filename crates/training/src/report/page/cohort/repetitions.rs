@@ -19,7 +19,7 @@ pub fn repetitions(cohort: &Cohort) -> Markup {
                 @if !named.is_empty() { (figure(score, &boxes(&named, most, &format!("Box plots of {score} by repetition")))) }
             }
         }
-        p.note { "Boxes show the quartiles and the median; crosses show the mean. Whiskers extend to the last value within 1.5 interquartile ranges of the box." }
+        p.note { "Boxes show the quartiles and the median; crosses show the mean. Whiskers extend to the most extreme values within 1.5 interquartile ranges of the box." }
         @if !cohort.tests.is_empty() { (t_tests(&cohort.tests).shown()) }
         @if !cohort.homogeneity.is_empty() { (homogeneity(cohort).shown()) }
     }
@@ -49,16 +49,21 @@ fn t_tests(tests: &[Comparison]) -> Table {
         "repetitions",
         "pairs",
         "change",
-        "95 % from",
-        "to",
+        "95 % CI, lower",
+        "upper",
         "t",
         "p upper",
         "p lower",
-        "p two",
-        "p two, Holm",
+        "p two-tailed",
+        "p two-tailed, Holm",
         "d_z",
     ];
-    Table { name: "t_tests", caption: "paired t tests, later minus earlier", columns, rows: tests.iter().map(row).collect() }
+    Table {
+        name: "t_tests",
+        caption: "paired t tests (later minus earlier repetition)",
+        columns,
+        rows: tests.iter().map(row).collect(),
+    }
 }
 
 fn homogeneity(cohort: &Cohort) -> Table {
@@ -75,7 +80,7 @@ fn homogeneity(cohort: &Cohort) -> Table {
     });
     Table {
         name: "homogeneity",
-        caption: "first sessions: trainees with repetitions vs. the others (low / middle / high)",
+        caption: "first sessions: trainees with repetitions vs. all others (low / middle / high scores)",
         columns: vec!["score", "with repetitions", "others", "chi-squared", "df", "p"],
         rows: rows.collect(),
     }

@@ -11,7 +11,7 @@ use maud::{Markup, html};
 /// Series column and title of each chart.
 const CHARTS: [(&str, &str); 4] = [
     ("speed", "Speed, m/s"),
-    ("distance", "Distance to the path of the task flown, m"),
+    ("distance", "Distance to the current task's path, m"),
     ("clearance", "Clearance to the nearest surface, m"),
     ("battery", "Battery, %"),
 ];
@@ -19,7 +19,7 @@ const CHARTS: [(&str, &str); 4] = [
 const READOUT: [(&str, &str); 5] =
     [("task", "Task"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")];
 
-/// Renders the section. Drawings are included only if both flights are of the same job.
+/// Renders the section. Drawings are included only if both flights are from the same job.
 pub fn section(both: [&Review; 2], same_job: bool, alignment_events: &[AlignmentEvent], key: &[(&str, String)]) -> Markup {
     html! {
         (controls(alignment_events, key))
@@ -42,9 +42,9 @@ fn controls(alignment_events: &[AlignmentEvent], key: &[(&str, String)]) -> Mark
         div.controls id="controls" {
             div.run hidden id="run" {
                 (slider())
-                label { "Aligned at " select id="line-up" { @for (k, line_up) in alignment_events.iter().enumerate() { option value=(k) { (line_up.name) } } } }
+                label { "Align at "  select id="line-up" { @for (k, line_up) in alignment_events.iter().enumerate() { option value=(k) { (line_up.name) } } } }
             }
-            div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the slider's time" {
+            div.scroll id="readout" hidden tabindex="0" role="region" aria-label="Both sessions at the selected time" {
                 table.moment {
                     thead { tr { th scope="col" { "Session" } @for (_, head) in READOUT { th scope="col" { (head) } } } }
                     tbody {
@@ -64,12 +64,12 @@ fn controls(alignment_events: &[AlignmentEvent], key: &[(&str, String)]) -> Mark
 fn drawings(both: [&Review; 2]) -> Markup {
     let scroll = |label: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label=(label) { (body) } };
     html! {
-        (figure("Both flights from above, north up; crosses are contacts", &scroll("Plan", &overlay::plan(both))))
+        (figure("Both flights from above, north up; crosses mark contacts", &scroll("Plan", &overlay::plan(both))))
         @if both[0].scenario.bridges.is_empty() {
-            (figure("From the south", &scroll("Elevation", &overlay::from_south(both))))
+            (figure("View from the south", &scroll("Elevation", &overlay::from_south(both))))
         }
         @for bridge in &both[0].scenario.bridges {
-            @let title = format!("Bridge '{}' from the side, with the parts of both flights near it", bridge.name);
+            @let title = format!("Side view of bridge '{}', with nearby parts of both flights", bridge.name);
             (figure(&title, &scroll(&title, &overlay::elevation(both, bridge))))
         }
     }
@@ -114,5 +114,5 @@ fn table(both: [&Review; 2]) -> Table {
         "2: clearance, m",
         "2: battery, %",
     ];
-    Table { name: "both-flights", caption: "both flights, sampled every few seconds since lift-off", columns, rows }
+    Table { name: "both-flights", caption: "both flights, sampled every few seconds", columns, rows }
 }

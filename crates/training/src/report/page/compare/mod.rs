@@ -11,7 +11,7 @@ use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};
 use maud::html;
 
-/// Renders the page that compares two sessions.
+/// Renders the session comparison page.
 #[must_use]
 pub fn comparison(first: &Review, second: &Review) -> String {
     let both = [first, second];
@@ -26,22 +26,22 @@ pub fn comparison(first: &Review, second: &Review) -> String {
     let alignment_events = series::alignment_events(both, same);
     let key = [("dot-1", format!("1: {}", session_label(first))), ("dot-2", format!("2: {}", session_label(second)))];
     document(
-        "Comparison of two sessions",
+        "Session comparison",
         &PageScripts::Comparison(series::comparison(both, &alignment_events)),
         &html! {
             header {
                 div {
-                    p.kicker { "Comparison of two sessions" }
+                    p.kicker { "Session comparison" }
                     h1 { (first.scenario.title) }
                     @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.about.trainee) } " · " (review.about.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) } }
                 }
             }
             main {
-                @if !same { p.note { "The two sessions are of different jobs, so their scores are only roughly comparable." } }
+                @if !same { p.note { "These sessions are from different jobs, so their scores are only roughly comparable." } }
                 section aria-labelledby="scores-head" {
                     h2 id="scores-head" { "Scores" }
                     div.split {
-                        (figure("The four scores, first / second", &html! { (legend(&key)) (radar(&spokes, "Radar chart of both sessions")) }))
+                        (figure("The four scores, first vs. second session", &html! { (legend(&key)) (radar(&spokes, "Radar chart of both sessions")) }))
                         (table(first, second).shown())
                     }
                 }
@@ -52,7 +52,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 @if same {
                     section aria-labelledby="tasks-head" {
                         h2 id="tasks-head" { "Tasks" }
-                        (figure("On-path share of each task", &html! { (legend(&key)) (shares(&rows(first, second), "On-path share by task, both sessions")) }))
+                        (figure("On-path share by task", &html! { (legend(&key)) (shares(&rows(first, second), "On-path share by task, both sessions")) }))
                     }
                 }
             }
@@ -97,9 +97,9 @@ fn table(first: &Review, second: &Review) -> Table {
     put("Pictures", 0, both.map(|review| Some(review.pictures.len() as f64)));
     put("Defects found", 0, both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
     put("Cues", 0, both.map(|review| Some(review.feedback.episodes.len() as f64)));
-    put("Time too close or off the path, s", 1, both.map(|review| Some(warning_duration_s(review))));
-    put("Surface shown well, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))));
-    Table { name: "comparison", caption: "both sessions in numbers", columns: vec!["measure", "first", "second", "change"], rows }
+    put("Time too close or off path, s", 1, both.map(|review| Some(warning_duration_s(review))));
+    put("Surface captured well, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))));
+    Table { name: "comparison", caption: "results of both sessions", columns: vec!["measure", "first", "second", "change"], rows }
 }
 
 /// Returns the total duration of the "too close" and "off path" cues, s.
