@@ -22,7 +22,7 @@ const MEASUREMENT_PAUSE: Duration = Duration::from_micros(7_310);
 const FLOOD_HZ: u64 = 50_000;
 const FLOOD_DURATION: Duration = Duration::from_secs(5);
 /// Minimum ratio of simulation time to wall time during the flood.
-const MIN_PACE: f64 = 0.99;
+const MIN_SPEED_FACTOR: f64 = 0.99;
 
 /// Number of stick steps in flight, and the time with a centered stick before each step, which lets the vehicle settle.
 const STEPS: usize = 150;
@@ -49,7 +49,7 @@ fn command_long(command: MavCmd, p: [f32; 3]) -> MavMessage {
 }
 
 /// Returns the median and the 99th percentile, ms.
-fn spread(mut times: Vec<f64>) -> (f64, f64) {
+fn median_and_p99(mut times: Vec<f64>) -> (f64, f64) {
     times.sort_by(f64::total_cmp);
     (times[times.len() / 2], times[times.len() * 99 / 100])
 }
@@ -58,7 +58,7 @@ fn ms(since: Instant) -> f64 {
     since.elapsed().as_secs_f64() * 1e3
 }
 
-fn commands(client: &mut Client) -> (f64, f64) {
+fn command_latency(client: &mut Client) -> (f64, f64) {
     let one = |k: usize| {
         std::thread::sleep(MEASUREMENT_PAUSE);
         let command = MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF;
@@ -67,10 +67,10 @@ fn commands(client: &mut Client) -> (f64, f64) {
         client.wait(|m| if let MavMessage::COMMAND_ACK(ack) = m { (ack.command == command).then_some(()) } else { None });
         ms(begin)
     };
-    spread((0..ROUNDS).map(one).collect())
+    median_and_p99((0..ROUNDS).map(one).collect())
 }
 
-fn sticks(client: &mut Client) -> (f64, f64) {
+fn stick_latency(client: &mut Client) -> (f64, f64) {
     // Requests RC_CHANNELS at the control loop rate.
     client.send(&command_long(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [65.0, 2_500.0, 0.0]));
     let one = |k: usize| {
@@ -82,7 +82,7 @@ fn sticks(client: &mut Client) -> (f64, f64) {
         client.wait(|m| if let MavMessage::RC_CHANNELS(c) = m { (c.chan1_raw == wanted).then_some(()) } else { None });
         ms(begin)
     };
-    spread((0..ROUNDS).map(one).collect())
+    median_and_p99((0..ROUNDS).map(one).collect())
 }
 
 fn stick(y: i16) -> MavMessage {
@@ -134,14 +134,14 @@ fn rates(client: &mut Client) -> (f64, f64) {
         while (roll_rate(client) - mean).abs() < NOISE_SIGMAS * deviation {}
         ms(begin)
     };
-    let spread = spread((0..STEPS).map(one).collect());
+    let spread = median_and_p99((0..STEPS).map(one).collect());
     println!("roll rate noise with a centered stick: {deviation:.4} rad/s (1 sigma)");
     spread
 }
 
 /// Returns the ratio of simulation time to wall time that one peer observes while another floods the simulator, and the
 /// message rate of the flood.
-fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
+fn speed_factor_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     let (stop, sent) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
     let flood = {
         let (stop, sent) = (Arc::clone(&stop), Arc::clone(&sent));
@@ -162,7 +162,7 @@ fn pace_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
             }
         })
     };
-    let (pace, wall_s) = client.pace(FLOOD_DURATION);
+    let (pace, wall_s) = client.speed_factor(FLOOD_DURATION);
     stop.store(true, Ordering::Relaxed);
     flood.join().expect("the flood thread must not panic");
     (pace, sent.load(Ordering::Relaxed) as f64 / wall_s)
@@ -174,9 +174,10 @@ fn main() {
     client.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
     client.wait(|m| matches!(m, MavMessage::HEARTBEAT(_)).then_some(()));
     let mut good = true;
-    for (what, (median, p99)) in
-        [("command to acknowledgment", commands(&mut client)), ("stick movement to echo in telemetry", sticks(&mut client))]
-    {
+    for (what, (median, p99)) in [
+        ("command to acknowledgment", command_latency(&mut client)),
+        ("stick movement to echo in telemetry", stick_latency(&mut client)),
+    ] {
         println!(
             "{what}: median {median:.2} ms ({:.2} ticks), p99 {p99:.2} ms ({:.2} ticks; target 2)",
             median / TICK_MS,
@@ -190,8 +191,10 @@ fn main() {
         median / TICK_MS,
         p99 / TICK_MS
     );
-    let (pace, rate) = pace_under_flood(&mut client, port);
-    println!("with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {MIN_PACE})");
-    good &= pace >= MIN_PACE;
+    let (pace, rate) = speed_factor_under_flood(&mut client, port);
+    println!(
+        "with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {MIN_SPEED_FACTOR})"
+    );
+    good &= pace >= MIN_SPEED_FACTOR;
     assert!(good, "target missed");
 }

@@ -27,7 +27,7 @@ const MAX_STANDING: f64 = 200.0;
 const MAX_SCRAPING: f64 = 200.0;
 
 /// Baseline: minimal code that integrates a rigid body (13 numbers: position, velocity, attitude and angular rates) and four rotor speeds.
-mod floor {
+mod baseline {
     pub type Y = [f64; 17];
 
     fn rate(y: &Y, target: f64) -> Y {
@@ -86,18 +86,18 @@ struct Case {
     start_time: SimTime,
     actuators: Actuators,
     /// Whether the aircraft is in contact with the deck in almost every step.
-    touches: bool,
+    in_contact: bool,
     samples: Vec<f64>,
 }
 
 impl Case {
     fn new(name: &'static str, limit: f64, start: PhysicsState, actuators: Actuators) -> Self {
-        Self { name, limit, start, start_time: SimTime::ZERO, actuators, touches: false, samples: Vec::new() }
+        Self { name, limit, start, start_time: SimTime::ZERO, actuators, in_contact: false, samples: Vec::new() }
     }
 
     /// Creates a case on the deck that starts at [`SETTLED_AT`].
     fn on_deck(name: &'static str, limit: f64, start: PhysicsState) -> Self {
-        Self { start_time: SETTLED_AT, touches: true, ..Self::new(name, limit, start, Actuators::default()) }
+        Self { start_time: SETTLED_AT, in_contact: true, ..Self::new(name, limit, start, Actuators::default()) }
     }
 
     fn fly(&self, model: &AirframeModel, site: &Site) -> PhysicsState {
@@ -109,7 +109,7 @@ impl Case {
             now += STEP;
             touched += i64::from(state.contact.touching());
         }
-        let wanted = if self.touches { STEPS * 9 / 10..=STEPS } else { 0..=0 };
+        let wanted = if self.in_contact { STEPS * 9 / 10..=STEPS } else { 0..=0 };
         assert!(wanted.contains(&touched), "{}: contact in {touched} of {STEPS} steps", self.name);
         state
     }
@@ -195,10 +195,10 @@ fn median(samples: &mut [f64]) -> f64 {
 }
 
 fn run_baseline() {
-    let mut y: floor::Y = [0.0; 17];
+    let mut y: baseline::Y = [0.0; 17];
     y[6] = 1.0;
     for _ in 0..STEPS {
-        y = floor::step(black_box(&y), 560.0, 1e-3);
+        y = baseline::step(black_box(&y), 560.0, 1e-3);
     }
     black_box(y);
 }

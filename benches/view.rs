@@ -25,7 +25,7 @@ const TARGET_HZ: f64 = 15.0;
 const MAX_FRAME_CPU_S: f64 = 0.25;
 /// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s
 /// (requirement).
-const MIN_CARD_HZ: f64 = 144.0;
+const MIN_GPU_HZ: f64 = 144.0;
 /// Number of measured frames per viewpoint, after one frame that warms up the caches.
 const FRAMES: usize = 4;
 
@@ -42,13 +42,13 @@ fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
 }
 
 /// Minimum ratio of simulation time to wall time for a simulator that runs during continuous rendering.
-const MIN_PACE: f64 = 0.99;
+const MIN_SPEED_FACTOR: f64 = 0.99;
 /// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip shortens the
 /// flight. Pilots notice control delays above 0.1 s. Such delays are printed but not limited, because other load on the
 /// machine can cause them.
 const MAX_SLIPS: u64 = 0;
 /// Duration of the measurement with a simulator.
-const PACE_DURATION: Duration = Duration::from_secs(10);
+const MEASUREMENT_DURATION: Duration = Duration::from_secs(10);
 
 struct Cost {
     frame: Duration,
@@ -137,7 +137,7 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
             1e3 * time.as_secs_f64(),
             1e3 * spent.unwrap_or(f64::NAN),
             counts.triangles,
-            counts.draws
+            counts.draw_calls
         );
         medians.push(time);
     }
@@ -155,7 +155,7 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
 
 /// Measures a simulator that runs in real time while this process renders both views continuously at the same priority (the real window has a lower
 /// priority). Returns the simulator's speed relative to real time, the frame rate, and the simulator's delays.
-fn beside(views: &mut Views) -> (f64, f64, Lateness) {
+fn measure_simulator_while_rendering(views: &mut Views) -> (f64, f64, Lateness) {
     let (running, port) = start();
     let stop = Arc::new(AtomicBool::new(false));
     let watch = {
@@ -163,7 +163,7 @@ fn beside(views: &mut Views) -> (f64, f64, Lateness) {
         std::thread::spawn(move || {
             let mut client = Client::new(port, 255);
             client.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
-            let pace = client.pace(PACE_DURATION);
+            let pace = client.speed_factor(MEASUREMENT_DURATION);
             stop.store(true, Ordering::Relaxed);
             pace
         })
@@ -194,9 +194,9 @@ fn main() {
         first.frame.as_secs_f64()
     );
     let (small, _) = measure(&mut views, (640, 360), presets[0]);
-    let (pace, rate_hz, late) = beside(&mut views);
+    let (pace, rate_hz, late) = measure_simulator_while_rendering(&mut views);
     println!(
-        "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_PACE}), ticks at \
+        "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_SPEED_FACTOR}), ticks at \
          most {:.1} ms late, {} clock slips (maximum {MAX_SLIPS})",
         late.latest_ms, late.slips
     );
@@ -205,14 +205,14 @@ fn main() {
     }
     let (_, large_hz) = measure(&mut views, (1920, 1080), presets[1]);
     let card = views.secondary.is_none();
-    let kept = if card { large_hz >= MIN_CARD_HZ } else { small.is_none_or(|cpu| cpu <= MAX_FRAME_CPU_S) };
+    let kept = if card { large_hz >= MIN_GPU_HZ } else { small.is_none_or(|cpu| cpu <= MAX_FRAME_CPU_S) };
     let verdict = if kept { "ok" } else { "MISSED" };
     if card {
-        println!("2 x 1920 x 1080, {}: minimum {MIN_CARD_HZ:.0} frames/s: {verdict}", presets[1]);
+        println!("2 x 1920 x 1080, {}: minimum {MIN_GPU_HZ:.0} frames/s: {verdict}", presets[1]);
     } else {
         println!("2 x 640 x 360: target {TARGET_HZ:.0} frames/s; limit {MAX_FRAME_CPU_S} s CPU time per frame: {verdict}");
     }
-    if !kept || pace < MIN_PACE || late.slips > MAX_SLIPS {
+    if !kept || pace < MIN_SPEED_FACTOR || late.slips > MAX_SLIPS {
         std::process::exit(1);
     }
 }

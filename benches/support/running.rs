@@ -77,7 +77,7 @@ impl Client {
 
     /// Returns the ratio of simulation time to wall time, measured over at least this duration, and the wall time of
     /// the measurement, s.
-    pub fn pace(&mut self, over: Duration) -> (f64, f64) {
+    pub fn speed_factor(&mut self, over: Duration) -> (f64, f64) {
         let (sim_begin, wall_begin) = self.clock();
         let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);
         while wall_end - wall_begin < over {

@@ -27,7 +27,7 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
 });
 
 /// Creates a frame that the vehicle could send, with these payload bytes.
-fn framed(choice: u16, payload: &[u8]) -> Vec<u8> {
+fn build_frame(choice: u16, payload: &[u8]) -> Vec<u8> {
     let ids = MavMessage::all_ids();
     let id = ids[usize::from(choice) % ids.len()];
     let [a, b, c, _] = id.to_le_bytes();
@@ -45,7 +45,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         let (datagram, after) = tail.split_at(usize::from(*len).min(tail.len()));
         rest = after;
         let datagram = match datagram {
-            [kind, low, high, payload @ ..] if kind & 1 == 0 => &framed(u16::from_le_bytes([*low, *high]), payload),
+            [kind, low, high, payload @ ..] if kind & 1 == 0 => &build_frame(u16::from_le_bytes([*low, *high]), payload),
             _ => datagram,
         };
         let whole: usize = decoder.datagram(datagram).iter().map(|frame| frame.bytes.len()).sum();

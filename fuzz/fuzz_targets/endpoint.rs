@@ -46,7 +46,7 @@ static FLYING: LazyLock<Sim> = LazyLock::new(|| {
 });
 
 /// Creates a frame with these payload bytes and a correct checksum.
-fn framed(choice: u8, payload: &[u8]) -> Vec<u8> {
+fn build_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
     let id = HANDLED[usize::from(choice) % HANDLED.len()];
     let [a, b, c, _] = id.to_le_bytes();
     let mut out = vec![0xFD, payload.len() as u8, 0, 0, 0, 255, 190, a, b, c];
@@ -63,7 +63,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         let (chunk, after) = tail.split_at(usize::from(*len).min(tail.len()));
         rest = after;
         match chunk {
-            [kind, choice, payload @ ..] if kind & 1 == 0 => sim.handle_datagram(LINK, &framed(*choice, payload)),
+            [kind, choice, payload @ ..] if kind & 1 == 0 => sim.handle_datagram(LINK, &build_frame(*choice, payload)),
             _ => sim.handle_datagram(LINK, chunk),
         }
         let ms = chunk.first().map_or(0, |kind| i64::from(kind >> 4));

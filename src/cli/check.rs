@@ -109,7 +109,7 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
         }
         return;
     }
-    match scenario::read(&source.file, &source.text, &|name| source.sibling(name)) {
+    match scenario::read(&source.file, &source.text, &|name| source.read_referenced_file(name)) {
         Ok(scenario) => {
             findings.problems.extend(clearance_problems(source, &scenario, aircraft));
             findings.warnings.extend(missing_defects_warning(source, &scenario));
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_fewer_defects_than_requested_give_a_warning() {
+    fn regress_missing_defects_cause_warning() {
         let aircraft = files::vehicle("phantom2").unwrap().vehicle;
         let mut source = files::any_source("drill-straight-line").unwrap();
         let found = |source: &SourceFile| {
@@ -263,7 +263,7 @@ mod tests {
         let message = |key: &str| {
             let mut source = files::any_source("drill-straight-line").unwrap();
             source.text = source.text.replace("[defects]\n", &format!("[defects]\n{key} = 1\n"));
-            let wrong = scenario::read(&source.file, &source.text, &|name| source.sibling(name)).unwrap_err();
+            let wrong = scenario::read(&source.file, &source.text, &|name| source.read_referenced_file(name)).unwrap_err();
             wrong.0.first().map(|problem| problem.message.clone()).unwrap()
         };
         assert_eq!(message("model"), "unknown key");
@@ -289,7 +289,7 @@ mod tests {
         // Tolerance, m: the search along the path stops within 1 mm of the tightest point.
         const TOLERANCE_M: f64 = 2e-3;
         let source = files::any_source("drill-gap").unwrap();
-        let scenario = scenario::read(&source.file, &source.text, &|name| source.sibling(name)).unwrap();
+        let scenario = scenario::read(&source.file, &source.text, &|name| source.read_referenced_file(name)).unwrap();
         let site = Site::build(&scenario, 0);
         let room = |p: &Vec3<Enu>| site.geometry().nearest(*p, 100.0).map_or(100.0, |near| near.distance_m);
         let path = &scenario.tasks[0].path_m;

@@ -32,7 +32,7 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
-    place: RecordsArgs,
+    records_location: RecordsArgs,
     /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
@@ -63,7 +63,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let records = match &args.records {
         Some(file) => read_json_lines(file)?,
-        None => args.place.location().open()?.records(None)?,
+        None => args.records_location.location().open()?.records(None)?,
     };
     let selection = Selection {
         scenarios: args.scenario.clone(),
@@ -100,7 +100,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 /// Formats the number of sessions and the main statistics of the first sessions as text.
-fn summary_of_first_sessions(cohort: &Cohort) -> String {
+fn first_session_summary(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
     if let Some(words) = omitted_summary(cohort.left_out) {
         let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
@@ -124,7 +124,7 @@ fn summary_of_first_sessions(cohort: &Cohort) -> String {
 }
 
 fn words(cohort: &Cohort) -> String {
-    let mut out = summary_of_first_sessions(cohort);
+    let mut out = first_session_summary(cohort);
     if !cohort.tests.is_empty() {
         let _ = writeln!(out, "\n{} people, {} repetitions", cohort.group.len(), cohort.repetitions);
         let _ = writeln!(

@@ -93,7 +93,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     #[test]
-    fn exact_every_subcommand_has_a_page_with_its_examples() {
+    fn exact_every_subcommand_has_manual_page_with_examples() {
         let command = super::super::Cli::command();
         let pages: BTreeMap<String, Vec<u8>> = pages(command.clone()).unwrap().into_iter().collect();
         for name in command.get_subcommands().map(Command::get_name) {

@@ -33,7 +33,7 @@ const SILENCE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Interval at which the pilot is warned while the disk cannot be written.
 const WARNING_INTERVAL: Duration = Duration::from_secs(30);
 /// Maximum number of datagrams processed before replies are sent.
-const BATCH: usize = 256;
+const MAX_BATCH_LEN: usize = 256;
 
 /// Monitor a flight and score it
 ///
@@ -137,14 +137,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// A new session, or an existing one to resume.
 enum SessionStart {
     New(Box<(ScenarioFile, VehicleFile)>),
-    Again(PathBuf, Box<StoredSession>),
+    Resumed(PathBuf, Box<StoredSession>),
 }
 
 impl SessionStart {
     /// Reads the files without writing anything.
     fn read(args: &Args) -> Result<Self, AppError> {
         match &args.session {
-            Some(path) => Ok(Self::Again(path.clone(), Box::new(StoredSession::read(path)?))),
+            Some(path) => Ok(Self::Resumed(path.clone(), Box::new(StoredSession::read(path)?))),
             None => Ok(Self::New(Box::new((files::scenario(&args.job.scenario)?, files::vehicle(&args.job.vehicle)?)))),
         }
     }
@@ -169,7 +169,7 @@ impl SessionStart {
                 let config = config(scenario, vehicle, args.trainee.as_str(), purpose, started_unix_us);
                 Ok((config.clone(), Monitor::new(config), folder))
             }
-            Self::Again(path, stored) => {
+            Self::Resumed(path, stored) => {
                 let folder = SessionFolder::resume(path, stored)?;
                 let purpose = stored.purpose.clone();
                 let config = config(&stored.scenario, &stored.vehicle, &stored.trainee, purpose, stored.started_unix_us);
@@ -202,7 +202,7 @@ impl MonitorProcess {
     /// Processes received data, sends the core's replies and saves its records.
     fn step(&mut self) {
         let mut wait = MAX_WAIT;
-        for _ in 0..BATCH {
+        for _ in 0..MAX_BATCH_LEN {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;
             self.handle_event(&arrival);
@@ -328,7 +328,7 @@ impl MonitorProcess {
         self.send();
         self.complete(json.as_deref(), stop)?;
         // The report reads the telemetry again, so keeping the flight in memory would double the memory use.
-        self.monitor.release_flight();
+        self.monitor.free_flight_data();
         // The scores are saved; the report can be written again later.
         if json.is_some()
             && let Err(error) = report::write(self.folder.path())

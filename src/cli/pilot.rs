@@ -112,14 +112,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
     let mut pilot = Pilot::new(config);
     let mut peer = args.port.is_none().then_some(args.connect);
-    let (watch, mut heard, mut reported) = (Stopwatch::start(), None, false);
+    let (watch, mut last_received_at, mut reported) = (Stopwatch::start(), None, false);
     let mut progress = ProgressLog::start("waiting for the vehicle");
     while !stop.is_requested() {
         let arrival = hub.next(MAX_WAIT);
         if let Some(NetEvent::Datagram { from, bytes, .. }) = arrival
             && *peer.get_or_insert(from) == from
         {
-            heard = Some(watch.elapsed());
+            last_received_at = Some(watch.elapsed());
             pilot.handle_datagram(&bytes);
         }
         // If the vehicle is to connect first, the pilot sends nothing until then: messages timed by the wall clock
@@ -145,7 +145,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
                 break;
             }
         }
-        if let Some(last) = heard
+        if let Some(last) = last_received_at
             && watch.elapsed().saturating_sub(last) > SILENCE_TIMEOUT
         {
             let message = format!("no data from the vehicle for {} s", SILENCE_TIMEOUT.as_secs());

@@ -30,7 +30,7 @@ pub struct Args {
     #[arg(value_name = "ID")]
     trainee: TraineeId,
     #[command(flatten)]
-    place: RecordsArgs,
+    records_location: RecordsArgs,
     /// Read records from this file, as written by `spandrel records export`, instead of a database
     #[arg(long, value_name = "FILE")]
     records: Option<PathBuf>,
@@ -53,7 +53,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let trainee = args.trainee.as_str();
     let mut records = match &args.records {
         Some(file) => read_json_lines(file)?,
-        None => args.place.location().open()?.records(Some(trainee))?,
+        None => args.records_location.location().open()?.records(Some(trainee))?,
     };
     records.retain(|record| record.trainee == trainee);
     records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));

@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_further_vehicles_of_a_process_get_shifted_ports() {
+    fn exact_additional_vehicles_get_shifted_ports() {
         let args = parse(&["--sdk", "127.0.0.1:9000", "--tcp-port", "7000", "--gcs-port", "0", "--serial", "/dev/ttyS1:57600"])
             .for_vehicle(2);
         assert_eq!((args.instance, args.sdk(), args.tcp(), args.monitor_port()), (2, Some(local(9002)), Some(7020), 14032));

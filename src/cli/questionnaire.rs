@@ -1,7 +1,7 @@
 //! `spandrel questionnaire`: asks the post-flight questions in a terminal.
 
 use crate::errors::{AppError, EXIT_CODES};
-use crate::io::answers::{languages, read_answers_of, task_ids};
+use crate::io::answers::{languages, read_saved_answers, task_ids};
 use crate::io::replace::replace;
 use crate::io::session_folder::StoredSession;
 use spandrel_model::scenario::Scenario;
@@ -68,7 +68,7 @@ enum TypedInput {
 /// Returns an error if the session or a file is invalid, or answers cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = StoredSession::read_scenario(&args.session)?.scenario;
-    let mut answers = read_answers_of(&args.session, &scenario)?.unwrap_or_default();
+    let mut answers = read_saved_answers(&args.session, &scenario)?.unwrap_or_default();
     let languages = languages(args.wording.as_slice())?;
     let wording = select_wording(args, &languages, &answers)?;
     answers.language.clone_from(&wording.language);
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_leaving_keeps_answers_and_invalid_input_repeats_the_question() {
+    fn exact_quitting_keeps_answers_and_invalid_input_repeats_question() {
         let mut answers = Answers::default();
         let (shown, saved) = run_with_input(&all(), &mut answers, "1\n6\nfive\n0\n4\nq\n3\n");
         assert_eq!((answers.given.len(), saved), (2, 2));
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_b_goes_back_and_enter_keeps_the_answer() {
+    fn exact_b_goes_back_and_enter_keeps_answer() {
         let mut answers = Answers::default();
         run_with_input(&all(), &mut answers, "1\n1\nb\n5\n\n3\nq\n");
         assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 5);

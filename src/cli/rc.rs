@@ -193,7 +193,7 @@ fn fly(
     vehicle: SocketAddr,
     stop: &StopRequest,
 ) -> Result<(), AppError> {
-    let (watch, mut link, mut heard) = (Stopwatch::start(), ControllerLink::default(), None);
+    let (watch, mut link, mut last_received_at) = (Stopwatch::start(), ControllerLink::default(), None);
     // A recording starts with the first contact with the vehicle.
     let (mut begin, mut told) = (None, false);
     if let StickSource::Keyboard { board, .. } = pilot {
@@ -203,13 +203,13 @@ fn fly(
         if let Some(NetEvent::Datagram { from, bytes, .. }) = hub.next(MAX_WAIT)
             && from == vehicle
         {
-            if heard.is_none() {
+            if last_received_at.is_none() {
                 print_line(&format!("connected to the vehicle at {vehicle}"));
             }
-            heard = Some(watch.elapsed());
+            last_received_at = Some(watch.elapsed());
             link.receive(&bytes);
         }
-        if heard.is_none() && !told && watch.elapsed() > WAITING_MESSAGE_DELAY {
+        if last_received_at.is_none() && !told && watch.elapsed() > WAITING_MESSAGE_DELAY {
             print_line(&format!("no vehicle at {vehicle} yet; waiting"));
             told = true;
         }
@@ -230,7 +230,7 @@ fn fly(
         if look.over {
             return Ok(());
         }
-        if heard.is_some_and(|last| watch.elapsed().saturating_sub(last) > SILENCE_TIMEOUT) {
+        if last_received_at.is_some_and(|last| watch.elapsed().saturating_sub(last) > SILENCE_TIMEOUT) {
             return Err(AppError::failed(format!("no data from the vehicle for {} s", SILENCE_TIMEOUT.as_secs())));
         }
     }
@@ -242,7 +242,7 @@ fn calibrate(args: &Args, profiles: &ProfileFolder, stop: &StopRequest) -> Resul
     profiles.folder()?;
     let mut source = EventSource::device(args.device.as_deref())?;
     let mode = StickMode::from_number(args.stick_mode).unwrap_or(StickMode::Two);
-    let profile = run_wizard(&mut source, mode, &enter_presses(), stop)?;
+    let profile = run_wizard(&mut source, mode, &enter_key_events(), stop)?;
     println!("{}", profiles.save(&profile)?.display());
     Ok(())
 }
@@ -280,7 +280,7 @@ fn run_wizard(
 }
 
 /// Returns a channel that receives a message for every line on standard input (Enter).
-fn enter_presses() -> Receiver<()> {
+fn enter_key_events() -> Receiver<()> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {
         for _ in std::io::stdin().lock().lines().map_while(Result::ok) {
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_calibration_needs_a_profile_folder() {
+    fn exact_calibration_requires_profile_folder() {
         let args = Line::parse_from(["rc", "--calibrate"]).args;
         let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
         assert!(told.contains("specify a profile folder with --profiles"), "{told}");

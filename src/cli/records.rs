@@ -43,7 +43,7 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
-    place: RecordsArgs,
+    records_location: RecordsArgs,
     #[command(subcommand)]
     what: RecordsCommand,
 }
@@ -172,30 +172,32 @@ pub struct PushArgs {
 /// # Errors
 /// Returns an error if arguments, folders or the database are invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let place = &args.place.location();
+    let records_location = &args.records_location.location();
     match &args.what {
-        RecordsCommand::Import { folders } => import_folders(place, folders),
-        RecordsCommand::Rebuild { yes } => rebuild(place, *yes),
+        RecordsCommand::Import { folders } => import_folders(records_location, folders),
+        RecordsCommand::Rebuild { yes } => rebuild(records_location, *yes),
         RecordsCommand::List { trainee, json: true, .. } => {
-            let records = place.open()?.records(trainee.as_ref().map(TraineeId::as_str))?;
+            let records = records_location.open()?.records(trainee.as_ref().map(TraineeId::as_str))?;
             files::write("-", spandrel_monitor::export::json_text(&records).as_bytes())
         }
-        RecordsCommand::List { trainee, last, .. } => list(&place.open()?, trainee.as_ref().map(TraineeId::as_str), *last),
+        RecordsCommand::List { trainee, last, .. } => {
+            list(&records_location.open()?, trainee.as_ref().map(TraineeId::as_str), *last)
+        }
         RecordsCommand::Export { trainee, out } => match trainee {
-            Some(trainee) => export(place, trainee.as_str(), out),
-            None => files::write(out, lines(&place.open()?.records(None)?)?.as_bytes()),
+            Some(trainee) => export(records_location, trainee.as_str(), out),
+            None => files::write(out, lines(&records_location.open()?.records(None)?)?.as_bytes()),
         },
-        RecordsCommand::Erase { trainee, yes } => erase(place, trainee.as_str(), *yes),
-        RecordsCommand::Retention { days, yes } => retention(place, days.unsigned_abs(), *yes),
-        RecordsCommand::Push(args) => push_sessions(place, args),
-        RecordsCommand::Trainee(person) => set_details(&place.open()?, person),
+        RecordsCommand::Erase { trainee, yes } => erase(records_location, trainee.as_str(), *yes),
+        RecordsCommand::Retention { days, yes } => retention(records_location, days.unsigned_abs(), *yes),
+        RecordsCommand::Push(args) => push_sessions(records_location, args),
+        RecordsCommand::Trainee(person) => set_details(&records_location.open()?, person),
     }
 }
 
 /// Imports new and changed sessions. Logs and skips sessions that cannot be scored.
-fn import_folders(place: &RecordsLocation, named: &[PathBuf]) -> Result<(), AppError> {
-    let folders = if named.is_empty() { session_folders(&place.sessions)? } else { named.to_vec() };
-    let database = place.open()?;
+fn import_folders(records_location: &RecordsLocation, named: &[PathBuf]) -> Result<(), AppError> {
+    let folders = if named.is_empty() { session_folders(&records_location.sessions)? } else { named.to_vec() };
+    let database = records_location.open()?;
     let ImportCounts { changed, left_out, erased } = import_into(&database, &folders)?;
     let unchanged = folders.len() - changed - left_out - erased;
     let note = erasure_note(erased);
@@ -213,10 +215,10 @@ fn erasure_note(erased: usize) -> String {
     format!(", {erased} not imported because they or their trainees were erased (records erase also removes the folders)")
 }
 
-fn rebuild(place: &RecordsLocation, yes: bool) -> Result<(), AppError> {
-    let folders = session_folders(&place.sessions)?;
+fn rebuild(records_location: &RecordsLocation, yes: bool) -> Result<(), AppError> {
+    let folders = session_folders(&records_location.sessions)?;
     let here = folders.iter().map(|folder| session_id(folder)).collect::<Result<BTreeSet<String>, _>>()?;
-    let database = place.open()?;
+    let database = records_location.open()?;
     // Sessions that other stations add after this point are not affected.
     let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
     if !gone.is_empty() && !yes {
@@ -262,16 +264,16 @@ fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), App
     files::write("-", table.as_bytes())
 }
 
-fn retention(place: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppError> {
+fn retention(records_location: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppError> {
     let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(DAY_US));
-    let database = place.open()?;
+    let database = records_location.open()?;
     let before = clock::utc(limit_us).0;
     if !yes {
-        let (old, folders) = (database.older_than(limit_us)?, folders_older_than(place, limit_us)?);
+        let (old, folders) = (database.older_than(limit_us)?, folders_older_than(records_location, limit_us)?);
         println!("{} sessions and {} folders are older than {before}; use --yes to erase them", old.len(), folders.len());
         return Ok(());
     }
-    let (deleted, folders) = erase_older_than(&database, place, limit_us)?;
+    let (deleted, folders) = erase_older_than(&database, records_location, limit_us)?;
     println!("erased {deleted} sessions and {folders} folders older than {before}");
     Ok(())
 }
@@ -295,9 +297,9 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
 ///
 /// # Errors
 /// Returns an error if there is no data, or the database or the output fails.
-fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
-    let database = place.open()?;
-    let kept = stored_data(&database, place, trainee)?;
+fn export(records_location: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
+    let database = records_location.open()?;
+    let kept = stored_data(&database, records_location, trainee)?;
     let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: no data about '{trainee}'", database.name())))?;
     files::write(out, json_text(&kept).as_bytes())
 }
@@ -306,9 +308,9 @@ fn export(place: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppEr
 ///
 /// # Errors
 /// Returns an error if a folder or the database cannot be changed.
-fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
-    let database = place.open()?;
-    let folders = folders_of_trainee(place, trainee)?;
+fn erase(records_location: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppError> {
+    let database = records_location.open()?;
+    let folders = folders_of_trainee(records_location, trainee)?;
     if !yes {
         let sessions = database.records(Some(trainee))?.len();
         let known = if find(&database, trainee)?.is_some() { "in the database" } else { "not in the database" };
@@ -319,7 +321,7 @@ fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppErr
         );
         return Ok(());
     }
-    let (known, sessions) = erase_person(&database, place, trainee)?;
+    let (known, sessions) = erase_person(&database, records_location, trainee)?;
     if !known {
         return Err(AppError::wrong(format!("{}: no data about '{trainee}'", database.name())));
     }
@@ -327,9 +329,9 @@ fn erase(place: &RecordsLocation, trainee: &str, yes: bool) -> Result<(), AppErr
     Ok(())
 }
 
-fn push_sessions(place: &RecordsLocation, args: &PushArgs) -> Result<(), AppError> {
-    let records = place.open()?.records(args.trainee.as_ref().map(TraineeId::as_str))?;
-    let all = push::push(place, &records, &args.url, &args.home)?;
+fn push_sessions(records_location: &RecordsLocation, args: &PushArgs) -> Result<(), AppError> {
+    let records = records_location.open()?.records(args.trainee.as_ref().map(TraineeId::as_str))?;
+    let all = push::push(records_location, &records, &args.url, &args.home)?;
     println!("{}: {} sessions, {} statements sent, {} already there", args.url, records.len(), all.sent, all.already_there);
     Ok(())
 }

@@ -4,7 +4,7 @@ use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
-use crate::io::report::{address, compared, review};
+use crate::io::report::{address, comparison_page, review};
 use spandrel_monitor::folder::REPORT;
 use spandrel_training::report::page;
 use std::path::PathBuf;
@@ -41,7 +41,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
     let text = match &args.other {
-        Some(other) => compared(&args.session, other)?,
+        Some(other) => comparison_page(&args.session, other)?,
         None => page::session(&review(&args.session)?),
     };
     progress.finish();

@@ -37,7 +37,7 @@ Examples:
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
-    place: RecordsArgs,
+    records_location: RecordsArgs,
     #[command(flatten)]
     listen: ListenArgs,
     /// Folder for uploaded scenarios [default: scenarios in the first folder of sessions]
@@ -127,13 +127,13 @@ fn listen(text: &str) -> Result<SocketAddr, String> {
 /// Returns an error if arguments, files, the port or the database are invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     if let (Some(name), Some(role)) = (&args.set_password, args.role.as_deref().and_then(Role::from_word)) {
-        return set_password(&args.place.location(), name.as_str(), role);
+        return set_password(&args.records_location.location(), name.as_str(), role);
     }
     let stop = StopRequest::install(args.leash)?;
     let watched = watched(&args.vehicle, &args.picture)?;
     let scenarios = args.scenarios.clone();
-    let (place, wordings) = (args.place.location(), args.wording.clone());
-    let server = WebServer::start(&args.listen.config(), ServerSetup { place, scenarios, watched, wordings })?;
+    let (records_location, wordings) = (args.records_location.location(), args.wording.clone());
+    let server = WebServer::start(&args.listen.config(), ServerSetup { records_location, scenarios, watched, wordings })?;
     if args.announce {
         files::write("-", format!("{}\n", serde_json::json!({ "address": server.address() })).as_bytes())?;
     } else {
@@ -164,10 +164,10 @@ fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<Watched
 ///
 /// # Errors
 /// Returns an error if the password is not acceptable, or the database fails.
-fn set_password(place: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
+fn set_password(records_location: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
     let password = prompt_password(name)?;
     login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
-    let database = place.open()?;
+    let database = records_location.open()?;
     database.set_login(name, role, &passwords::hash(&password, &mut HashingMemory::default())?)?;
     println!("{}: '{name}' can log in as {}", database.name(), role.word());
     Ok(())

@@ -303,7 +303,7 @@ fn fly(
             .into_iter()
             .map(|shell| {
                 let progress = progress.take();
-                scope.spawn(move || fly_one(shell, end, stop, progress))
+                scope.spawn(move || run_vehicle(shell, end, stop, progress))
             })
             .collect();
         let ended = threads.into_iter().map(|thread| {
@@ -313,7 +313,7 @@ fn fly(
     })
 }
 
-fn fly_one(
+fn run_vehicle(
     mut shell: VehicleShell,
     end: SimTime,
     stop: &StopRequest,

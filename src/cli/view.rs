@@ -112,7 +112,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         size_px: size(&args.size)?,
         map: !args.no_map,
         picture: picture(args)?,
-        keep: args.picture.clone(),
+        camera_file: args.picture.clone(),
         // With --led, standard output belongs to the pipe.
         announce: args.announce && !args.led,
     };

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// Returns an error if the file cannot be read or is invalid.
-pub fn read_answers_of(session: &Path, scenario: &Scenario) -> Result<Option<Answers>, AppError> {
+pub fn read_saved_answers(session: &Path, scenario: &Scenario) -> Result<Option<Answers>, AppError> {
     let path = session.join(ANSWERS);
     if !path.is_file() {
         return Ok(None);

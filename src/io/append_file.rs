@@ -27,8 +27,8 @@ impl WriteError {
 }
 
 impl From<WriteError> for AppError {
-    fn from(refused: WriteError) -> Self {
-        Self::failed(refused.to_string())
+    fn from(write_error: WriteError) -> Self {
+        Self::failed(write_error.to_string())
     }
 }
 
@@ -92,8 +92,8 @@ impl AppendFile {
     ///
     /// # Errors
     /// Returns an error if the disk cannot be written.
-    pub fn cut(&mut self, len: u64) -> Result<(), WriteError> {
-        self.file.set_len(len).map_err(|error| self.refused(error))?;
+    pub fn truncate(&mut self, len: u64) -> Result<(), WriteError> {
+        self.file.set_len(len).map_err(|error| self.write_error(error))?;
         self.len = len;
         self.has_partial_record = false;
         Ok(())
@@ -125,9 +125,9 @@ impl AppendFile {
     /// Returns an error if the disk cannot be written.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         if self.has_partial_record {
-            self.cut(self.len)?;
+            self.truncate(self.len)?;
         }
-        let (written, result) = write_available(&mut self.file, &self.pending);
+        let (written, result) = write_until_error(&mut self.file, &self.pending);
         let kept = if result.is_ok() { written } else { (self.complete_len)(&self.pending[..written]) };
         self.len += kept as u64;
         self.pending.drain(..kept);
@@ -139,9 +139,9 @@ impl AppendFile {
         self.has_partial_record = written > kept;
         if self.has_partial_record {
             // If this fails too, the next flush tries again.
-            let _ = self.cut(self.len);
+            let _ = self.truncate(self.len);
         }
-        Err(self.refused(error))
+        Err(self.write_error(error))
     }
 
     /// Waits until all written data is on the physical disk.
@@ -149,16 +149,16 @@ impl AppendFile {
     /// # Errors
     /// Returns an error if the disk cannot be written.
     pub fn sync(&self) -> Result<(), WriteError> {
-        self.file.sync_all().map_err(|error| self.refused(error))
+        self.file.sync_all().map_err(|error| self.write_error(error))
     }
 
-    fn refused(&self, error: std::io::Error) -> WriteError {
+    fn write_error(&self, error: std::io::Error) -> WriteError {
         WriteError { path: self.path.clone(), error }
     }
 }
 
 /// Writes until all data is written or an error occurs. Returns the number of bytes written.
-fn write_available(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Result<()>) {
+fn write_until_error(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Result<()>) {
     let mut written = 0;
     while written < bytes.len() {
         match file.write(&bytes[written..]) {

@@ -143,7 +143,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_child_that_does_not_start_is_reported() {
+    fn exact_child_startup_failure_is_reported() {
         // The test executable does not accept `--announce`: it prints an error and exits.
         let mut child = Child::start("view", &[]).unwrap();
         let told = child.read_announcement().unwrap_err().to_string();

@@ -14,7 +14,7 @@ pub struct ScenarioFile {
     /// Scenario source text (TOML).
     pub text: String,
     /// Files that the scenario refers to (height fields), by their names in the scenario.
-    pub siblings: BTreeMap<String, String>,
+    pub referenced_files: BTreeMap<String, String>,
     /// Scenario parsed from the text.
     pub scenario: Scenario,
 }
@@ -83,13 +83,13 @@ pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
 /// Returns an error if it is invalid; all problems are listed.
 pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     let seen = RefCell::new(BTreeMap::new());
-    let sibling = |name: &str| {
-        let text = source.sibling(name)?;
+    let read_referenced_file = |name: &str| {
+        let text = source.read_referenced_file(name)?;
         seen.borrow_mut().insert(name.to_owned(), text.clone());
         Ok(text)
     };
-    let scenario = scenario::read(&source.file, &source.text, &sibling)?;
-    Ok(ScenarioFile { text: source.text, siblings: seen.into_inner(), scenario })
+    let scenario = scenario::read(&source.file, &source.text, &read_referenced_file)?;
+    Ok(ScenarioFile { text: source.text, referenced_files: seen.into_inner(), scenario })
 }
 
 /// Finds the file for an argument: a path, or a name in `library`.
@@ -150,7 +150,7 @@ pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
 
 impl SourceFile {
     /// Reads a file that another file refers to. Only files in the same folder or below are allowed.
-    pub fn sibling(&self, name: &str) -> Result<String, String> {
+    pub fn read_referenced_file(&self, name: &str) -> Result<String, String> {
         let Some(folder) = &self.folder else { return Err("a shipped scenario cannot refer to other files".into()) };
         if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
             return Err("only files in the scenario's folder or below are allowed".into());
@@ -174,19 +174,19 @@ mod tests {
     }
 
     #[test]
-    fn exact_an_unknown_name_is_reported() {
+    fn exact_unknown_name_is_reported() {
         let Err(error) = vehicle("no-such-drone") else { panic!("found it") };
         assert!(matches!(&error, AppError::Wrong(message) if message.contains("no-such-drone")), "{error}");
     }
 
     #[test]
-    fn exact_siblings_outside_the_scenario_folder_are_rejected() {
+    fn exact_referenced_files_outside_the_scenario_folder_are_rejected() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("heights.csv"), "1,2").unwrap();
         let source = SourceFile { file: "s.toml".into(), text: String::new(), folder: Some(folder.path().into()) };
-        assert_eq!(source.sibling("heights.csv"), Ok("1,2".into()));
+        assert_eq!(source.read_referenced_file("heights.csv"), Ok("1,2".into()));
         for bad in ["../heights.csv", "/etc/hostname"] {
-            assert!(source.sibling(bad).is_err(), "{bad}");
+            assert!(source.read_referenced_file(bad).is_err(), "{bad}");
         }
     }
 }

@@ -69,8 +69,8 @@ mod tests {
 
     #[test]
     fn regress_only_the_oldest_logs_are_deleted() {
-        let place = tempfile::tempdir().unwrap();
-        let root = Dir::open_ambient_dir(place.path(), ambient_authority()).unwrap();
+        let temp_dir = tempfile::tempdir().unwrap();
+        let root = Dir::open_ambient_dir(temp_dir.path(), ambient_authority()).unwrap();
         for day in ["2026-09-20", "2026-09-21"] {
             root.create_dir_all(format!("log/{day}")).unwrap();
         }
@@ -83,15 +83,15 @@ mod tests {
             ("2026-09-21/notes.txt", 10_000),
         ];
         for (name, bytes) in files {
-            std::fs::write(place.path().join("log").join(name), vec![0; bytes]).unwrap();
+            std::fs::write(temp_dir.path().join("log").join(name), vec![0; bytes]).unwrap();
         }
-        let there = || files.iter().filter(|(name, _)| place.path().join("log").join(name).is_file()).map(|(name, _)| *name);
+        let there = || files.iter().filter(|(name, _)| temp_dir.path().join("log").join(name).is_file()).map(|(name, _)| *name);
         assert_eq!(delete_oldest(&root, "log", 450).unwrap(), 0);
         assert_eq!(there().count(), files.len(), "all of them fit");
         assert_eq!(delete_oldest(&root, "log", 250).unwrap(), 2);
         let left = ["2026-09-21/01_00_00-2.ulg", "2026-09-21/01_00_00-10.ulg", "2026-09-21/notes.txt"];
         assert_eq!(there().collect::<Vec<_>>(), left, "the oldest flights were deleted with both files");
-        assert!(!place.path().join("log/2026-09-20").exists(), "folders of days without logs are removed");
+        assert!(!temp_dir.path().join("log/2026-09-20").exists(), "folders of days without logs are removed");
         assert_eq!(delete_oldest(&root, "log", 0).unwrap(), 2);
         assert_eq!(there().collect::<Vec<_>>(), ["2026-09-21/notes.txt"]);
     }

@@ -19,7 +19,7 @@ const MAX_LEARNED_PEERS: usize = 64;
 
 /// A change in the links, or received data.
 #[derive(Debug, Clone, PartialEq)]
-pub enum LinkChange {
+pub enum LinkEvent {
     /// A link was opened.
     Opened {
         /// Link number.
@@ -64,7 +64,7 @@ pub struct Links {
     by_stream: BTreeMap<StreamId, u32>,
     lockstep: Vec<SocketAddr>,
     limit: Option<f64>,
-    changes: VecDeque<LinkChange>,
+    changes: VecDeque<LinkEvent>,
     opened: u32,
     bad_bytes: u64,
     stopwatch: Stopwatch,
@@ -136,7 +136,7 @@ impl Links {
     }
 
     /// Returns the next event, if there is one.
-    pub fn poll(&mut self) -> Option<LinkChange> {
+    pub fn poll(&mut self) -> Option<LinkEvent> {
         if self.changes.is_empty() {
             self.wait(Duration::ZERO);
         }
@@ -158,7 +158,7 @@ impl Links {
             if let Some(LinkRoute::Learned { socket, peer, .. }) = self.routes.remove(&link) {
                 tracing::info!("{peer} disconnected after {} s of silence", SILENCE_TIMEOUT.as_secs());
                 self.by_peer.remove(&(socket, peer));
-                self.changes.push_back(LinkChange::Closed { link });
+                self.changes.push_back(LinkEvent::Closed { link });
             }
         }
     }
@@ -199,7 +199,7 @@ impl Links {
         let kind = self.kinds.get(&socket).copied().unwrap_or(LinkKind::GroundStation);
         let limit = self.limit.filter(|_| kind == LinkKind::GroundStation);
         let lockstep = self.lockstep.contains(&peer);
-        self.changes.push_back(LinkChange::Opened { link, kind, lockstep, learned: heard.is_some(), limit });
+        self.changes.push_back(LinkEvent::Opened { link, kind, lockstep, learned: heard.is_some(), limit });
         link
     }
 
@@ -212,13 +212,13 @@ impl Links {
                 let Some(LinkRoute::Stream { decoder, .. }) = self.routes.get_mut(&link) else { return };
                 let before = decoder.bad_bytes();
                 let frames = decoder.push(&bytes).into_iter();
-                self.changes.extend(frames.map(|frame| LinkChange::Bytes { link, bytes: frame.bytes }));
+                self.changes.extend(frames.map(|frame| LinkEvent::Bytes { link, bytes: frame.bytes }));
                 self.bad_bytes += decoder.bad_bytes() - before;
             }
             NetEvent::Closed(stream) => {
                 let Some(link) = self.by_stream.remove(&stream) else { return };
                 self.routes.remove(&link);
-                self.changes.push_back(LinkChange::Closed { link });
+                self.changes.push_back(LinkEvent::Closed { link });
             }
         }
     }
@@ -237,7 +237,7 @@ impl Links {
         };
         self.routes.insert(link, LinkRoute::Stream { stream, decoder: Decoder::new() });
         self.by_stream.insert(stream, link);
-        self.changes.push_back(LinkChange::Opened { link, kind, lockstep: false, learned: false, limit });
+        self.changes.push_back(LinkEvent::Opened { link, kind, lockstep: false, learned: false, limit });
     }
 
     /// Adds a new peer if it sends MAVLink and its port has not reached the maximum number of peers.
@@ -267,7 +267,7 @@ impl Links {
         if let Some(LinkRoute::Learned { heard, .. }) = self.routes.get_mut(&link) {
             *heard = wall;
         }
-        self.changes.push_back(LinkChange::Bytes { link, bytes });
+        self.changes.push_back(LinkEvent::Bytes { link, bytes });
     }
 }
 
@@ -284,7 +284,7 @@ mod tests {
     use spandrel_mavlink::station;
     use std::net::UdpSocket;
 
-    fn send_hello() -> Vec<u8> {
+    fn hello_frame() -> Vec<u8> {
         Encoder::new(255, 190).encode(&station::heartbeat())
     }
 
@@ -311,14 +311,14 @@ mod tests {
         let sidecar = UdpSocket::bind(local(0)).unwrap();
         // Data other than MAVLink does not add a peer.
         sidecar.send_to(b"h", local(port)).unwrap();
-        sidecar.send_to(&send_hello(), local(port)).unwrap();
+        sidecar.send_to(&hello_frame(), local(port)).unwrap();
         let (watch, limit) = (Stopwatch::start(), Duration::from_secs(60));
         while links.changes.is_empty() && watch.elapsed() < limit {
             links.wait(Duration::from_secs(1));
         }
-        let opened = LinkChange::Opened { link: 1, kind: LinkKind::Payload, lockstep: false, learned: true, limit: None };
+        let opened = LinkEvent::Opened { link: 1, kind: LinkKind::Payload, lockstep: false, learned: true, limit: None };
         assert_eq!((links.poll(), links.bad_bytes()), (Some(opened), 1));
-        assert_eq!(links.poll(), Some(LinkChange::Bytes { link: 1, bytes: send_hello() }));
+        assert_eq!(links.poll(), Some(LinkEvent::Bytes { link: 1, bytes: hello_frame() }));
         links.send(1, b"welcome".to_vec());
         let mut heard = [0u8; 16];
         let (len, from) = sidecar.recv_from(&mut heard).unwrap();
@@ -331,24 +331,24 @@ mod tests {
         assert!(error.to_string().contains("--lockstep 127.0.0.1:9"));
         let args = ephemeral(&[local(9)]);
         let mut links = Links::open(&args, &[local(9)]).unwrap();
-        let opened = LinkChange::Opened { link: 1, kind: LinkKind::GroundStation, lockstep: true, learned: false, limit: None };
+        let opened = LinkEvent::Opened { link: 1, kind: LinkKind::GroundStation, lockstep: true, learned: false, limit: None };
         assert_eq!(links.poll(), Some(opened));
     }
 
     /// Returns links with one configured peer, and the socket for ground stations.
     fn called(peer: &str) -> (Links, SocketId) {
         let mut links = Links::open(&ephemeral(&[peer.parse().unwrap()]), &[]).unwrap();
-        assert!(matches!(links.poll(), Some(LinkChange::Opened { link: 1, .. })));
+        assert!(matches!(links.poll(), Some(LinkEvent::Opened { link: 1, .. })));
         let socket = *links.kinds.iter().find(|(_, kind)| **kind == LinkKind::GroundStation).unwrap().0;
         (links, socket)
     }
 
     /// Simulates a datagram from a port. Returns its link, and whether the link is new.
     fn note_received(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
-        links.handle_event(NetEvent::Datagram { socket, from: local(port), bytes: send_hello() }, Duration::from_secs(at_s));
-        let new = matches!(links.changes.front(), Some(LinkChange::Opened { .. }));
+        links.handle_event(NetEvent::Datagram { socket, from: local(port), bytes: hello_frame() }, Duration::from_secs(at_s));
+        let new = matches!(links.changes.front(), Some(LinkEvent::Opened { .. }));
         let changes = std::mem::take(&mut links.changes);
-        changes.iter().find_map(|change| if let LinkChange::Bytes { link, .. } = change { Some((*link, new)) } else { None })
+        changes.iter().find_map(|change| if let LinkEvent::Bytes { link, .. } = change { Some((*link, new)) } else { None })
     }
 
     #[test]
@@ -361,18 +361,18 @@ mod tests {
         links.drop_peers_silent_at(Duration::from_secs(100) + SILENCE_TIMEOUT);
         assert!(links.changes.is_empty(), "not yet");
         links.drop_peers_silent_at(Duration::from_secs(101) + SILENCE_TIMEOUT);
-        assert_eq!(std::mem::take(&mut links.changes), [LinkChange::Closed { link: 2 }]);
+        assert_eq!(std::mem::take(&mut links.changes), [LinkEvent::Closed { link: 2 }]);
         assert_eq!(note_received(&mut links, socket, silent, 120), Some((4, true)), "a new link");
         links.drop_peers_silent_at(Duration::from_secs(1_000_000));
-        let closed = [3, 4].map(|link| LinkChange::Closed { link });
+        let closed = [3, 4].map(|link| LinkEvent::Closed { link });
         assert_eq!(std::mem::take(&mut links.changes), closed, "but not the configured destination");
         assert_eq!(note_received(&mut links, socket, 9, 2_000_000), Some((1, false)));
     }
 
     #[test]
-    fn regress_a_flood_on_one_port_does_not_block_another() {
+    fn regress_flood_on_one_port_does_not_block_another() {
         let mut links = Links::open(&ephemeral(&[local(9)]), &[]).unwrap();
-        assert!(matches!(links.poll(), Some(LinkChange::Opened { link: 1, .. })));
+        assert!(matches!(links.poll(), Some(LinkEvent::Opened { link: 1, .. })));
         let of = |links: &Links, kind| *links.kinds.iter().find(|(_, other)| **other == kind).unwrap().0;
         let (stations, sidecars) = (of(&links, LinkKind::GroundStation), of(&links, LinkKind::Payload));
         for port in 10_000..10_000 + 2 * MAX_LEARNED_PEERS as u16 {

@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn wire_sending_to_a_closed_port_is_no_error() {
+    fn wire_sending_to_closed_port_is_not_an_error() {
         let mut hub = SocketHub::new();
         let gone = { UdpSocket::bind((LOOPBACK, 0)).unwrap().local_addr().unwrap() };
         let socket = hub.bind(LOOPBACK, 0, "--a").unwrap();
@@ -353,9 +353,9 @@ mod tests {
         client.write_all(b"in").unwrap();
         assert_eq!(hub.next(TEST_TIMEOUT), Some(NetEvent::Bytes(stream, b"in".to_vec())));
         hub.send_stream(stream, b"out".to_vec());
-        let mut heard = [0u8; 3];
-        client.read_exact(&mut heard).unwrap();
-        assert_eq!(&heard, b"out");
+        let mut received = [0u8; 3];
+        client.read_exact(&mut received).unwrap();
+        assert_eq!(&received, b"out");
         drop(client);
         assert_eq!(hub.next(TEST_TIMEOUT), Some(NetEvent::Closed(stream)));
     }

@@ -17,7 +17,7 @@ const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SimulationSpeed {
     /// Multiple of real time.
-    Times(f64),
+    Factor(f64),
     /// As fast as possible.
     Max,
 }
@@ -30,7 +30,7 @@ impl SimulationSpeed {
     /// the speed is unknown; the highest multiple is returned.
     pub fn client_speed_factor(self) -> f64 {
         match self {
-            Self::Times(times) => times.max(1.0),
+            Self::Factor(times) => times.max(1.0),
             Self::Max => MAX_SPEED,
         }
     }
@@ -44,14 +44,14 @@ impl FromStr for SimulationSpeed {
         }
         let allowed = || format!("'{text}' is not a speed (allowed: 0.1 to 100, or max)");
         let times: f64 = text.parse().map_err(|_| allowed())?;
-        if (0.1..=MAX_SPEED).contains(&times) { Ok(Self::Times(times)) } else { Err(allowed()) }
+        if (0.1..=MAX_SPEED).contains(&times) { Ok(Self::Factor(times)) } else { Err(allowed()) }
     }
 }
 
 impl std::fmt::Display for SimulationSpeed {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Times(times) => write!(f, "{times}"),
+            Self::Factor(times) => write!(f, "{times}"),
             Self::Max => f.write_str("max"),
         }
     }
@@ -85,7 +85,7 @@ impl WallPacer {
 
     /// Returns the simulation time to run to, at most [`LOCKSTEP_STEP`] past `reached`.
     pub fn target(&mut self, wall: Duration, reached: SimTime) -> SimTime {
-        let SimulationSpeed::Times(times) = self.speed else { return reached + LOCKSTEP_STEP };
+        let SimulationSpeed::Factor(times) = self.speed else { return reached + LOCKSTEP_STEP };
         let due = self.due(wall, times);
         let behind = Duration::from_secs_f64(due.saturating_sub(reached).s() / times);
         self.late.latest = self.late.latest.max(behind);
@@ -103,18 +103,18 @@ impl WallPacer {
     pub fn set_speed(&mut self, speed: SimulationSpeed, wall: Duration, reached: SimTime) {
         if self.speed != speed {
             self.speed = speed;
-            self.hold(wall, reached);
+            self.resync(wall, reached);
         }
     }
 
     /// Moves the reference point to now, so that a pause does not count as a delay.
-    pub fn hold(&mut self, wall: Duration, reached: SimTime) {
+    pub fn resync(&mut self, wall: Duration, reached: SimTime) {
         (self.wall, self.sim) = (wall, reached);
     }
 
     /// Returns the wall time to sleep until simulation time `next`.
     pub fn sleep(&self, wall: Duration, next: SimTime) -> Duration {
-        let SimulationSpeed::Times(times) = self.speed else { return Duration::ZERO };
+        let SimulationSpeed::Factor(times) = self.speed else { return Duration::ZERO };
         let due_s = (next.saturating_sub(self.sim)).s() / times;
         (self.wall + Duration::from_secs_f64(due_s)).saturating_sub(wall)
     }
@@ -153,15 +153,17 @@ pub enum FirstAnswerAction {
 }
 
 impl FirstAnswerWait {
-    /// Returns the action at wall time `wall`; `heard` is true once data has arrived from the peer, `every` is the
+    /// Returns the action at wall time `wall`; `data_received` is true once data has arrived from the peer, `every` is the
     /// announcement interval.
-    pub fn next_action(&mut self, heard: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
+    pub fn next_action(&mut self, data_received: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
         let since = *self.since.get_or_insert(wall);
         let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
-        if heard {
+        if data_received {
             self.first_received.get_or_insert(wall);
         }
-        if over(since, LOCKSTEP_PEER_TIMEOUT) || self.first_received.is_some_and(|heard| over(heard, FIRST_ANSWER_TIMEOUT)) {
+        if over(since, LOCKSTEP_PEER_TIMEOUT)
+            || self.first_received.is_some_and(|data_received| over(data_received, FIRST_ANSWER_TIMEOUT))
+        {
             *self = Self::default();
             return FirstAnswerAction::Proceed;
         }
@@ -200,7 +202,7 @@ mod tests {
 
     #[test]
     fn exact_speed_four_runs_four_seconds_per_second() {
-        let mut pace = WallPacer::new(SimulationSpeed::Times(4.0), Duration::from_secs(10));
+        let mut pace = WallPacer::new(SimulationSpeed::Factor(4.0), Duration::from_secs(10));
         let mut reached = SimTime::ZERO;
         for ms in 1..=1000 {
             reached = pace.target(Duration::from_secs(10) + Duration::from_millis(ms), reached);
@@ -211,7 +213,7 @@ mod tests {
 
     #[test]
     fn exact_clock_slips_after_a_host_stall() {
-        let mut pace = WallPacer::new(SimulationSpeed::Times(1.0), Duration::ZERO);
+        let mut pace = WallPacer::new(SimulationSpeed::Factor(1.0), Duration::ZERO);
         assert_eq!(pace.target(Duration::from_secs(5), SimTime::ZERO), LOCKSTEP_STEP);
         let five = Duration::from_secs(5);
         assert_eq!(pace.lateness(), Lateness { latest: five, slips: 1, slipped: five });
@@ -220,16 +222,16 @@ mod tests {
 
     #[test]
     fn exact_paused_time_does_not_count_as_delay() {
-        let mut pace = WallPacer::new(SimulationSpeed::Times(2.0), Duration::ZERO);
+        let mut pace = WallPacer::new(SimulationSpeed::Factor(2.0), Duration::ZERO);
         assert_eq!(pace.target(Duration::from_millis(5), SimTime::ZERO), SimTime::from_ms(10));
-        pace.hold(Duration::from_secs(60), SimTime::from_ms(10));
+        pace.resync(Duration::from_secs(60), SimTime::from_ms(10));
         assert_eq!(pace.target(Duration::from_millis(60_005), SimTime::from_ms(10)), SimTime::from_ms(20));
         assert_eq!(pace.lateness(), Lateness { latest: Duration::from_millis(5), ..Lateness::default() });
     }
 
     #[test]
     fn exact_longest_delay_is_wall_time_and_short_delays_do_not_slip() {
-        let mut pace = WallPacer::new(SimulationSpeed::Times(4.0), Duration::ZERO);
+        let mut pace = WallPacer::new(SimulationSpeed::Factor(4.0), Duration::ZERO);
         for ms in [2, 102] {
             pace.target(Duration::from_millis(ms), SimTime::from_ms(8));
         }
@@ -246,8 +248,8 @@ mod tests {
     #[test]
     fn exact_speeds_parse_and_print() {
         assert_eq!("max".parse(), Ok(SimulationSpeed::Max));
-        assert_eq!("5".parse(), Ok(SimulationSpeed::Times(5.0)));
-        assert_eq!(SimulationSpeed::Times(0.5).to_string(), "0.5");
+        assert_eq!("5".parse(), Ok(SimulationSpeed::Factor(5.0)));
+        assert_eq!(SimulationSpeed::Factor(0.5).to_string(), "0.5");
         for bad in ["0", "-1", "fast", "1000", "NaN"] {
             assert!(bad.parse::<SimulationSpeed>().is_err(), "{bad}");
         }

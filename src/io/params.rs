@@ -45,14 +45,14 @@ impl ParamFile {
     /// Returns an error if the file cannot be written; the old version remains.
     pub fn write(&self, text: &str) -> Result<(), AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--params {}: {error}", self.path.display()));
-        let beside = beside(&self.path);
-        let mut file = std::fs::File::create(&beside).map_err(failed)?;
+        let temp_path = temp_path(&self.path);
+        let mut file = std::fs::File::create(&temp_path).map_err(failed)?;
         file.write_all(text.as_bytes()).and_then(|()| file.sync_all()).map_err(failed)?;
-        std::fs::rename(&beside, &self.path).map_err(failed)
+        std::fs::rename(&temp_path, &self.path).map_err(failed)
     }
 }
 
-fn beside(path: &Path) -> PathBuf {
+fn temp_path(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(".new");
     path.with_file_name(name)

@@ -13,7 +13,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::parser::parse_message_type;
-use spandrel_monitor::export::columns::Read;
+use spandrel_monitor::export::columns::ColumnReader;
 use spandrel_monitor::export::{COLUMNS, Column, FrameRow};
 use std::sync::Arc;
 
@@ -47,10 +47,10 @@ fn write(rows: &[FrameRow]) -> Result<Vec<u8>, ParquetError> {
 fn message_type() -> String {
     let line = |column: &Column| {
         let (kind, annotation) = match column.read {
-            Read::Integer(_) => ("int64", ""),
-            Read::Float(_) => ("double", ""),
-            Read::Boolean(_) => ("boolean", ""),
-            Read::Text(_) => ("binary", " (utf8)"),
+            ColumnReader::Integer(_) => ("int64", ""),
+            ColumnReader::Float(_) => ("double", ""),
+            ColumnReader::Boolean(_) => ("boolean", ""),
+            ColumnReader::Text(_) => ("binary", " (utf8)"),
         };
         let repetition = if column.optional { "optional" } else { "required" };
         format!("{repetition} {kind} {}{annotation};", column.name)
@@ -64,10 +64,10 @@ fn arrow_metadata() -> String {
         name: column.name,
         nullable: column.optional,
         kind: match column.read {
-            Read::Integer(_) => Kind::Int64,
-            Read::Float(_) => Kind::Double,
-            Read::Boolean(_) => Kind::Bool,
-            Read::Text(_) => Kind::Utf8,
+            ColumnReader::Integer(_) => Kind::Int64,
+            ColumnReader::Float(_) => Kind::Double,
+            ColumnReader::Boolean(_) => Kind::Bool,
+            ColumnReader::Text(_) => Kind::Utf8,
         },
         metadata: [("unit", column.unit), ("frame", column.frame), ("description", column.description)]
             .into_iter()
@@ -82,10 +82,10 @@ type Group<'a> = SerializedRowGroupWriter<'a, Vec<u8>>;
 
 fn write_column(group: &mut Group<'_>, column: &Column, rows: &[FrameRow]) -> Result<(), ParquetError> {
     match column.read {
-        Read::Integer(value) => write_next_column::<Int64Type>(group, column, rows.iter().map(value)),
-        Read::Float(value) => write_next_column::<DoubleType>(group, column, rows.iter().map(value)),
-        Read::Boolean(value) => write_next_column::<BoolType>(group, column, rows.iter().map(|row| Some(value(row)))),
-        Read::Text(value) => {
+        ColumnReader::Integer(value) => write_next_column::<Int64Type>(group, column, rows.iter().map(value)),
+        ColumnReader::Float(value) => write_next_column::<DoubleType>(group, column, rows.iter().map(value)),
+        ColumnReader::Boolean(value) => write_next_column::<BoolType>(group, column, rows.iter().map(|row| Some(value(row)))),
+        ColumnReader::Text(value) => {
             write_next_column::<ByteArrayType>(group, column, rows.iter().map(|row| Some(ByteArray::from(value(row)))))
         }
     }

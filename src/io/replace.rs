@@ -27,18 +27,18 @@ pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteError> {
     // The temporary name is unique, because two writers of the same file must not rename each other's partial file.
     static TEMP_FILE_COUNTER: AtomicU64 = AtomicU64::new(0);
-    let mut beside = path.to_path_buf().into_os_string();
-    beside.push(format!(".{}-{}.new", std::process::id(), TEMP_FILE_COUNTER.fetch_add(1, Ordering::Relaxed)));
+    let mut temp_path = path.to_path_buf().into_os_string();
+    temp_path.push(format!(".{}-{}.new", std::process::id(), TEMP_FILE_COUNTER.fetch_add(1, Ordering::Relaxed)));
     let write = || {
-        let mut file = File::create(&beside)?;
+        let mut file = File::create(&temp_path)?;
         file.write_all(bytes)?;
         settle(&file)?;
         drop(file);
-        std::fs::rename(&beside, path)
+        std::fs::rename(&temp_path, path)
     };
     write().map_err(|error| {
         // Later writes do not reuse this name, so the file would remain.
-        let _ = std::fs::remove_file(&beside);
+        let _ = std::fs::remove_file(&temp_path);
         WriteError { path: path.to_path_buf(), error }
     })
 }

@@ -35,7 +35,7 @@ pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> 
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
-pub fn compared(first: &Path, second: &Path) -> Result<String, AppError> {
+pub fn comparison_page(first: &Path, second: &Path) -> Result<String, AppError> {
     Ok(page::comparison(&review(first)?, &review(second)?))
 }
 
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_an_address_is_percent_encoded() {
+    fn exact_address_is_percent_encoded() {
         assert_eq!(address(Path::new("/a b/ü.html")), "file:///a%20b/%C3%BC.html");
     }
 }

@@ -14,7 +14,7 @@ use spandrel_monitor::{AssessError, AssessedSession, assess_log, export};
 /// # Errors
 /// Returns an error if there is nothing to score.
 pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<AssessedSession, AppError> {
-    assess_log(log, scenario, vehicle, build_site).map_err(|error| refused(&error))
+    assess_log(log, scenario, vehicle, build_site).map_err(|error| scoring_error(&error))
 }
 
 /// Returns the scored frames of a stored session, for exports.
@@ -23,10 +23,10 @@ pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &
 /// Returns an error if there is nothing to score.
 pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
     let rows = export::frame_rows(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle);
-    rows.map_err(|error| refused(&error))
+    rows.map_err(|error| scoring_error(&error))
 }
 
-fn refused(error: &AssessError) -> AppError {
+fn scoring_error(error: &AssessError) -> AppError {
     match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
             AppError::wrong(format!("{error}: use the scenario and seed of the flight"))

@@ -59,18 +59,18 @@ impl FromStr for SerialDevice {
     }
 }
 
-/// Reads a port until its data is no longer needed. `begin` returns the frames to write, `give` receives the data read,
+/// Reads a port until its data is no longer needed. `begin` returns the frames to write, `on_bytes` receives the data read,
 /// and `end` is called when the port disconnects; the port is then reopened as soon as possible.
 pub fn run_with_reconnect(
     device: &SerialDevice,
     mut port: SerialPort,
     begin: impl Fn() -> Option<Receiver<Vec<u8>>>,
-    give: impl Fn(&[u8]) -> bool,
+    on_bytes: impl Fn(&[u8]) -> bool,
     end: impl Fn() -> bool,
 ) {
     loop {
         let Some(frames) = begin() else { return };
-        if !read_until_disconnect(port, frames, &give) || !end() {
+        if !read_until_disconnect(port, frames, &on_bytes) || !end() {
             return;
         }
         tracing::warn!("serial port {device} disconnected; waiting for it to return");
@@ -85,7 +85,7 @@ pub fn run_with_reconnect(
 
 /// Reads the port while a thread writes `frames` to it. Returns false if the data is no longer needed, true if the port
 /// disconnected.
-fn read_until_disconnect(port: SerialPort, frames: Receiver<Vec<u8>>, give: &impl Fn(&[u8]) -> bool) -> bool {
+fn read_until_disconnect(port: SerialPort, frames: Receiver<Vec<u8>>, on_bytes: &impl Fn(&[u8]) -> bool) -> bool {
     let port = Arc::new(port);
     let to_write = Arc::clone(&port);
     std::thread::spawn(move || {
@@ -97,7 +97,7 @@ fn read_until_disconnect(port: SerialPort, frames: Receiver<Vec<u8>>, give: &imp
     let mut buffer = [0u8; 1024];
     loop {
         match port.read(&mut buffer) {
-            Ok(len @ 1..) if give(&buffer[..len]) => {}
+            Ok(len @ 1..) if on_bytes(&buffer[..len]) => {}
             Ok(1..) => return false,
             Ok(0) => return true,
             Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted | ErrorKind::WouldBlock) => {}

@@ -63,7 +63,7 @@ impl SessionFolder {
         std::fs::create_dir_all(sessions).map_err(|error| io_error(sessions, &error))?;
         let stem = format!("{compact}-{trainee}-{}", scenario.scenario.name);
         let path = new_folder(sessions, &stem, started_unix_us)?;
-        for (name, text) in &scenario.siblings {
+        for (name, text) in &scenario.referenced_files {
             let file = path.join(name);
             if let Some(folder) = file.parent() {
                 std::fs::create_dir_all(folder).map_err(|error| io_error(folder, &error))?;
@@ -88,10 +88,10 @@ impl SessionFolder {
         if folder.telemetry.len() != stored.log.len() {
             return Err(AppError::failed(format!("{}: the session grew while it was being read; try again", path.display())));
         }
-        folder.telemetry.cut(stored.log.complete_len()?)?;
+        folder.telemetry.truncate(stored.log.complete_len()?)?;
         let events_path = path.join(EVENTS);
         let events = std::fs::read(&events_path).map_err(|error| io_error(&events_path, &error))?;
-        folder.events.cut(complete_lines_len(&events) as u64)?;
+        folder.events.truncate(complete_lines_len(&events) as u64)?;
         Ok(folder)
     }
 

@@ -1,7 +1,7 @@
 //! Connects one vehicle's sans-IO core to its sockets, its files and the wall clock.
 
 use super::clock::{self, Stopwatch};
-use super::links::{LinkChange, Links};
+use super::links::{LinkEvent, Links};
 use super::pacing::{
     FirstAnswerAction, FirstAnswerWait, LOCKSTEP_PEER_TIMEOUT, Lateness, LockstepTimeout, SimulationSpeed, WallPacer,
 };
@@ -121,7 +121,7 @@ impl VehicleShell {
     /// Sends heartbeats and discards incoming data while the simulation is paused.
     fn run_paused(&mut self) {
         while let Some(change) = self.links.poll() {
-            if !matches!(change, LinkChange::Bytes { .. }) {
+            if !matches!(change, LinkEvent::Bytes { .. }) {
                 self.apply(change);
             }
         }
@@ -134,7 +134,7 @@ impl VehicleShell {
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
-        self.pacer.hold(wall, self.core.now());
+        self.pacer.resync(wall, self.core.now());
         self.links.wait(MAX_WAIT);
     }
 
@@ -160,7 +160,7 @@ impl VehicleShell {
         }
         let wall = self.stopwatch.elapsed();
         if !self.core.waiting() {
-            let speed = if self.core.runs_in_real_time() { SimulationSpeed::Times(1.0) } else { self.speed };
+            let speed = if self.core.runs_in_real_time() { SimulationSpeed::Factor(1.0) } else { self.speed };
             self.pacer.set_speed(speed, wall, self.core.now());
             let target = self.pacer.target(wall, self.core.now()).min(end);
             self.advance_to(target);
@@ -230,9 +230,9 @@ impl VehicleShell {
         }
     }
 
-    fn apply(&mut self, change: LinkChange) {
+    fn apply(&mut self, change: LinkEvent) {
         match change {
-            LinkChange::Opened { link, kind, lockstep, learned, limit } => {
+            LinkEvent::Opened { link, kind, lockstep, learned, limit } => {
                 self.core.open_link(LinkId(link), kind, lockstep);
                 if learned {
                     self.core.await_heartbeat(LinkId(link));
@@ -241,8 +241,8 @@ impl VehicleShell {
                     self.core.limit_link(LinkId(link), bytes_s);
                 }
             }
-            LinkChange::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
-            LinkChange::Closed { link } => self.core.close_link(LinkId(link)),
+            LinkEvent::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
+            LinkEvent::Closed { link } => self.core.close_link(LinkId(link)),
         }
     }
 
@@ -274,7 +274,7 @@ impl VehicleShell {
     /// Waits for a peer's first TIMESYNC answer. The vehicle announces itself meanwhile, because a peer must find it
     /// before it can answer.
     fn await_first_answer(&mut self, heard: bool, wall: Duration) {
-        self.pacer.hold(wall, self.core.now());
+        self.pacer.resync(wall, self.core.now());
         match self.first_answer.next_action(heard, wall, HEARTBEAT_INTERVAL) {
             FirstAnswerAction::Wait => {}
             FirstAnswerAction::Announce => self.core.send_first_heartbeats(),

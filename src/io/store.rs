@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_links_cannot_leave_the_folder() {
+    fn exact_links_cannot_escape_folder() {
         let (base, mut store) = place("links");
         for (name, target) in [("up", "../secret"), ("sibling", "../root-of-another/secret"), ("absolute", "/etc/passwd")] {
             std::os::unix::fs::symlink(target, base.join("root").join(name)).unwrap();

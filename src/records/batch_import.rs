@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Maximum number of records per database transaction, so that an interrupted import loses little work.
-const PARCEL: usize = 64;
+const RECORDS_PER_TRANSACTION: usize = 64;
 
 /// Number of session folders by import result.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -52,10 +52,10 @@ pub fn import_into(database: &Database, folders: &[PathBuf]) -> Result<ImportCou
     let (known, erased) = (database.fingerprints()?, database.erased()?);
     let mut taken = ImportCounts::default();
     let mut progress = ProgressLog::start("reading sessions");
-    for (parcel, part) in folders.chunks(PARCEL).enumerate() {
+    for (parcel, part) in folders.chunks(RECORDS_PER_TRANSACTION).enumerate() {
         let mut records = Vec::new();
         for (k, folder) in part.iter().enumerate() {
-            progress.report(|| format!("session {} of {}", parcel * PARCEL + k + 1, folders.len()));
+            progress.report(|| format!("session {} of {}", parcel * RECORDS_PER_TRANSACTION + k + 1, folders.len()));
             records.extend(taken.read(folder, (&known, &erased), "skipped"));
         }
         taken.changed += database.put(&records)?;

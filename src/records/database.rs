@@ -86,7 +86,7 @@ impl Database {
 
     /// Starts a write transaction and leaves it open.
     #[cfg(test)]
-    pub fn start_endless_write(&self) -> Result<(), AppError> {
+    pub fn begin_uncommitted_write(&self) -> Result<(), AppError> {
         self.run(async {
             match self.kind {
                 SqlDialect::Sqlite => self.pool.execute("BEGIN IMMEDIATE").await.map(|_| ()),

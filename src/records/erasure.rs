@@ -23,7 +23,7 @@ impl Database {
     }
 
     /// Removes the mark of a deleted folder.
-    fn removed(&self, name: &str) -> Result<(), AppError> {
+    fn remove_mark(&self, name: &str) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
             erasure_marks::unmark(&mut change, ErasedKind::Folder, name).await?;
@@ -48,7 +48,7 @@ pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result
         }
         sync_parent(folder)?;
         delete(&aside)?;
-        database.removed(&name)?;
+        database.remove_mark(&name)?;
     }
     Ok(())
 }
@@ -64,7 +64,7 @@ pub(super) fn finish(database: &Database, sessions: &[PathBuf]) -> Result<(), Ap
         let name = folder_name(&path);
         if let Some(original) = name.strip_prefix(ERASING_PREFIX) {
             delete(&path)?;
-            database.removed(original)?;
+            database.remove_mark(original)?;
         } else if marked.contains(&erasure_marks::hash(&name)) {
             remove_folders(database, &[path])?;
         }
@@ -112,23 +112,23 @@ mod tests {
 
     #[test]
     fn regress_interrupted_erasures_are_finished_at_the_next_start() {
-        let place = tempfile::tempdir().unwrap();
-        let here = [place.path().to_path_buf()];
-        let database = Database::open(&place.path().join("records.sqlite").display().to_string()).unwrap();
-        session(place.path(), "b-ben");
+        let temp_dir = tempfile::tempdir().unwrap();
+        let here = [temp_dir.path().to_path_buf()];
+        let database = Database::open(&temp_dir.path().join("records.sqlite").display().to_string()).unwrap();
+        session(temp_dir.path(), "b-ben");
         // Interrupted after the transaction, after the rename, and during the deletion.
-        let [marked, renamed, half] = ["a-anna", "c-anna", "d-anna"].map(|name| session(place.path(), name));
+        let [marked, renamed, half] = ["a-anna", "c-anna", "d-anna"].map(|name| session(temp_dir.path(), name));
         database.erase("anna", &[marked, renamed.clone(), half.clone()]).unwrap();
         for folder in [&renamed, &half] {
             std::fs::rename(folder, folder.with_file_name(format!("{ERASING_PREFIX}{}", folder_name(folder)))).unwrap();
         }
-        std::fs::remove_file(place.path().join(format!("{ERASING_PREFIX}d-anna")).join("telemetry.tlog")).unwrap();
+        std::fs::remove_file(temp_dir.path().join(format!("{ERASING_PREFIX}d-anna")).join("telemetry.tlog")).unwrap();
         finish(&database, &here).unwrap();
-        assert_eq!(remaining_folders(place.path()), ["b-ben"]);
+        assert_eq!(remaining_folders(temp_dir.path()), ["b-ben"]);
         assert_eq!(database.erasing(), Ok(BTreeSet::new()));
         // A folder that is copied back later is not deleted automatically.
-        session(place.path(), "a-anna");
+        session(temp_dir.path(), "a-anna");
         finish(&database, &here).unwrap();
-        assert_eq!(remaining_folders(place.path()), ["a-anna", "b-ben"]);
+        assert_eq!(remaining_folders(temp_dir.path()), ["a-anna", "b-ben"]);
     }
 }

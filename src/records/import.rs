@@ -60,7 +60,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     // If the monitor was killed early, the positions of the defects were not saved; the seed reproduces them.
     let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
-    let answers = answers::read_answers_of(session, scenario)?;
+    let answers = answers::read_saved_answers(session, scenario)?;
     Ok(Some(record(&RecordSource {
         id: &id,
         trainee: &stored.trainee,

@@ -36,9 +36,13 @@ impl TraineeData {
 ///
 /// # Errors
 /// Returns an error if the database or a folder cannot be read.
-pub fn stored_data(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<Option<TraineeData>, AppError> {
+pub fn stored_data(
+    database: &Database,
+    records_location: &RecordsLocation,
+    trainee: &str,
+) -> Result<Option<TraineeData>, AppError> {
     let sessions = database.records(Some(trainee))?;
-    let folders = folders_of_trainee(place, trainee)?;
+    let folders = folders_of_trainee(records_location, trainee)?;
     let known = find(database, trainee)?;
     if known.is_none() && sessions.is_empty() && folders.is_empty() {
         return Ok(None);
@@ -51,8 +55,8 @@ pub fn stored_data(database: &Database, place: &RecordsLocation, trainee: &str) 
 ///
 /// # Errors
 /// Returns an error if a folder or the database cannot be changed.
-pub fn erase_person(database: &Database, place: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
-    let folders = folders_of_trainee(place, trainee)?;
+pub fn erase_person(database: &Database, records_location: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
+    let folders = folders_of_trainee(records_location, trainee)?;
     let (known, sessions) = database.erase(trainee, &folders)?;
     erasure::remove_folders(database, &folders)?;
     Ok((known || !folders.is_empty(), sessions))
@@ -70,8 +74,8 @@ pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppEr
 ///
 /// # Errors
 /// Returns an error if the folder of sessions cannot be read.
-pub fn folders_of_trainee(place: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
-    folders_where(&place.sessions, |owner, _| owner == trainee)
+pub fn folders_of_trainee(records_location: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
+    folders_where(&records_location.sessions, |owner, _| owner == trainee)
 }
 
 /// Returns the session folders whose trainee and start (µs since the Unix epoch) satisfy the predicate. Logs unreadable
@@ -97,8 +101,12 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
 ///
 /// # Errors
 /// Returns an error if a folder or the database cannot be changed.
-pub fn erase_older_than(database: &Database, place: &RecordsLocation, limit_us: u64) -> Result<(u64, usize), AppError> {
-    let folders = folders_older_than(place, limit_us)?;
+pub fn erase_older_than(
+    database: &Database,
+    records_location: &RecordsLocation,
+    limit_us: u64,
+) -> Result<(u64, usize), AppError> {
+    let folders = folders_older_than(records_location, limit_us)?;
     let ids: Vec<String> = database.older_than(limit_us)?.into_iter().map(|(id, _)| id).collect();
     let deleted = database.delete_sessions(&ids, &folders)?;
     erasure::remove_folders(database, &folders)?;
@@ -109,6 +117,6 @@ pub fn erase_older_than(database: &Database, place: &RecordsLocation, limit_us: 
 ///
 /// # Errors
 /// Returns an error if the folder of sessions cannot be read.
-pub fn folders_older_than(place: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
-    folders_where(&place.sessions, |_, started_unix_us| started_unix_us < limit_us)
+pub fn folders_older_than(records_location: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
+    folders_where(&records_location.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

@@ -57,14 +57,19 @@ pub fn endpoint(text: &str) -> Result<String, String> {
 /// # Errors
 /// Returns an error if the store rejects statements or cannot be reached. Statements accepted before the error stay in
 /// the store.
-pub fn push(place: &RecordsLocation, records: &[SessionRecord], url: &str, home: &str) -> Result<PushCounts, AppError> {
+pub fn push(
+    records_location: &RecordsLocation,
+    records: &[SessionRecord],
+    url: &str,
+    home: &str,
+) -> Result<PushCounts, AppError> {
     let store = LearningRecordStore::new(url)?;
     let mut progress = ProgressLog::start("sending statements");
     let mut all = PushCounts::default();
     for (k, record) in records.iter().enumerate() {
         progress.report(|| format!("session {} of {}", k + 1, records.len()));
         let statements = xapi::statements(record, home);
-        save_statements(place, record, &statements)?;
+        save_statements(records_location, record, &statements)?;
         for parcel in statements.chunks(BATCH_SIZE) {
             let done = store.send_batch(parcel)?;
             all = PushCounts { sent: all.sent + done.sent, already_there: all.already_there + done.already_there };
@@ -75,9 +80,9 @@ pub fn push(place: &RecordsLocation, records: &[SessionRecord], url: &str, home:
 }
 
 /// Writes the statements to the session folder, if it is on this machine.
-fn save_statements(place: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
+fn save_statements(records_location: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
     let here = |folder: &Path| crate::io::session_folder::is_session(&folder.join(&record.id));
-    match place.sessions.iter().find(|folder| here(folder)) {
+    match records_location.sessions.iter().find(|folder| here(folder)) {
         Some(folder) => replace(&folder.join(&record.id).join(STATEMENTS), xapi::lines(statements).as_bytes()),
         None => Ok(()),
     }

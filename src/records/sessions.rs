@@ -142,7 +142,7 @@ impl Database {
         self.run(async {
             let query = sqlx::query(query).bind(i64::from(most)).bind(i64::from(skip));
             let query = if let Some(trainee) = trainee { query.bind(trainee.to_owned()) } else { query };
-            query.fetch_all(&self.pool).await?.iter().map(listed).collect()
+            query.fetch_all(&self.pool).await?.iter().map(list_entry).collect()
         })
     }
 
@@ -281,7 +281,7 @@ struct ListFields {
     unmet: Vec<String>,
 }
 
-fn listed(row: &AnyRow) -> Result<SessionListEntry, sqlx::Error> {
+fn list_entry(row: &AnyRow) -> Result<SessionListEntry, sqlx::Error> {
     let started: i64 = row.try_get(2)?;
     let text: String = row.try_get(8)?;
     let shown: ListFields = serde_json::from_str(&text).map_err(|error| sqlx::Error::Decode(error.into()))?;

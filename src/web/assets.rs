@@ -6,7 +6,7 @@ use super::state::ServerState;
 use spandrel_training::web::assets;
 
 /// Responds with an asset of the pages.
-pub fn file(_: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let (text, kind) = assets::file(asked.path_part("name")).ok_or(WebError::NotFound)?;
+pub fn file(_: &ServerState, request: &WebRequest) -> HandlerResult {
+    let (text, kind) = assets::file(request.path_param("name")).ok_or(WebError::NotFound)?;
     Ok(WebResponse::asset(kind, text))
 }

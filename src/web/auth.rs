@@ -27,14 +27,14 @@ const BROWSER_COOKIE_LIFETIME: cookie::time::Duration = cookie::time::Duration::
 /// Stores the browser sessions, the known browsers and the failed logins.
 #[derive(Debug)]
 pub struct Authenticator {
-    visits: Mutex<BrowserSessions>,
+    browser_sessions: Mutex<BrowserSessions>,
     throttle: Mutex<LoginThrottle>,
     devices: Mutex<KnownBrowsers>,
     /// Queue of password hash requests.
     pub hashing: HashingQueue,
     login_required: AtomicBool,
     secure: bool,
-    reach: AllowedOrigins,
+    allowed_origins: AllowedOrigins,
 }
 
 /// Client that sent a login.
@@ -59,15 +59,15 @@ pub struct Identified {
 
 impl Authenticator {
     /// Creates an authenticator; `secure` is true if all requests use TLS.
-    pub fn new(login_required: bool, secure: bool, reach: AllowedOrigins) -> Self {
+    pub fn new(login_required: bool, secure: bool, allowed_origins: AllowedOrigins) -> Self {
         Self {
-            visits: Mutex::default(),
+            browser_sessions: Mutex::default(),
             throttle: Mutex::default(),
             devices: Mutex::default(),
             hashing: HashingQueue::default(),
             login_required: AtomicBool::new(login_required),
             secure,
-            reach,
+            allowed_origins,
         }
     }
 
@@ -76,7 +76,7 @@ impl Authenticator {
     /// # Errors
     /// See [`AllowedOrigins::check_origin`].
     pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
-        self.reach.check_origin(headers, changes, open)
+        self.allowed_origins.check_origin(headers, changes, open)
     }
 
     /// Returns the client's address.
@@ -84,7 +84,7 @@ impl Authenticator {
     /// # Errors
     /// See [`AllowedOrigins::address`].
     pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
-        self.reach.address(socket, headers)
+        self.allowed_origins.address(socket, headers)
     }
 
     /// Returns true if all requests use TLS.
@@ -121,7 +121,7 @@ impl Authenticator {
     pub fn identify(&self, database: &Database, cookie: Option<String>) -> Result<Identified, WebError> {
         let open = self.is_open(database)?;
         let now_us = clock::unix_us();
-        let found = cookie.and_then(|cookie| lock(&self.visits).find(&cookie, now_us).map(|visit| (cookie, visit)));
+        let found = cookie.and_then(|cookie| lock(&self.browser_sessions).find(&cookie, now_us).map(|visit| (cookie, visit)));
         // Checked with every request, so a change of role, an erasure or a new password ends the browser session
         // immediately, even if another server or the command line made the change.
         let account = found.as_ref().and_then(|(_, visit)| visit.name.as_deref());
@@ -130,13 +130,13 @@ impl Authenticator {
             |visit: &BrowserSession| visit.name.is_some() && visit.credential != account.as_ref().and_then(Account::credential);
         let found = match found {
             Some((cookie, visit)) if over(&visit) => {
-                lock(&self.visits).end(&cookie);
+                lock(&self.browser_sessions).end(&cookie);
                 None
             }
             found => found,
         };
         let Some((cookie, visit)) = found else {
-            let (cookie, visit) = lock(&self.visits).begin(None, secrets()?, now_us);
+            let (cookie, visit) = lock(&self.browser_sessions).begin(None, secrets()?, now_us);
             return Ok(Identified { visitor: visitor(open, None, visit), cookie, is_new: true });
         };
         let person = account.map(|account| account.person);
@@ -152,19 +152,19 @@ impl Authenticator {
     pub fn log_in(
         &self,
         database: &Database,
-        asked: (&str, &str),
+        credentials: (&str, &str),
         before: Option<&str>,
         client: &LoginClient<'_>,
     ) -> Result<(String, String), WebError> {
-        let (name, password) = asked;
+        let (name, password) = credentials;
         let account = self.check(database, name, password, client)?;
         let credential = account.credential().ok_or_else(wrong_credentials)?;
         let now_us = clock::unix_us();
         let [secret, _] = secrets()?;
         let device = lock(&self.devices).remember(client.device, name, &secret, now_us);
-        let mut visits = lock(&self.visits);
-        before.iter().for_each(|cookie| visits.end(cookie));
-        let (cookie, _) = visits.begin(Some((name, credential)), secrets()?, now_us);
+        let mut browser_sessions = lock(&self.browser_sessions);
+        before.iter().for_each(|cookie| browser_sessions.end(cookie));
+        let (cookie, _) = browser_sessions.begin(Some((name, credential)), secrets()?, now_us);
         Ok((cookie, device))
     }
 
@@ -197,18 +197,18 @@ impl Authenticator {
 
     /// Ends a browser session.
     pub fn log_out(&self, cookie: Option<&str>) {
-        cookie.iter().for_each(|cookie| lock(&self.visits).end(cookie));
+        cookie.iter().for_each(|cookie| lock(&self.browser_sessions).end(cookie));
     }
 
     /// Ends all browser sessions of a person except the one with the cookie `but`.
     pub fn end_other_sessions(&self, name: &str, but: Option<&str>) {
-        lock(&self.visits).end_all_of(name, but);
+        lock(&self.browser_sessions).end_all_of(name, but);
     }
 
     /// Keeps a browser session valid after a change of its account's password or role.
-    pub fn renew(&self, cookie: Option<&str>, account: &Account) {
+    pub fn update_credential(&self, cookie: Option<&str>, account: &Account) {
         if let (Some(cookie), Some(credential)) = (cookie, account.credential()) {
-            lock(&self.visits).renew(cookie, credential);
+            lock(&self.browser_sessions).update_credential(cookie, credential);
         }
     }
 

@@ -20,51 +20,52 @@ const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 ///
 /// # Errors
 /// Returns an error if the body is too large, too slow, not a form, or its token is wrong.
-pub async fn read(asked: &mut WebRequest, how: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
+pub async fn read(web_request: &mut WebRequest, kind: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
     let late = |_| WebError::BadRequest("the upload of the form timed out".into());
-    match how {
+    match kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
         RouteKind::Change => {
             let bytes = tokio::time::timeout(FORM_TIMEOUT, to_bytes(request.into_body(), MAX_FORM_BYTES)).await.map_err(late)?;
             let bytes = bytes.map_err(|_| WebError::TooLarge(MAX_FORM_BYTES))?;
-            asked.form = form_urlencoded::parse(&bytes).into_owned().collect();
-            Authenticator::check_token(&asked.visitor, asked.form_field("token"))
+            web_request.form = form_urlencoded::parse(&bytes).into_owned().collect();
+            Authenticator::check_token(&web_request.visitor, web_request.form_field("token"))
         }
         RouteKind::Upload(most) => {
-            tokio::time::timeout(UPLOAD_TIMEOUT, read_parts(asked, most, request, spool)).await.map_err(late)?
+            tokio::time::timeout(UPLOAD_TIMEOUT, read_parts(web_request, most, request, spool)).await.map_err(late)?
         }
     }
 }
 
 /// Reads a form with a file. The token must be the first field; without it, nothing else is read.
-async fn read_parts(asked: &mut WebRequest, most: usize, request: Request, spool: &Path) -> Result<(), WebError> {
+async fn read_parts(web_request: &mut WebRequest, most: usize, request: Request, spool: &Path) -> Result<(), WebError> {
     let mut parts = Multipart::from_request(request, &()).await.map_err(|_| not_a_form())?;
     let too_large = |error: MultipartError| unreadable(&error, most);
     while let Some(mut part) = parts.next_field().await.map_err(too_large)? {
         let name = part.name().unwrap_or_default().to_owned();
         let file = part.file_name().map(str::to_owned);
         if name != "token" {
-            Authenticator::check_token(&asked.visitor, asked.form_field("token"))?;
+            Authenticator::check_token(&web_request.visitor, web_request.form_field("token"))?;
         }
         match file {
-            Some(_) if asked.upload.is_some() => return Err(WebError::BadRequest("only one file is allowed".into())),
+            Some(_) if web_request.upload.is_some() => return Err(WebError::BadRequest("only one file is allowed".into())),
             Some(file) => {
-                asked.upload = Some(UploadedFile { name: file, file: arrive(&mut part, UploadSpool::new(spool, most)).await? })
+                web_request.upload =
+                    Some(UploadedFile { name: file, file: read_file(&mut part, UploadSpool::new(spool, most)).await? })
             }
             None => {
                 let bytes = part.bytes().await.map_err(too_large)?;
                 if bytes.len() > MAX_FORM_BYTES {
                     return Err(WebError::TooLarge(MAX_FORM_BYTES));
                 }
-                asked.form.push((name, String::from_utf8_lossy(&bytes).into_owned()));
+                web_request.form.push((name, String::from_utf8_lossy(&bytes).into_owned()));
             }
         }
     }
-    Authenticator::check_token(&asked.visitor, asked.form_field("token"))
+    Authenticator::check_token(&web_request.visitor, web_request.form_field("token"))
 }
 
 /// Reads a file as it arrives.
-async fn arrive(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<SpooledUpload, WebError> {
+async fn read_file(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<SpooledUpload, WebError> {
     let begun = tokio::time::Instant::now();
     let most = spool.max_bytes();
     while let Some(chunk) = part.chunk().await.map_err(|error| unreadable(&error, most))? {

@@ -41,8 +41,8 @@ impl FigureCache {
     ///
     /// # Errors
     /// Returns an error if the database cannot be opened.
-    pub fn open(place: &RecordsLocation) -> Result<Self, AppError> {
-        Ok(Self { database: place.open()?, cache: Mutex::default() })
+    pub fn open(records_location: &RecordsLocation) -> Result<Self, AppError> {
+        Ok(Self { database: records_location.open()?, cache: Mutex::default() })
     }
 
     /// Returns the figures for a selection.

@@ -5,7 +5,7 @@ use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::sessions;
 use super::state::ServerState;
-use crate::io::answers::{read_answers_of, task_ids};
+use crate::io::answers::{read_saved_answers, task_ids};
 use crate::io::replace::replace;
 use crate::io::session_folder::StoredSession;
 use serde_json::json;
@@ -15,33 +15,33 @@ use spandrel_training::questionnaire::{ANSWERS, Answers, QuestionnaireItem, Word
 use spandrel_training::web::questionnaire_form;
 
 /// Shows the questionnaire of a session.
-pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    render_form(state, asked, false)
+pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    render_form(state, request, false)
 }
 
-fn render_form(state: &ServerState, asked: &WebRequest, saved: bool) -> HandlerResult {
-    let id = asked.path_part("id");
-    let folder = sessions::folder(state, asked, id)?;
+fn render_form(state: &ServerState, request: &WebRequest, saved: bool) -> HandlerResult {
+    let id = request.path_param("id");
+    let folder = sessions::folder(state, request, id)?;
     let scenario = StoredSession::read_scenario(&folder)?.scenario;
-    let answers = read_answers_of(&folder, &scenario)?.unwrap_or_default();
-    let wording = language(state, asked, &answers)?;
+    let answers = read_saved_answers(&folder, &scenario)?.unwrap_or_default();
+    let wording = language(state, request, &answers)?;
     let tasks = task_names(&scenario);
     let languages = state.languages.all();
     let about = questionnaire_form::FormContext { id, tasks: &tasks, wording, languages, answers: &answers, saved };
-    Ok(WebResponse::page(questionnaire_form::page(&asked.visitor, &about)))
+    Ok(WebResponse::page(questionnaire_form::page(&request.visitor, &about)))
 }
 
 /// Returns the wording in the requested language, the language of the saved answers, or the browser's preferred
 /// language.
-fn language<'a>(state: &'a ServerState, asked: &WebRequest, answers: &Answers) -> Result<&'a Wording, WebError> {
-    if let Some(tag) = asked.form_field("language").or_else(|| asked.query_value("language")) {
+fn language<'a>(state: &'a ServerState, request: &WebRequest, answers: &Answers) -> Result<&'a Wording, WebError> {
+    if let Some(tag) = request.form_field("language").or_else(|| request.query_param("language")) {
         return state
             .languages
             .of(tag)
             .ok_or_else(|| WebError::BadRequest(format!("language: unknown (allowed: {})", language_tags(state))));
     }
     let begun = state.languages.of(&answers.language).filter(|_| !answers.language.is_empty());
-    Ok(begun.unwrap_or_else(|| state.languages.accepted(&asked.languages)))
+    Ok(begun.unwrap_or_else(|| state.languages.accepted(&request.languages)))
 }
 
 fn language_tags(state: &ServerState) -> String {
@@ -53,26 +53,26 @@ fn task_names(scenario: &Scenario) -> Vec<(u32, String)> {
 }
 
 /// Saves the answers of a submitted form.
-pub fn save(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let id = asked.path_part("id");
-    let folder = sessions::folder(state, asked, id)?;
+pub fn save(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let id = request.path_param("id");
+    let folder = sessions::folder(state, request, id)?;
     let scenario = StoredSession::read_scenario(&folder)?.scenario;
     let tasks = task_ids(&scenario);
     let answers = {
         let _others_wait = lock(&state.answers);
-        let mut answers = read_answers_of(&folder, &scenario)?.unwrap_or_default();
-        questionnaire_form::parse_answers(&mut answers, &asked.form, &tasks)
+        let mut answers = read_saved_answers(&folder, &scenario)?.unwrap_or_default();
+        questionnaire_form::parse_answers(&mut answers, &request.form, &tasks)
             .map_err(|wrong| WebError::BadRequest(wrong.to_string()))?;
-        answers.language.clone_from(&language(state, asked, &answers)?.language);
+        answers.language.clone_from(&language(state, request, &answers)?.language);
         replace(&folder.join(ANSWERS), json_text(&answers).as_bytes())?;
         answers
     };
     state.importer.import_again(folder);
-    if asked.expects_json {
+    if request.expects_json {
         let all = QuestionnaireItem::all(&tasks).len();
         return Ok(WebResponse::json(&json!({ "answered": answered_count(&answers, &tasks, all), "all": all })));
     }
-    render_form(state, asked, true)
+    render_form(state, request, true)
 }
 
 fn answered_count(answers: &Answers, tasks: &[u32], all: usize) -> usize {

@@ -48,12 +48,12 @@ impl WebRequest {
     }
 
     /// Returns a path parameter, or an empty string.
-    pub fn path_part(&self, name: &str) -> &str {
+    pub fn path_param(&self, name: &str) -> &str {
         self.path.get(name).map_or("", String::as_str)
     }
 
     /// Returns a non-empty query parameter.
-    pub fn query_value(&self, name: &str) -> Option<&str> {
+    pub fn query_param(&self, name: &str) -> Option<&str> {
         self.query.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str()).filter(|value| !value.is_empty())
     }
 

@@ -30,7 +30,7 @@ pub struct PipelineState {
     /// Limits the number of concurrent uploads.
     pub uploads: Arc<Semaphore>,
     /// Acquired while a recording is scored or cohort figures are computed. Waiting for it does not occupy a thread.
-    pub working: Arc<Semaphore>,
+    pub compute_permit: Arc<Semaphore>,
 }
 
 /// Handles a request for a route in the table.
@@ -52,19 +52,24 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
         Ok(head) => head,
         Err(refusal) => return error_response(&shared, None, &refusal),
     };
-    let RequestHead { request: mut asked, identity: recognised } = head;
+    let RequestHead { request: mut web_request, identity: recognised } = head;
     let cookie = recognised.filter(|recognised| recognised.is_new).map(|recognised| shared.state.auth.cookie(&recognised.cookie));
-    let visitor = asked.visitor.clone();
+    let visitor = web_request.visitor.clone();
     let answered = async {
-        authorize(&asked, route)?;
-        let _room = match route.how {
+        authorize(&web_request, route)?;
+        let _room = match route.kind {
             RouteKind::Upload(_) => Some(shared.uploads.try_acquire().map_err(|_| WebError::Busy(RETRY_AFTER_S))?),
             RouteKind::File | RouteKind::Show | RouteKind::Compute | RouteKind::Change => None,
         };
-        body::read(&mut asked, route.how, request, &shared.state.spool()).await?;
-        let turn = match route.how {
+        body::read(&mut web_request, route.kind, request, &shared.state.spool()).await?;
+        let turn = match route.kind {
             RouteKind::Upload(_) | RouteKind::Compute => Some(
-                shared.working.clone().acquire_owned().await.map_err(|_| WebError::Failed("the server is stopping".into()))?,
+                shared
+                    .compute_permit
+                    .clone()
+                    .acquire_owned()
+                    .await
+                    .map_err(|_| WebError::Failed("the server is stopping".into()))?,
             ),
             RouteKind::File | RouteKind::Show | RouteKind::Change => None,
         };
@@ -72,7 +77,7 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
         blocking(move || {
             // If the client disconnects, the handler continues and keeps its permit.
             let _turn = turn;
-            (route.handler)(&state, &asked)
+            (route.handler)(&state, &web_request)
         })
         .await
     }
@@ -97,8 +102,8 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
     let query = request.uri().query().unwrap_or_default();
     let query = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
     let state = shared.state.clone();
-    let changes = !route.how.is_read_only();
-    let file = route.how == RouteKind::File;
+    let changes = !route.kind.is_read_only();
+    let file = route.kind == RouteKind::File;
     blocking(move || {
         let open = state.auth.is_open(&state.database)?;
         state.auth.check_origin(&headers, changes, open)?;
@@ -110,9 +115,9 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
         let device = state.auth.browser_cookie_of(&headers);
         let expects_json = accepts_json(&headers);
         let languages = headers.get(header::ACCEPT_LANGUAGE).and_then(|value| value.to_str().ok()).unwrap_or_default().to_owned();
-        let asked =
+        let web_request =
             WebRequest { visitor, cookie, from, device, path, query, form: Vec::new(), upload: None, languages, expects_json };
-        Ok(RequestHead { request: asked, identity: recognised })
+        Ok(RequestHead { request: web_request, identity: recognised })
     })
     .await
 }
@@ -131,14 +136,14 @@ fn accepts_json(headers: &HeaderMap) -> bool {
 }
 
 /// Checks that the visitor has the access level of the route.
-fn authorize(asked: &WebRequest, route: &Route) -> Result<(), WebError> {
-    if asked.visitor.satisfies(route.needs) {
+fn authorize(web_request: &WebRequest, route: &Route) -> Result<(), WebError> {
+    if web_request.visitor.satisfies(route.required_access) {
         return Ok(());
     }
-    if !asked.visitor.is_known() {
+    if !web_request.visitor.is_known() {
         return Err(WebError::LoginRequired);
     }
-    let who = if route.needs == AccessLevel::Administrator { "administrators" } else { "instructors" };
+    let who = if route.required_access == AccessLevel::Administrator { "administrators" } else { "instructors" };
     Err(WebError::Forbidden(format!("This page is for {who} only.")))
 }
 
@@ -179,8 +184,12 @@ pub async fn handle_unknown_path(shared: PipelineState, request: Request) -> Res
 
 /// Streams live values while the browser is connected and the visitor has access.
 pub async fn live_stream(shared: PipelineState, mut request: Request) -> Response<Body> {
-    static ROUTE: Route =
-        Route { path: STREAM_PATH, how: RouteKind::Show, needs: AccessLevel::Instructor, handler: unreachable_handler };
+    static ROUTE: Route = Route {
+        path: STREAM_PATH,
+        kind: RouteKind::Show,
+        required_access: AccessLevel::Instructor,
+        handler: unreachable_handler,
+    };
     let head = match parse_head(&shared, &ROUTE, &mut request).await {
         Ok(head) => head,
         Err(refusal) => return error_response(&shared, None, &refusal),
@@ -191,7 +200,7 @@ pub async fn live_stream(shared: PipelineState, mut request: Request) -> Respons
         return error_response(&shared, Some(&head.request.visitor), &refusal);
     }
     let cookie = head.request.cookie.clone();
-    let mut response = match live::select_vehicle(&shared.state, head.request.query_value("vehicle")) {
+    let mut response = match live::select_vehicle(&shared.state, head.request.query_param("vehicle")) {
         Ok((_, live)) => live::stream(shared.state.clone(), live, cookie),
         Err(refusal) => return error_response(&shared, Some(&head.request.visitor), &refusal),
     };

@@ -44,27 +44,27 @@ pub struct Route {
     /// Path, with parameters in braces.
     pub path: &'static str,
     /// Route kind.
-    pub how: RouteKind,
+    pub kind: RouteKind,
     /// Access level required for the route.
-    pub needs: AccessLevel,
+    pub required_access: AccessLevel,
     /// Request handler.
     pub handler: Handler,
 }
 
-const fn show(path: &'static str, needs: AccessLevel, handler: Handler) -> Route {
-    Route { path, how: RouteKind::Show, needs, handler }
+const fn show(path: &'static str, required_access: AccessLevel, handler: Handler) -> Route {
+    Route { path, kind: RouteKind::Show, required_access, handler }
 }
 
-const fn compute(path: &'static str, needs: AccessLevel, handler: Handler) -> Route {
-    Route { path, how: RouteKind::Compute, needs, handler }
+const fn compute(path: &'static str, required_access: AccessLevel, handler: Handler) -> Route {
+    Route { path, kind: RouteKind::Compute, required_access, handler }
 }
 
-const fn change(path: &'static str, needs: AccessLevel, handler: Handler) -> Route {
-    Route { path, how: RouteKind::Change, needs, handler }
+const fn change(path: &'static str, required_access: AccessLevel, handler: Handler) -> Route {
+    Route { path, kind: RouteKind::Change, required_access, handler }
 }
 
-const fn upload(path: &'static str, most: usize, needs: AccessLevel, handler: Handler) -> Route {
-    Route { path, how: RouteKind::Upload(most), needs, handler }
+const fn upload(path: &'static str, most: usize, required_access: AccessLevel, handler: Handler) -> Route {
+    Route { path, kind: RouteKind::Upload(most), required_access, handler }
 }
 
 /// Path of the stream of live values. It is not in the table, because its response does not end.
@@ -73,7 +73,7 @@ pub const STREAM_PATH: &str = "/live/stream";
 /// All routes except the stream. Handlers for a trainee's data also check whether the visitor may access that trainee.
 pub const ROUTES: &[Route] = &[
     show("/", AccessLevel::Public, sessions::start),
-    Route { path: "/assets/{name}", how: RouteKind::File, needs: AccessLevel::Public, handler: assets::file },
+    Route { path: "/assets/{name}", kind: RouteKind::File, required_access: AccessLevel::Public, handler: assets::file },
     show("/login", AccessLevel::Public, settings::login_page),
     change("/login", AccessLevel::Public, settings::log_in),
     change("/logout", AccessLevel::Public, settings::log_out),
@@ -119,14 +119,15 @@ mod tests {
 
     #[test]
     fn exact_anonymous_visitors_reach_only_the_login() {
-        let open: Vec<&str> = ROUTES.iter().filter(|route| route.needs == AccessLevel::Public).map(|route| route.path).collect();
+        let open: Vec<&str> =
+            ROUTES.iter().filter(|route| route.required_access == AccessLevel::Public).map(|route| route.path).collect();
         assert_eq!(open, ["/", "/assets/{name}", "/login", "/login", "/logout"]);
     }
 
     #[test]
     fn exact_every_route_is_unique() {
         for (k, a) in ROUTES.iter().enumerate() {
-            let shows = |route: &Route| route.how.is_read_only();
+            let shows = |route: &Route| route.kind.is_read_only();
             assert!(!ROUTES[..k].iter().any(|b| a.path == b.path && shows(a) == shows(b)), "{}", a.path);
         }
     }

@@ -11,7 +11,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_names_that_leave_their_folder_are_rejected() {
+    fn exact_names_that_escape_their_folder_are_rejected() {
         for good in ["20260801T101010Z-anna-two-bridges-1a2b3c", "session-anna-001", "x.y"] {
             assert!(is_plain(good), "{good}");
         }

@@ -62,9 +62,9 @@ pub fn read(file: &str, text: &str) -> Result<Scenario, AppError> {
 /// one.
 pub fn argument(folder: &Path, name: &str) -> Result<String, WebError> {
     let job = find(folder, name).ok_or_else(|| WebError::BadRequest("scenario: unknown name".into()))?;
-    Ok(if job.named.uploaded { place(folder, name).display().to_string() } else { job.named.name })
+    Ok(if job.named.uploaded { upload_path(folder, name).display().to_string() } else { job.named.name })
 }
 
-pub fn place(folder: &Path, name: &str) -> PathBuf {
+pub fn upload_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.toml"))
 }

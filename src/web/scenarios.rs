@@ -3,7 +3,7 @@
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::safe_names::is_plain;
-use super::scenario_library::{all, find, place, read, uploaded};
+use super::scenario_library::{all, find, read, upload_path, uploaded};
 use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::files;
@@ -18,35 +18,35 @@ const MAX_UPLOADS: usize = 200;
 const ANY_SEED: u64 = 0;
 
 /// Shows the list of scenarios.
-pub fn scenario_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    render_list(state, asked, None)
+pub fn scenario_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    render_list(state, request, None)
 }
 
-fn render_list(state: &ServerState, asked: &WebRequest, told: Option<(&str, &str)>) -> HandlerResult {
+fn render_list(state: &ServerState, request: &WebRequest, told: Option<(&str, &str)>) -> HandlerResult {
     let named: Vec<ScenarioEntry> = all(&state.scenarios).into_iter().map(|job| job.named).collect();
-    Ok(WebResponse::page(pages::list(&asked.visitor, &named, told)))
+    Ok(WebResponse::page(pages::list(&request.visitor, &named, told)))
 }
 
 /// Shows the page of one scenario with drawings of its site.
-pub fn scenario_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let job = find(&state.scenarios, asked.path_part("name")).ok_or(WebError::NotFound)?;
+pub fn scenario_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let job = find(&state.scenarios, request.path_param("name")).ok_or(WebError::NotFound)?;
     let site = Site::build(&job.scenario, ANY_SEED);
-    Ok(WebResponse::page(pages::scenario_page(&asked.visitor, &job.named, &job.scenario, &site, &job.text)))
+    Ok(WebResponse::page(pages::scenario_page(&request.visitor, &job.named, &job.scenario, &site, &job.text)))
 }
 
 /// Validates and saves an uploaded scenario.
-pub fn upload(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    match save_upload(state, asked) {
-        Ok(name) => render_list(state, asked, Some(("good", &format!("{name} was saved.")))),
+pub fn upload(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    match save_upload(state, request) {
+        Ok(name) => render_list(state, request, Some(("good", &format!("{name} was saved.")))),
         Err(AppError::Wrong(words)) => {
-            Ok(render_list(state, asked, Some(("bad", &words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+            Ok(render_list(state, request, Some(("bad", &words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
         Err(error @ AppError::Failed(_)) => Err(error.into()),
     }
 }
 
-fn save_upload(state: &ServerState, asked: &WebRequest) -> Result<String, AppError> {
-    let upload = asked.upload.as_ref().ok_or_else(|| AppError::wrong("file: missing"))?;
+fn save_upload(state: &ServerState, request: &WebRequest) -> Result<String, AppError> {
+    let upload = request.upload.as_ref().ok_or_else(|| AppError::wrong("file: missing"))?;
     let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
     let bytes = upload.file.bytes()?;
     let text = std::str::from_utf8(&bytes)
@@ -59,7 +59,7 @@ fn save_upload(state: &ServerState, asked: &WebRequest) -> Result<String, AppErr
     if files::scenario_names().contains(&scenario.name.as_str()) {
         return Err(AppError::wrong(format!("{shown}: '{}' is the name of a shipped scenario; choose another", scenario.name)));
     }
-    let target = place(&state.scenarios, &scenario.name);
+    let target = upload_path(&state.scenarios, &scenario.name);
     if !target.is_file() && uploaded(&state.scenarios).len() >= MAX_UPLOADS {
         return Err(AppError::wrong(format!("there are already {MAX_UPLOADS} uploaded scenarios: remove one first")));
     }
@@ -70,9 +70,9 @@ fn save_upload(state: &ServerState, asked: &WebRequest) -> Result<String, AppErr
 }
 
 /// Removes an uploaded scenario.
-pub fn remove(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let job = find(&state.scenarios, asked.path_part("name")).filter(|job| job.named.uploaded).ok_or(WebError::NotFound)?;
-    let path = place(&state.scenarios, &job.named.name);
+pub fn remove(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let job = find(&state.scenarios, request.path_param("name")).filter(|job| job.named.uploaded).ok_or(WebError::NotFound)?;
+    let path = upload_path(&state.scenarios, &job.named.name);
     std::fs::remove_file(&path).map_err(|error| WebError::Failed(format!("{}: cannot remove: {error}", path.display())))?;
     Ok(WebResponse::redirect("/scenarios"))
 }

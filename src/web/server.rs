@@ -68,7 +68,7 @@ impl WebServer {
         let shared = PipelineState {
             state: Arc::new(state),
             uploads: Arc::new(Semaphore::new(MAX_UPLOADS)),
-            working: Arc::new(Semaphore::new(1)),
+            compute_permit: Arc::new(Semaphore::new(1)),
         };
         let (router, own) = (router(&shared), handle.clone());
         let thread = std::thread::spawn(move || {
@@ -148,7 +148,7 @@ fn router(shared: &PipelineState) -> Router {
 fn method(route: &'static Route, shared: &PipelineState) -> MethodRouter {
     let shared = shared.clone();
     let handle = move |request: Request| request_pipeline::handle_route(shared.clone(), route, request);
-    match route.how {
+    match route.kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => get(handle),
         RouteKind::Change => post(handle),
         // The other fields of the form also need space.

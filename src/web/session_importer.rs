@@ -24,10 +24,10 @@ impl SessionImporter {
     ///
     /// # Errors
     /// Returns an error if the database cannot be opened.
-    pub fn start(place: &RecordsLocation) -> Result<Self, AppError> {
+    pub fn start(records_location: &RecordsLocation) -> Result<Self, AppError> {
         let (sender, changed) = channel::<PathBuf>();
-        let database = place.open()?;
-        let sessions = place.sessions.clone();
+        let database = records_location.open()?;
+        let sessions = records_location.sessions.clone();
         std::thread::spawn(move || {
             let mut looked = ImportProgress::default();
             loop {

@@ -20,31 +20,31 @@ const SESSIONS_PER_PAGE: u32 = 50;
 const MAX_COMPARISONS: u32 = 50;
 
 /// Redirects the start page to the sessions, or to the login.
-pub fn start(_: &ServerState, asked: &WebRequest) -> HandlerResult {
-    Ok(WebResponse::redirect(if asked.visitor.is_known() { "/sessions" } else { "/login" }))
+pub fn start(_: &ServerState, request: &WebRequest) -> HandlerResult {
+    Ok(WebResponse::redirect(if request.visitor.is_known() { "/sessions" } else { "/login" }))
 }
 
 /// Shows a list of sessions of all trainees, or of one.
-pub fn session_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let wanted = asked.query_value("trainee");
-    let trainee = asked.visitor.restricted_to().or(wanted);
+pub fn session_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let wanted = request.query_param("trainee");
+    let trainee = request.visitor.restricted_to().or(wanted);
     let count = state.database.count(trainee)?;
     let last = u32::try_from(count.div_ceil(u64::from(SESSIONS_PER_PAGE))).unwrap_or(u32::MAX).max(1);
-    let page = asked.query_value("page").and_then(|page| page.parse().ok()).unwrap_or(1).clamp(1, last);
+    let page = request.query_param("page").and_then(|page| page.parse().ok()).unwrap_or(1).clamp(1, last);
     let lines = state.database.list(trainee, SESSIONS_PER_PAGE, (page - 1).saturating_mul(SESSIONS_PER_PAGE))?;
     // Links contain the name, so an invalid name is shown as empty.
-    let trainee = wanted.filter(|name| asked.visitor.restricted_to().is_none() && name.parse::<TraineeId>().is_ok());
+    let trainee = wanted.filter(|name| request.visitor.restricted_to().is_none() && name.parse::<TraineeId>().is_ok());
     let listing = pages::SessionList { lines: &lines, trainee, page, last, count };
-    Ok(WebResponse::page(pages::list(&asked.visitor, &listing)))
+    Ok(WebResponse::page(pages::list(&request.visitor, &listing)))
 }
 
 /// Returns a session's record, if the visitor may see it.
 ///
 /// # Errors
 /// Returns an error if there is no such session, or the visitor has no access to it.
-pub fn record(state: &ServerState, asked: &WebRequest, id: &str) -> Result<SessionRecord, WebError> {
+pub fn record(state: &ServerState, request: &WebRequest, id: &str) -> Result<SessionRecord, WebError> {
     let record = state.database.record(id)?.ok_or(WebError::NotFound)?;
-    asked.require_access(&record.trainee)?;
+    request.require_access(&record.trainee)?;
     Ok(record)
 }
 
@@ -52,24 +52,24 @@ pub fn record(state: &ServerState, asked: &WebRequest, id: &str) -> Result<Sessi
 ///
 /// # Errors
 /// Returns an error if the folder is not on this machine, or the visitor has no access to it.
-pub fn folder(state: &ServerState, asked: &WebRequest, id: &str) -> Result<PathBuf, WebError> {
-    record(state, asked, id)?;
+pub fn folder(state: &ServerState, request: &WebRequest, id: &str) -> Result<PathBuf, WebError> {
+    record(state, request, id)?;
     state.folder(id).ok_or(WebError::NotFound)
 }
 
 /// Shows the page of one session.
-pub fn session_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let record = record(state, asked, asked.path_part("id"))?;
+pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let record = record(state, request, request.path_param("id"))?;
     let mut others = state.database.list(Some(&record.trainee), MAX_COMPARISONS, 0)?;
     others.retain(|other| other.id != record.id && state.folder(&other.id).is_some());
     let folder = state.folder(&record.id).is_some();
-    Ok(WebResponse::page(pages::session(&asked.visitor, &record, &pages::SessionPageData { folder, others: &others })))
+    Ok(WebResponse::page(pages::session(&request.visitor, &record, &pages::SessionPageData { folder, others: &others })))
 }
 
 /// Responds with a session's report under its own policy. Creates the report again if it is missing or was written by
 /// another version.
-pub fn report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let folder = folder(state, asked, asked.path_part("id"))?;
+pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let folder = folder(state, request, request.path_param("id"))?;
     let policy = assets::page_policy();
     let path = folder.join(REPORT);
     let found = std::fs::read(&path).ok().filter(|page| has_current_policy(page, &policy));
@@ -91,28 +91,28 @@ fn has_current_policy(page: &[u8], policy: &str) -> bool {
 }
 
 /// Responds with a comparison of two sessions.
-pub fn compare(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+pub fn compare(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let folder = |word: &str| {
         let id =
-            asked.query_value(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (allowed: a session ID)")))?;
-        folder(state, asked, id)
+            request.query_param(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (allowed: a session ID)")))?;
+        folder(state, request, id)
     };
-    let page = report::compared(&folder("first")?, &folder("second")?)?;
+    let page = report::comparison_page(&folder("first")?, &folder("second")?)?;
     Ok(WebResponse::sandboxed_page(page.into_bytes(), &assets::page_policy()))
 }
 
 /// Responds with the frames as CSV.
-pub fn frames(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let id = asked.path_part("id");
-    let stored = StoredSession::read(&folder(state, asked, id)?)?;
+pub fn frames(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let id = request.path_param("id");
+    let stored = StoredSession::read(&folder(state, request, id)?)?;
     let csv = export::frames_csv(&scoring::frame_rows(&stored)?);
     Ok(WebResponse::download(&format!("{id}-frames.csv"), "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
 /// Responds with the unmodified telemetry log.
-pub fn telemetry(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let id = asked.path_part("id");
-    let path = folder(state, asked, id)?.join(TELEMETRY);
+pub fn telemetry(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let id = request.path_param("id");
+    let path = folder(state, request, id)?.join(TELEMETRY);
     Ok(WebResponse::download(&format!("{id}.tlog"), "application/octet-stream", bytes(&path)?))
 }
 

@@ -13,18 +13,18 @@ use spandrel_training::web::{login, settings as pages};
 const US_PER_DAY: u64 = 86_400_000_000;
 
 /// Shows the login form.
-pub fn login_page(_: &ServerState, asked: &WebRequest) -> HandlerResult {
-    if asked.visitor.is_known() {
+pub fn login_page(_: &ServerState, request: &WebRequest) -> HandlerResult {
+    if request.visitor.is_known() {
         return Ok(WebResponse::redirect("/sessions"));
     }
-    Ok(WebResponse::page(login::login(&asked.visitor, "", None)))
+    Ok(WebResponse::page(login::login(&request.visitor, "", None)))
 }
 
 /// Logs in with the submitted name and password.
-pub fn log_in(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let name = asked.form_field("name").unwrap_or_default().trim();
-    let password = asked.form_field("password").unwrap_or_default();
-    match state.auth.log_in(&state.database, (name, password), asked.cookie.as_deref(), &asked.client()) {
+pub fn log_in(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let name = request.form_field("name").unwrap_or_default().trim();
+    let password = request.form_field("password").unwrap_or_default();
+    match state.auth.log_in(&state.database, (name, password), request.cookie.as_deref(), &request.client()) {
         Ok((cookie, device)) => {
             let mut answer = WebResponse::redirect("/sessions");
             answer.cookies = vec![state.auth.cookie(&cookie), state.auth.browser_cookie(&device)];
@@ -32,7 +32,7 @@ pub fn log_in(state: &ServerState, asked: &WebRequest) -> HandlerResult {
         }
         Err(refusal @ (WebError::Forbidden(_) | WebError::RateLimited(_) | WebError::Busy(_))) => {
             let (status, _, words) = refusal.status_and_text();
-            let page = WebResponse::page(login::login(&asked.visitor, name, Some(&words)));
+            let page = WebResponse::page(login::login(&request.visitor, name, Some(&words)));
             Ok(page.with_status(status).retry_after(refusal.retry_after_s()))
         }
         Err(other) => Err(other),
@@ -40,95 +40,95 @@ pub fn log_in(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 }
 
 /// Ends the visitor's browser session.
-pub fn log_out(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    state.auth.log_out(asked.cookie.as_deref());
+pub fn log_out(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    state.auth.log_out(request.cookie.as_deref());
     Ok(WebResponse::redirect("/login"))
 }
 
 /// Shows the visitor's account.
-pub fn account_page(_: &ServerState, asked: &WebRequest) -> HandlerResult {
-    if asked.visitor.name.is_none() {
+pub fn account_page(_: &ServerState, request: &WebRequest) -> HandlerResult {
+    if request.visitor.name.is_none() {
         return Ok(WebResponse::redirect("/settings"));
     }
-    Ok(WebResponse::page(login::account(&asked.visitor, None)))
+    Ok(WebResponse::page(login::account(&request.visitor, None)))
 }
 
 /// Changes the visitor's password and ends all their other browser sessions.
-pub fn change_password(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let name = asked.visitor.name.as_deref().ok_or(WebError::NotFound)?;
-    let told = match change(state, asked, name) {
+pub fn change_password(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let name = request.visitor.name.as_deref().ok_or(WebError::NotFound)?;
+    let told = match change(state, request, name) {
         Ok(()) => ("good", "Password changed. You have been logged out everywhere else.".to_owned()),
         Err(refusal @ (WebError::Forbidden(_) | WebError::BadRequest(_) | WebError::RateLimited(_) | WebError::Busy(_))) => {
             ("bad", refusal.status_and_text().2)
         }
         Err(other) => return Err(other),
     };
-    Ok(WebResponse::page(login::account(&asked.visitor, Some((told.0, &told.1)))))
+    Ok(WebResponse::page(login::account(&request.visitor, Some((told.0, &told.1)))))
 }
 
-fn change(state: &ServerState, asked: &WebRequest, name: &str) -> Result<(), WebError> {
-    let mut account = state.auth.check(&state.database, name, asked.required_field("present")?, &asked.client())?;
-    let new = asked.required_field("new")?;
+fn change(state: &ServerState, request: &WebRequest, name: &str) -> Result<(), WebError> {
+    let mut account = state.auth.check(&state.database, name, request.required_field("present")?, &request.client())?;
+    let new = request.required_field("new")?;
     login::check(new, name).map_err(WebError::BadRequest)?;
     let before = account.hash.replace(state.auth.hashing.acquire()?.hash(new)?).unwrap_or_default();
     if !state.database.change_password(name, &before, account.hash.as_deref().unwrap_or_default())? {
         return Err(WebError::BadRequest("your password was changed elsewhere: log in again with the new one".into()));
     }
-    state.auth.end_other_sessions(name, asked.cookie.as_deref());
-    state.auth.renew(asked.cookie.as_deref(), &account);
+    state.auth.end_other_sessions(name, request.cookie.as_deref());
+    state.auth.update_credential(request.cookie.as_deref(), &account);
     Ok(())
 }
 
 /// Shows the administrator's settings.
-pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    render_settings(state, asked, None)
+pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    render_settings(state, request, None)
 }
 
-fn render_settings(state: &ServerState, asked: &WebRequest, told: Option<(&str, &str)>) -> HandlerResult {
+fn render_settings(state: &ServerState, request: &WebRequest, told: Option<(&str, &str)>) -> HandlerResult {
     let (people, names_with_password) = (state.database.trainees()?, state.database.names_with_password()?);
-    let folders: Vec<String> = state.place.sessions.iter().map(|folder| folder.display().to_string()).collect();
+    let folders: Vec<String> = state.records_location.sessions.iter().map(|folder| folder.display().to_string()).collect();
     let database = state.database.name();
     let settings =
-        pages::SettingsPage { people: &people, with_password: &names_with_password, database, folders: &folders, notice: told };
-    Ok(WebResponse::page(pages::settings(&asked.visitor, &settings)))
+        pages::SettingsPage { users: &people, with_password: &names_with_password, database, folders: &folders, notice: told };
+    Ok(WebResponse::page(pages::settings(&request.visitor, &settings)))
 }
 
 /// Sets a person's password and role.
-pub fn set_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+pub fn set_login(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let name: TraineeId =
-        asked.required_field("name")?.parse().map_err(|wrong| WebError::BadRequest(format!("name: {wrong}")))?;
+        request.required_field("name")?.parse().map_err(|wrong| WebError::BadRequest(format!("name: {wrong}")))?;
     let name = name.as_str();
-    let role = asked.required_field("role")?;
+    let role = request.required_field("role")?;
     let role = Role::from_word(role)
         .ok_or_else(|| WebError::BadRequest("role: unknown (allowed: trainee, instructor, administrator)".into()))?;
-    let password = asked.required_field("password")?;
+    let password = request.required_field("password")?;
     login::check(password, name).map_err(WebError::BadRequest)?;
-    if asked.visitor.open && role != Role::Administrator {
+    if request.visitor.open && role != Role::Administrator {
         let words = "the first password must be an administrator's, because everyone must log in from then on and only administrators can add users";
         return Err(WebError::BadRequest(words.into()));
     }
-    let own = asked.visitor.name.as_deref() == Some(name);
+    let own = request.visitor.name.as_deref() == Some(name);
     if own && role != Role::Administrator {
         return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to change your role".into()));
     }
     let hash = state.auth.hashing.acquire()?.hash(password)?;
     state.database.set_login(name, role, &hash)?;
-    state.auth.end_other_sessions(name, asked.cookie.as_deref());
+    state.auth.end_other_sessions(name, request.cookie.as_deref());
     if own {
         let person = Trainee { role, ..Trainee::new(name) };
-        state.auth.renew(asked.cookie.as_deref(), &Account { person, hash: Some(hash) });
+        state.auth.update_credential(request.cookie.as_deref(), &Account { person, hash: Some(hash) });
     }
-    if asked.visitor.open {
+    if request.visitor.open {
         state.auth.require_login();
         return Ok(WebResponse::redirect("/login"));
     }
-    render_settings(state, asked, Some(("good", &format!("{name} can now log in as {}.", role.word()))))
+    render_settings(state, request, Some(("good", &format!("{name} can now log in as {}.", role.word()))))
 }
 
 /// Removes a person's password.
-pub fn remove_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let name = asked.required_field("name")?;
-    if asked.visitor.name.as_deref() == Some(name) {
+pub fn remove_login(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let name = request.required_field("name")?;
+    if request.visitor.name.as_deref() == Some(name) {
         return Err(WebError::BadRequest("you would lock yourself out".into()));
     }
     let had = state.database.remove_password(name)?;
@@ -137,17 +137,17 @@ pub fn remove_login(state: &ServerState, asked: &WebRequest) -> HandlerResult {
 }
 
 /// Erases all sessions older than the given number of days.
-pub fn retention(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let days: u64 = asked
+pub fn retention(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let days: u64 = request
         .required_field("days")?
         .parse()
         .ok()
         .filter(|days| (1..=36_525).contains(days))
         .ok_or_else(|| WebError::BadRequest("days: invalid number (allowed: 1 to 36525)".into()))?;
-    if asked.required_field("sure")? != "yes" {
+    if request.required_field("sure")? != "yes" {
         return Err(WebError::BadRequest("sure: not confirmed (allowed: yes)".into()));
     }
     let limit_us = clock::unix_us().saturating_sub(days * US_PER_DAY);
-    let (deleted, folders) = erase_older_than(&state.database, &state.place, limit_us)?;
-    render_settings(state, asked, Some(("good", &format!("Erased {deleted} sessions and {folders} folders."))))
+    let (deleted, folders) = erase_older_than(&state.database, &state.records_location, limit_us)?;
+    render_settings(state, request, Some(("good", &format!("Erased {deleted} sessions and {folders} folders."))))
 }

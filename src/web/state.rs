@@ -17,7 +17,7 @@ use std::sync::Mutex;
 #[derive(Debug, Clone)]
 pub struct ServerSetup {
     /// Location of the database and the session folders.
-    pub place: RecordsLocation,
+    pub records_location: RecordsLocation,
     /// Folder of uploaded scenarios; `None` for the default.
     pub scenarios: Option<PathBuf>,
     /// Vehicles on the live page.
@@ -34,7 +34,7 @@ pub struct ServerState {
     /// Cohort figure cache.
     pub figures: FigureCache,
     /// Location of the database and the session folders.
-    pub place: RecordsLocation,
+    pub records_location: RecordsLocation,
     /// Folder of uploaded scenarios.
     pub scenarios: PathBuf,
     /// Logins, browser sessions and cookies.
@@ -57,21 +57,32 @@ impl ServerState {
     /// # Errors
     /// Returns an error if a wording is invalid, or the database or a link to a vehicle cannot be opened.
     pub fn open(setup: ServerSetup, secure: bool, reach: AllowedOrigins) -> Result<Self, AppError> {
-        let ServerSetup { place, scenarios, watched, wordings } = setup;
+        let ServerSetup { records_location, scenarios, watched, wordings } = setup;
         let languages = answers::languages(&wordings)?;
-        let first = place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
+        let first = records_location.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
         std::fs::create_dir_all(&first)
             .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", first.display())))?;
         temp_files::remove_partial_imports(&first)?;
         let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
-        temp_files::remove_stale(&place.sessions, &scenarios);
-        let (database, figures) = (place.open()?, FigureCache::open(&place)?);
+        temp_files::remove_stale(&records_location.sessions, &scenarios);
+        let (database, figures) = (records_location.open()?, FigureCache::open(&records_location)?);
         let guard = Authenticator::new(!database.names_with_password()?.is_empty(), secure, reach);
-        let start = |watched: &WatchedVehicle| LiveVehicle::start(watched, &place.sessions, &scenarios);
+        let start = |watched: &WatchedVehicle| LiveVehicle::start(watched, &records_location.sessions, &scenarios);
         let live = watched.iter().map(start).collect::<Result<Vec<_>, _>>()?;
-        let taking_in = SessionImporter::start(&place)?;
+        let taking_in = SessionImporter::start(&records_location)?;
         let (answers, scoring) = (Mutex::new(()), Mutex::new(()));
-        Ok(Self { database, figures, place, scenarios, auth: guard, languages, live, importer: taking_in, answers, scoring })
+        Ok(Self {
+            database,
+            figures,
+            records_location,
+            scenarios,
+            auth: guard,
+            languages,
+            live,
+            importer: taking_in,
+            answers,
+            scoring,
+        })
     }
 
     /// Returns the folder for uploads and imports in progress.
@@ -81,7 +92,7 @@ impl ServerState {
 
     /// Returns the folder for new sessions.
     pub fn default_folder(&self) -> PathBuf {
-        self.place.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"))
+        self.records_location.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"))
     }
 
     /// Returns the folder of a session; `None` if it is not on this machine or the ID is not a plain name.
@@ -89,6 +100,10 @@ impl ServerState {
         if !is_plain(id) {
             return None;
         }
-        self.place.sessions.iter().map(|folder| folder.join(id)).find(|path| crate::io::session_folder::is_session(path))
+        self.records_location
+            .sessions
+            .iter()
+            .map(|folder| folder.join(id))
+            .find(|path| crate::io::session_folder::is_session(path))
     }
 }

@@ -21,32 +21,32 @@ const MAX_SESSIONS: u32 = 200;
 const DEFAULT_REPETITIONS: usize = 3;
 
 /// Shows the list of all trainees.
-pub fn trainee_list(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    Ok(WebResponse::page(pages::trainee_list(&asked.visitor, &state.database.trainees()?)))
+pub fn trainee_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    Ok(WebResponse::page(pages::trainee_list(&request.visitor, &state.database.trainees()?)))
 }
 
 /// Returns the person in the path, if the visitor may see them.
-fn person(state: &ServerState, asked: &WebRequest) -> Result<Trainee, WebError> {
-    let name = asked.path_part("name");
-    asked.require_access(name)?;
+fn person(state: &ServerState, request: &WebRequest) -> Result<Trainee, WebError> {
+    let name = request.path_param("name");
+    request.require_access(name)?;
     state.database.account(name)?.map(|account| account.person).ok_or(WebError::NotFound)
 }
 
 /// Shows a trainee's sessions, progress and training plan.
-pub fn trainee_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let person = person(state, asked)?;
+pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let person = person(state, request)?;
     let records = state.database.records(Some(&person.pseudonym))?;
     let listed = state.database.list(Some(&person.pseudonym), MAX_SESSIONS, 0)?;
-    let incomplete = incomplete(asked);
+    let incomplete = incomplete(request);
     let plan = plan_for_policy(records.clone(), incomplete, &plan_rules::rules(None)?, clock::unix_us());
     let about = pages::TraineeProfile { person: &person, records: &records, listed: &listed, plan: plan.as_ref(), incomplete };
-    Ok(WebResponse::page(pages::trainee_page(&asked.visitor, &about)))
+    Ok(WebResponse::page(pages::trainee_page(&request.visitor, &about)))
 }
 
 /// Responds with all stored data of a trainee.
-pub fn export(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let person = person(state, asked)?;
-    let kept = stored_data(&state.database, &state.place, &person.pseudonym)?.ok_or(WebError::NotFound)?;
+pub fn export(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let person = person(state, request)?;
+    let kept = stored_data(&state.database, &state.records_location, &person.pseudonym)?.ok_or(WebError::NotFound)?;
     let name = format!("{}.json", person.pseudonym.parse::<TraineeId>().as_ref().map_or("trainee", TraineeId::as_str));
     Ok(WebResponse::download(&name, "application/json", json_text(&kept.with_folder_names()).into_bytes()))
 }
@@ -56,49 +56,49 @@ const DETAILS: [(&str, &[&str]); 3] =
     [("age_band", AGE_BANDS), ("drone_experience", EXPERIENCE), ("gaming_experience", EXPERIENCE)];
 
 /// Saves a person's details, unless they were changed elsewhere since the page was loaded.
-pub fn details(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let person = person(state, asked)?;
+pub fn details(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let person = person(state, request)?;
     let (mut before, mut after) = ([""; 3], [""; 3]);
     for (k, (field, allowed)) in DETAILS.into_iter().enumerate() {
-        let given = asked.form_field(field).unwrap_or_default();
+        let given = request.form_field(field).unwrap_or_default();
         if !given.is_empty() && !allowed.contains(&given) {
             let short: String = given.chars().take(60).collect();
             return Err(WebError::BadRequest(format!("{field} = {short}: unknown (allowed: {})", allowed.join(", "))));
         }
         let shown = format!("{}{field}", pages::ORIGINAL_VALUE_PREFIX);
-        before[k] = asked.form_field(&shown).ok_or_else(|| WebError::BadRequest(format!("{shown}: missing")))?;
+        before[k] = request.form_field(&shown).ok_or_else(|| WebError::BadRequest(format!("{shown}: missing")))?;
         after[k] = given;
     }
     if !state.database.set_details(&person.pseudonym, before, after)? {
         return Err(WebError::BadRequest("these details have been changed elsewhere: reload the page and check them".into()));
     }
-    Ok(WebResponse::redirect(&format!("/trainees/{}", asked.path_part("name"))))
+    Ok(WebResponse::redirect(&format!("/trainees/{}", request.path_param("name"))))
 }
 
 /// Erases a trainee with all data, after the pseudonym has been typed as confirmation.
-pub fn erase(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let person = person(state, asked)?;
+pub fn erase(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let person = person(state, request)?;
     let name = &person.pseudonym;
-    if asked.required_field("again")? != name {
+    if request.required_field("again")? != name {
         return Err(WebError::BadRequest(format!("the pseudonym you typed is not {name}: nothing was erased")));
     }
     // Administrators cannot erase themselves, so at least one always remains.
-    if person.role == Role::Administrator && asked.visitor.name.as_deref() == Some(name) {
+    if person.role == Role::Administrator && request.visitor.name.as_deref() == Some(name) {
         return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to erase you".into()));
     }
-    erase_person(&state.database, &state.place, name)?;
+    erase_person(&state.database, &state.records_location, name)?;
     state.auth.end_other_sessions(name, None);
     tracing::info!("erased a trainee");
     Ok(WebResponse::redirect("/trainees"))
 }
 
 /// Returns whether incomplete sessions count, as selected on the page.
-fn incomplete(asked: &WebRequest) -> IncompletePolicy {
-    IncompletePolicy::included(asked.query_value("incomplete").is_some())
+fn incomplete(request: &WebRequest) -> IncompletePolicy {
+    IncompletePolicy::included(request.query_param("incomplete").is_some())
 }
 
-fn selection_from_query(asked: &WebRequest) -> Result<Selection, WebError> {
-    let repetitions = match asked.query_value("repetitions") {
+fn selection_from_query(request: &WebRequest) -> Result<Selection, WebError> {
+    let repetitions = match request.query_param("repetitions") {
         None => DEFAULT_REPETITIONS,
         Some(text) => text
             .parse()
@@ -106,13 +106,13 @@ fn selection_from_query(asked: &WebRequest) -> Result<Selection, WebError> {
             .filter(|count| (1..=100).contains(count))
             .ok_or_else(|| WebError::BadRequest("repetitions: invalid number (allowed: 1 to 100)".into()))?,
     };
-    let scenarios = asked.query.iter().filter(|(key, _)| key == "scenario").map(|(_, name)| name.clone()).collect();
-    Ok(Selection { scenarios, repetitions, incomplete: incomplete(asked) })
+    let scenarios = request.query.iter().filter(|(key, _)| key == "scenario").map(|(_, name)| name.clone()).collect();
+    Ok(Selection { scenarios, repetitions, incomplete: incomplete(request) })
 }
 
 /// Shows the cohort page.
-pub fn cohort_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let selection = selection_from_query(asked)?;
+pub fn cohort_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let selection = selection_from_query(request)?;
     let figured = state.figures.get(&selection)?;
     let counted = figured.non_empty();
     let scenarios = counted.map_or(selection.scenarios, |cohort| cohort.scenarios.clone());
@@ -123,20 +123,20 @@ pub fn cohort_page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
         incomplete: selection.incomplete,
         left_out: figured.cohort.left_out,
     };
-    Ok(WebResponse::page(cohort_page::group(&asked.visitor, &chosen, counted)))
+    Ok(WebResponse::page(cohort_page::cohort_page(&request.visitor, &chosen, counted)))
 }
 
 /// Responds with one of the cohort tables as CSV.
-pub fn cohort_table(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let name = TABLES.into_iter().find(|name| *name == asked.path_part("name")).ok_or(WebError::NotFound)?;
-    let figured = state.figures.get(&selection_from_query(asked)?)?;
+pub fn cohort_table(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let name = TABLES.into_iter().find(|name| *name == request.path_param("name")).ok_or(WebError::NotFound)?;
+    let figured = state.figures.get(&selection_from_query(request)?)?;
     let csv = figured.non_empty().and_then(|cohort| table(cohort, name)).ok_or(WebError::NotFound)?;
     Ok(WebResponse::download(name, "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
 /// Responds with the cohort report as a single page that works offline.
-pub fn cohort_report(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let figured = state.figures.get(&selection_from_query(asked)?)?;
+pub fn cohort_report(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let figured = state.figures.get(&selection_from_query(request)?)?;
     let nothing = || WebError::BadRequest("these scenarios have no sessions to include".into());
     let cohort = figured.non_empty().ok_or_else(nothing)?;
     Ok(WebResponse::sandboxed_page(report::cohort(cohort).into_bytes(), &assets::page_policy()))

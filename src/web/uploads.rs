@@ -21,14 +21,14 @@ use spandrel_training::web::scenarios as pages;
 use std::path::{Path, PathBuf};
 
 /// Shows the upload form.
-pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    render_form(state, asked, None)
+pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    render_form(state, request, None)
 }
 
-fn render_form(state: &ServerState, asked: &WebRequest, told: Option<pages::UploadMessage<'_>>) -> HandlerResult {
+fn render_form(state: &ServerState, request: &WebRequest, told: Option<pages::UploadMessage<'_>>) -> HandlerResult {
     let named: Vec<_> = scenarios::all(&state.scenarios).into_iter().map(|job| job.named).collect();
     let vehicles: Vec<String> = files::vehicle_names().into_iter().map(str::to_owned).collect();
-    Ok(WebResponse::page(pages::recorded(&asked.visitor, &named, &vehicles, told)))
+    Ok(WebResponse::page(pages::recorded(&request.visitor, &named, &vehicles, told)))
 }
 
 /// Upload result.
@@ -36,46 +36,44 @@ enum UploadOutcome {
     /// Folder of the imported session.
     Session(PathBuf),
     /// ID and trainee of the existing session with the same recording.
-    There(String, String),
+    AlreadyImported(String, String),
 }
 
 /// Imports an uploaded recording.
-pub fn recording(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+pub fn recording(state: &ServerState, request: &WebRequest) -> HandlerResult {
     // One import at a time, so that two simultaneous uploads of the same recording create only one session.
     let _one_at_a_time = lock(&state.scoring);
-    match import_recording(state, asked) {
+    match import_recording(state, request) {
         Ok(UploadOutcome::Session(folder)) => {
             let id = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let record = crate::records::read_session(&folder, &std::collections::BTreeMap::new())?;
             state.database.put(&Vec::from_iter(record))?;
             Ok(WebResponse::redirect(&format!("/sessions/{id}")))
         }
-        Ok(UploadOutcome::There(id, trainee)) => {
+        Ok(UploadOutcome::AlreadyImported(id, trainee)) => {
             let told = pages::UploadMessage::AlreadyImported { id: &id, trainee: &trainee };
-            Ok(render_form(state, asked, Some(told))?.with_status(StatusCode::CONFLICT))
+            Ok(render_form(state, request, Some(told))?.with_status(StatusCode::CONFLICT))
         }
-        Err(WebError::BadRequest(words)) => {
-            Ok(render_form(state, asked, Some(pages::UploadMessage::Invalid(&words)))?
-                .with_status(StatusCode::UNPROCESSABLE_ENTITY))
-        }
+        Err(WebError::BadRequest(words)) => Ok(render_form(state, request, Some(pages::UploadMessage::Invalid(&words)))?
+            .with_status(StatusCode::UNPROCESSABLE_ENTITY)),
         Err(other) => Err(other),
     }
 }
 
-fn import_recording(state: &ServerState, asked: &WebRequest) -> Result<UploadOutcome, WebError> {
+fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadOutcome, WebError> {
     let trainee: TraineeId =
-        asked.required_field("trainee")?.parse().map_err(|wrong| WebError::BadRequest(format!("trainee: {wrong}")))?;
-    let scenario = files::scenario(&scenarios::argument(&state.scenarios, asked.required_field("scenario")?)?)?;
-    let vehicle = asked.required_field("vehicle")?;
+        request.required_field("trainee")?.parse().map_err(|wrong| WebError::BadRequest(format!("trainee: {wrong}")))?;
+    let scenario = files::scenario(&scenarios::argument(&state.scenarios, request.required_field("scenario")?)?)?;
+    let vehicle = request.required_field("vehicle")?;
     if !files::vehicle_names().contains(&vehicle) {
         return Err(WebError::BadRequest("vehicle: unknown name".into()));
     }
     let vehicle = files::vehicle(vehicle)?;
-    let log = &*asked.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?.file.bytes()?;
+    let log = &*request.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?.file.bytes()?;
     // The telemetry is stored unmodified, up to its last complete record.
     let kept = &log[..tlog::complete_len(log)];
     if let Some((id, trainee)) = state.database.find_by_telemetry(&sha256_hex(kept))? {
-        return Ok(UploadOutcome::There(id, trainee));
+        return Ok(UploadOutcome::AlreadyImported(id, trainee));
     }
     // A recording that cannot be scored counts as an invalid file, whatever kind of error the scorer reports.
     let unfit = |error: AppError| WebError::BadRequest(format!("cannot import this recording: {error}"));
@@ -141,7 +139,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_taken_folder_name_gets_another_suffix() {
+    fn exact_taken_folder_name_gets_another_suffix() {
         let sessions = tempfile::tempdir().unwrap();
         let name = "20231114T221320Z-anna-two-bridges-1a2b3c";
         assert_eq!(free_folder(sessions.path(), name), sessions.path().join(name));

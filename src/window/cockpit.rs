@@ -33,7 +33,7 @@ const MAX_FRAME_HZ: (f64, f64) = (120.0, 25.0);
 /// Frame rate of pages, which change only on key and stick input, 1/s.
 const PAGE_HZ: f64 = 20.0;
 /// Pause after each frame without a graphics card, as a share of the frame time, so that other processes can run.
-const REST: f64 = 0.25;
+const IDLE_FRACTION: f64 = 0.25;
 /// Zoom factor per notch of the mouse wheel.
 const ZOOM_PER_NOTCH: f64 = 1.15;
 
@@ -42,7 +42,7 @@ pub struct WindowThreads {
     /// Pilot thread, if the window can fly the vehicle.
     pub pilot: Option<PilotThread>,
     /// Pipe to `train`, if it started the window.
-    pub lead: Option<TrainPipe>,
+    pub train_pipe: Option<TrainPipe>,
     /// Flight to show at startup.
     pub flight: Option<FlightView>,
     /// Video stream of the camera's view.
@@ -55,12 +55,12 @@ pub struct Cockpit {
     pub(super) keys: KeyBindings,
     pub(super) flow: WindowFlow,
     pub(super) threads: WindowThreads,
-    pub(super) keeper: Option<PictureWriter>,
+    pub(super) image_writer: Option<PictureWriter>,
     pub(super) speaker: AudioOutput,
     pub(super) stop: StopRequest,
     pub(super) screen: Option<WindowSurface>,
     pub(super) pictures: PageTextures,
-    pub(super) gaze: InspectorCamera,
+    pub(super) inspector_camera: InspectorCamera,
     pub(super) map: bool,
     pub(super) held: HeldKeys,
     /// Last pause state sent to the pilot thread.
@@ -86,7 +86,7 @@ impl Cockpit {
     ) -> Self {
         Self {
             map: plan.map,
-            keeper: threads.flight.as_ref().and(plan.keep.clone()).map(PictureWriter::start),
+            image_writer: threads.flight.as_ref().and(plan.camera_file.clone()).map(PictureWriter::start),
             plan,
             keys,
             flow,
@@ -95,7 +95,7 @@ impl Cockpit {
             stop,
             screen: None,
             pictures: PageTextures::default(),
-            gaze: InspectorCamera::default(),
+            inspector_camera: InspectorCamera::default(),
             held: HeldKeys::default(),
             was_paused: false,
             mouse: None,
@@ -123,7 +123,7 @@ impl Cockpit {
 
     /// Stops showing the current flight.
     pub(super) fn end_flight(&mut self) {
-        self.keeper = None;
+        self.image_writer = None;
         if let Some(flight) = self.threads.flight.take() {
             let wall = flight.listener.wall();
             flight.listener.live().set_video_status(None, wall);
@@ -161,7 +161,9 @@ impl Cockpit {
     fn key_on_page(&mut self, event: &KeyEvent, change: Option<KeyChange>) {
         let trying = self.flow.page() == Page::Controls;
         match change {
-            Some(KeyChange::Down(key)) if self.flow.is_asking() && self.keys.window_action(&key) == Some(WindowAction::Pause) => {
+            Some(KeyChange::Down(key))
+                if self.flow.is_dialog_open() && self.keys.window_action(&key) == Some(WindowAction::Pause) =>
+            {
                 self.flow.pause();
                 return;
             }
@@ -181,7 +183,7 @@ impl Cockpit {
         match self.keys.window_action(key) {
             Some(WindowAction::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
             Some(WindowAction::Map) => self.map = !self.map,
-            Some(WindowAction::Follow) => self.gaze = InspectorCamera::default(),
+            Some(WindowAction::Follow) => self.inspector_camera = InspectorCamera::default(),
             Some(WindowAction::Pause) => self.flow.pause(),
             Some(WindowAction::Restart) => self.flow.restart(),
             Some(WindowAction::Sound) => self.flow.toggle_sound(),
@@ -218,8 +220,8 @@ impl Cockpit {
         {
             // The scene follows the drag, so that the same object stays under the pointer.
             let to = panes.inspector_to_aircraft(&now);
-            let rad_per_px = self.gaze.rad_per_px(self.inspector_view_height_px(), to);
-            self.gaze.turn(rad_per_px * (from_x - x), rad_per_px * (y - from_y), to);
+            let rad_per_px = self.inspector_camera.rad_per_px(self.inspector_view_height_px(), to);
+            self.inspector_camera.turn(rad_per_px * (from_x - x), rad_per_px * (y - from_y), to);
         }
         self.mouse = Some((x, y));
     }
@@ -227,8 +229,8 @@ impl Cockpit {
     /// Returns the height of the inspector's view on the screen, px.
     fn inspector_view_height_px(&self) -> f64 {
         let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
-        let eyes = self.flow.arrangement.places().into_iter().find(|place| place.which == ViewKind::Inspector);
-        window * eyes.map_or(1.0, |place| place.height)
+        let eyes = self.flow.arrangement.view_rects().into_iter().find(|view_rect| view_rect.which == ViewKind::Inspector);
+        window * eyes.map_or(1.0, |view_rect| view_rect.height)
     }
 
     fn redraw(&mut self, events: &ActiveEventLoop) {
@@ -241,7 +243,7 @@ impl Cockpit {
         let took = self.stopwatch.elapsed().saturating_sub(started);
         let shown = if software { MAX_FRAME_HZ.1 } else { MAX_FRAME_HZ.0 };
         let most_hz = if self.flies() { shown } else { PAGE_HZ };
-        let rest = if software { took.mul_f64(REST) } else { Duration::ZERO };
+        let rest = if software { took.mul_f64(IDLE_FRACTION) } else { Duration::ZERO };
         self.due = started + Duration::from_secs_f64(1.0 / most_hz).max(took + rest);
     }
 }
@@ -256,8 +258,8 @@ impl ApplicationHandler for Cockpit {
         match WindowSurface::open(events, &title, self.plan.size_px) {
             Ok(screen) => {
                 self.screen = Some(screen);
-                if let Some(lead) = &self.threads.lead {
-                    lead.send(&FromWindow::Ready);
+                if let Some(train_pipe) = &self.threads.train_pipe {
+                    train_pipe.send(&FromWindow::Ready);
                 }
             }
             Err(error) => {
@@ -287,7 +289,7 @@ impl ApplicationHandler for Cockpit {
                     // A notch of common mouse wheels is about 50 px (estimate).
                     MouseScrollDelta::PixelDelta(px) => px.y / 50.0,
                 };
-                self.gaze.zoom(spandrel_model::math::pow(ZOOM_PER_NOTCH, notches.clamp(-10.0, 10.0)));
+                self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_PER_NOTCH, notches.clamp(-10.0, 10.0)));
             }
             _ => {}
         }

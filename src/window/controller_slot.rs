@@ -11,7 +11,7 @@ use spandrel_view::flow::{ControllerStatus, ProfileChange};
 /// Controller state.
 enum DeviceState {
     /// No controller; the watcher detects a new one.
-    Nothing(DeviceWatcher),
+    NoDevice(DeviceWatcher),
     /// Connected, but not calibrated.
     Uncalibrated(EventSource, RawInput),
     /// Calibrated and used for flying.
@@ -37,7 +37,7 @@ impl ControllerSlot {
         let mut desk = Self {
             requested_device: wanted,
             profiles,
-            held: DeviceState::Nothing(DeviceWatcher::default()),
+            held: DeviceState::NoDevice(DeviceWatcher::default()),
             replacement_watcher: None,
             mode: StickMode::Two,
             note: String::new(),
@@ -51,7 +51,7 @@ impl ControllerSlot {
         match EventSource::device(self.requested_device.as_deref()) {
             Ok(source) => self.open_controller(source),
             Err(error) => {
-                self.held = DeviceState::Nothing(DeviceWatcher::start());
+                self.held = DeviceState::NoDevice(DeviceWatcher::start());
                 // The rest of the message applies to the command line only.
                 let why = error.to_string();
                 let why = why.rsplit_once(';').map_or(why.as_str(), |(why, _)| why);
@@ -63,12 +63,12 @@ impl ControllerSlot {
 
     /// Opens a newly connected device. Returns true if there is a new device, calibrated or not.
     pub fn open_new_device(&mut self) -> bool {
-        let DeviceState::Nothing(watch) = &mut self.held else { return self.replace_disconnected() };
+        let DeviceState::NoDevice(watch) = &mut self.held else { return self.replace_disconnected() };
         if !watch.is_available() {
             return false;
         }
         self.find_device();
-        !matches!(self.held, DeviceState::Nothing(_))
+        !matches!(self.held, DeviceState::NoDevice(_))
     }
 
     /// Opens a device that was connected while the current one is disconnected, unless only the current one is
@@ -113,7 +113,7 @@ impl ControllerSlot {
     /// Returns true if the device has been disconnected.
     pub fn lost(&self) -> bool {
         match &self.held {
-            DeviceState::Nothing(_) => false,
+            DeviceState::NoDevice(_) => false,
             DeviceState::Uncalibrated(_, raw) => raw.lost,
             DeviceState::Calibrated(hand) => hand.raw().lost,
             DeviceState::Calibrating(_, wizard) => wizard.lost(),
@@ -123,7 +123,7 @@ impl ControllerSlot {
     /// Returns the controller's name, if there is one.
     pub fn name(&self) -> Option<&str> {
         match &self.held {
-            DeviceState::Nothing(_) => None,
+            DeviceState::NoDevice(_) => None,
             DeviceState::Uncalibrated(source, _) | DeviceState::Calibrating(source, _) => Some(&source.device_info().name),
             DeviceState::Calibrated(hand) => Some(&hand.profile().device.name),
         }
@@ -148,14 +148,14 @@ impl ControllerSlot {
             self.find_device();
         }
         self.held = match self.take_device() {
-            DeviceState::Nothing(watch) => DeviceState::Nothing(watch),
+            DeviceState::NoDevice(watch) => DeviceState::NoDevice(watch),
             DeviceState::Uncalibrated(source, _) | DeviceState::Calibrating(source, _) => self.start_wizard(source),
             DeviceState::Calibrated(hand) => self.start_wizard(hand.release()),
         };
     }
 
     fn take_device(&mut self) -> DeviceState {
-        std::mem::replace(&mut self.held, DeviceState::Nothing(DeviceWatcher::default()))
+        std::mem::replace(&mut self.held, DeviceState::NoDevice(DeviceWatcher::default()))
     }
 
     fn start_wizard(&self, source: EventSource) -> DeviceState {
@@ -177,7 +177,7 @@ impl ControllerSlot {
         match self.take_device() {
             DeviceState::Calibrating(..) if lost => self.find_device(),
             DeviceState::Calibrating(source, _) => self.open_controller(source),
-            held @ (DeviceState::Nothing(_) | DeviceState::Uncalibrated(..) | DeviceState::Calibrated(_)) => self.held = held,
+            held @ (DeviceState::NoDevice(_) | DeviceState::Uncalibrated(..) | DeviceState::Calibrated(_)) => self.held = held,
         }
     }
 
@@ -205,7 +205,7 @@ impl ControllerSlot {
     /// Returns an error if the device can no longer be used.
     pub fn sticks(&mut self, link: &mut ControllerLink, now: SimTime) -> Result<Option<Sticks>, AppError> {
         match &mut self.held {
-            DeviceState::Nothing(_) => Ok(None),
+            DeviceState::NoDevice(_) => Ok(None),
             DeviceState::Uncalibrated(source, raw) => {
                 std::iter::from_fn(|| source.next(now)).for_each(|event| raw.apply(event));
                 Ok(None)
@@ -227,7 +227,7 @@ impl ControllerSlot {
 
     /// Disables the controller and notes the reason.
     pub fn disable(&mut self, why: &AppError) {
-        self.held = DeviceState::Nothing(DeviceWatcher::start());
+        self.held = DeviceState::NoDevice(DeviceWatcher::start());
         self.note = format!("Controller disabled: {why}.");
     }
 
@@ -249,7 +249,7 @@ impl ControllerSlot {
             _ if plain.device.is_none() || plain.lost => {
                 ControllerStatus { mode: 2, sticks: StickMode::Two.physical_sticks(keyboard), calibrated: self.flies(), ..plain }
             }
-            DeviceState::Nothing(_) => plain,
+            DeviceState::NoDevice(_) => plain,
             DeviceState::Uncalibrated(_, raw) => ControllerStatus { axes: raw.axes.iter().map(from_rest).collect(), ..plain },
             DeviceState::Calibrated(hand) => {
                 let profile = hand.profile();
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_disconnected_device_sends_no_sticks_until_it_is_back() {
+    fn exact_disconnected_device_sends_no_sticks_until_it_reconnects() {
         let pushed = DeviceEvent::Axis { axis: 0, value: 1.0 };
         let mut desk = held(&[(0.0, pushed), (1.0, DeviceEvent::Lost), (2.0, DeviceEvent::Found)]);
         assert!(poll_sticks(&mut desk, 0.5).is_some() && desk.keyboard_reason().is_none());
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_a_device_disconnected_in_the_wizard_stays_disconnected() {
+    fn regress_device_disconnected_in_wizard_stays_disconnected() {
         for lost_s in [1.0, 3.0] {
             let mut desk = held(&[(lost_s, DeviceEvent::Lost)]);
             poll_sticks(&mut desk, 2.0);

@@ -78,7 +78,7 @@ impl FlightView {
     /// # Errors
     /// Returns an error if the socket cannot be opened.
     pub fn begin(listen: IpAddr, vehicle: SocketAddr, job: (Scenario, Vehicle), seed: Option<u64>) -> Result<Self, AppError> {
-        let listener = TelemetryListener::dial(listen, vehicle, &job.0)?;
+        let listener = TelemetryListener::connect(listen, vehicle, &job.0)?;
         let session = SceneKey { requested_seed: seed, ..SceneKey::default() };
         Ok(Self { job, listener, scene: SceneLoading::Waiting, session, previous_panes: None, first_frame_at: None, drawn: 0 })
     }
@@ -155,7 +155,7 @@ impl FlightView {
         screen: &mut WindowSurface,
         places: &[ViewRect],
         now: Option<&LiveMoment>,
-        gaze: &InspectorCamera,
+        inspector_camera: &InspectorCamera,
         map: bool,
     ) -> Result<Vec<PaneContent>, AppError> {
         if let Some(previous_panes) = self.previous_panes.take() {
@@ -163,7 +163,7 @@ impl FlightView {
         }
         let (SceneLoading::Ready(panes), Some(now)) = (&mut self.scene, now) else { return Ok(Vec::new()) };
         let feed = self.listener.live().feed().clone();
-        panes.draw(screen, places, now, &feed, gaze, map)
+        panes.draw(screen, places, now, &feed, inspector_camera, map)
     }
 
     /// Returns both views, once the scene is ready.
@@ -199,7 +199,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_simulators_seed_takes_precedence() {
+    fn exact_simulator_seed_takes_precedence() {
         let given = SceneKey { requested_seed: Some(5), ..SceneKey::default() };
         assert_eq!((given.seed(None, None), given.seed(Some(7), Some(1))), (Some(5), Some(7)));
         let free = SceneKey::default();

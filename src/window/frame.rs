@@ -29,7 +29,7 @@ impl Cockpit {
         if let Some(fault) = self.screen.as_ref().and_then(|screen| screen.gpu.fault()) {
             return Err(fault.into());
         }
-        while let Some(message) = self.threads.lead.as_mut().and_then(super::train_pipe::TrainPipe::poll) {
+        while let Some(message) = self.threads.train_pipe.as_mut().and_then(super::train_pipe::TrainPipe::poll) {
             self.flow.handle_message(message);
         }
         if matches!(self.flow.page(), Page::Controls | Page::Calibrating)
@@ -83,8 +83,8 @@ impl Cockpit {
     fn apply_requests(&mut self, order: WindowRequest) -> Result<(), AppError> {
         match order {
             WindowRequest::Send(message) => {
-                if let Some(lead) = &self.threads.lead {
-                    lead.send(&message);
+                if let Some(train_pipe) = &self.threads.train_pipe {
+                    train_pipe.send(&message);
                 }
             }
             WindowRequest::ShowFlight(flying) => self.show(&flying)?,
@@ -120,8 +120,8 @@ impl Cockpit {
             screen.window.set_title(&format!("Spandrel: {}", scenario.title));
         }
         self.threads.flight = Some(FlightView::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
-        self.keeper = self.plan.keep.clone().map(super::picture_writer::PictureWriter::start);
-        (self.map, self.gaze) = (self.plan.map, spandrel_view::inspector_camera::InspectorCamera::default());
+        self.image_writer = self.plan.camera_file.clone().map(super::picture_writer::PictureWriter::start);
+        (self.map, self.inspector_camera) = (self.plan.map, spandrel_view::inspector_camera::InspectorCamera::default());
         // Discard messages from before the flight.
         while self.threads.pilot.as_ref().and_then(PilotThread::poll_message).is_some() {}
         self.notices.clear();
@@ -162,7 +162,7 @@ impl Cockpit {
         let text = self.text(now.is_some(), started);
         let map = self.map && self.plan.map && self.flow.shows_map();
         let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.threads.flight) else { return Ok(()) };
-        let shown = flight.draw(screen, &self.flow.arrangement.places(), now.as_ref(), &self.gaze, map)?;
+        let shown = flight.draw(screen, &self.flow.arrangement.view_rects(), now.as_ref(), &self.inspector_camera, map)?;
         let size = screen.window.inner_size();
         let sheet = self.flow.sheet(f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
         let (pictures, arrangement) = (&mut self.pictures, self.flow.arrangement);
@@ -188,13 +188,13 @@ impl Cockpit {
         let Some(panes) = flight.panes() else { return Ok(()) };
         let stream = self.threads.stream.as_mut().filter(|stream| stream.is_due());
         let now = self.stopwatch.elapsed();
-        let keeper = self.keeper.as_mut().and_then(|keeper| keeper.is_due(now).then_some(keeper));
-        if stream.is_none() && keeper.is_none() {
+        let image_writer = self.image_writer.as_mut().and_then(|image_writer| image_writer.is_due(now).then_some(image_writer));
+        if stream.is_none() && image_writer.is_none() {
             return Ok(());
         }
         let Some(picture) = panes.camera(screen)? else { return Ok(()) };
-        if let Some(keeper) = keeper {
-            keeper.save(picture.clone());
+        if let Some(image_writer) = image_writer {
+            image_writer.save(picture.clone());
         }
         if let Some(stream) = stream {
             let (video, wall) = (stream.push(picture), flight.listener.wall());
@@ -237,9 +237,9 @@ impl Cockpit {
         let way = |plus: &str, minus: &str| f64::from(i8::from(held(plus)) - i8::from(held(minus)));
         let (right, up) = (way("look_right", "look_left"), way("look_up", "look_down"));
         if right != 0.0 || up != 0.0 {
-            self.gaze.turn(TURN_RAD_S * step_s * right, TURN_RAD_S * step_s * up, panes.inspector_to_aircraft(now));
+            self.inspector_camera.turn(TURN_RAD_S * step_s * right, TURN_RAD_S * step_s * up, panes.inspector_to_aircraft(now));
         }
-        self.gaze.zoom(spandrel_model::math::pow(ZOOM_PER_S, step_s * way("zoom_in", "zoom_out")));
+        self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_PER_S, step_s * way("zoom_in", "zoom_out")));
     }
 
     fn announce(&self) {

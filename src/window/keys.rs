@@ -44,7 +44,7 @@ pub enum KeyChange {
 #[derive(Debug, Default)]
 pub struct HeldKeys {
     names: BTreeMap<String, String>,
-    others: BTreeSet<String>,
+    foreign: BTreeSet<String>,
 }
 
 impl HeldKeys {
@@ -54,29 +54,29 @@ impl HeldKeys {
         self.update_foreign(key_id(&event.physical_key), event.state, made_up)
     }
 
-    fn update_foreign(&mut self, place: String, state: ElementState, made_up: bool) -> bool {
+    fn update_foreign(&mut self, physical_key_id: String, state: ElementState, made_up: bool) -> bool {
         match state {
             ElementState::Pressed if made_up => {
-                self.others.insert(place);
+                self.foreign.insert(physical_key_id);
                 true
             }
             // A held key repeats, and its first repetition is not marked as such.
-            ElementState::Pressed => self.others.contains(&place),
-            ElementState::Released => self.others.remove(&place),
+            ElementState::Pressed => self.foreign.contains(&physical_key_id),
+            ElementState::Released => self.foreign.remove(&physical_key_id),
         }
     }
 
     /// Handles a key event.
     pub fn handle(&mut self, event: &KeyEvent) -> Option<KeyChange> {
-        let place = key_id(&event.physical_key);
+        let physical_key_id = key_id(&event.physical_key);
         match event.state {
             ElementState::Pressed if event.repeat => None,
             ElementState::Pressed => {
                 let name = name(&event.logical_key)?;
-                self.names.insert(place, name.clone());
+                self.names.insert(physical_key_id, name.clone());
                 Some(KeyChange::Down(name))
             }
-            ElementState::Released => self.names.remove(&place).map(KeyChange::Up),
+            ElementState::Released => self.names.remove(&physical_key_id).map(KeyChange::Up),
         }
     }
 

@@ -26,7 +26,7 @@ impl TelemetryListener {
     ///
     /// # Errors
     /// Returns an error if the socket cannot be opened.
-    pub fn dial(listen: IpAddr, vehicle: SocketAddr, scenario: &Scenario) -> Result<Self, AppError> {
+    pub fn connect(listen: IpAddr, vehicle: SocketAddr, scenario: &Scenario) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;
         let listener = Self { live: Arc::new(Mutex::new(LiveFlight::new(scenario))), stopwatch: Stopwatch::start(), vehicle };

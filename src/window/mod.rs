@@ -37,13 +37,13 @@ pub use window_config::{CaptureRequest, WindowConfig, WindowSetup};
 pub fn run(setup: WindowSetup) -> Result<(), AppError> {
     let WindowSetup { config, keys, sound, led, .. } = setup;
     let stop = StopRequest::install(setup.leash && !led)?;
-    let mut crew = WindowThreads { pilot: None, lead: None, flight: None, stream: None };
+    let mut crew = WindowThreads { pilot: None, train_pipe: None, flight: None, stream: None };
     if led || setup.fly.is_some() {
         crew.pilot = Some(PilotThread::start(config.listen, setup.device, setup.profiles, keys.clone())?);
     }
     let names = KeyNames::new(keys.labels());
     let flow = if led {
-        crew.lead = Some(TrainPipe::listen(&stop));
+        crew.train_pipe = Some(TrainPipe::listen(&stop));
         WindowFlow::new(sound, names)
     } else {
         crew.flight = Some(FlightView::begin(config.listen, setup.connect, (setup.scenario, setup.vehicle), setup.seed)?);

@@ -73,7 +73,7 @@ pub struct ViewPanes {
 /// A view to show.
 pub struct PaneContent {
     /// Position in the window.
-    pub place: ViewRect,
+    pub view_rect: ViewRect,
     /// egui texture with the rendered image.
     pub picture: egui::TextureId,
     /// Overlay of the view.
@@ -112,7 +112,7 @@ impl ViewPanes {
         places: &[ViewRect],
         now: &LiveMoment,
         feed: &Feed,
-        gaze: &InspectorCamera,
+        inspector_camera: &InspectorCamera,
         map: bool,
     ) -> Result<Vec<PaneContent>, AppError> {
         if self.job.site.traffic().closures() != &now.closures {
@@ -120,15 +120,15 @@ impl ViewPanes {
         }
         // The camera's view starts first, because the second device renders it while this one renders the other view.
         let mut order: Vec<&ViewRect> = places.iter().collect();
-        order.sort_by_key(|place| place.which != ViewKind::Camera);
+        order.sort_by_key(|view_rect| view_rect.which != ViewKind::Camera);
         let (mut shown, mut begun) = (Vec::new(), false);
-        for place in order {
-            let place = self.fit_view(screen, *place);
-            let (shot, items) = self.render(screen, &place, now, feed, gaze, map);
-            let pane = pane(&mut self.panes, screen, place.which, shot.size_px);
-            shown.push(PaneContent { place, picture: pane.id, items });
+        for view_rect in order {
+            let view_rect = self.fit_view(screen, *view_rect);
+            let (shot, items) = self.render(screen, &view_rect, now, feed, inspector_camera, map);
+            let pane = pane(&mut self.panes, screen, view_rect.which, shot.size_px);
+            shown.push(PaneContent { view_rect, picture: pane.id, items });
             match &self.secondary {
-                Some(aside) if place.which == ViewKind::Camera => {
+                Some(aside) if view_rect.which == ViewKind::Camera => {
                     aside.start(shot)?;
                     begun = true;
                 }
@@ -139,7 +139,7 @@ impl ViewPanes {
             self.copy_secondary_image(screen)?;
         }
         // Restores the stacking order of the views.
-        shown.sort_by_key(|view| places.iter().position(|place| place.which == view.place.which));
+        shown.sort_by_key(|view| places.iter().position(|view_rect| view_rect.which == view.view_rect.which));
         Ok(shown)
     }
 
@@ -162,13 +162,13 @@ impl ViewPanes {
     }
 
     /// Returns the rectangle of a view; the camera's has the aspect ratio of its sensor.
-    fn fit_view(&self, screen: &WindowSurface, place: ViewRect) -> ViewRect {
+    fn fit_view(&self, screen: &WindowSurface, view_rect: ViewRect) -> ViewRect {
         let window = screen.window.inner_size();
-        match place.which {
-            ViewKind::Inspector => place,
+        match view_rect.which {
+            ViewKind::Inspector => view_rect,
             ViewKind::Camera => {
                 let shape = f64::from(window.width.max(1)) / f64::from(window.height.max(1));
-                place.fit_aspect(self.job.vehicle.camera.aspect(), shape)
+                view_rect.fit_aspect(self.job.vehicle.camera.aspect(), shape)
             }
         }
     }
@@ -177,20 +177,20 @@ impl ViewPanes {
     fn render(
         &mut self,
         screen: &WindowSurface,
-        place: &ViewRect,
+        view_rect: &ViewRect,
         now: &LiveMoment,
         feed: &Feed,
-        gaze: &InspectorCamera,
+        inspector_camera: &InspectorCamera,
         map: bool,
     ) -> (Shot, Vec<DrawItem>) {
         let window = screen.window.inner_size();
-        let on_screen = (place.width * f64::from(window.width), place.height * f64::from(window.height));
+        let on_screen = (view_rect.width * f64::from(window.width), view_rect.height * f64::from(window.height));
         let size_px = render_size_px(on_screen, screen.gpu.software.then_some(SOFTWARE_VIEW_PX));
         let moment = &now.moment;
         let (stage, [eyes, film]) = (self.job.stage(), &mut self.meters);
-        match place.which {
+        match view_rect.which {
             ViewKind::Inspector => {
-                let shot = stage.inspector_view(gaze, moment, size_px, eyes);
+                let shot = stage.inspector_view(inspector_camera, moment, size_px, eyes);
                 let items = stage.drone_marker(&shot, moment);
                 (shot, items)
             }

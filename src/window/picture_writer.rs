@@ -84,8 +84,8 @@ mod tests {
     fn exact_images_are_saved_once_a_second_and_deleted_at_the_end() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("camera.jpg");
-        let mut keeper = PictureWriter::start(path.clone());
-        let due: Vec<bool> = [0, 400, 999, 1_000, 1_500, 2_600].map(|ms| keeper.is_due(Duration::from_millis(ms))).to_vec();
+        let mut image_writer = PictureWriter::start(path.clone());
+        let due: Vec<bool> = [0, 400, 999, 1_000, 1_500, 2_600].map(|ms| image_writer.is_due(Duration::from_millis(ms))).to_vec();
         assert_eq!(due, [true, false, false, true, false, true]);
         let grey = |value: u8| Picture { width: 64, height: 48, rgba: [value, value, value, 255].repeat(64 * 48) };
         for value in [40, 200] {
@@ -94,10 +94,10 @@ mod tests {
             assert_eq!(image::load_from_memory(&bytes).unwrap().to_luma8().dimensions(), (64, 48));
             assert!(bytes.len() <= MAX_BYTES);
         }
-        keeper.save(grey(90));
-        keeper.save(grey(91));
-        keeper.save(grey(92));
-        drop(keeper);
+        image_writer.save(grey(90));
+        image_writer.save(grey(91));
+        image_writer.save(grey(92));
+        drop(image_writer);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "the file is deleted");
     }
 }

@@ -66,7 +66,7 @@ impl PilotThread {
         let socket = hub.bind(listen, 0, "--listen")?;
         let profiles = ProfileFolder::at(profiles);
         let (asks, asked) = channel();
-        let (teller, told) = channel();
+        let (message_sender, told) = channel();
         let controls = Arc::new(Mutex::new(ControllerStatus::default()));
         let shown = controls.clone();
         std::thread::spawn(move || {
@@ -92,7 +92,7 @@ impl PilotThread {
                 status_text: words,
                 next: SimTime::ZERO,
             };
-            seat.fly(&asked, &teller);
+            seat.fly(&asked, &message_sender);
         });
         Ok(Self { commands: asks, messages: told, controls })
     }
@@ -115,8 +115,8 @@ impl PilotThread {
 }
 
 /// Sends a message to the user. Fails if the window has been closed, which also ends the thread.
-fn send_message(teller: &Sender<String>, words: String) {
-    let _ = teller.send(words);
+fn send_message(message_sender: &Sender<String>, words: String) {
+    let _ = message_sender.send(words);
 }
 
 struct PilotLoop {
@@ -135,7 +135,7 @@ struct PilotLoop {
 }
 
 impl PilotLoop {
-    fn fly(&mut self, asked: &Receiver<PilotCommand>, teller: &Sender<String>) {
+    fn fly(&mut self, asked: &Receiver<PilotCommand>, message_sender: &Sender<String>) {
         let watch = Stopwatch::start();
         loop {
             if let Some(NetEvent::Datagram { from, bytes, .. }) = self.hub.next(MAX_WAIT)
@@ -146,7 +146,7 @@ impl PilotLoop {
             let now = SimTime::from_s(watch.elapsed().as_secs_f64());
             loop {
                 match asked.try_recv() {
-                    Ok(ask) => self.run_command(ask, now, teller),
+                    Ok(ask) => self.run_command(ask, now, message_sender),
                     Err(TryRecvError::Empty) => break,
                     Err(TryRecvError::Disconnected) => return,
                 }
@@ -154,18 +154,18 @@ impl PilotLoop {
             if self.controller.open_new_device() {
                 self.lost = false;
                 let flies = if self.controller.flies() { "Use it to fly." } else { "Use the keyboard until it is calibrated." };
-                send_message(teller, format!("Controller connected. {} {flies}", self.controller.note()));
+                send_message(message_sender, format!("Controller connected. {} {flies}", self.controller.note()));
             }
             let (sticks, news) = self.sticks(now);
             // On the ground, the controller page shows this message.
             if let Some(news) = news.filter(|_| self.vehicle.is_some()) {
-                send_message(teller, news);
+                send_message(message_sender, news);
             }
             match self.vehicle {
                 Some(vehicle) => {
                     self.link.set_sticks(sticks, now);
                     self.send(vehicle, now);
-                    std::iter::from_fn(|| self.link.poll_message()).for_each(|text| send_message(teller, text));
+                    std::iter::from_fn(|| self.link.poll_message()).for_each(|text| send_message(message_sender, text));
                 }
                 None => self.show(now),
             }
@@ -189,7 +189,7 @@ impl PilotLoop {
         }
     }
 
-    fn run_command(&mut self, ask: PilotCommand, now: SimTime, teller: &Sender<String>) {
+    fn run_command(&mut self, ask: PilotCommand, now: SimTime, message_sender: &Sender<String>) {
         match ask {
             PilotCommand::Down(key) => {
                 let action = self.keyboard.press(&key, true, now);
@@ -210,7 +210,7 @@ impl PilotLoop {
                 self.link.set_arm_key(&self.keyboard.keys().label("arm"));
                 self.paused = false;
                 if let Some(why) = self.controller.keyboard_reason() {
-                    send_message(teller, format!("{why} Use the keyboard."));
+                    send_message(message_sender, format!("{why} Use the keyboard."));
                 }
             }
             PilotCommand::SetPaused(stands) => self.paused = stands,

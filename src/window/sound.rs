@@ -15,7 +15,7 @@ const PLAYERS: [(&str, &[&str]); 2] = [
     ("aplay", &["-q", "-t", "raw", "-f", "S16_LE", "-c", "1", "-r", "24000", "--buffer-time=120000"]),
 ];
 /// Programs that speak their last argument.
-const VOICES: [&str; 2] = ["spd-say", "espeak-ng"];
+const SPEECH_PROGRAMS: [&str; 2] = ["spd-say", "espeak-ng"];
 /// Number of samples per chunk (10 ms).
 const CHUNK_SAMPLES: usize = SAMPLE_RATE_HZ as usize / 100;
 /// Playback lead time: longer delays the sound, shorter causes dropouts on a busy machine (estimate).
@@ -155,7 +155,7 @@ impl SpeechVoice {
         let words = spoken(std::mem::replace(&mut self.cues, cues), cues);
         let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
         let (Some(words), true, false) = (words, self.on, busy) else { return };
-        let started = VOICES.iter().find_map(|name| {
+        let started = SPEECH_PROGRAMS.iter().find_map(|name| {
             let mut command = Command::new(name);
             command.arg(words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
         });
@@ -163,7 +163,7 @@ impl SpeechVoice {
             self.on = false;
             tracing::warn!(
                 "no spoken warnings: none of {} is installed (Debian and Ubuntu: apt-get install espeak-ng)",
-                VOICES.join(", ")
+                SPEECH_PROGRAMS.join(", ")
             );
         }
         self.speaking = started;

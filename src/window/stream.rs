@@ -58,7 +58,7 @@ impl StreamSender {
         // At most one frame waits while another is being encoded; further frames are dropped.
         let (pictures, wanted) = sync_channel(1);
         let encoding_fails = Arc::new(AtomicBool::new(false));
-        let line = Line { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
+        let line = StreamDestination { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
         let sender = std::thread::spawn({
             let encoding_fails = Arc::clone(&encoding_fails);
             move || send(&wanted, line, &encoding_fails)
@@ -114,7 +114,7 @@ fn bits_s((width, height): (u32, u32)) -> u32 {
 }
 
 /// Destination of the packets.
-struct Line {
+struct StreamDestination {
     socket: UdpSocket,
     to: SocketAddr,
     packets: RtpPacketizer,
@@ -123,7 +123,7 @@ struct Line {
     told: bool,
 }
 
-impl Line {
+impl StreamDestination {
     /// Sends an encoded frame with the current time.
     fn send(&mut self, units: &[Vec<u8>]) {
         for packet in self.packets.picture(units, self.watch.elapsed().as_secs_f64()) {
@@ -171,7 +171,7 @@ impl LastError {
 }
 
 /// Encodes and sends until the window is closed.
-fn send(wanted: &Receiver<Picture>, mut line: Line, encoding_fails: &AtomicBool) -> StreamStatistics {
+fn send(wanted: &Receiver<Picture>, mut line: StreamDestination, encoding_fails: &AtomicBool) -> StreamStatistics {
     let (mut encoder, mut complaint, mut sent) = (ResizingEncoder::default(), LastError::default(), StreamStatistics::default());
     while let Ok(picture) = wanted.recv() {
         let began = Stopwatch::start();

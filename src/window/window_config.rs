@@ -22,7 +22,7 @@ pub struct WindowConfig {
     /// Screenshot to save before exiting, if any.
     pub picture: Option<CaptureRequest>,
     /// File to save the camera's view to.
-    pub keep: Option<PathBuf>,
+    pub camera_file: Option<PathBuf>,
     /// True to print a line on standard output when both views have been rendered.
     pub announce: bool,
 }

@@ -66,8 +66,11 @@ pub fn paint_flight(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText,
     let painter = ui.ctx().layer_painter(egui::LayerId::background());
     for view in shown {
         let at = |x: f64, y: f64| area.min + egui::vec2(x as f32 * area.width(), y as f32 * area.height());
-        let place = &view.place;
-        let rect = egui::Rect::from_min_max(at(place.left, place.top), at(place.left + place.width, place.top + place.height));
+        let view_rect = &view.view_rect;
+        let rect = egui::Rect::from_min_max(
+            at(view_rect.left, view_rect.top),
+            at(view_rect.left + view_rect.width, view_rect.top + view_rect.height),
+        );
         let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
         painter.image(view.picture, rect, whole, egui::Color32::WHITE);
         paint(&painter.with_clip_rect(rect), &view.items, rect);

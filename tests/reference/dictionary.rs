@@ -5,7 +5,7 @@ use crate::{check, page_head};
 use serde_json::Value;
 use spandrel_monitor::assess_log;
 use spandrel_monitor::export::COLUMNS;
-use spandrel_monitor::export::columns::Read;
+use spandrel_monitor::export::columns::ColumnReader;
 use spandrel_monitor::export::fields::FIELDS;
 use spandrel_testkit::job::*;
 use spandrel_training::cohort::columns::definition;
@@ -16,10 +16,10 @@ use std::collections::BTreeSet;
 fn frames() -> String {
     let rows = COLUMNS.iter().map(|column| {
         let kind = match column.read {
-            Read::Integer(_) => "int64",
-            Read::Float(_) => "double",
-            Read::Boolean(_) => "boolean",
-            Read::Text(_) => "string",
+            ColumnReader::Integer(_) => "int64",
+            ColumnReader::Float(_) => "double",
+            ColumnReader::Boolean(_) => "boolean",
+            ColumnReader::Text(_) => "string",
         };
         let empty = if column.optional { "yes" } else { "no" };
         let words = [column.unit, column.frame, empty, column.description].map(str::to_owned);

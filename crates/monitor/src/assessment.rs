@@ -42,22 +42,22 @@ pub enum AssessError {
     #[error("the telemetry contains no HIL_STATE_QUATERNION messages; scoring requires their time and true state")]
     NoTruth,
     /// The telemetry was recorded in a different scenario.
-    #[error("the simulator runs a different scenario: it reports scn_crc {heard:#010x}, but `{name}` has {ours:#010x}")]
+    #[error("the simulator runs a different scenario: it reports scn_crc {received:#010x}, but `{name}` has {expected:#010x}")]
     OtherScenario {
         /// Name of the session's scenario.
         name: String,
         /// `scn_crc` received from the simulator.
-        heard: u32,
+        received: u32,
         /// CRC of the session's scenario.
-        ours: u32,
+        expected: u32,
     },
     /// The telemetry was recorded with a different seed.
-    #[error("the simulator uses seed {heard}, but the session uses seed {ours}, which places different defects")]
+    #[error("the simulator uses seed {received}, but the session uses seed {expected}, which places different defects")]
     OtherSeed {
         /// Seed received from the simulator.
-        heard: u64,
+        received: u64,
         /// The session's seed.
-        ours: u64,
+        expected: u64,
     },
     /// No seed is available from the telemetry, the scenario or the command line.
     #[error(
@@ -290,7 +290,7 @@ pub fn assess_log(
 ) -> Result<AssessedSession, AssessError> {
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log)?;
-    let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
+    let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
     // The flight contains all required data. Keeping the timeline as well would double memory use.
     drop(timeline);
     let survey = attention::with_flight_closures(build(scenario, seed), &flight);
@@ -302,7 +302,7 @@ pub fn assess_log(
 ///
 /// # Errors
 /// Fails if the telemetry belongs to a different scenario or seed, or contains no session.
-pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Result<(Flight, u64), AssessError> {
+pub fn flight_with_seed(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Result<(Flight, u64), AssessError> {
     let flight = scored_flight(timeline, scenario, vehicle);
     if flight.truths.is_empty() {
         return Err(AssessError::NoTruth);
@@ -314,12 +314,12 @@ pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Veh
 /// Returns the flight to score: the first with a lift-off, or the last one if there was none.
 #[must_use]
 pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Flight {
-    scored_epoch(timeline, scenario, vehicle).1
+    flight_and_prior_runs(timeline, scenario, vehicle).1
 }
 
 /// Returns the flight to score and the number of earlier simulator runs in the timeline.
 #[must_use]
-pub fn scored_epoch(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
+pub fn flight_and_prior_runs(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> (usize, Flight) {
     let height_m = lift_off_height_m(vehicle);
     let mut last = (0, Flight::default());
     for epoch in 0..timeline.epoch_count() {
@@ -351,20 +351,20 @@ pub fn check_identity(flight: &Flight, scenario: &Scenario, asked: Option<u64>) 
 ///
 /// # Errors
 /// Fails if the CRCs differ.
-pub fn check_scenario(scenario: &Scenario, heard: u32) -> Result<(), AssessError> {
-    if heard == scenario.crc {
+pub fn check_scenario(scenario: &Scenario, received: u32) -> Result<(), AssessError> {
+    if received == scenario.crc {
         return Ok(());
     }
-    Err(AssessError::OtherScenario { name: scenario.name.clone(), heard, ours: scenario.crc })
+    Err(AssessError::OtherScenario { name: scenario.name.clone(), received: received, expected: scenario.crc })
 }
 
 /// Checks the seed received from the simulator.
 ///
 /// # Errors
 /// Fails if the session has a different seed.
-pub fn check_seed(ours: Option<u64>, heard: u64) -> Result<(), AssessError> {
-    match ours {
-        Some(ours) if ours != heard => Err(AssessError::OtherSeed { heard, ours }),
+pub fn check_seed(expected: Option<u64>, received: u64) -> Result<(), AssessError> {
+    match expected {
+        Some(ours) if ours != received => Err(AssessError::OtherSeed { received: received, expected: ours }),
         Some(_) | None => Ok(()),
     }
 }

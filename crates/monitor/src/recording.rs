@@ -10,9 +10,9 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
 /// Minimum interval between coordinate frame updates.
-const FRAME_STEP: SimTime = SimTime::from_ms(40);
+const POSE_INTERVAL: SimTime = SimTime::from_ms(40);
 /// Number of frames between recordings of all other data.
-const SLOW_DATA_INTERVAL_FRAMES: usize = 25;
+const FRAMES_PER_SLOW_SAMPLE: usize = 25;
 /// MAVLink severity levels used for log messages.
 const SEVERITY_CRITICAL: u8 = 2;
 const SEVERITY_INFO: u8 = 6;
@@ -28,7 +28,7 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
         if frames > 0 && truth.time < due {
             continue;
         }
-        due = truth.time + FRAME_STEP;
+        due = truth.time + POSE_INTERVAL;
         let (at, now) = (unix_ns(truth.time), truth.time);
         let here: Vec3<Ned> = truth.motion.position_m.ned();
         let pitch_rad = flight.gimbal.at(now).unwrap_or(0.0);
@@ -49,7 +49,7 @@ pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<
                 speed_m_s: truth.motion.velocity_m_s.norm(),
             },
         ));
-        if frames % SLOW_DATA_INTERVAL_FRAMES == 0 {
+        if frames % FRAMES_PER_SLOW_SAMPLE == 0 {
             let wide = vehicle.camera;
             let lens = Camera { hfov_rad: flight.field_of_view.at(now).unwrap_or(wide.hfov_rad), ..wide };
             out.push(foxglove::camera(at, lens.focal_px(), (lens.width_px, lens.height_px)));

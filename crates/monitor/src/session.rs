@@ -214,7 +214,7 @@ impl Session {
         let mut frames = all_frames(flight, start, end, rate);
         crash::clean_up_contacts(&mut frames, flight, &scenario.ground_team);
         let mut rule = EndRule::new(scenario, vehicle);
-        let decided = frames.iter().find_map(|frame| rule.update(&moment(frame, rate)));
+        let decided = frames.iter().find_map(|frame| rule.update(&input(frame, rate)));
         let none = if flight.ended_by_restart { EndReason::Restart } else { EndReason::Abort };
         let (last, reason) = decided.or(rule.pending()).unwrap_or((end, none));
         frames.truncate(frames.partition_point(|frame| frame.time <= last).max(1));
@@ -238,7 +238,7 @@ fn all_frames(flight: &Flight, start: SimTime, end: SimTime, rate: f64) -> Vec<F
         .collect()
 }
 
-fn moment(frame: &Frame, rate: f64) -> EndRuleInput {
+fn input(frame: &Frame, rate: f64) -> EndRuleInput {
     EndRuleInput {
         time: frame.time,
         flown_s: f64::from(frame.index) / rate,

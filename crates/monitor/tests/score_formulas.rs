@@ -28,7 +28,7 @@ fn exact_other_crashes_lose_three_points_each() {
 }
 
 #[test]
-fn exact_hitting_a_vehicle_loses_all_safety_points() {
+fn exact_hitting_vehicle_loses_all_safety_points() {
     assert_close(safety::score(false, true, 8).pct, 0.0);
     assert_close(safety::score(true, true, 0).raw, -100.0);
 }

@@ -128,7 +128,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn exact_a_session_reports_flight_scores_tasks_and_answers() {
+    fn exact_session_reports_flight_scores_tasks_and_answers() {
         let record = perfect_record("anna", 1);
         let all = statements(&record, HOME);
         assert_eq!(all.len(), 1 + 4 + 4 + 24);

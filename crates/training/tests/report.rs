@@ -35,8 +35,8 @@ fn review(tape: &Tape, job: &Scenario) -> Review {
 
 /// Returns the review of a 240 s flight of the TASBID job, computed once for all tests.
 fn short_review() -> &'static Review {
-    static SHORT: OnceLock<Review> = OnceLock::new();
-    SHORT.get_or_init(|| review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges()))
+    static SHORT_REVIEW: OnceLock<Review> = OnceLock::new();
+    SHORT_REVIEW.get_or_init(|| review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges()))
 }
 
 /// Inserts an instructor's note in the middle of a tape.
@@ -61,7 +61,7 @@ fn exact_instructor_note_is_in_report_but_not_among_messages() {
 }
 
 /// Returns the values of all attributes that make a browser load a resource.
-fn loaded_urls(page: &str) -> Vec<&str> {
+fn resource_urls(page: &str) -> Vec<&str> {
     let starts = [" src=\"", " href=\"", " action=\"", " poster=\"", " data=\"", " srcset=\""];
     let values = |start: &'static str| page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
     starts.into_iter().flat_map(values).collect()
@@ -76,7 +76,7 @@ fn without_assets(page: &str) -> String {
 }
 
 #[test]
-fn exact_review_contains_the_scorers_assessment() {
+fn exact_review_contains_scorer_assessment() {
     let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
     let graded = assess_log(&tape.log(0), &job, &phantom(), build_site).unwrap();
     let review = review(&tape, &job);
@@ -106,9 +106,9 @@ fn exact_report_is_reproducible() {
 }
 
 #[test]
-fn exact_the_page_makes_no_network_requests() {
+fn exact_page_makes_no_network_requests() {
     let page = without_assets(&page::session(short_review()));
-    for value in loaded_urls(&page) {
+    for value in resource_urls(&page) {
         let inside = value.starts_with('#') || value.starts_with("data:");
         assert!(inside, "{value}");
     }

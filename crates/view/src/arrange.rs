@@ -113,7 +113,7 @@ impl ViewLayout {
 
     /// Returns both views in drawing order.
     #[must_use]
-    pub fn places(self) -> [ViewRect; 2] {
+    pub fn view_rects(self) -> [ViewRect; 2] {
         let half = |which, left| ViewRect { which, left, top: 0.0, width: 0.5, height: 1.0 };
         let whole = |which| ViewRect { which, left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
         let small = |which, (left, top)| ViewRect { which, left, top, width: INSET_SIZE, height: INSET_SIZE };
@@ -144,7 +144,7 @@ mod tests {
     fn exact_tab_cycles_through_layouts_that_show_both_views() {
         let mut seen = ViewLayout::default();
         for _ in 0..3 {
-            let [a, b] = seen.places();
+            let [a, b] = seen.view_rects();
             assert_ne!(a.which, b.which);
             for place in [a, b] {
                 assert!(place.left >= 0.0 && place.left + place.width <= 1.0 && place.top + place.height <= 1.0 + 1e-12);
@@ -152,7 +152,7 @@ mod tests {
             seen = seen.next();
         }
         assert_eq!(seen, ViewLayout::SideBySide);
-        let [left, right] = seen.places();
+        let [left, right] = seen.view_rects();
         assert_eq!((left.which, left.left, right.left), (ViewKind::Inspector, 0.0, 0.5));
     }
 

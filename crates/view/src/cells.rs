@@ -121,14 +121,14 @@ pub fn split_into_cells(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
 
 /// Returns the distance from the mesh's origin to its farthest vertex, m.
 #[must_use]
-pub fn reach_m(mesh: &Mesh) -> f64 {
+pub fn max_vertex_distance_m(mesh: &Mesh) -> f64 {
     mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max)
 }
 
 /// Groups instances of a mesh by cell, each with a bounding sphere.
 #[must_use]
 pub fn group_instances(mesh: &Mesh, instances: &[Instance]) -> Vec<(Vec<Instance>, BoundingSphere)> {
-    let reach_m = reach_m(mesh);
+    let reach_m = max_vertex_distance_m(mesh);
     let origin = |i: &Instance| Vec3::new(f64::from(i.rows[0][3]), f64::from(i.rows[1][3]), f64::from(i.rows[2][3]));
     let size = |i: &Instance| {
         let column = |k: usize| i.rows.iter().map(|row| f64::from(row[k]) * f64::from(row[k])).sum::<f64>().sqrt();
@@ -166,7 +166,7 @@ impl Frustum {
             let [a, b, c, _] = plane;
             let length = (a * a + b * b + c * c).sqrt();
             // A projection with infinite depth has no far plane.
-            length < 1e-12 || inside(plane, ball.center_m) >= -ball.radius_m * length
+            length < 1e-12 || signed_distance(plane, ball.center_m) >= -ball.radius_m * length
         })
     }
 
@@ -174,13 +174,14 @@ impl Frustum {
     #[must_use]
     pub fn cell_may_be_visible(&self, bounds: &CellBounds) -> bool {
         let corners = &bounds.corners_m;
-        let reaches = |plane: &[f64; 4]| corners.is_empty() || corners.iter().any(|corner| inside(plane, *corner) >= 0.0);
+        let reaches =
+            |plane: &[f64; 4]| corners.is_empty() || corners.iter().any(|corner| signed_distance(plane, *corner) >= 0.0);
         self.may_be_visible(&bounds.ball) && self.0.iter().all(reaches)
     }
 }
 
 /// Returns the signed distance of a point from a plane, positive on the inner side, in units of the plane's normal.
-fn inside([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
+fn signed_distance([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
     let [x, y, z] = p.array();
     a * x + b * y + c * z + d
 }
@@ -225,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_corners_cull_a_long_wall_that_its_sphere_does_not() {
+    fn exact_corners_cull_a_long_wall_that_its_sphere_keeps() {
         let eye = PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
         let frustum = Frustum::of(&eye.view_projection(1.5));
         let wall = |east: f64| {

@@ -9,7 +9,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Lamp};
 
 /// Number of metered points, horizontally and vertically.
-const GRID: (u32, u32) = (7, 5);
+const METERING_GRID: (u32, u32) = (7, 5);
 /// Target value of the metered mean, as a fraction of white (estimate: typical outdoor setting; the tone curve accounts
 /// for a fifth of it).
 const METERING_TARGET: f64 = 0.24;
@@ -94,10 +94,10 @@ impl ExposureMeter {
 #[must_use]
 pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) -> f64 {
     let mut seen: Vec<f64> = Vec::new();
-    for row in 0..GRID.1 {
-        for column in 0..GRID.0 {
+    for row in 0..METERING_GRID.1 {
+        for column in 0..METERING_GRID.0 {
             let place = |k: u32, of: u32| (f64::from(2 * k + 1) / f64::from(of) - 1.0) * 0.9;
-            let ray = eye.ray(place(column, GRID.0), place(row, GRID.1), aspect);
+            let ray = eye.ray(place(column, METERING_GRID.0), place(row, METERING_GRID.1), aspect);
             seen.push(visible_lux(site, eye.position_m, ray, light));
         }
     }
@@ -140,7 +140,7 @@ mod tests {
     use spandrel_model::site::defects::REFERENCE_CAMERA;
 
     /// Number of metered points.
-    const METERED_POINTS: usize = (GRID.0 * GRID.1) as usize;
+    const METERED_POINTS: usize = (METERING_GRID.0 * METERING_GRID.1) as usize;
     /// Relative rounding error of a sum of 35 numbers.
     const ROUNDING: f64 = 1e-12;
 

@@ -93,7 +93,7 @@ mod tests {
     const INSPECTOR_M: Vec3<Enu> = Vec3::new(0.0, 0.0, 0.0);
 
     #[test]
-    fn exact_view_follows_the_aircraft_until_turned_manually() {
+    fn exact_view_follows_the_aircraft_until_the_user_turns_it() {
         let mut gaze = InspectorCamera::default();
         let north = Vec3::new(0.0, 40.0, EYE_HEIGHT_M);
         assert!((gaze.eye(INSPECTOR_M, north, 1.5).forward.north() - 1.0).abs() < 1e-9);

@@ -177,7 +177,7 @@ impl Mesh {
             let i = first + 2 * k;
             self.indices.extend([i, i + 2, i + 1, i + 1, i + 2, i + 3]);
         }
-        let ring = |centre: Vec3<Enu>, radius: f64| (0..sides).map(move |k| centre + out(k) * radius).collect::<Vec<_>>();
+        let ring = |center: Vec3<Enu>, radius: f64| (0..sides).map(move |k| center + out(k) * radius).collect::<Vec<_>>();
         if radius_b > 0.0 {
             self.polygon(&ring(b, radius_b), finish);
         }
@@ -189,15 +189,15 @@ impl Mesh {
     }
 
     /// Adds an ellipsoid with three semi-axes; a `dent` in 0..1 makes it an irregular boulder.
-    pub fn ball(&mut self, centre: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
-        self.ball_with_detail((8, 12), centre, half, dent, finish);
+    pub fn ball(&mut self, center: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
+        self.ball_with_detail((8, 12), center, half, dent, finish);
     }
 
     /// Adds an ellipsoid with the given number of rings and sides.
     pub fn ball_with_detail(
         &mut self,
         (rings, sides): (u32, u32),
-        centre: Vec3<Enu>,
+        center: Vec3<Enu>,
         half: [f64; 3],
         dent: f64,
         finish: SurfaceFinish,
@@ -212,7 +212,7 @@ impl Mesh {
                 let at = Vec3::new(d[0] * half[0] * bump, d[1] * half[1] * bump, d[2] * half[2] * bump);
                 let normal = Vec3::new(d[0] / half[0], d[1] / half[1], d[2] / half[2]).unit();
                 let uv = [(half[0] * f64::from(side)) as f32, (half[2] * f64::from(ring)) as f32];
-                self.vertices.push(vertex(centre + at, normal, uv, finish));
+                self.vertices.push(vertex(center + at, normal, uv, finish));
             }
         }
         let row = sides + 1;

@@ -67,18 +67,18 @@ impl Sky {
     /// Returns the sky for a daylight state and cloud cover.
     #[must_use]
     pub fn new(day: &Daylight, cloud: f64) -> Self {
-        const BANDS: u32 = 16;
-        const TURNS: u32 = 32;
+        const ELEVATION_BANDS: u32 = 16;
+        const AZIMUTH_STEPS: u32 = 32;
         let mut sum = [0.0; 3];
         // Each sample has an equal share of cos θ dω, so the horizontal illuminance is the mean of π L over the
         // samples.
-        for band in 0..BANDS {
-            let up = ((f64::from(band) + 0.5) / f64::from(BANDS)).sqrt();
+        for band in 0..ELEVATION_BANDS {
+            let up = ((f64::from(band) + 0.5) / f64::from(ELEVATION_BANDS)).sqrt();
             let out = (1.0 - up * up).sqrt();
-            for turn in 0..TURNS {
-                let (s, c) = math::sin_cos(math::TAU * (f64::from(turn) + 0.5) / f64::from(TURNS));
+            for turn in 0..AZIMUTH_STEPS {
+                let (s, c) = math::sin_cos(math::TAU * (f64::from(turn) + 0.5) / f64::from(AZIMUTH_STEPS));
                 let rgb = relative_radiance(Vec3::new(out * s, out * c, up), day.sun, cloud);
-                sum = [0, 1, 2].map(|k| sum[k] + rgb[k] / f64::from(BANDS * TURNS));
+                sum = [0, 1, 2].map(|k| sum[k] + rgb[k] / f64::from(ELEVATION_BANDS * AZIMUTH_STEPS));
             }
         }
         let elevation_deg = math::asin(day.sun.up()).to_degrees().max(0.0);

@@ -246,14 +246,14 @@ pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, hel
         cues: feed.cues(at, held),
         hit: feed.hit().map(str::to_owned),
         height_m: from_pad.up(),
-        home_m: from_pad.horizontal_norm(),
+        home_distance_m: from_pad.horizontal_norm(),
         mode: feed.mode().to_owned(),
         gnss: feed.gnss(),
         telemetry_age_s: told.telemetry_age_s,
         gimbal_rad: math::asin(moment.camera.forward.up().clamp(-1.0, 1.0)),
         zoom: wide / math::tan(0.5 * moment.lens.hfov_rad),
         lamp: moment.camera.lamp_on,
-        left_s: scenario.scoring.time_max_s - told.lift_off.map_or(0.0, |begun| (at - begun).s()),
+        remaining_s: scenario.scoring.time_max_s - told.lift_off.map_or(0.0, |begun| (at - begun).s()),
         pictures: told.pictures,
         shutter: shutter(told.last_picture, at),
         time_s: told.blink_time_s,
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_turning_camera_had_another_direction_when_the_shutter_opened() {
+    fn exact_turning_camera_pointed_elsewhere_when_the_shutter_opened() {
         let (degree, fast) = (1.0_f64.to_radians(), 100.0_f64.to_radians());
         let yawed = before(&moment(0.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
         // The camera turned clockwise, so it pointed west of north one degree earlier.

@@ -2,7 +2,7 @@
 
 use super::args::Args;
 use super::recorded::RecordedFlight;
-use super::scene_drawing::{SceneDrawing, aspect, instant};
+use super::scene_drawing::{SceneDrawing, aspect, sim_time_arg};
 use super::{masks, snapshots, video};
 use crate::cli::picture_args::{quality, size};
 use crate::errors::AppError;
@@ -85,7 +85,7 @@ fn render_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pi
         return Err(AppError::wrong("a scenario needs a viewpoint: --from E,N,U and --look E,N,U"));
     };
     let (from, look) = (point("from", from)?, point("look", look)?);
-    let at = instant("at", args.at.unwrap_or(0.0))?;
+    let at = sim_time_arg("at", args.at.unwrap_or(0.0))?;
     let lens = match args.fov {
         Some(deg) if (1.0..=150.0).contains(&deg) => Camera { hfov_rad: deg.to_radians(), ..vehicle.camera },
         Some(deg) => return Err(AppError::wrong(format!("--fov {deg}: out of range (allowed: 1 to 150 deg)"))),
@@ -104,9 +104,9 @@ fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pic
     let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let (first, last) = recorded.span();
-    let at = instant("at", args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
+    let at = sim_time_arg("at", args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
     let moment = recorded.moment(at)?;
-    let drawing = SceneDrawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_closures(recorded.gates());
+    let drawing = SceneDrawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_closures(recorded.closure_times());
     let stage = drawing.stage(scenario, vehicle);
     let mut views = Vec::new();
     if args.view != "camera" {
@@ -115,8 +115,8 @@ fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pic
         views.push((shot, if args.no_hud { Vec::new() } else { mark }));
     }
     if args.view != "inspector" {
-        let mut heard = recorded.heard();
-        let display = stage::hud(&stage, &moment, &recorded.flight, (heard.advance_to(at), true), true);
+        let mut replay_feed = recorded.replay_feed();
+        let display = stage::hud(&stage, &moment, &recorded.flight, (replay_feed.advance_to(at), true), true);
         let size = largest_even_size_px(size, vehicle.camera.aspect());
         views.push((stage.camera(&moment, size), if args.no_hud { Vec::new() } else { hud::layout(&display, aspect(size)) }));
     }
@@ -126,11 +126,11 @@ fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pic
 /// Renders shots side by side, each with its overlay. Also writes the label masks if they are requested and there is a
 /// single shot.
 fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
-    let mut brush = drawing.brush();
+    let mut scene_renderer = drawing.scene_renderer();
     if let (true, [(shot, _)]) = (args.masks, views) {
-        masks::write(&mut brush, shot, drawing.defects(), std::path::Path::new(&args.out))?;
+        masks::write(&mut scene_renderer, shot, drawing.defects(), std::path::Path::new(&args.out))?;
     }
-    let pictures = views.iter().map(|(shot, items)| brush.draw(shot, items)).collect::<Result<Vec<_>, _>>()?;
+    let pictures = views.iter().map(|(shot, items)| scene_renderer.draw(shot, items)).collect::<Result<Vec<_>, _>>()?;
     Ok(side_by_side(&pictures))
 }
 

@@ -22,8 +22,8 @@ pub fn check(args: &Args) -> Result<(), AppError> {
 
 /// Writes the label masks of a shot next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and
 /// NAME.masks.json.
-pub fn write(brush: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
-    let masks = brush.labels(shot)?;
+pub fn write(scene_renderer: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
+    let masks = scene_renderer.labels(shot)?;
     let size_px = (masks.width, masks.height);
     replace(&picture.with_extension("elements.png"), &grayscale(&masks.elements, size_px)?)?;
     replace(&picture.with_extension("defects.png"), &grayscale(&masks.defects, size_px)?)?;

@@ -13,7 +13,7 @@ use spandrel_model::site::CameraPose;
 use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
-use spandrel_monitor::assessment::scored_epoch;
+use spandrel_monitor::assessment::flight_and_prior_runs;
 use spandrel_monitor::folder::{EVENTS, SIMULATOR_RESTARTED};
 use spandrel_monitor::measures::attention;
 use spandrel_view::feed::Feed;
@@ -55,7 +55,7 @@ impl RecordedFlight {
             .enumerate()
             .filter_map(|(k, record)| matches!(timeline.push(record.frame), FrameDisposition::Restarted(_)).then_some(k))
             .collect();
-        let (before, flight) = scored_epoch(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
+        let (before, flight) = flight_and_prior_runs(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
         if flight.truths.is_empty() {
             return Err(AppError::failed("the session contains no flight to render"));
         }
@@ -100,7 +100,7 @@ impl RecordedFlight {
     }
 
     /// Returns the times when bridges were closed to traffic.
-    pub fn gates(&self) -> BridgeClosures {
+    pub fn closure_times(&self) -> BridgeClosures {
         attention::bridge_closures(&self.flight)
     }
 
@@ -117,7 +117,7 @@ impl RecordedFlight {
     }
 
     /// Returns a feed of the other display values that starts with the flight.
-    pub fn heard(&self) -> RecordedFeed<'_> {
+    pub fn replay_feed(&self) -> RecordedFeed<'_> {
         // A session without an event log is rendered without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
         let mut events = events.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_after_a_simulator_restart_the_last_flight_is_shown() {
+    fn exact_last_flight_is_shown_after_simulator_restart() {
         let sessions = tempfile::tempdir().unwrap();
         let shipped = |path: &str| format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
         let scenario = files::scenario(&shipped("scenarios/two-bridges.toml")).unwrap();
@@ -296,14 +296,14 @@ mod tests {
         let second = SimTime::from_ms(1_000);
         assert_eq!(recorded.unix_us(second), STARTED_US + 31_000_000);
         assert!(recorded.moment(second).unwrap().drone.pose.position_m.up() > 5.0 + tape.scenario.ground_team.pad_m.up());
-        let mut heard = recorded.heard();
-        let early = heard.advance_to(SimTime::from_ms(40)).clone();
+        let mut replay_feed = recorded.replay_feed();
+        let early = replay_feed.advance_to(SimTime::from_ms(40)).clone();
         assert_eq!(
             (early.mode(), early.cues(SimTime::from_ms(40), true), early.hit()),
             ("no mode", 0, None),
             "nothing of the first flight"
         );
-        let later = heard.advance_to(second);
+        let later = replay_feed.advance_to(second);
         assert_eq!((later.mode(), later.cues(second, true), later.hit()), ("Position", 3, Some("the second")));
     }
 

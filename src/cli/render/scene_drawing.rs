@@ -22,7 +22,7 @@ pub fn aspect((width, height): (u32, u32)) -> f64 {
 }
 
 /// Converts an option's value in seconds to a simulation time.
-pub fn instant(name: &str, seconds: f64) -> Result<SimTime, AppError> {
+pub fn sim_time_arg(name: &str, seconds: f64) -> Result<SimTime, AppError> {
     if (0.0..=86_400.0).contains(&seconds) {
         Ok(SimTime::from_s(seconds))
     } else {
@@ -52,8 +52,8 @@ impl SceneDrawing {
     }
 
     /// Sets the bridge closures of a recorded flight.
-    pub fn with_closures(self, gates: BridgeClosures) -> Self {
-        Self { site: self.site.with_closures(gates), ..self }
+    pub fn with_closures(self, closure_times: BridgeClosures) -> Self {
+        Self { site: self.site.with_closures(closure_times), ..self }
     }
 
     /// Returns the parts of the scene that do not change during a session.
@@ -62,7 +62,7 @@ impl SceneDrawing {
     }
 
     /// Creates a renderer for a sequence of images.
-    pub fn brush(&self) -> SceneRenderer<'_> {
+    pub fn scene_renderer(&self) -> SceneRenderer<'_> {
         SceneRenderer {
             gpu: &self.gpu,
             renderer: Renderer::new(&self.gpu, self.quality, &self.scene),

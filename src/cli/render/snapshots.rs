@@ -33,7 +33,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         return Ok(());
     }
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
-    let drawing = drawing.with_closures(recorded.gates());
+    let drawing = drawing.with_closures(recorded.closure_times());
     let camera = &recorded.vehicle().camera;
     let most = drawing.gpu.software.then_some(MAX_SOFTWARE_PX);
     let size_px = match asked {
@@ -52,19 +52,19 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let folder = recorded.folder.join(SNAPSHOTS);
     let copies = folder.join(SMALL);
     std::fs::create_dir_all(&copies).map_err(|error| AppError::failed(format!("{}: {error}", copies.display())))?;
-    let mut brush = drawing.brush();
+    let mut scene_renderer = drawing.scene_renderer();
     let mut progress = ProgressLog::start("rendering photographs");
     for (k, picture) in taken.iter().enumerate() {
         progress.report(|| format!("picture {} of {}", k + 1, taken.len()));
         let moment = recorded.moment(picture.time)?;
         let shot = drawing.stage(recorded.scenario(), recorded.vehicle()).camera(&moment, size_px);
-        let drawn = brush.draw(&shot, &[])?;
+        let drawn = scene_renderer.draw(&shot, &[])?;
         let name = format!("{:04}.jpg", picture.index.max(0));
         let path = folder.join(&name);
-        replace(&path, &photo::jpeg(&drawn, &about(&recorded, picture, &moment, &shot))?)?;
+        replace(&path, &photo::jpeg(&drawn, &photo_info(&recorded, picture, &moment, &shot))?)?;
         replace(&copies.join(&name), &photo::copy(&drawn, report::max_picture_bytes(taken.len()))?)?;
         if args.masks {
-            masks::write(&mut brush, &shot, drawing.defects(), &path)?;
+            masks::write(&mut scene_renderer, &shot, drawing.defects(), &path)?;
         }
     }
     progress.finish();
@@ -74,7 +74,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 /// Returns the metadata of a photograph, with interpolated attitude and gimbal.
-fn about(recorded: &RecordedFlight, picture: &ReviewedPicture, moment: &SceneMoment, shot: &Shot) -> PhotoInfo {
+fn photo_info(recorded: &RecordedFlight, picture: &ReviewedPicture, moment: &SceneMoment, shot: &Shot) -> PhotoInfo {
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let taken_unix_us = recorded.unix_us(picture.time);
     let (utc, _) = clock::utc(taken_unix_us);

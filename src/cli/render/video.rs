@@ -2,7 +2,7 @@
 
 use super::args::Args;
 use super::recorded::RecordedFlight;
-use super::scene_drawing::{SceneDrawing, aspect, instant};
+use super::scene_drawing::{SceneDrawing, aspect, sim_time_arg};
 use crate::cli::picture_args::{quality, size};
 use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
@@ -44,13 +44,14 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
     let (from, to) = span(args, &recorded)?;
     let size_px = largest_even_size_px(within_px, recorded.vehicle().camera.aspect());
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
-    let drawing = drawing.with_closures(recorded.gates());
+    let drawing = drawing.with_closures(recorded.closure_times());
     let bits_s = BITS_PER_PIXEL * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;
     let mut encoder = H264Encoder::new(size_px, args.fps, bits_s as u32, (KEY_FRAME_INTERVAL_S * args.fps).ceil() as u32)?;
     let (mut film, head) = Mp4Writer::new(size_px, args.fps)?;
     let mut file = VideoFile::create(path)?;
     file.write(&head)?;
-    let (mut brush, mut heard, mut progress) = (drawing.brush(), recorded.heard(), ProgressLog::start("rendering video"));
+    let (mut scene_renderer, mut replay_feed, mut progress) =
+        (drawing.scene_renderer(), recorded.replay_feed(), ProgressLog::start("rendering video"));
     let mut meter = ExposureMeter::default();
     let count = ((to - from).s() * args.fps).floor() as u32 + 1;
     let picture_s = 1.0 / args.fps;
@@ -62,9 +63,9 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
         let items = if args.no_hud {
             Vec::new()
         } else {
-            hud::layout(&stage::hud(&stage, &moment, &recorded.flight, (heard.advance_to(at), true), true), aspect(size_px))
+            hud::layout(&stage::hud(&stage, &moment, &recorded.flight, (replay_feed.advance_to(at), true), true), aspect(size_px))
         };
-        let picture = brush.draw(&stage.camera_frame(&moment, size_px, &mut meter), &items)?;
+        let picture = scene_renderer.draw(&stage.camera_frame(&moment, size_px, &mut meter), &items)?;
         file.write(&film.push(&encoder.encode(&picture)?)?)?;
     }
     for piece in film.finish()? {
@@ -89,7 +90,7 @@ fn span(args: &Args, recorded: &RecordedFlight) -> Result<(SimTime, SimTime), Ap
     };
     let (from, to) = text.split_once(',').ok_or_else(wrong)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
-    let (from, to) = (instant("span", number(from)?)?, instant("span", number(to)?)?);
+    let (from, to) = (sim_time_arg("span", number(from)?)?, sim_time_arg("span", number(to)?)?);
     if from < first || to > last || from >= to { Err(wrong()) } else { Ok((from, to)) }
 }
 

@@ -105,7 +105,7 @@ pub fn camera_file(args: &Args) -> PathBuf {
 
 /// Parses a command line.
 #[cfg(test)]
-pub fn parsed(words: &[&str]) -> Args {
+pub fn parse_args(words: &[&str]) -> Args {
     use clap::Parser;
 
     #[derive(Debug, Parser)]

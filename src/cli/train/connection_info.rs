@@ -46,11 +46,11 @@ Press Ctrl-C to end the session early.
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::train::args::parsed;
+    use crate::cli::train::args::parse_args;
 
     #[test]
-    fn exact_instructions_mention_the_window_only_if_there_is_one() {
-        let ports = parsed(&[]).ports;
+    fn exact_instructions_match_window_availability() {
+        let ports = parse_args(&[]).ports;
         let told = |window| connection_instructions("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
         assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
         assert!(told(false).contains("No window: fly with") && !told(false).contains("A window shows"), "{}", told(false));

@@ -10,7 +10,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_monitor::folder::{ASSESSMENT, REPORT};
 use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_view::flow::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobOffer, Purpose, SCORES, TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobOffer, Purpose, SCORE_NAMES, TraineeSummary,
 };
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -75,7 +75,7 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
     let certification = &assessment["certification"];
     let unmet = Vec::<String>::deserialize(&certification["unmet"]).unwrap_or_default();
     FlightSummary {
-        scores: SCORES.map(one),
+        scores: SCORE_NAMES.map(one),
         overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()).filter(|_| complete),
         completion: completion.map(|completion| completion.headline()),
         complete,

@@ -1,13 +1,13 @@
 //! Checks whether the questionnaire of a session is complete.
 
-use crate::io::answers::{read_answers_of, task_ids};
+use crate::io::answers::{read_saved_answers, task_ids};
 use crate::io::session_folder::StoredSession;
 use std::path::Path;
 
 /// Returns true if some of a session's questions have no answer.
 pub fn has_unanswered(session: &Path) -> bool {
     let Ok(job) = StoredSession::read_scenario(session) else { return false };
-    match read_answers_of(session, &job.scenario) {
+    match read_saved_answers(session, &job.scenario) {
         Ok(answers) => !answers.unwrap_or_default().complete(&task_ids(&job.scenario)),
         // A page that cannot read the answers cannot accept new ones, either.
         Err(_) => false,
@@ -23,7 +23,7 @@ mod tests {
     use spandrel_training::questionnaire::{ANSWERS, Answers, QuestionnaireItem};
 
     #[test]
-    fn exact_questions_are_open_until_the_last_one_is_answered() {
+    fn exact_questionnaire_is_open_until_last_answer() {
         let folder = tempfile::tempdir().unwrap();
         let (session, job) = (folder.path(), files::scenario("drill-hover").unwrap());
         assert!(!has_unanswered(session), "there is no session yet");

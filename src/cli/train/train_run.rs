@@ -53,7 +53,7 @@ enum NextFlight {
     /// The user is done flying.
     Leave,
     /// There is no window in which to choose.
-    Nobody,
+    NoChoice,
 }
 
 impl<'a> TrainRun<'a> {
@@ -167,7 +167,7 @@ impl<'a> TrainRun<'a> {
             self.serve(None);
             self.offer(usual);
             match self.next_choice(usual) {
-                NextFlight::Nobody => {}
+                NextFlight::NoChoice => {}
                 next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
             }
             // If the user closes the window, no flight follows; if the window crashes, the run continues without it.
@@ -210,7 +210,7 @@ impl<'a> TrainRun<'a> {
             }
             self.check_vehicle();
             if self.stop.is_requested() {
-                return NextFlight::Nobody;
+                return NextFlight::NoChoice;
             }
             if self.is_open() {
                 std::thread::sleep(CHECK_INTERVAL);
@@ -223,7 +223,7 @@ impl<'a> TrainRun<'a> {
     /// requested.
     fn prompt_at_terminal(&mut self, last: &FlightChoice) -> NextFlight {
         if self.args.once || self.closed || self.vehicle.is_none() {
-            return NextFlight::Nobody;
+            return NextFlight::NoChoice;
         }
         println!("{}", self.prompt.help_text());
         if let (Some(web), Some(vehicle)) = (&self.web, &self.vehicle) {
@@ -330,8 +330,9 @@ impl<'a> TrainRun<'a> {
         // The database is next to the sessions; its folder may not exist before the first session.
         let made = std::fs::create_dir_all(&self.args.sessions);
         let watched = vehicle.map(|vehicle| WatchedVehicle { vehicle, picture: Some(camera_file(self.args)) });
-        let place = RecordsLocation { sessions: vec![self.args.sessions.clone()], database: None };
-        let setup = ServerSetup { place, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
+        let records_location = RecordsLocation { sessions: vec![self.args.sessions.clone()], database: None };
+        let setup =
+            ServerSetup { records_location, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
         let started = made
             .map_err(|error| AppError::failed(format!("{}: {error}", self.args.sessions.display())))
             .and_then(|()| WebServer::start(&ListenConfig::local(port), setup));
@@ -366,13 +367,13 @@ fn url_port(address: &str) -> Option<u16> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::args::parsed;
+    use super::super::args::parse_args;
     use super::*;
     use spandrel_view::flow::pipe::Purpose;
 
     #[test]
-    fn exact_a_crashed_window_is_dropped_before_the_flight() {
-        let args = parsed(&["--scenario", "drill-hover"]);
+    fn exact_crashed_window_is_dropped_before_flight() {
+        let args = parse_args(&["--scenario", "drill-hover"]);
         let mut course = TrainRun::new(&args, tracing::Level::WARN, StopRequest::default());
         course.window = Some(WindowProcess::failing());
         let choice = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };

@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn exact_options_are_passed_to_the_window_once() {
         let told = ["--stream", "127.0.0.1:5600", "--device", "Pad", "--no-sound", "--quality", "low"];
-        let words = window_args(&super::super::args::parsed(&told), tracing::Level::WARN);
+        let words = window_args(&super::super::args::parse_args(&told), tracing::Level::WARN);
         for pair in [["--stream", "127.0.0.1:5600"], ["--device", "Pad"], ["--quality", "low"], ["--log", "warn"]] {
             assert_eq!(words.windows(2).filter(|two| *two == pair).count(), 1, "{pair:?}: {words:?}");
         }
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_crashed_window_is_neither_ready_nor_closed() {
+    fn exact_crashed_window_is_neither_ready_nor_closed() {
         let mut window = WindowProcess::failing();
         assert!(!window.is_ready(&StopRequest::default()) && !window.is_open());
         assert!(!window.ready && !window.closed);

@@ -161,7 +161,7 @@ mod tests {
 "#;
 
     #[test]
-    fn regress_a_disk_error_ends_the_recording_but_not_the_flight() {
+    fn regress_disk_error_ends_recording_but_not_flight() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("flown.jsonl");
         let device = InputRecording::read("in", RECORDING).unwrap().device;

@@ -17,7 +17,7 @@ pub struct ProfileFolder(Option<PathBuf>);
 impl ProfileFolder {
     /// Uses this folder, or the user's default folder (`spandrel/controllers` in `$XDG_CONFIG_HOME` or `~/.config`).
     pub fn at(folder: Option<PathBuf>) -> Self {
-        Self(folder.or_else(|| usual(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
+        Self(folder.or_else(|| default_folder(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
     }
 
     /// Returns the folder of the profiles.
@@ -30,7 +30,7 @@ impl ProfileFolder {
 
     /// Returns the path of a device's profile.
     pub fn path(&self, device: &Device) -> Option<PathBuf> {
-        self.0.as_ref().map(|folder| folder.join(file_of(device)))
+        self.0.as_ref().map(|folder| folder.join(profile_path(device)))
     }
 
     /// Returns the reason why a device has no profile.
@@ -52,7 +52,7 @@ impl ProfileFolder {
     /// Returns an error if there is no folder, or it cannot be written.
     pub fn save(&self, profile: &ControllerProfile) -> Result<PathBuf, AppError> {
         let folder = self.folder()?;
-        let path = folder.join(file_of(&profile.device));
+        let path = folder.join(profile_path(&profile.device));
         std::fs::create_dir_all(folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
         replace(&path, profile.write().as_bytes())?;
         Ok(path)
@@ -60,13 +60,13 @@ impl ProfileFolder {
 }
 
 /// Returns the user's default folder, based on these two environment variables.
-fn usual(config: Option<OsString>, home: Option<OsString>) -> Option<PathBuf> {
+fn default_folder(config: Option<OsString>, home: Option<OsString>) -> Option<PathBuf> {
     let known = |place: Option<OsString>| place.filter(|place| !place.is_empty()).map(PathBuf::from);
     let config = known(config).or_else(|| known(home).map(|home| home.join(".config")));
     config.map(|config| config.join("spandrel").join("controllers"))
 }
 
-fn file_of(device: &Device) -> String {
+fn profile_path(device: &Device) -> String {
     let harmless = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let name: String = format!("{}-{}", device.name, device.id).chars().map(harmless).collect();
     format!("{name}.toml")
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_without_a_home_folder_saving_fails() {
+    fn exact_saving_fails_without_home_folder() {
         let device = Device { name: "Pad".into(), id: "1:2".into() };
         let nowhere = ProfileFolder::default();
         assert_eq!((nowhere.find(&device).unwrap(), nowhere.path(&device)), (None, None));
@@ -119,10 +119,10 @@ mod tests {
     }
 
     #[test]
-    fn exact_default_folder_is_in_the_users_configuration() {
-        let place = |config: &str, home: &str| usual(Some(config.into()), Some(home.into()));
+    fn exact_default_folder_is_in_user_configuration() {
+        let place = |config: &str, home: &str| default_folder(Some(config.into()), Some(home.into()));
         assert_eq!(place("/c", "/home/a"), Some("/c/spandrel/controllers".into()));
         assert_eq!(place("", "/home/a"), Some("/home/a/.config/spandrel/controllers".into()));
-        assert_eq!((place("", ""), usual(None, None)), (None, None), "empty variables are ignored");
+        assert_eq!((place("", ""), default_folder(None, None)), (None, None), "empty variables are ignored");
     }
 }

@@ -13,7 +13,7 @@ const LATER_US: u64 = 4_102_444_800_000_000;
 pub fn run_all(target: &str) {
     erased_sessions_are_not_imported_again(target);
     rebuild_deletes_only_the_given_sessions(target);
-    concurrent_changes_of_a_person_are_kept(target);
+    concurrent_changes_to_person_are_kept(target);
     session_is_found_by_telemetry_hash(target);
     list_pages_are_consecutive(target);
     // Each test leaves an empty database for the next one.
@@ -66,7 +66,7 @@ fn rebuild_deletes_only_the_given_sessions(target: &str) {
     assert_eq!(here.rebuild(&[record("gina", 2)], &[]), Ok(1), "a session deleted by a rebuild can be added again");
 }
 
-fn concurrent_changes_of_a_person_are_kept(target: &str) {
+fn concurrent_changes_to_person_are_kept(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     here.set_login("hans", Role::Trainee, "first").unwrap();
     let none = ["", "", ""];

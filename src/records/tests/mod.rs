@@ -203,7 +203,7 @@ fn readers_do_not_wait_for_a_writer(target: &str) {
     let writer = Database::open(target).unwrap();
     let there: Vec<String> = writer.fingerprints().unwrap().into_keys().collect();
     writer.rebuild(&[record("rita", 1)], &there).unwrap();
-    writer.start_endless_write().unwrap();
+    writer.begin_uncommitted_write().unwrap();
     let reader = Database::open(target).unwrap();
     assert_eq!(reader.records(None).unwrap().len(), 1);
     assert_eq!(reader.list(None, 10, 0).unwrap().len(), 1);

@@ -30,7 +30,7 @@ impl PostgresServer {
     }
 
     fn with(port: u16, settings: &[String]) -> Self {
-        let programs = programs();
+        let bin_folder = bin_folder();
         let folder = tempfile::tempdir().unwrap();
         std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o755)).unwrap();
         let (home, data) = (folder.path().join("run"), folder.path().join("run/data"));
@@ -39,14 +39,14 @@ impl PostgresServer {
             chown(&home, Some(NOBODY), Some(NOBODY)).unwrap();
         }
         let at = |path: &Path| path.display().to_string();
-        let made = unprivileged(&programs.join("initdb"))
+        let made = unprivileged(&bin_folder.join("initdb"))
             .args(["-D", &at(&data), "-U", "spandrel", "-A", "trust", "-E", "UTF8", "--no-locale", "--no-sync"])
             .current_dir(&home)
             .output()
             .unwrap();
         assert!(made.status.success(), "initdb: {}", String::from_utf8_lossy(&made.stderr));
         let log = std::fs::File::create(folder.path().join("log.txt")).unwrap();
-        let process = unprivileged(&programs.join("postgres"))
+        let process = unprivileged(&bin_folder.join("postgres"))
             .args(["-D", &at(&data), "-k", &at(&home), "-c", "fsync=off", "-c", "max_connections=60"])
             .args(settings.iter().flat_map(|setting| ["-c", setting.as_str()]))
             .current_dir(&home)
@@ -57,7 +57,7 @@ impl PostgresServer {
         let mut server = Self { process, folder };
         // pg_isready connects to the server and waits for its answer.
         let place = ["-h".to_owned(), at(&home), "-p".to_owned(), port.to_string()];
-        let ready = || Command::new(programs.join("pg_isready")).args(&place).args(["-t", "1"]).output().unwrap().status;
+        let ready = || Command::new(bin_folder.join("pg_isready")).args(&place).args(["-t", "1"]).output().unwrap().status;
         while !ready().success() {
             if let Some(status) = server.process.try_wait().unwrap() {
                 let said = std::fs::read_to_string(server.folder.path().join("log.txt")).unwrap_or_default();
@@ -78,7 +78,7 @@ impl Drop for PostgresServer {
         // pg_ctl stops the server's child processes first; killing the server would leave them running.
         let data = self.folder.path().join("run/data").display().to_string();
         let stopped =
-            unprivileged(&programs().join("pg_ctl")).args(["stop", "-D", &data, "-m", "fast", "-s"]).current_dir("/").status();
+            unprivileged(&bin_folder().join("pg_ctl")).args(["stop", "-D", &data, "-m", "fast", "-s"]).current_dir("/").status();
         if !stopped.is_ok_and(|status| status.success()) {
             let _ = self.process.kill();
         }
@@ -87,7 +87,7 @@ impl Drop for PostgresServer {
 }
 
 /// Returns the folder of the PostgreSQL executables, from Debian's location or the PATH.
-fn programs() -> PathBuf {
+fn bin_folder() -> PathBuf {
     let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
     let mut found: Vec<PathBuf> =
         versions.map(|entry| entry.path().join("bin")).filter(|bin| bin.join("postgres").is_file()).collect();

@@ -29,7 +29,7 @@ fn signed(folder: &Path, name: &str, host: &str) {
 }
 
 /// Returns the TLS version and the subject of the client certificate, as PostgreSQL reports them for this connection.
-fn seen(url: &str) -> Option<(String, String)> {
+fn tls_info(url: &str) -> Option<(String, String)> {
     let database = Database::open(url).unwrap();
     let row = database.run(async { sqlx::query(TLS_INFO_QUERY).fetch_optional(&database.pool).await }).unwrap()?;
     Some((row.get(0), row.try_get(1).unwrap_or_default()))
@@ -55,13 +55,13 @@ fn val_tls_options_in_the_postgresql_url() {
 
     let url = |host: &str, words: &str| format!("postgres://spandrel@{host}:{port}/postgres?{words}");
     let (ours, other) = (at("ours.pem"), at("other.pem"));
-    assert_eq!(seen(&url("localhost", "sslmode=disable")), None);
+    assert_eq!(tls_info(&url("localhost", "sslmode=disable")), None);
     for words in ["sslmode=prefer", "sslmode=require"] {
-        assert_eq!(seen(&url("127.0.0.1", words)).unwrap().0, "TLSv1.3", "{words}");
+        assert_eq!(tls_info(&url("127.0.0.1", words)).unwrap().0, "TLSv1.3", "{words}");
     }
-    assert!(seen(&url("localhost", &format!("sslmode=verify-full&sslrootcert={ours}"))).is_some());
+    assert!(tls_info(&url("localhost", &format!("sslmode=verify-full&sslrootcert={ours}"))).is_some());
     let own = format!("sslmode=verify-full&sslrootcert={ours}&sslcert={}&sslkey={}", at("station.pem"), at("station.key"));
-    assert!(seen(&url("localhost", &own)).unwrap().1.contains("station"), "the client certificate is sent");
+    assert!(tls_info(&url("localhost", &own)).unwrap().1.contains("station"), "the client certificate is sent");
 
     let refused = |host: &str, words: &str| Database::open(&url(host, words)).unwrap_err().to_string();
     let name = refused("127.0.0.1", &format!("sslmode=verify-full&sslrootcert={ours}"));

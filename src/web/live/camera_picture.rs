@@ -11,8 +11,8 @@ use crate::web::state::ServerState;
 const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
 
 /// Responds with a vehicle's image to an instructor.
-pub fn show(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let (_, live) = select_vehicle(state, asked.query_value("vehicle"))?;
+pub fn show(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let (_, live) = select_vehicle(state, request.query_param("vehicle"))?;
     of(live)
 }
 

@@ -242,8 +242,8 @@ mod tests {
         Decoder::new().datagram(&Encoder::new(1, 1).encode(message)).remove(0)
     }
 
-    fn sent(orders: &mut CommandQueue, now_ms: u64) -> (Vec<ReceivedFrame>, Vec<String>) {
-        let (frames, words) = orders.poll_frames(Duration::from_millis(now_ms), &mut Encoder::new(252, 192), 1, false);
+    fn sent(commands: &mut CommandQueue, now_ms: u64) -> (Vec<ReceivedFrame>, Vec<String>) {
+        let (frames, words) = commands.poll_frames(Duration::from_millis(now_ms), &mut Encoder::new(252, 192), 1, false);
         (frames.iter().map(|frame| Decoder::new().datagram(frame).remove(0)).collect(), words)
     }
 
@@ -264,48 +264,48 @@ mod tests {
 
     #[test]
     fn wire_wind_steps_are_repeated_until_answered() {
-        let mut orders = CommandQueue::default();
-        orders.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
+        let mut commands = CommandQueue::default();
+        commands.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
         let name = |frames: &[ReceivedFrame]| match frames[0].message.as_ref() {
             Some(MavMessage::PARAM_SET(set)) => (set.param_id.to_str().unwrap().to_owned(), set.param_value),
             other => panic!("{other:?}"),
         };
-        assert_eq!(name(&sent(&mut orders, 0).0), ("SIM_WIND_DIR".into(), 270.0));
-        assert!(sent(&mut orders, 100).0.is_empty());
-        assert_eq!(name(&sent(&mut orders, 500).0).0, "SIM_WIND_DIR");
-        orders.handle_frame(&value("SIM_WIND_SPD", 270.0));
-        orders.handle_frame(&value("SIM_WIND_DIR", 0.0));
-        assert_eq!(name(&sent(&mut orders, 1_000).0).0, "SIM_WIND_DIR", "other answers are ignored");
-        orders.handle_frame(&value("SIM_WIND_DIR", 270.0));
-        assert_eq!(name(&sent(&mut orders, 1_010).0), ("SIM_WIND_SPD".into(), 8.0));
-        orders.handle_frame(&value("SIM_WIND_SPD", 8.0));
-        assert_eq!(sent(&mut orders, 1_020), (vec![], vec!["instructor: wind 8 m/s from 270°".into()]));
+        assert_eq!(name(&sent(&mut commands, 0).0), ("SIM_WIND_DIR".into(), 270.0));
+        assert!(sent(&mut commands, 100).0.is_empty());
+        assert_eq!(name(&sent(&mut commands, 500).0).0, "SIM_WIND_DIR");
+        commands.handle_frame(&value("SIM_WIND_SPD", 270.0));
+        commands.handle_frame(&value("SIM_WIND_DIR", 0.0));
+        assert_eq!(name(&sent(&mut commands, 1_000).0).0, "SIM_WIND_DIR", "other answers are ignored");
+        commands.handle_frame(&value("SIM_WIND_DIR", 270.0));
+        assert_eq!(name(&sent(&mut commands, 1_010).0), ("SIM_WIND_SPD".into(), 8.0));
+        commands.handle_frame(&value("SIM_WIND_SPD", 8.0));
+        assert_eq!(sent(&mut commands, 1_020), (vec![], vec!["instructor: wind 8 m/s from 270°".into()]));
     }
 
     #[test]
-    fn wire_refusals_and_timeouts_are_reported_and_the_next_command_runs() {
-        let mut orders = CommandQueue::default();
-        orders.push(InstructorCommand::Failure { unit: 5.0, words: "Satellite navigation", fails: true });
-        orders.push(InstructorCommand::Note("look".into()));
-        sent(&mut orders, 0);
-        orders.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
-        sent(&mut orders, 1);
+    fn wire_rejections_and_timeouts_are_reported_and_next_command_runs() {
+        let mut commands = CommandQueue::default();
+        commands.push(InstructorCommand::Failure { unit: 5.0, words: "Satellite navigation", fails: true });
+        commands.push(InstructorCommand::Note("look".into()));
+        sent(&mut commands, 0);
+        commands.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
+        sent(&mut commands, 1);
         assert_eq!(
-            orders.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
+            commands.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
             Some("instructor: satellite navigation fails: rejected, the vehicle denied it".into())
         );
-        let (frames, words) = sent(&mut orders, 2);
+        let (frames, words) = sent(&mut commands, 2);
         assert_eq!((instructor_note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
-        orders.push(InstructorCommand::Wind { speed_m_s: 1.0, from_deg: 0.0 });
-        let told: Vec<String> = (0..30).flat_map(|k| sent(&mut orders, 1_000 + 500 * k).1).collect();
+        commands.push(InstructorCommand::Wind { speed_m_s: 1.0, from_deg: 0.0 });
+        let told: Vec<String> = (0..30).flat_map(|k| sent(&mut commands, 1_000 + 500 * k).1).collect();
         assert_eq!(told, ["instructor: wind 1 m/s from 0°: no answer"]);
     }
 
     #[test]
     fn wire_rejected_parameters_are_reported_and_answers_to_other_systems_ignored() {
-        let mut orders = CommandQueue::default();
-        orders.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
-        sent(&mut orders, 0);
+        let mut commands = CommandQueue::default();
+        commands.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
+        sent(&mut commands, 0);
         let error = |name: &str, (target_system, target_component): (u8, u8)| {
             told(&MavMessage::PARAM_ERROR(PARAM_ERROR_DATA {
                 target_system,
@@ -320,43 +320,43 @@ mod tests {
             error("SIM_WIND_DIR", (INSTRUCTOR_SYSTEM, 1)),
             error("SIM_WIND_SPD", (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)),
         ] {
-            assert_eq!(orders.handle_frame(&other), None);
+            assert_eq!(commands.handle_frame(&other), None);
         }
-        let refused = orders.handle_frame(&error("SIM_WIND_DIR", (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)));
+        let refused = commands.handle_frame(&error("SIM_WIND_DIR", (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)));
         assert_eq!(refused.as_deref(), Some("instructor: wind 8 m/s from 270°: rejected, the value is out of range"));
-        assert_eq!(sent(&mut orders, 10_000), (vec![], vec![]), "the command has ended");
+        assert_eq!(sent(&mut commands, 10_000), (vec![], vec![]), "the command has ended");
 
-        orders.push(InstructorCommand::Failure { unit: 5.0, words: "Compass", fails: true });
-        sent(&mut orders, 10_000);
-        orders.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
-        sent(&mut orders, 10_001);
+        commands.push(InstructorCommand::Failure { unit: 5.0, words: "Compass", fails: true });
+        sent(&mut commands, 10_000);
+        commands.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
+        sent(&mut commands, 10_001);
         assert_eq!(
-            orders.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (255, 190)))),
+            commands.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (255, 190)))),
             None,
             "an answer to another system"
         );
         assert_eq!(
-            orders
+            commands
                 .handle_frame(&told(&command_ack(MavResult::MAV_RESULT_IN_PROGRESS, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
             None
         );
-        assert_eq!(sent(&mut orders, 10_600).0.len(), 1, "still waiting for its own answer");
+        assert_eq!(sent(&mut commands, 10_600).0.len(), 1, "still waiting for its own answer");
         assert_eq!(
-            orders.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_ACCEPTED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
+            commands.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_ACCEPTED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
             None
         );
-        assert_eq!(sent(&mut orders, 10_601).1, ["instructor: compass fails"]);
+        assert_eq!(sent(&mut commands, 10_601).1, ["instructor: compass fails"]);
     }
 
     #[test]
     fn wire_bridges_are_closed_with_an_integer_parameter() {
-        let mut orders = CommandQueue::default();
-        orders.push(InstructorCommand::Traffic { open: false });
-        let (frames, _) = sent(&mut orders, 0);
+        let mut commands = CommandQueue::default();
+        commands.push(InstructorCommand::Traffic { open: false });
+        let (frames, _) = sent(&mut commands, 0);
         let Some(MavMessage::PARAM_SET(set)) = &frames[0].message else { panic!("{frames:?}") };
         assert_eq!((set.param_id.to_str().unwrap(), set.param_value.to_bits()), ("SIM_TRAFFIC", 0));
-        orders.handle_frame(&value("SIM_TRAFFIC", f32::from_bits(0)));
-        assert_eq!(sent(&mut orders, 1).1, ["instructor: the bridges are closed to traffic"]);
+        commands.handle_frame(&value("SIM_TRAFFIC", f32::from_bits(0)));
+        assert_eq!(sent(&mut commands, 1).1, ["instructor: the bridges are closed to traffic"]);
     }
 
     #[test]

@@ -9,18 +9,18 @@ use serde_json::json;
 use spandrel_training::web::live::{self as pages, INJECTABLE_FAILURES};
 
 /// Starts an instructor's action. The result appears later in the stream.
-pub fn run_action(state: &ServerState, asked: &WebRequest) -> HandlerResult {
-    let (number, live) = select_vehicle(state, asked.form_field("vehicle"))?;
-    let order = parse_command(asked)?;
-    live.orders.send(order).map_err(|_| WebError::Failed("the live listener has stopped: restart the server".into()))?;
+pub fn run_action(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let (number, live) = select_vehicle(state, request.form_field("vehicle"))?;
+    let command = parse_command(request)?;
+    live.commands.send(command).map_err(|_| WebError::Failed("the live listener has stopped: restart the server".into()))?;
     let back = format!("/live?vehicle={number}");
-    Ok(if asked.expects_json { WebResponse::json(&json!({ "under_way": true })) } else { WebResponse::redirect(&back) })
+    Ok(if request.expects_json { WebResponse::json(&json!({ "under_way": true })) } else { WebResponse::redirect(&back) })
 }
 
-fn parse_command(asked: &WebRequest) -> Result<InstructorCommand, WebError> {
-    match asked.required_field("act")? {
+fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
+    match request.required_field("act")? {
         "note" => {
-            let text = asked.required_field("text")?;
+            let text = request.required_field("text")?;
             let count = text.chars().count();
             if count > pages::MAX_NOTE_LEN || text.chars().any(char::is_control) {
                 return Err(WebError::BadRequest(format!(
@@ -32,18 +32,18 @@ fn parse_command(asked: &WebRequest) -> Result<InstructorCommand, WebError> {
         }
         "wind" => {
             let number = |name: &str, most: f64| {
-                let value: Option<f64> = asked.required_field(name)?.parse().ok();
+                let value: Option<f64> = request.required_field(name)?.parse().ok();
                 let allowed = || WebError::BadRequest(format!("{name}: invalid number (allowed: 0 to {most})"));
                 value.filter(|value| (0.0..=most).contains(value)).ok_or_else(allowed)
             };
             Ok(InstructorCommand::Wind { speed_m_s: number("speed", pages::MAX_WIND_M_S)?, from_deg: number("from", 360.0)? })
         }
-        "traffic" => Ok(InstructorCommand::Traffic { open: asked.required_field("open")? == "yes" }),
+        "traffic" => Ok(InstructorCommand::Traffic { open: request.required_field("open")? == "yes" }),
         "failure" => {
-            let key = asked.required_field("unit")?;
+            let key = request.required_field("unit")?;
             let unit = INJECTABLE_FAILURES.iter().find(|(name, ..)| *name == key);
             let (_, words, unit) = unit.ok_or_else(|| WebError::BadRequest("unit: unknown".into()))?;
-            Ok(InstructorCommand::Failure { unit: *unit, words, fails: asked.required_field("fails")? == "yes" })
+            Ok(InstructorCommand::Failure { unit: *unit, words, fails: request.required_field("fails")? == "yes" })
         }
         _ => Err(WebError::BadRequest("act: unknown (allowed: note, wind, traffic, failure)".into())),
     }

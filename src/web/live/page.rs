@@ -8,12 +8,12 @@ use crate::web::state::ServerState;
 use spandrel_training::web::live as pages;
 
 /// Shows the instructor's live page.
-pub fn page(state: &ServerState, asked: &WebRequest) -> HandlerResult {
+pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     if state.live.is_empty() {
-        return Ok(WebResponse::page(pages::live(&asked.visitor, None, &pages::VehicleSelection::default())));
+        return Ok(WebResponse::page(pages::live(&request.visitor, None, &pages::VehicleSelection::default())));
     }
-    let (number, live) = select_vehicle(state, asked.query_value("vehicle"))?;
-    let drawn = lock(&live.known.drawn).clone();
+    let (number, live) = select_vehicle(state, request.query_param("vehicle"))?;
+    let drawings = lock(&live.known.drawings).clone();
     let vehicles = state.live.iter().map(|live| live.vehicle.to_string()).collect();
-    Ok(WebResponse::page(pages::live(&asked.visitor, drawn.as_ref(), &pages::VehicleSelection { vehicles, number })))
+    Ok(WebResponse::page(pages::live(&request.visitor, drawings.as_ref(), &pages::VehicleSelection { vehicles, number })))
 }

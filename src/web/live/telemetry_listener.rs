@@ -32,7 +32,7 @@ const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 /// Time without telemetry after which a vehicle is considered silent.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(3);
 /// Maximum number of datagrams processed per cycle.
-const BATCH: usize = 256;
+const MAX_BATCH_LEN: usize = 256;
 
 /// Files and folders that the listener reads.
 #[derive(Debug, Clone)]
@@ -52,11 +52,11 @@ pub struct LiveListener {
     vehicle: SocketAddr,
     flight: LiveFlightState,
     encoder: Encoder,
-    orders: CommandQueue,
+    commands: CommandQueue,
     /// Scenario that was not found, and the time of the search.
     not_found: Option<(JobIdentity, Duration)>,
     /// Time of the last search for the trainee.
-    trainee_checked: Option<Duration>,
+    last_trainee_search: Option<Duration>,
     known: SharedFlightInfo,
     paths: ListenerPaths,
 }
@@ -65,7 +65,7 @@ pub struct LiveListener {
 #[derive(Debug, Clone, Default)]
 pub struct SharedFlightInfo {
     /// Drawings of the scenario.
-    pub drawn: Arc<Mutex<Option<JobDrawings>>>,
+    pub drawings: Arc<Mutex<Option<JobDrawings>>>,
     /// Trainee of the current flight.
     pub trainee: Arc<Mutex<Option<String>>>,
 }
@@ -83,13 +83,24 @@ impl LiveListener {
         };
         let mut hub = SocketHub::new();
         let socket = hub.bind(ip, 0, "--vehicle")?;
-        let (watch, encoder, orders) =
+        let (watch, encoder, commands) =
             (LiveFlightState::new(), Encoder::new(INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT), CommandQueue::default());
-        Ok(Self { hub, socket, vehicle, flight: watch, encoder, orders, not_found: None, trainee_checked: None, known, paths })
+        Ok(Self {
+            hub,
+            socket,
+            vehicle,
+            flight: watch,
+            encoder,
+            commands,
+            not_found: None,
+            last_trainee_search: None,
+            known,
+            paths,
+        })
     }
 
     /// Listens until the server stops.
-    pub fn listen(&mut self, moments: &watch::Sender<String>, orders: &Receiver<InstructorCommand>) {
+    pub fn listen(&mut self, moments: &watch::Sender<String>, commands: &Receiver<InstructorCommand>) {
         let clock = Stopwatch::start();
         let (mut heard, mut beat, mut told) = (None, None, None);
         let due = |last: Option<Duration>, every: Duration| last.is_none_or(|last| clock.elapsed() >= last + every);
@@ -102,8 +113,8 @@ impl LiveListener {
                 beat = Some(clock.elapsed());
                 self.send(&station::companion_heartbeat());
             }
-            for order in orders.try_iter() {
-                self.orders.push(order);
+            for order in commands.try_iter() {
+                self.commands.push(order);
             }
             self.send_due_commands(clock.elapsed());
             self.find_scenario(clock.elapsed());
@@ -125,7 +136,7 @@ impl LiveListener {
     /// Processes received datagrams. Returns true if any of them came from the vehicle.
     fn receive(&mut self) -> bool {
         let (mut wait, mut spoke) = (MAX_WAIT, false);
-        for _ in 0..BATCH {
+        for _ in 0..MAX_BATCH_LEN {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;
             let NetEvent::Datagram { from, bytes, .. } = arrival else { continue };
@@ -135,7 +146,7 @@ impl LiveListener {
             }
             for frame in Decoder::new().datagram(&bytes) {
                 self.flight.handle_frame(&frame);
-                if let Some(words) = self.orders.handle_frame(&frame) {
+                if let Some(words) = self.commands.handle_frame(&frame) {
                     self.flight.push_message("warn", words);
                 }
                 spoke = true;
@@ -147,7 +158,7 @@ impl LiveListener {
     fn send_due_commands(&mut self, now: Duration) {
         let Some(system) = self.flight.system else { return };
         let cast = self.flight.autopilot == Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA);
-        let (frames, words) = self.orders.poll_frames(now, &mut self.encoder, system, cast);
+        let (frames, words) = self.commands.poll_frames(now, &mut self.encoder, system, cast);
         for frame in frames {
             self.hub.send(self.socket, self.vehicle, &frame);
         }
@@ -171,17 +182,17 @@ impl LiveListener {
             self.not_found = Some((key, now));
             return;
         };
-        let drawn = draw_scenario(&scenario, key);
-        *lock(&self.known.drawn) = Some(drawn);
+        let drawings = draw_scenario(&scenario, key);
+        *lock(&self.known.drawings) = Some(drawings);
         self.flight.set_job(key, &scenario);
     }
 
     /// Updates the trainee from time to time, because another trainee may fly next.
     fn find_trainee(&mut self, lives: bool, now: Duration) {
-        if self.trainee_checked.is_some_and(|at| now < at + SILENCE_TIMEOUT) {
+        if self.last_trainee_search.is_some_and(|at| now < at + SILENCE_TIMEOUT) {
             return;
         }
-        self.trainee_checked = Some(now);
+        self.last_trainee_search = Some(now);
         let flown = self.flight.announced_job().filter(|_| lives);
         *lock(&self.known.trainee) = flown.and_then(|key| flight_owner::current_trainee(&self.paths.sessions, key));
     }

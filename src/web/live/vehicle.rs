@@ -25,7 +25,7 @@ pub struct LiveVehicle {
     pub picture: Option<PathBuf>,
     pub moments: watch::Receiver<String>,
     pub known: SharedFlightInfo,
-    pub orders: Sender<InstructorCommand>,
+    pub commands: Sender<InstructorCommand>,
 }
 
 impl LiveVehicle {
@@ -36,11 +36,11 @@ impl LiveVehicle {
     pub fn start(watched: &WatchedVehicle, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
         let WatchedVehicle { vehicle, picture } = watched.clone();
         let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());
-        let (orders, received) = channel();
+        let (commands, received) = channel();
         let known = SharedFlightInfo::default();
         let places = ListenerPaths { sessions: sessions.to_vec(), scenarios: scenarios.to_path_buf(), picture: picture.clone() };
         let mut ear = LiveListener::open(vehicle, known.clone(), places)?;
         std::thread::spawn(move || ear.listen(&sender, &received));
-        Ok(Self { vehicle, picture, moments, known, orders })
+        Ok(Self { vehicle, picture, moments, known, commands })
     }
 }

@@ -244,7 +244,7 @@ impl SiteSurvey for TestSurvey {
         };
         self.defects.iter().filter(near).map(seen).collect()
     }
-    fn name_near(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<String> {
+    fn nearest_object_name(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<String> {
         Some("fence".to_owned())
     }
 }

@@ -10,13 +10,13 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
 /// Transit speed in the open, m/s (estimate: moderate for a camera drone).
-const TRANSIT_M_S: f64 = 6.0;
+const TRANSIT_SPEED_M_S: f64 = 6.0;
 /// Transit speed near obstacles, m/s (estimate).
-const NEAR_OBSTACLE_M_S: f64 = 2.5;
+const NEAR_OBSTACLE_SPEED_M_S: f64 = 2.5;
 /// Maximum distance of an obstacle that counts as near in transit, m (estimate).
 const NEAR_OBSTACLE_M: f64 = 4.0;
 /// Height above the landing pad where takeoff ends and landing begins, m (estimate).
-pub const PAD_HOVER_M: f64 = 6.0;
+pub const PAD_HOVER_HEIGHT_M: f64 = 6.0;
 
 /// The next goal of the flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,7 @@ fn task_speed_m_s(task: &Task) -> f64 {
 /// Returns the hover point above the landing pad, where flights begin and end, ENU, m.
 #[must_use]
 pub fn hover_point_over_pad(scenario: &Scenario) -> Vec3<Enu> {
-    scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, PAD_HOVER_M)
+    scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, PAD_HOVER_HEIGHT_M)
 }
 
 /// Inputs of the planner.
@@ -79,7 +79,7 @@ impl PlanningContext<'_> {
             for k in 1..=steps {
                 let p = last.lerp(point, k as f64 / steps as f64);
                 let near = self.site.nearest(p, NEAR_OBSTACLE_M, self.at).is_some();
-                leg.push(p, if near { NEAR_OBSTACLE_M_S } else { TRANSIT_M_S }, None, None);
+                leg.push(p, if near { NEAR_OBSTACLE_SPEED_M_S } else { TRANSIT_SPEED_M_S }, None, None);
             }
             last = point;
         }

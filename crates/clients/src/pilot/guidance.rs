@@ -4,7 +4,7 @@ use super::config::PilotConfig;
 use super::goals::{FlightGoal, PlanningContext};
 use super::guidance_state::PhotoTarget;
 use super::perception::MotionState;
-use super::stick_command::{angles, sticks};
+use super::stick_command::{heading_and_elevation, sticks};
 use super::stick_response::StickAxes;
 use super::track::TrackCommand;
 use super::visual_search::{Glimpse, camera_pose};
@@ -44,7 +44,7 @@ impl Pilot {
         self.plan_next_leg(belief);
         let Some(mut wish) = self.follow(belief) else { return [0.0; 4] };
         self.search_picture(belief, &mut wish);
-        self.payload(&wish, belief);
+        self.control_payload(&wish, belief);
         wish.velocity_m_s += self.avoid_obstacles(belief);
         // The pilot misjudges speed, so the actual velocity differs from the intended one.
         wish.velocity_m_s = wish.velocity_m_s / self.perception.speed_scale();
@@ -191,7 +191,7 @@ impl Pilot {
             }
             target.triggered = None;
         }
-        let (yaw, pitch) = angles(line.unit());
+        let (yaw, pitch) = heading_and_elevation(line.unit());
         let off = math::wrap_pi(yaw - belief.yaw_rad).abs().max((pitch - self.link.status.gimbal_pitch_rad).abs());
         if off < MAX_AIM_ERROR_RAD && belief.velocity_m_s.norm() < 0.8 && self.is_well_framed(&target) {
             target.triggered = Some(self.now);
@@ -229,7 +229,7 @@ impl Pilot {
     }
 
     /// Controls the lamp and gimbal, and takes a picture if a distractor triggered one.
-    fn payload(&mut self, wish: &TrackCommand, _belief: &MotionState) {
+    fn control_payload(&mut self, wish: &TrackCommand, _belief: &MotionState) {
         if self.guidance.distractor_trigger.is_some_and(|at| at <= self.now) {
             self.guidance.distractor_trigger = None;
             self.trigger_camera();
@@ -239,7 +239,7 @@ impl Pilot {
             self.lamp = dark;
             self.link.send_command(MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, [f32::from(u8::from(dark)), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         }
-        let pitch = wish.line_of_sight.map_or(0.0, |look| angles(look).1);
+        let pitch = wish.line_of_sight.map_or(0.0, |look| heading_and_elevation(look).1);
         let camera = &self.config.vehicle.camera;
         let pitch = pitch.clamp(camera.gimbal_pitch_min_rad, camera.gimbal_pitch_max_rad);
         if (pitch - self.gimbal_rad).abs() > 0.04 && (self.now - self.gimbal_sent).s() > 0.2 {

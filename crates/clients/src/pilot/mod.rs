@@ -131,7 +131,7 @@ impl Pilot {
                 VehicleUpdate::Truth(motion) => self.observe(motion),
                 VehicleUpdate::Timesync(token) => {
                     self.send_heartbeat(SimTime::from_ns(token));
-                    self.link.answer_timesync(token, self.now);
+                    self.link.respond_to_timesync(token, self.now);
                 }
             }
         }

@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_delayed_view_lags_by_the_delay() {
+    fn exact_delayed_view_has_the_configured_delay() {
         let mut eyes = Perception::new(1);
         for ms in (0..=1000).step_by(20) {
             let t = SimTime::from_ms(ms);

@@ -37,16 +37,16 @@ pub fn route(
     ceiling_up_m: f64,
     at: SimTime,
 ) -> Vec<Vec3<Enu>> {
-    let mut space = SearchSpace { site, clearance_m, at, origin: from, to, ceiling_up_m, keep: None };
+    let mut space = SearchSpace { site, clearance_m, at, origin: from, to, ceiling_up_m, rule: None };
     let found = match required_clearance_m {
         Some(required_clearance_m) => CLEARANCE_FRACTIONS.into_iter().find_map(|share| {
-            space.keep = Some(space.clearance_rule(clearance_m + share * (required_clearance_m - clearance_m).max(0.0)));
+            space.rule = Some(space.clearance_rule(clearance_m + share * (required_clearance_m - clearance_m).max(0.0)));
             space.is_line_clear(from, to, PREFERRED_CLEARANCE_M).then(Vec::new).or_else(|| search(&space))
         }),
         None => None,
     };
     let found = found.or_else(|| {
-        space.keep = None;
+        space.rule = None;
         if space.is_line_clear(from, to, PREFERRED_CLEARANCE_M) { Some(Vec::new()) } else { search(&space) }
     });
     let cells = found.unwrap_or_default();
@@ -64,7 +64,7 @@ struct ClearanceRule {
 }
 
 struct SearchSpace<'a> {
-    keep: Option<ClearanceRule>,
+    rule: Option<ClearanceRule>,
     site: &'a Site,
     clearance_m: f64,
     at: SimTime,
@@ -89,7 +89,7 @@ impl SearchSpace<'_> {
     }
 
     fn clearance(&self, p: Vec3<Enu>) -> f64 {
-        let Some(keep) = &self.keep else {
+        let Some(keep) = &self.rule else {
             return self.site.nearest(p, PREFERRED_CLEARANCE_M, self.at).map_or(PREFERRED_CLEARANCE_M, |near| near.distance_m);
         };
         let reach_m = keep.required_clearance_m.max(PREFERRED_CLEARANCE_M);
@@ -99,13 +99,13 @@ impl SearchSpace<'_> {
 
     /// Returns the required clearance at a point, m.
     fn required_clearance_at_m(&self, p: Vec3<Enu>) -> f64 {
-        let Some(keep) = &self.keep else { return self.clearance_m };
+        let Some(keep) = &self.rule else { return self.clearance_m };
         let near = [self.origin, self.to].map(|end| (p - end).norm() < ENDPOINT_RADIUS_M);
         let ends = keep.endpoint_clearances_m.into_iter().zip(near).filter_map(|(end_m, near)| near.then_some(end_m));
         ends.fold(keep.required_clearance_m, f64::min).max(self.clearance_m)
     }
 
-    fn inside(&self, p: Vec3<Enu>) -> bool {
+    fn is_inside(&self, p: Vec3<Enu>) -> bool {
         let low = |a: f64, b: f64| a.min(b) - SEARCH_MARGIN_M;
         let high = |a: f64, b: f64| a.max(b) + SEARCH_MARGIN_M;
         let (a, b) = (self.origin, self.to);
@@ -125,7 +125,7 @@ impl SearchSpace<'_> {
             // Near its ends, the line may be as close to obstacles as the endpoints.
             let near_end = (p - a).norm().min((p - b).norm()) < PREFERRED_CLEARANCE_M;
             let least = if near_end { self.clearance_m.min(clearance_m) } else { clearance_m };
-            self.clearance(p) >= if self.keep.is_some() { self.required_clearance_at_m(p) } else { least }
+            self.clearance(p) >= if self.rule.is_some() { self.required_clearance_at_m(p) } else { least }
         })
     }
 }
@@ -142,7 +142,7 @@ fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
     for _ in 0..MAX_EXPANSIONS {
         let Reverse((_, cell)) = open.pop()?;
         if cell == goal {
-            return Some(trace(&best, goal));
+            return Some(reconstruct_path(&best, goal));
         }
         let cost = best[&cell].0;
         for next in neighbors(cell) {
@@ -161,7 +161,7 @@ fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
 
 fn step_cost(space: &SearchSpace, from: GridCell, to: GridCell, goal: GridCell) -> Option<f64> {
     let p = space.center(to);
-    if !space.inside(p) {
+    if !space.is_inside(p) {
         return None;
     }
     let clearance = space.clearance(p);
@@ -184,7 +184,7 @@ fn distance(a: GridCell, b: GridCell) -> f64 {
     CELL_M * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
 }
 
-fn trace(best: &BTreeMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<GridCell> {
+fn reconstruct_path(best: &BTreeMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<GridCell> {
     let mut cells = vec![goal];
     let mut at = goal;
     while let Some((_, from)) = best.get(&at) {

@@ -7,12 +7,12 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
 /// Heading loop gain of the trained pilot, 1/s (estimate).
-const YAW_PER_S: f64 = 1.3;
+const YAW_GAIN_PER_S: f64 = 1.3;
 /// Fraction of the perceived speed error that is added to the stick command, trained pilot (estimate).
 const SPEED_FEEDBACK: f64 = 0.35;
 
 /// Heading (clockwise from north) and elevation of a line of sight, rad.
-pub(super) fn angles(look: Vec3<Enu>) -> (f64, f64) {
+pub(super) fn heading_and_elevation(look: Vec3<Enu>) -> (f64, f64) {
     (math::atan2(look.east(), look.north()), math::asin(look.up()))
 }
 
@@ -27,7 +27,8 @@ pub(super) fn sticks(wanted: Vec3<Enu>, belief: &MotionState, look: Option<Vec3<
     let up = push.up();
     let climb = if up > 0.0 { limits.climb_m_s } else { limits.descend_m_s };
     // A near-vertical line of sight does not define a heading.
-    let turn = look.filter(|l| l.horizontal_norm() > 0.2).map_or(0.0, |l| math::wrap_pi(angles(l).0 - belief.yaw_rad));
-    [forward / limits.forward_m_s, right / limits.sideward_m_s, up / climb, turn * YAW_PER_S * gain / limits.yaw_rate_rad_s]
+    let turn =
+        look.filter(|l| l.horizontal_norm() > 0.2).map_or(0.0, |l| math::wrap_pi(heading_and_elevation(l).0 - belief.yaw_rad));
+    [forward / limits.forward_m_s, right / limits.sideward_m_s, up / climb, turn * YAW_GAIN_PER_S * gain / limits.yaw_rate_rad_s]
         .map(|axis| axis.clamp(-1.0, 1.0))
 }

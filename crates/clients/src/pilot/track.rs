@@ -8,7 +8,7 @@ use spandrel_model::frames::{Enu, Vec3};
 /// "Human operators").
 const CROSS_TRACK_GAIN_PER_S: f64 = 0.9;
 /// Planned braking deceleration, m/s² (estimate).
-const BRAKE_M_S2: f64 = 1.2;
+const BRAKING_DECELERATION_M_S2: f64 = 1.2;
 /// Minimum distance to the aim point, m (estimate).
 const MIN_AIM_DISTANCE_M: f64 = 1.0;
 
@@ -98,11 +98,11 @@ impl TrackLeg {
 
     /// Moves the progress to the nearest point in a short window around it.
     pub fn advance(&self, progress: &mut LegProgress, position_m: Vec3<Enu>) {
-        const WINDOW_M: f64 = 6.0;
+        const PROGRESS_WINDOW_M: f64 = 6.0;
         let mut start: f64 = (1..progress.next.max(1)).map(|k| self.segment_m(k)).sum();
         let mut best = (f64::INFINITY, *progress);
         for next in progress.next.max(1)..self.points_m.len() {
-            if start > progress.along_m + WINDOW_M {
+            if start > progress.along_m + PROGRESS_WINDOW_M {
                 break;
             }
             let (a, b) = (self.points_m[next - 1], self.points_m[next]);
@@ -134,7 +134,7 @@ impl TrackLeg {
                 Some(following) => following * self.bend_speed_factor(next),
                 None => 0.0,
             };
-            speed = speed.min((there * there + 2.0 * BRAKE_M_S2 * ahead_m.max(0.0)).sqrt());
+            speed = speed.min((there * there + 2.0 * BRAKING_DECELERATION_M_S2 * ahead_m.max(0.0)).sqrt());
         }
         speed.max(0.3)
     }
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_command_leads_back_to_the_leg() {
+    fn exact_command_returns_to_the_leg() {
         let leg = straight();
         let mut progress = LegProgress { next: 1, along_m: 0.0 };
         let wish = leg.command(&mut progress, &at(2.0, 1.0), &Skill::TRAINED);

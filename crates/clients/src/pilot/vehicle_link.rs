@@ -17,9 +17,9 @@ use super::perception::MotionState;
 use super::stick_response::StickAxes;
 
 /// System and component ID of a ground station (QGroundControl's values).
-const SYSTEM: u8 = 255;
-const COMPONENT: u8 = 190;
-const AUTOPILOT: u8 = 1;
+const SYSTEM_ID: u8 = 255;
+const COMPONENT_ID: u8 = 190;
+const AUTOPILOT_COMPONENT: u8 = 1;
 /// Messages that the pilot needs (ground truth, system status, landed state, battery, gimbal) and their rates, Hz
 /// (PX4's rates for a ground station).
 const STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
@@ -74,7 +74,7 @@ impl VehicleLink {
     /// Creates a link before any communication.
     #[must_use]
     pub fn new() -> Self {
-        let encoder = Encoder::new(SYSTEM, COMPONENT);
+        let encoder = Encoder::new(SYSTEM_ID, COMPONENT_ID);
         Self { decoder: Decoder::new(), encoder, out: VecDeque::new(), status: VehicleStatus::default() }
     }
 
@@ -82,7 +82,7 @@ impl VehicleLink {
     pub fn receive(&mut self, bytes: &[u8], plane: &LocalPlane) -> Vec<VehicleUpdate> {
         let mut news = Vec::new();
         for frame in self.decoder.datagram(bytes) {
-            let from_autopilot = frame.component_id == AUTOPILOT;
+            let from_autopilot = frame.component_id == AUTOPILOT_COMPONENT;
             match frame.message {
                 Some(MavMessage::HIL_STATE_QUATERNION(state)) => {
                     self.status.truth_received = true;
@@ -161,19 +161,19 @@ impl VehicleLink {
     }
 
     /// Responds to a lockstep request.
-    pub fn answer_timesync(&mut self, token: i64, now: SimTime) {
+    pub fn respond_to_timesync(&mut self, token: i64, now: SimTime) {
         let system = self.status.system.unwrap_or(1);
         self.send(&MavMessage::TIMESYNC(TIMESYNC_DATA {
             tc1: now.ns().max(1),
             ts1: token,
             target_system: system,
-            target_component: AUTOPILOT,
+            target_component: AUTOPILOT_COMPONENT,
         }));
     }
 
     /// Sends a command to the autopilot.
     pub fn send_command(&mut self, command: MavCmd, params: [f32; 7]) {
-        self.send_command_to(AUTOPILOT, command, params);
+        self.send_command_to(AUTOPILOT_COMPONENT, command, params);
     }
 
     /// Sends a command to one of the vehicle's components.

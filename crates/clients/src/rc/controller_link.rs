@@ -13,11 +13,11 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// System ID of a second ground station, next to QGroundControl's 255.
-pub const SYSTEM: u8 = 254;
+pub const SYSTEM_ID: u8 = 254;
 /// MAV_COMP_ID_MISSIONPLANNER, the component ID of a ground station.
-const COMPONENT: u8 = 190;
-const AUTOPILOT: u8 = 1;
-const CAMERA: u8 = 100;
+const COMPONENT_ID: u8 = 190;
+const AUTOPILOT_COMPONENT: u8 = 1;
+const CAMERA_COMPONENT: u8 = 100;
 /// Interval between MANUAL_CONTROL messages, s (50 Hz, the monitor's recording rate).
 const STICK_INTERVAL_S: f64 = 0.02;
 const HEARTBEAT_INTERVAL_S: f64 = 1.0;
@@ -40,7 +40,7 @@ const GIMBAL_STEP_DEG: f32 = 10.0;
 /// Time window after a gimbal step, s, in which another press adds to the last commanded pitch, because the gimbal may
 /// still be moving (estimate: two taps and a move of several steps). Later presses add to the reported pitch, because
 /// other clients also control the gimbal.
-const AIM_HOLD_S: f64 = 2.0;
+const AIM_WINDOW_S: f64 = 2.0;
 
 /// Latest state reported by the vehicle.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -93,7 +93,7 @@ impl Default for ControllerLink {
     fn default() -> Self {
         Self {
             decoder: Decoder::new(),
-            encoder: Encoder::new(SYSTEM, COMPONENT),
+            encoder: Encoder::new(SYSTEM_ID, COMPONENT_ID),
             out: VecDeque::new(),
             messages: VecDeque::new(),
             next_stream_request: SimTime::ZERO,
@@ -134,7 +134,7 @@ impl ControllerLink {
     pub fn receive(&mut self, bytes: &[u8]) {
         for frame in self.decoder.datagram(bytes) {
             match frame.message {
-                Some(MavMessage::HEARTBEAT(beat)) if frame.component_id == AUTOPILOT => {
+                Some(MavMessage::HEARTBEAT(beat)) if frame.component_id == AUTOPILOT_COMPONENT => {
                     self.vehicle.system = Some(frame.system_id);
                     self.vehicle.autopilot = Some(beat.autopilot);
                     self.vehicle.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
@@ -151,7 +151,7 @@ impl ControllerLink {
                         );
                     self.vehicle.gimbal_deg = attitude.map(|q| q.euler().1.to_degrees() as f32);
                 }
-                Some(MavMessage::COMMAND_ACK(ack)) if ack.target_system == SYSTEM || ack.target_system == 0 => {
+                Some(MavMessage::COMMAND_ACK(ack)) if ack.target_system == SYSTEM_ID || ack.target_system == 0 => {
                     self.handle_ack(ack.command, ack.result)
                 }
                 Some(MavMessage::STATUSTEXT(text)) => {
@@ -221,7 +221,7 @@ impl ControllerLink {
                 continue;
             }
             let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
-            let command = station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
+            let command = station::command(system, AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
             self.pending.retain(|p| p.command != command);
             self.pending.push(PendingCommand { description: STREAM_REQUEST_NAME, command, sent: 0, next: now });
         }
@@ -232,22 +232,28 @@ impl ControllerLink {
         const NAN: f32 = f32::NAN;
         let one = |value: f32| [value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         match action {
-            ControllerAction::Lamp => (AUTOPILOT, M::MAV_CMD_ILLUMINATOR_ON_OFF, one(if self.vehicle.lamp { 0.0 } else { 1.0 })),
+            ControllerAction::Lamp => {
+                (AUTOPILOT_COMPONENT, M::MAV_CMD_ILLUMINATOR_ON_OFF, one(if self.vehicle.lamp { 0.0 } else { 1.0 }))
+            }
             ControllerAction::Snapshot => self.snapshot(),
-            ControllerAction::Arm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)),
-            ControllerAction::Disarm => (AUTOPILOT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(0.0)),
-            ControllerAction::TakeOff => (AUTOPILOT, M::MAV_CMD_NAV_TAKEOFF, [NAN; 7]),
-            ControllerAction::Land => (AUTOPILOT, M::MAV_CMD_NAV_LAND, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
-            ControllerAction::Return => (AUTOPILOT, M::MAV_CMD_NAV_RETURN_TO_LAUNCH, [0.0; 7]),
-            ControllerAction::Hold => (AUTOPILOT, M::MAV_CMD_NAV_LOITER_UNLIM, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
+            ControllerAction::Arm => (AUTOPILOT_COMPONENT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)),
+            ControllerAction::Disarm => (AUTOPILOT_COMPONENT, M::MAV_CMD_COMPONENT_ARM_DISARM, one(0.0)),
+            ControllerAction::TakeOff => (AUTOPILOT_COMPONENT, M::MAV_CMD_NAV_TAKEOFF, [NAN; 7]),
+            ControllerAction::Land => (AUTOPILOT_COMPONENT, M::MAV_CMD_NAV_LAND, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
+            ControllerAction::Return => (AUTOPILOT_COMPONENT, M::MAV_CMD_NAV_RETURN_TO_LAUNCH, [0.0; 7]),
+            ControllerAction::Hold => (AUTOPILOT_COMPONENT, M::MAV_CMD_NAV_LOITER_UNLIM, [0.0, 0.0, 0.0, NAN, NAN, NAN, NAN]),
             ControllerAction::Position => {
                 let (command, params) = station::position_mode(self.vehicle.autopilot);
-                (AUTOPILOT, command, params)
+                (AUTOPILOT_COMPONENT, command, params)
             }
             ControllerAction::GimbalUp => self.aim(GIMBAL_STEP_DEG, now),
             ControllerAction::GimbalDown => self.aim(-GIMBAL_STEP_DEG, now),
-            ControllerAction::CameraZoomIn => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-            ControllerAction::CameraZoomOut => (CAMERA, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+            ControllerAction::CameraZoomIn => {
+                (CAMERA_COMPONENT, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+            }
+            ControllerAction::CameraZoomOut => {
+                (CAMERA_COMPONENT, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+            }
         }
     }
 
@@ -256,16 +262,16 @@ impl ControllerLink {
         const NAN: f32 = f32::NAN;
         self.pictures = self.pictures.checked_add(1).unwrap_or(1);
         let number = f32::from(self.pictures);
-        (CAMERA, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0, number, NAN, NAN, NAN])
+        (CAMERA_COMPONENT, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0, number, NAN, NAN, NAN])
     }
 
     fn aim(&mut self, step: f32, now: SimTime) -> (u8, MavCmd, [f32; 7]) {
         let aimed = self.aim.map(|(aim, _)| aim);
-        let fresh = self.aim.filter(|(_, at)| (now - *at).s() < AIM_HOLD_S).map(|(aim, _)| aim);
+        let fresh = self.aim.filter(|(_, at)| (now - *at).s() < AIM_WINDOW_S).map(|(aim, _)| aim);
         let from = fresh.or(self.vehicle.gimbal_deg).or(aimed).unwrap_or(0.0);
         let to = (from + step).clamp(-90.0, 90.0);
         self.aim = Some((to, now));
-        (AUTOPILOT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
+        (AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
     }
 
     /// Queues the periodic messages. Call it at least 50 times per second.
@@ -428,7 +434,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_takeoff_while_disarmed_reports_the_missing_arming() {
+    fn regress_takeoff_while_disarmed_prompts_the_user_to_arm() {
         let take_offs = |messages: &[MavMessage]| {
             let is = |m: &&MavMessage| matches!(m, MavMessage::COMMAND_LONG(c) if c.command == MavCmd::MAV_CMD_NAV_TAKEOFF);
             messages.iter().filter(is).count()
@@ -474,7 +480,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sticks_require_a_device() {
+    fn exact_sticks_are_sent_only_with_a_device() {
         let mut link = known();
         let messages = sent(&mut link, 0.0, 2.0);
         assert!(messages.iter().all(|m| matches!(m, MavMessage::HEARTBEAT(_))), "{messages:?}");
@@ -482,7 +488,7 @@ mod tests {
     }
 
     fn answer(link: &mut ControllerLink, command: MavCmd, result: MavResult) {
-        let ack = COMMAND_ACK_DATA { command, result, target_system: SYSTEM, ..Default::default() };
+        let ack = COMMAND_ACK_DATA { command, result, target_system: SYSTEM_ID, ..Default::default() };
         link.receive(&Encoder::new(1, 1).encode(&MavMessage::COMMAND_ACK(ack)));
     }
 
@@ -493,7 +499,7 @@ mod tests {
             link.request_action(action, at(0.0));
             let messages = sent(&mut link, 0.0, 0.1);
             let asked = messages.iter().find_map(|m| if let MavMessage::COMMAND_LONG(c) = m { Some(c) } else { None }).unwrap();
-            assert_eq!((asked.command, asked.target_component), (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, CAMERA));
+            assert_eq!((asked.command, asked.target_component), (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, CAMERA_COMPONENT));
             assert_eq!([asked.param1, asked.param2, asked.param3], [0.0, step, 0.0]);
         }
         answer(&mut link, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED);
@@ -507,7 +513,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_retried_picture_keeps_its_number() {
+    fn exact_retransmitted_capture_keeps_its_picture_number() {
         let mut link = known();
         link.request_action(ControllerAction::Snapshot, at(0.0));
         assert_eq!(pictures(&sent(&mut link, 0.0, 1.1)), [1.0; 3]);
@@ -531,13 +537,13 @@ mod tests {
         );
         link.vehicle.gimbal_deg = Some(-60.0);
         assert_eq!(
-            aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_HOLD_S),
+            aimed(&mut link, ControllerAction::GimbalUp, 0.2 + AIM_WINDOW_S),
             -50.0,
             "a late press must start from the reported pitch"
         );
         answer(&mut link, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, MavResult::MAV_RESULT_DENIED);
         assert_eq!(
-            aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_HOLD_S),
+            aimed(&mut link, ControllerAction::GimbalUp, 0.5 + AIM_WINDOW_S),
             -50.0,
             "a rejected command must not change the target"
         );

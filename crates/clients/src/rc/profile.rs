@@ -14,7 +14,7 @@ pub const DEFAULT_DEAD_BAND: f64 = 0.05;
 /// Default expo of a new profile (estimate: transmitters typically use 0.2 to 0.4).
 pub const DEFAULT_EXPO: f64 = 0.3;
 /// Maximum axis or button number: the largest 32-bit unsigned integer.
-const MAX_NUMBER: i64 = u32::MAX as i64;
+const MAX_INPUT_NUMBER: i64 = u32::MAX as i64;
 
 /// A stick axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -186,7 +186,7 @@ fn read_profile(r: &mut Reader, root: &mut Section) -> ControllerProfile {
     let mut section = r.section(root, "buttons");
     let mut buttons = BTreeMap::new();
     for (name, action) in action::ALL {
-        for number in r.integers(&mut section, name, (0, MAX_NUMBER)) {
+        for number in r.integers(&mut section, name, (0, MAX_INPUT_NUMBER)) {
             let number = u32::try_from(number).unwrap_or(u32::MAX);
             if let Some(before) = buttons.insert(number, action) {
                 r.add_problem(
@@ -205,7 +205,7 @@ fn read_profile(r: &mut Reader, root: &mut Section) -> ControllerProfile {
 
 fn axis(r: &mut Reader, s: &mut Section) -> AxisCalibration {
     let axis = AxisCalibration {
-        axis: u32::try_from(r.integer(s, "axis", (0, MAX_NUMBER), None)).unwrap_or(u32::MAX),
+        axis: u32::try_from(r.integer(s, "axis", (0, MAX_INPUT_NUMBER), None)).unwrap_or(u32::MAX),
         low: r.number(s, "low", (-1.0, 1.0), None),
         centre: r.number(s, "centre", (-1.0, 1.0), None),
         high: r.number(s, "high", (-1.0, 1.0), None),

@@ -43,7 +43,7 @@ enum WizardStep {
     /// Waiting for the user to move both sticks through their full range and confirm.
     Range,
     /// Waiting for the sticks to return to the center.
-    Middle(usize),
+    Center(usize),
     /// Waiting for a push in this direction.
     Push(usize),
     /// Waiting for the button for this action, or for Enter to skip it.
@@ -151,7 +151,7 @@ impl CalibrationWizard {
                 "Move both sticks around their full range, then press Enter. Axes found: {} of 4.",
                 self.statistics.values().filter(|seen| is_fully_moved(seen)).count().min(4)
             ),
-            WizardStep::Middle(_) => "Center the sticks ...".to_owned(),
+            WizardStep::Center(_) => "Center the sticks ...".to_owned(),
             WizardStep::Push(k) => format!("Push {} and hold it there.", STICK_AXES[k].2),
             WizardStep::Button(k) => format!("Press the button for {}, or Enter to skip.", BUTTONS[k].1),
             WizardStep::Done => "Done.".to_owned(),
@@ -209,7 +209,7 @@ impl CalibrationWizard {
             }
             WizardStep::Range => self.end_range(now),
             WizardStep::Button(k) => self.next_button(k),
-            WizardStep::Rest | WizardStep::Middle(_) | WizardStep::Push(_) | WizardStep::Done => {}
+            WizardStep::Rest | WizardStep::Center(_) | WizardStep::Push(_) | WizardStep::Done => {}
         }
     }
 
@@ -219,7 +219,7 @@ impl CalibrationWizard {
         if self.fully_moved.len() < STICK_AXES.len() {
             self.note = Some("Fewer than four axes moved.");
         } else {
-            self.start_step(WizardStep::Middle(0), now);
+            self.start_step(WizardStep::Center(0), now);
         }
     }
 
@@ -236,13 +236,13 @@ impl CalibrationWizard {
     pub fn handle_timeout(&mut self, now: SimTime) {
         match self.step {
             WizardStep::Rest => self.measure_rest(now),
-            WizardStep::Middle(k) if self.is_centered(now) => {
+            WizardStep::Center(k) if self.is_centered(now) => {
                 self.measure_center();
                 self.push_start.clone_from(&self.raw.axes);
                 self.start_step(WizardStep::Push(k), now);
             }
             WizardStep::Push(k) => self.push(k, now),
-            WizardStep::Release | WizardStep::Range | WizardStep::Middle(_) | WizardStep::Button(_) | WizardStep::Done => {}
+            WizardStep::Release | WizardStep::Range | WizardStep::Center(_) | WizardStep::Button(_) | WizardStep::Done => {}
         }
     }
 
@@ -302,12 +302,12 @@ impl CalibrationWizard {
         }
         if self.is_known(axis) {
             self.note = Some("That axis is already assigned. Push a different one.");
-            return self.start_step(WizardStep::Middle(k), now);
+            return self.start_step(WizardStep::Center(k), now);
         }
         self.note = None;
         self.found.insert(STICK_AXES[k].1, (axis, up));
         if k + 1 < STICK_AXES.len() {
-            self.start_step(WizardStep::Middle(k + 1), now);
+            self.start_step(WizardStep::Center(k + 1), now);
         } else {
             self.start_step(WizardStep::Button(0), now);
         }

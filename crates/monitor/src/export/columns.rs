@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// Data type of a column and the function that reads its value from a row. The function returns `None` if the telemetry
 /// has no such value.
 #[derive(Debug, Clone, Copy)]
-pub enum Read {
+pub enum ColumnReader {
     /// Integer column.
     Integer(fn(&FrameRow) -> Option<i64>),
     /// Floating-point column.
@@ -32,7 +32,7 @@ pub struct Column {
     /// Whether values may be missing. A missing value is empty in CSV and null in Parquet.
     pub optional: bool,
     /// Data type and the function that reads the value.
-    pub read: Read,
+    pub read: ColumnReader,
 }
 
 const ENU: &str = "east, north, up from the scenario's origin";
@@ -40,11 +40,23 @@ const ENU_VELOCITY: &str = "east, north, up";
 const STICK: &str = "body, -1 to 1";
 const BODY_FROM_NED: &str = "body (forward, right, down) against north, east, down";
 
-const fn column(name: &'static str, unit: &'static str, frame: &'static str, description: &'static str, read: Read) -> Column {
+const fn column(
+    name: &'static str,
+    unit: &'static str,
+    frame: &'static str,
+    description: &'static str,
+    read: ColumnReader,
+) -> Column {
     Column { name, unit, frame, description, optional: false, read }
 }
 
-const fn optional(name: &'static str, unit: &'static str, frame: &'static str, description: &'static str, read: Read) -> Column {
+const fn optional(
+    name: &'static str,
+    unit: &'static str,
+    frame: &'static str,
+    description: &'static str,
+    read: ColumnReader,
+) -> Column {
     Column { name, unit, frame, description, optional: true, read }
 }
 
@@ -66,24 +78,36 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
 
 /// All columns in order. Names and order of released columns never change; new columns are appended.
 pub const COLUMNS: &[Column] = &[
-    column("frame", "", "", "Frame number; 1 is lift-off.", Read::Integer(|r| Some(i64::from(r.frame.index)))),
-    column("t_s", "s", "", "Simulation time since lift-off.", Read::Float(|r| Some(r.since_lift_off_s))),
-    column("fb", "", STICK, "Stick position, forward positive.", Read::Float(|r| Some(r.frame.sticks[0]))),
-    column("rl", "", STICK, "Stick position, right positive.", Read::Float(|r| Some(r.frame.sticks[1]))),
-    column("ud", "", STICK, "Stick position, up positive.", Read::Float(|r| Some(r.frame.sticks[2]))),
-    column("rt", "", STICK, "Stick position, clockwise positive.", Read::Float(|r| Some(r.frame.sticks[3]))),
-    column("light", "", "", "Whether the lamp is on.", Read::Boolean(|r| r.frame.light)),
-    column("snapshot", "", "", "Whether a picture was taken since the previous frame.", Read::Boolean(|r| r.frame.snapshot)),
-    column("east_m", "m", ENU, "True east position.", Read::Float(|r| Some(r.frame.position_m.east()))),
-    column("north_m", "m", ENU, "True north position.", Read::Float(|r| Some(r.frame.position_m.north()))),
-    column("up_m", "m", ENU, "True height above the origin.", Read::Float(|r| Some(r.frame.position_m.up()))),
-    column("speed_m_s", "m/s", "", "Magnitude of the true 3D velocity over ground.", Read::Float(|r| Some(r.frame.speed_m_s()))),
+    column("frame", "", "", "Frame number; 1 is lift-off.", ColumnReader::Integer(|r| Some(i64::from(r.frame.index)))),
+    column("t_s", "s", "", "Simulation time since lift-off.", ColumnReader::Float(|r| Some(r.since_lift_off_s))),
+    column("fb", "", STICK, "Stick position, forward positive.", ColumnReader::Float(|r| Some(r.frame.sticks[0]))),
+    column("rl", "", STICK, "Stick position, right positive.", ColumnReader::Float(|r| Some(r.frame.sticks[1]))),
+    column("ud", "", STICK, "Stick position, up positive.", ColumnReader::Float(|r| Some(r.frame.sticks[2]))),
+    column("rt", "", STICK, "Stick position, clockwise positive.", ColumnReader::Float(|r| Some(r.frame.sticks[3]))),
+    column("light", "", "", "Whether the lamp is on.", ColumnReader::Boolean(|r| r.frame.light)),
+    column(
+        "snapshot",
+        "",
+        "",
+        "Whether a picture was taken since the previous frame.",
+        ColumnReader::Boolean(|r| r.frame.snapshot),
+    ),
+    column("east_m", "m", ENU, "True east position.", ColumnReader::Float(|r| Some(r.frame.position_m.east()))),
+    column("north_m", "m", ENU, "True north position.", ColumnReader::Float(|r| Some(r.frame.position_m.north()))),
+    column("up_m", "m", ENU, "True height above the origin.", ColumnReader::Float(|r| Some(r.frame.position_m.up()))),
+    column(
+        "speed_m_s",
+        "m/s",
+        "",
+        "Magnitude of the true 3D velocity over ground.",
+        ColumnReader::Float(|r| Some(r.frame.speed_m_s())),
+    ),
     column(
         "battery_pct",
         "%",
         "",
         "Remaining battery charge; 100 before the first report.",
-        Read::Float(|r| Some(r.frame.battery_pct)),
+        ColumnReader::Float(|r| Some(r.frame.battery_pct)),
     ),
     column(
         "contact",
@@ -91,115 +115,139 @@ pub const COLUMNS: &[Column] = &[
         "",
         "Most severe contact since the previous frame: none, bridge, terrain, water, vehicle, person or other. Landings \
          and takeoffs at home are reported as none.",
-        Read::Text(|r| r.frame.contact.label()),
+        ColumnReader::Text(|r| r.frame.contact.label()),
     ),
     column(
         "missing",
         "",
         "",
         "Whether the frame is in a telemetry gap longer than 1 s; if so, position and velocity repeat the last received values.",
-        Read::Boolean(|r| r.frame.missing),
+        ColumnReader::Boolean(|r| r.frame.missing),
     ),
-    column("velocity_east_m_s", "m/s", ENU_VELOCITY, "True east velocity.", Read::Float(|r| Some(r.frame.velocity_m_s.east()))),
+    column(
+        "velocity_east_m_s",
+        "m/s",
+        ENU_VELOCITY,
+        "True east velocity.",
+        ColumnReader::Float(|r| Some(r.frame.velocity_m_s.east())),
+    ),
     column(
         "velocity_north_m_s",
         "m/s",
         ENU_VELOCITY,
         "True north velocity.",
-        Read::Float(|r| Some(r.frame.velocity_m_s.north())),
+        ColumnReader::Float(|r| Some(r.frame.velocity_m_s.north())),
     ),
     column(
         "velocity_up_m_s",
         "m/s",
         ENU_VELOCITY,
         "True vertical velocity, up positive.",
-        Read::Float(|r| Some(r.frame.velocity_m_s.up())),
+        ColumnReader::Float(|r| Some(r.frame.velocity_m_s.up())),
     ),
-    optional("roll_deg", "deg", BODY_FROM_NED, "True roll, right side down positive.", Read::Float(|r| attitude_deg(r, 0))),
-    optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch, nose up positive.", Read::Float(|r| attitude_deg(r, 1))),
+    optional(
+        "roll_deg",
+        "deg",
+        BODY_FROM_NED,
+        "True roll, right side down positive.",
+        ColumnReader::Float(|r| attitude_deg(r, 0)),
+    ),
+    optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch, nose up positive.", ColumnReader::Float(|r| attitude_deg(r, 1))),
     optional(
         "yaw_deg",
         "deg",
         BODY_FROM_NED,
         "True heading, clockwise from north, -180 to 180.",
-        Read::Float(|r| attitude_deg(r, 2)),
+        ColumnReader::Float(|r| attitude_deg(r, 2)),
     ),
     optional(
         "gimbal_pitch_deg",
         "deg",
         "horizon",
         "Camera pitch relative to the horizon, up positive.",
-        Read::Float(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
+        ColumnReader::Float(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
     ),
     optional(
         "task",
         "",
         "",
         "Task whose path the drone is on, or else the last task entered; empty until a task is entered.",
-        Read::Integer(|r| r.task.map(|task| i64::from(task.id))),
+        ColumnReader::Integer(|r| r.task.map(|task| i64::from(task.id))),
     ),
-    column("on_path", "", "", "Whether the drone is on a task's path.", Read::Boolean(|r| r.on_path)),
+    column("on_path", "", "", "Whether the drone is on a task's path.", ColumnReader::Boolean(|r| r.on_path)),
     optional(
         "path_distance_m",
         "m",
         "",
         "Distance to the path of `task`, measured with the scenario's path rule.",
-        Read::Float(|r| r.task.and_then(|task| task.distance_m)),
+        ColumnReader::Float(|r| r.task.and_then(|task| task.distance_m)),
     ),
     optional(
         "clearance_m",
         "m",
         "",
         "Distance from the drone's center to the nearest surface, excluding the pad.",
-        Read::Float(|r| r.clearance_m),
+        ColumnReader::Float(|r| r.clearance_m),
     ),
     optional(
         "wind_east_m_s",
         "m/s",
         ENU_VELOCITY,
         "East wind component, relative to the ground.",
-        Read::Float(|r| east(r.wind_m_s)),
+        ColumnReader::Float(|r| east(r.wind_m_s)),
     ),
     optional(
         "wind_north_m_s",
         "m/s",
         ENU_VELOCITY,
         "North wind component, relative to the ground.",
-        Read::Float(|r| north(r.wind_m_s)),
+        ColumnReader::Float(|r| north(r.wind_m_s)),
     ),
     optional(
         "wind_up_m_s",
         "m/s",
         ENU_VELOCITY,
         "Vertical wind component, up positive, relative to the ground.",
-        Read::Float(|r| up(r.wind_m_s)),
+        ColumnReader::Float(|r| up(r.wind_m_s)),
     ),
-    optional("estimated_east_m", "m", ENU, "East position estimated by the autopilot.", Read::Float(|r| east(r.estimate_m))),
-    optional("estimated_north_m", "m", ENU, "North position estimated by the autopilot.", Read::Float(|r| north(r.estimate_m))),
+    optional(
+        "estimated_east_m",
+        "m",
+        ENU,
+        "East position estimated by the autopilot.",
+        ColumnReader::Float(|r| east(r.estimate_m)),
+    ),
+    optional(
+        "estimated_north_m",
+        "m",
+        ENU,
+        "North position estimated by the autopilot.",
+        ColumnReader::Float(|r| north(r.estimate_m)),
+    ),
     optional(
         "estimated_up_m",
         "m",
         ENU,
         "Height above the origin estimated by the autopilot.",
-        Read::Float(|r| up(r.estimate_m)),
+        ColumnReader::Float(|r| up(r.estimate_m)),
     ),
     column(
         "interpolated",
         "",
         "",
         "Whether the frame is in a telemetry gap of 0.2 to 1 s; if so, position and velocity are interpolated.",
-        Read::Boolean(|r| r.frame.interpolated),
+        ColumnReader::Boolean(|r| r.frame.interpolated),
     ),
 ];
 
 /// Typical CSV line length, bytes, used to size the output buffer.
-const LINE_BYTES: usize = 360;
+const TYPICAL_LINE_BYTES: usize = 360;
 
 /// Returns the frames as CSV: a header line followed by one line per frame.
 #[must_use]
 pub fn frames_csv(rows: &[FrameRow]) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
-    let mut csv = String::with_capacity((rows.len() + 1) * LINE_BYTES);
+    let mut csv = String::with_capacity((rows.len() + 1) * TYPICAL_LINE_BYTES);
     csv.push_str(&names.join(","));
     csv.push('\n');
     for row in rows {
@@ -215,11 +263,11 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
 }
 
 /// Appends one cell to the CSV text. The write result is ignored because writing to a string cannot fail.
-fn write_cell(csv: &mut String, read: Read, row: &FrameRow) {
+fn write_cell(csv: &mut String, read: ColumnReader, row: &FrameRow) {
     let _ = match read {
-        Read::Integer(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
-        Read::Float(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
-        Read::Boolean(value) => write!(csv, "{}", u8::from(value(row))),
-        Read::Text(value) => write!(csv, "{}", value(row)),
+        ColumnReader::Integer(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
+        ColumnReader::Float(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),
+        ColumnReader::Boolean(value) => write!(csv, "{}", u8::from(value(row))),
+        ColumnReader::Text(value) => write!(csv, "{}", value(row)),
     };
 }

@@ -1,6 +1,6 @@
 //! A row of the frames export: a frame with attitude, gimbal, task, path distance, wind and estimated position.
 
-use crate::assessment::{AssessError, check_identity, scored_epoch};
+use crate::assessment::{AssessError, check_identity, flight_and_prior_runs};
 use crate::measures::on_path::{OnPath, ReferencePaths};
 use crate::session::Session;
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
@@ -60,7 +60,7 @@ pub fn frame_rows(
         navigation.take(record.frame, &timeline);
         ControlFlow::Continue(())
     })?;
-    let (epoch, flight) = scored_epoch(&timeline, scenario, vehicle);
+    let (epoch, flight) = flight_and_prior_runs(&timeline, scenario, vehicle);
     if flight.truths.is_empty() {
         return Err(AssessError::NoTruth);
     }

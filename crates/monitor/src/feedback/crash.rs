@@ -2,7 +2,7 @@
 //! in quick succession produce only one text.
 
 use super::input::FeedbackInput;
-use super::pilot_text::{CoolDown, PilotText};
+use super::pilot_text::{Cooldown, PilotText};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
@@ -19,7 +19,7 @@ const SAME_CRASH_INTERVAL: SimTime = SimTime::from_ms(1_000);
 pub struct CrashCue {
     before: ContactKind,
     last: Option<SimTime>,
-    cool_down: CoolDown,
+    cooldown: Cooldown,
 }
 
 impl CrashCue {
@@ -30,7 +30,7 @@ impl CrashCue {
         self.before = contact;
         // A collision with a person or vehicle always produces a separate text.
         if worse && matches!(contact, ContactKind::Person | ContactKind::Vehicle) {
-            self.cool_down = CoolDown::default();
+            self.cooldown = Cooldown::default();
         }
         if contact != ContactKind::None {
             self.last = Some(moment.time);
@@ -39,7 +39,7 @@ impl CrashCue {
             let what = moment.touched.as_deref().unwrap_or(contact.label());
             format!("Crash: {what}").chars().take(50).collect()
         };
-        let text = worse.then(|| self.cool_down.limited_text(moment.time, SAME_CRASH_INTERVAL, cue::CRASH, words)).flatten();
+        let text = worse.then(|| self.cooldown.limited_text(moment.time, SAME_CRASH_INTERVAL, cue::CRASH, words)).flatten();
         let shown = self.last.is_some_and(|last| moment.time - last < CUE_HOLD);
         (if shown { cue::CRASH } else { 0 }, text)
     }

@@ -3,7 +3,7 @@
 //! of the path (docs/src/reference/assessment.md, "Feedback during the flight").
 
 use super::input::{FeedbackInput, TaskProximity};
-use super::pilot_text::{CoolDown, PilotText};
+use super::pilot_text::{Cooldown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 use spandrel_model::time::SimTime;
@@ -21,13 +21,13 @@ const MAX_MOVEMENT_AGE: SimTime = SimTime::from_ms(600);
 pub struct OffPathCue {
     since: Option<SimTime>,
     shown_since: Option<SimTime>,
-    cool_down: CoolDown,
-    transit: Transit,
+    cooldown: Cooldown,
+    transit: TransitDetector,
 }
 
 /// Detects when the drone leaves a task.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Transit {
+struct TransitDetector {
     /// Task ID, distance (m), time of the last change, and whether the distance increased.
     change: Option<(u32, f64, SimTime, bool)>,
     /// Time when the drone started to leave the task; `None` if it is not leaving.
@@ -36,7 +36,7 @@ struct Transit {
     left: bool,
 }
 
-impl Transit {
+impl TransitDetector {
     /// Returns whether the drone is leaving or has left the task.
     fn update(&mut self, now: SimTime, task: &TaskProximity) -> bool {
         let kept = self.change.filter(|(id, ..)| *id == task.id);
@@ -64,7 +64,7 @@ impl OffPathCue {
     pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
         let now = moment.time;
         if !moment.in_session {
-            *self = Self { cool_down: self.cool_down, ..Self::default() };
+            *self = Self { cooldown: self.cooldown, ..Self::default() };
             return (0, None);
         }
         let off = self.off_path_distance(moment, limits.off_path_max_m);
@@ -76,7 +76,7 @@ impl OffPathCue {
                 self.shown_since = Some(now);
             }
             let words = || format!("Task {id}: {distance_m:.1} m off path");
-            text = self.cool_down.limited_text(now, limits.text_interval, cue::OFF_PATH, words);
+            text = self.cooldown.limited_text(now, limits.text_interval, cue::OFF_PATH, words);
         }
         let held = self.shown_since.is_some_and(|shown| now - shown < limits.off_path_hold);
         if !due && !held {

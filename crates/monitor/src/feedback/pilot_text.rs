@@ -13,11 +13,11 @@ pub struct PilotText {
 
 /// Rate limit for one rule's texts: after a text, no further text is sent until the interval has passed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct CoolDown {
+pub(super) struct Cooldown {
     last_sent: Option<SimTime>,
 }
 
-impl CoolDown {
+impl Cooldown {
     pub(super) fn limited_text(
         &mut self,
         now: SimTime,

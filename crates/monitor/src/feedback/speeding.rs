@@ -2,7 +2,7 @@
 //! speeding only inside task windows, but a window's end is not known during the flight.
 
 use super::input::FeedbackInput;
-use super::pilot_text::{CoolDown, PilotText};
+use super::pilot_text::{Cooldown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math::M_S_PER_MPH;
 use spandrel_model::numbers::{format_limit, format_with_limit};
@@ -13,7 +13,7 @@ use spandrel_model::scenario::FeedbackThresholds;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpeedingCue {
     over_limit_since: Option<spandrel_model::time::SimTime>,
-    cool_down: CoolDown,
+    cooldown: Cooldown,
 }
 
 /// Delay before the cue turns off, ms (estimate: half a second later, the cue still seems current).
@@ -30,7 +30,7 @@ impl SpeedingCue {
                 let (speed_mph, limit_mph) = (moment.speed_m_s / M_S_PER_MPH, limit_m_s / M_S_PER_MPH);
                 format!("Too fast: {} mph, limit {} mph", format_with_limit(speed_mph, limit_mph, 0), format_limit(limit_mph))
             };
-            return (cue::SPEEDING, self.cool_down.limited_text(moment.time, limits.text_interval, cue::SPEEDING, words));
+            return (cue::SPEEDING, self.cooldown.limited_text(moment.time, limits.text_interval, cue::SPEEDING, words));
         }
         let fresh = self.over_limit_since.is_some_and(|over| (moment.time - over).ms() < CUE_OFF_DELAY_MS);
         (if fresh && moment.in_session { cue::SPEEDING } else { 0 }, None)

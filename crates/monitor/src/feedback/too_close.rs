@@ -1,7 +1,7 @@
 //! Too-close cue: the clearance (distance from the drone's center to the nearest surface) is below the limit, with hysteresis.
 
 use super::input::FeedbackInput;
-use super::pilot_text::{CoolDown, PilotText};
+use super::pilot_text::{Cooldown, PilotText};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::numbers::format_with_limit;
 use spandrel_model::scenario::FeedbackThresholds;
@@ -10,7 +10,7 @@ use spandrel_model::scenario::FeedbackThresholds;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TooCloseCue {
     on: bool,
-    cool_down: CoolDown,
+    cooldown: Cooldown,
 }
 
 impl TooCloseCue {
@@ -32,7 +32,7 @@ impl TooCloseCue {
         let began = !self.on && clearance < limit;
         self.on = if self.on { clearance < clear } else { began };
         let words = || format!("Too close: {} m", format_with_limit(clearance, limit, 1));
-        let text = began.then(|| self.cool_down.limited_text(moment.time, limits.text_interval, cue::TOO_CLOSE, words)).flatten();
+        let text = began.then(|| self.cooldown.limited_text(moment.time, limits.text_interval, cue::TOO_CLOSE, words)).flatten();
         (if self.on { cue::TOO_CLOSE } else { 0 }, text)
     }
 }

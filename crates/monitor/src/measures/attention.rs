@@ -18,7 +18,7 @@ pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
     /// Returns the visibility of each in-range defect in a picture taken with these settings.
     fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
     /// Returns the name of the nearest object within `max_m`, for messages to the pilot.
-    fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
+    fn nearest_object_name(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
     /// Returns a copy of the site with these bridge closures; `None` if it has no moving traffic.
     fn with_closures(&self, _: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
         None
@@ -45,7 +45,7 @@ impl SiteSurvey for Site {
     fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView> {
         Self::view_defects(self, pose, camera, lamp, at)
     }
-    fn name_near(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String> {
+    fn nearest_object_name(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String> {
         self.nearest(position_m, max_m, at).map(|nearest| self.object_name(nearest.object))
     }
     fn with_closures(&self, gates: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {

@@ -4,7 +4,7 @@ use super::on_path::{OnPath, ReferencePath, ReferencePaths};
 
 /// Maximum path length between the nearest points of two consecutive frames that counts as flown, m (estimate: frames are at most
 /// 1.4 m apart at 13.4 m/s and 10 Hz, but the nearest point moves farther if the drone cuts a corner within the threshold).
-const MAX_JOIN_M: f64 = 5.0;
+const MAX_COVERED_STEP_M: f64 = 5.0;
 
 /// Coverage of one path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +55,7 @@ impl FlownPath {
     pub fn note(&mut self, point: Option<usize>) {
         let point = point.filter(|point| *point < self.covered.len());
         if let Some(point) = point {
-            let near = |b: &usize| (self.along_m[*b] - self.along_m[point]).abs() <= MAX_JOIN_M;
+            let near = |b: &usize| (self.along_m[*b] - self.along_m[point]).abs() <= MAX_COVERED_STEP_M;
             let from = self.before.filter(near).unwrap_or(point);
             self.covered[from.min(point)..=from.max(point)].fill(true);
         }

@@ -7,7 +7,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::GroundTeam;
 
 /// Maximum vertical speed at which contact with the pad is not a crash, m/s (docs/src/reference/assessment.md, "Crashes").
-const MAX_SOFT_TOUCH_M_S: f64 = 1.0;
+const MAX_SOFT_CONTACT_M_S: f64 = 1.0;
 /// Maximum height above the pad at which a contact may be with the ground around the pad, m (estimate: center height of
 /// any tilted aircraft).
 const MAX_PAD_CONTACT_HEIGHT_M: f64 = 1.0;
@@ -46,26 +46,26 @@ pub fn clean_up_contacts(frames: &mut [Frame], flight: &Flight, team: &GroundTea
             run = None;
             continue;
         }
-        let soft = *run.get_or_insert_with(|| is_soft_touch(frames, i, team));
+        let soft = *run.get_or_insert_with(|| is_soft_contact(frames, i, team));
         if soft && (frames[i].position_m - team.pad_m).horizontal_norm() <= team.home_radius_m {
             frames[i].contact = ContactKind::None;
         }
     }
 }
 
-fn is_soft_touch(frames: &[Frame], onset: usize, team: &GroundTeam) -> bool {
+fn is_soft_contact(frames: &[Frame], onset: usize, team: &GroundTeam) -> bool {
     let vertical = frames[onset.saturating_sub(LOOK_BACK_FRAMES)..=onset].iter().map(|frame| frame.velocity_m_s.up().abs());
-    may_touch_pad(frames[onset].position_m, vertical.fold(0.0, f64::max), team)
+    is_soft_pad_contact(frames[onset].position_m, vertical.fold(0.0, f64::max), team)
 }
 
 /// Returns whether ground or pad contact at this position and vertical speed is a touchdown or lift-off rather than a
 /// crash.
 #[must_use]
-pub fn may_touch_pad(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam) -> bool {
+pub fn is_soft_pad_contact(position_m: Vec3<Enu>, vertical_m_s: f64, team: &GroundTeam) -> bool {
     let from_pad = position_m - team.pad_m;
     from_pad.horizontal_norm() <= team.home_radius_m
         && from_pad.up() < MAX_PAD_CONTACT_HEIGHT_M
-        && vertical_m_s.abs() < MAX_SOFT_TOUCH_M_S
+        && vertical_m_s.abs() < MAX_SOFT_CONTACT_M_S
 }
 
 /// Returns all crashes: frames in which a contact starts or escalates to a vehicle or person.

@@ -184,8 +184,8 @@ pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
     let none_entered = !attempted.is_empty() && attempted.iter().all(|a| !a);
     let whole = gates.landed_at_home && gates.all_tasks_attempted;
     let scores = CertificationScores {
-        conformity: if none_entered { None } else { covered_conformity(&tasks, scenario) },
-        efficiency: if whole { paper_efficiency(evidence) } else { 0.0 },
+        conformity: if none_entered { None } else { coverage_weighted_conformity(&tasks, scenario) },
+        efficiency: if whole { tasbid_efficiency(evidence) } else { 0.0 },
         safety: safety(&gates, &crashes, exposure_s),
         accuracy: evidence.counts.score(scenario.scoring.beta).map(|score| score.pct),
     };
@@ -243,7 +243,7 @@ fn flags(scenario: &Scenario, attempted: &[bool], none_entered: bool) -> Vec<Str
     flags
 }
 
-fn paper_efficiency(evidence: &CertificationInputs<'_>) -> f64 {
+fn tasbid_efficiency(evidence: &CertificationInputs<'_>) -> f64 {
     let scoring = &evidence.scenario.scoring;
     efficiency::score(evidence.session.seconds(scoring.frame_rate_hz), false, scoring.time_best_s, scoring.time_max_s).pct
 }
@@ -284,7 +284,7 @@ fn visits(evidence: &CertificationInputs<'_>) -> Vec<TaskVisits> {
     ranges.iter().enumerate().map(one).collect()
 }
 
-fn covered_conformity(tasks: &[TaskVisits], scenario: &Scenario) -> Option<f64> {
+fn coverage_weighted_conformity(tasks: &[TaskVisits], scenario: &Scenario) -> Option<f64> {
     let shares: Vec<conformity::TaskShares> = tasks
         .iter()
         .map(|task| conformity::TaskShares { on_path: task.coverage * task.on_path, speeding: task.speeding })

@@ -77,7 +77,7 @@ impl Completion {
 
     /// Returns the completion as text, such as "Incomplete: 1 of 4 tasks, 31 % of the path".
     #[must_use]
-    pub fn short(&self) -> String {
+    pub fn summary(&self) -> String {
         let word = if self.complete { "Complete" } else { "Incomplete" };
         // With a single task, its share decides whether the job is complete, so the text needs enough digits to show
         // why. With multiple tasks, a rounded share is enough.
@@ -87,11 +87,11 @@ impl Completion {
         format!("{word}: {} of {} {tasks}, {share} % of the path", self.tasks_done, self.tasks)
     }
 
-    /// Returns [`Self::short`]. Mentions a missing landing only if all tasks are done.
+    /// Returns [`Self::summary`]. Mentions a missing landing only if all tasks are done.
     #[must_use]
     pub fn headline(&self) -> String {
         let only_landing = !self.landed_at_home && self.tasks_done == self.tasks;
-        self.short() + if only_landing { ", not landed at home" } else { "" }
+        self.summary() + if only_landing { ", not landed at home" } else { "" }
     }
 }
 

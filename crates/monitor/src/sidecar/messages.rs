@@ -19,7 +19,7 @@ const MIN_FLOWN_SHARE: f64 = 0.9;
 impl Monitor {
     pub(super) fn send_feedback(&mut self) {
         let Some(truth) = self.live.truth else { return };
-        let moment = self.moment(&truth);
+        let moment = self.input(&truth);
         let (cues, texts) = self.feedback.update(&moment);
         let changed = cues != self.live.cues;
         if changed {
@@ -38,7 +38,7 @@ impl Monitor {
         }
     }
 
-    fn moment(&self, truth: &Truth) -> FeedbackInput {
+    fn input(&self, truth: &Truth) -> FeedbackInput {
         let scenario = &self.config.scenario;
         let in_session = self.live.lift_off.is_some() && self.live.end.is_none() && self.outcome.is_none();
         let near = |(t, task): (usize, &spandrel_model::scenario::Task)| {
@@ -56,7 +56,7 @@ impl Monitor {
         FeedbackInput {
             time: truth.time,
             in_session,
-            airborne: !self.live.on_ground && !self.is_down_at_home(truth),
+            airborne: !self.live.on_ground && !self.is_low_over_pad(truth),
             speed_m_s: truth.motion.velocity_m_s.norm(),
             battery_pct: self.live.battery_pct,
             clearance_m: self.live.clearance_m,
@@ -79,7 +79,7 @@ impl Monitor {
 
     /// Returns whether the drone is low over the pad. Heights elsewhere are not checked, because a job can take the
     /// drone below the pad.
-    fn is_down_at_home(&self, truth: &Truth) -> bool {
+    fn is_low_over_pad(&self, truth: &Truth) -> bool {
         let team = &self.config.scenario.ground_team;
         let at_home = (truth.motion.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
         at_home && self.height_m(truth.motion.position_m) <= lift_off_height_m(&self.config.vehicle)

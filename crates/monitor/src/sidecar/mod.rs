@@ -185,7 +185,7 @@ impl Monitor {
         log.for_each_record(&mut |record| {
             monitor.zero_unix_us = monitor.zero_unix_us.or_else(|| tlog::zero_of_record_us(&record));
             for received in monitor.decoder.datagram(record.frame) {
-                monitor.take_frame(&received);
+                monitor.ingest_frame(&received);
             }
             ControlFlow::Continue(())
         })?;
@@ -215,10 +215,10 @@ impl Monitor {
         self.vehicle_received = true;
         for received in self.decoder.datagram(bytes) {
             if self.outcome.is_none() {
-                let stamp = self.stamp_us(&received);
+                let stamp = self.log_timestamp_us(&received);
                 self.records.push_back(SessionOutput::Telemetry(tlog::record(stamp, &received.bytes)));
-                self.take_frame(&received);
-                self.take_note(&received);
+                self.ingest_frame(&received);
+                self.log_instructor_note(&received);
             }
             self.handle_command(&received);
         }
@@ -276,7 +276,7 @@ impl Monitor {
     }
 
     /// Frees the flight data after the session has been written. The assessment remains available.
-    pub fn release_flight(&mut self) {
+    pub fn free_flight_data(&mut self) {
         self.timeline = Timeline::new(LocalPlane::new(self.config.scenario.origin));
         self.survey = None;
         self.records = VecDeque::new();

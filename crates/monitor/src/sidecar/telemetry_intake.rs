@@ -5,8 +5,8 @@ use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
 use crate::measures::attention;
-use crate::measures::crash::may_touch_pad;
-use crate::session::{EndReason, EndRuleInput as EndMoment, lift_off_height_m};
+use crate::measures::crash::is_soft_pad_contact;
+use crate::session::{EndReason, EndRuleInput as EndInput, lift_off_height_m};
 use serde_json::json;
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -21,7 +21,7 @@ use spandrel_model::time::SimTime;
 impl Monitor {
     /// Returns the log timestamp of a frame, µs: the session's start plus the simulation time since the first truth
     /// message. It keeps increasing when the simulator restarts.
-    pub(super) fn stamp_us(&mut self, received: &ReceivedFrame) -> u64 {
+    pub(super) fn log_timestamp_us(&mut self, received: &ReceivedFrame) -> u64 {
         let own = spandrel_mavlink::telemetry::sample::truth_time(&received.bytes);
         let since_zero = |own: SimTime| u64::try_from(own.us()).unwrap_or(0);
         let started = self.config.started_unix_us;
@@ -33,7 +33,7 @@ impl Monitor {
         zero.saturating_add(since)
     }
 
-    pub(super) fn take_frame(&mut self, received: &ReceivedFrame) {
+    pub(super) fn ingest_frame(&mut self, received: &ReceivedFrame) {
         let before = self.timeline.newest();
         match self.timeline.push(&received.bytes) {
             FrameDisposition::Ignored => {}
@@ -43,7 +43,7 @@ impl Monitor {
     }
 
     /// Logs an instructor's note with the current time.
-    pub(super) fn take_note(&mut self, received: &ReceivedFrame) {
+    pub(super) fn log_instructor_note(&mut self, received: &ReceivedFrame) {
         if let Some(((system, COMPONENT), text)) = instructor_note::decode(received)
             && system == self.encoder.system_id()
         {
@@ -201,7 +201,10 @@ impl Monitor {
     fn is_soft_touchdown(&self, contact: ContactKind) -> bool {
         let team = &self.config.scenario.ground_team;
         matches!(contact, ContactKind::Terrain | ContactKind::Other)
-            && self.live.truth.is_some_and(|truth| may_touch_pad(truth.motion.position_m, truth.motion.velocity_m_s.up(), team))
+            && self
+                .live
+                .truth
+                .is_some_and(|truth| is_soft_pad_contact(truth.motion.position_m, truth.motion.velocity_m_s.up(), team))
     }
 
     pub(super) fn counted_contact(&self) -> ContactKind {
@@ -214,14 +217,14 @@ impl Monitor {
 
     pub(super) fn contact_name(&self) -> Option<String> {
         let truth = self.live.truth?;
-        self.survey.as_ref()?.name_near(truth.motion.position_m, CONTACT_SEARCH_RADIUS_M, truth.time)
+        self.survey.as_ref()?.nearest_object_name(truth.motion.position_m, CONTACT_SEARCH_RADIUS_M, truth.time)
     }
 
     fn check_end(&mut self, truth: &Truth) {
         let Some(start) = self.live.lift_off else { return };
         if self.live.end.is_none() && truth.time >= self.live.end_check_after {
             let rate = self.config.scenario.scoring.frame_rate_hz;
-            let moment = EndMoment {
+            let moment = EndInput {
                 time: truth.time,
                 flown_s: (truth.time - start).s() + 1.0 / rate,
                 position_m: truth.motion.position_m,
@@ -272,7 +275,7 @@ impl Monitor {
         let (reason, words) = match &outcome {
             Ok(graded) => {
                 let (overall, completion) = (graded.assessment.scores.overall, graded.assessment.completion);
-                let words = if completion.complete { format!("Session over: {overall:.0} points") } else { completion.short() };
+                let words = if completion.complete { format!("Session over: {overall:.0} points") } else { completion.summary() };
                 (json!(graded.assessment.end.reason), words)
             }
             Err(error) => (json!(error.to_string()), "Session over: nothing to score".to_owned()),

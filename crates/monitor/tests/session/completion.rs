@@ -83,7 +83,7 @@ fn regress_session_without_landing_at_home_is_incomplete() {
 }
 
 #[test]
-fn regress_half_a_path_is_not_certified() {
+fn regress_half_flown_path_is_not_certified() {
     let mut job = scenario_with_long_task();
     job.scoring.task_completion_fraction = 0.8;
     let assessment = score_tape(&flown(49.0, true), &job).assessment;

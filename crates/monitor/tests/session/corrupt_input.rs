@@ -1,6 +1,6 @@
 //! Robustness against corrupt input: flipped bits, truncated frames, and changed fields with a valid checksum.
 
-use crate::live::monitor_of;
+use crate::live::new_monitor;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
@@ -52,7 +52,7 @@ fn prop_monitor_survives_corrupt_datagrams() {
     let mut stream = RandomStream::new(3, "hostile");
     let mut sent = 0;
     while sent < DATAGRAMS_PER_RUN {
-        let mut monitor = monitor_of(one_task());
+        let mut monitor = new_monitor(one_task());
         for datagram in &tape.datagrams {
             let mut datagram = datagram.clone();
             match stream.below(4) {

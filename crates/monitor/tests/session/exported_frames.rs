@@ -88,7 +88,7 @@ fn exact_velocity_attitude_and_gimbal_match_telemetry() {
 }
 
 #[test]
-fn exact_task_and_distance_follow_the_path() {
+fn exact_task_and_distance_match_flown_path() {
     let rows = rows(&flight());
     assert_eq!((rows[0].task, rows[0].on_path), (None, false), "no task was entered yet");
     let on = rows.iter().find(|row| row.frame.position_m.east() > 20.0).unwrap();

@@ -1,6 +1,6 @@
 //! Tests of the six kinds of MAVLink feedback, with their thresholds and timing.
 
-use crate::live::{monitor_of, sent};
+use crate::live::{new_monitor, sent_messages};
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_monitor::Monitor;
@@ -18,7 +18,7 @@ impl MonitoredFlight {
     }
 
     fn of(scenario: spandrel_model::scenario::Scenario) -> Self {
-        let mut watch = Self { monitor: monitor_of(scenario), tape: Tape::new(), texts: Vec::new() };
+        let mut watch = Self { monitor: new_monitor(scenario), tape: Tape::new(), texts: Vec::new() };
         watch.tape.fly((0.0, 0.0, 10.0), 2.0);
         watch.run();
         watch
@@ -30,7 +30,7 @@ impl MonitoredFlight {
         for datagram in std::mem::take(&mut self.tape.datagrams) {
             self.monitor.handle_datagram(&datagram);
             cues.push((u32::try_from(self.monitor.now().ms()).unwrap(), self.monitor.cues()));
-            for message in sent(&mut self.monitor) {
+            for message in sent_messages(&mut self.monitor) {
                 if let MavMessage::STATUSTEXT(text) = message {
                     self.texts.push(text.text.to_str().unwrap().to_owned());
                 }
@@ -156,7 +156,7 @@ fn regress_task_clearance_limit_applies_near_its_path() {
 
 #[test]
 fn exact_no_too_close_cue_before_lift_off() {
-    let mut watch = MonitoredFlight { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
+    let mut watch = MonitoredFlight { monitor: new_monitor(one_task()), tape: Tape::new(), texts: Vec::new() };
     watch.tape.clearance(0.5);
     watch.tape.hold(1.0);
     watch.run();
@@ -233,7 +233,8 @@ fn exact_cues_are_repeated_at_five_hertz() {
     let mut count = 0;
     for datagram in std::mem::take(&mut watch.tape.datagrams) {
         watch.monitor.handle_datagram(&datagram);
-        count += sent(&mut watch.monitor).iter().filter(|message| matches!(message, MavMessage::NAMED_VALUE_INT(_))).count();
+        count +=
+            sent_messages(&mut watch.monitor).iter().filter(|message| matches!(message, MavMessage::NAMED_VALUE_INT(_))).count();
     }
     assert_eq!(count, 50);
 }
@@ -262,7 +263,7 @@ fn exact_landing_on_pad_raises_no_too_close_cue() {
 }
 
 #[test]
-fn exact_hitting_a_person_is_not_rate_limited() {
+fn exact_person_collision_text_is_not_rate_limited() {
     let mut watch = MonitoredFlight::airborne();
     for code in [1, 5] {
         watch.tape.contact(code);
@@ -274,7 +275,7 @@ fn exact_hitting_a_person_is_not_rate_limited() {
 
 #[test]
 fn exact_texts_continue_after_simulator_restart_on_ground() {
-    let mut watch = MonitoredFlight { monitor: monitor_of(one_task()), tape: Tape::new(), texts: Vec::new() };
+    let mut watch = MonitoredFlight { monitor: new_monitor(one_task()), tape: Tape::new(), texts: Vec::new() };
     for seconds in [20.0, 0.2] {
         watch.tape.hold(seconds);
         watch.tape.battery(60);

@@ -90,7 +90,7 @@ fn prop_reordered_and_duplicate_datagrams_change_no_frame() {
 }
 
 #[test]
-fn exact_link_statistics_are_counted() {
+fn exact_link_statistics_match_faults() {
     let tape = busy_flight();
     let all = tape.datagrams.len() as u64;
     assert_eq!(counts(&tape.datagrams).frames, all);
@@ -142,11 +142,11 @@ fn exact_wrong_scenario_or_seed_is_rejected() {
     let mut other = one_task();
     other.crc = 1;
     let refused = assess_log(&tape.log(0), &other, &vehicle(), test_survey).unwrap_err();
-    assert_eq!(refused, AssessError::OtherScenario { name: "test-job".to_owned(), heard: CRC, ours: 1 });
+    assert_eq!(refused, AssessError::OtherScenario { name: "test-job".to_owned(), received: CRC, expected: 1 });
     let mut seeded = one_task();
     seeded.seed = Some(8);
     let refused = assess_log(&tape.log(0), &seeded, &vehicle(), test_survey).unwrap_err();
-    assert_eq!(refused, AssessError::OtherSeed { heard: SEED, ours: 8 });
+    assert_eq!(refused, AssessError::OtherSeed { received: SEED, expected: 8 });
     assert!(refused.to_string().contains("uses seed 7"));
 }
 
@@ -163,7 +163,7 @@ fn exact_empty_log_and_log_without_flight_have_distinct_errors() {
 fn exact_messages_of_other_systems_are_ignored() {
     use spandrel_mavlink::codec::Encoder;
     use spandrel_mavlink::dialect::*;
-    let mut monitor = crate::live::monitor_of(one_task());
+    let mut monitor = crate::live::new_monitor(one_task());
     let tape = clean_flight();
     let mut stranger = Encoder::new(255, 190);
     let int = |name: &str, value| MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: 0, value, name: name.into() });

@@ -10,7 +10,7 @@ use spandrel_testkit::job::*;
 
 const START_US: u64 = 1_700_000_000_000_000;
 
-pub fn monitor_of(scenario: Scenario) -> Monitor {
+pub fn new_monitor(scenario: Scenario) -> Monitor {
     Monitor::new(config(scenario))
 }
 
@@ -27,7 +27,7 @@ fn config(scenario: Scenario) -> MonitorConfig {
     }
 }
 
-pub fn sent(monitor: &mut Monitor) -> Vec<MavMessage> {
+pub fn sent_messages(monitor: &mut Monitor) -> Vec<MavMessage> {
     let mut decoder = Decoder::new();
     let mut messages = Vec::new();
     while let Some(bytes) = monitor.poll_transmit() {
@@ -39,7 +39,7 @@ pub fn sent(monitor: &mut Monitor) -> Vec<MavMessage> {
     messages
 }
 
-fn written(monitor: &mut Monitor) -> (Vec<u8>, Vec<String>) {
+fn session_output(monitor: &mut Monitor) -> (Vec<u8>, Vec<String>) {
     let (mut log, mut events) = (Vec::new(), Vec::new());
     while let Some(record) = monitor.poll_record() {
         match record {
@@ -52,12 +52,12 @@ fn written(monitor: &mut Monitor) -> (Vec<u8>, Vec<String>) {
 
 #[test]
 fn exact_live_session_and_replay_are_identical() {
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     for datagram in &clean_flight().datagrams {
         monitor.handle_datagram(datagram);
     }
     let live = monitor.finished().expect("landed").clone().expect("scored");
-    let (log, events) = written(&mut monitor);
+    let (log, events) = session_output(&mut monitor);
     let replayed = assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap();
     assert_eq!(export::json_text(&live.assessment), export::json_text(&replayed.assessment));
     assert!(live.frames == replayed.frames, "live and offline frames differ");
@@ -72,11 +72,11 @@ fn exact_live_session_and_replay_are_identical() {
 
 #[test]
 fn exact_timestamps_are_session_start_plus_simulation_time() {
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     let mut tape = Tape::new();
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
-    let (log, _) = written(&mut monitor);
+    let (log, _) = session_output(&mut monitor);
     let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.timestamp_us).collect();
     assert_eq!(stamps.first(), Some(&START_US));
     assert_eq!(stamps.last(), Some(&(START_US + 2_000_000)));
@@ -90,9 +90,9 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     let mut tape = Tape::new();
     tape.hold(62.0);
     let late = tape.datagrams.len() * 30 / 31;
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     tape.datagrams[late..].iter().for_each(|datagram| monitor.handle_datagram(datagram));
-    let (mut log, _) = written(&mut monitor);
+    let (mut log, _) = session_output(&mut monitor);
     let stamps = |log: &[u8]| -> Vec<u64> {
         spandrel_mavlink::telemetry::tlog::TlogReader::new(log).map(|record| record.timestamp_us).collect()
     };
@@ -108,7 +108,7 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     more.hold(65.0);
     let rest = more.datagrams.len() * 63 / 65;
     more.datagrams[rest..].iter().for_each(|datagram| second.handle_datagram(datagram));
-    log = written(&mut second).0;
+    log = session_output(&mut second).0;
     let last = *stamps(&log).last().unwrap();
     assert!((START_US + 4_900_000..=START_US + 5_100_000).contains(&last), "{} us", last - START_US);
 }
@@ -122,7 +122,7 @@ fn regress_monitor_accepts_only_its_vehicle() {
         Encoder::new(system, component).encode(&MavMessage::HEARTBEAT(body))
     };
     let (px4, none) = (MavAutopilot::MAV_AUTOPILOT_PX4, MavAutopilot::MAV_AUTOPILOT_INVALID);
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     for stranger in [vec![], vec![0xFD], vec![7; 60], beat(255, 190, none), beat(1, 191, none), beat(1, 1, none)] {
         assert!(!monitor.is_from_vehicle(&stranger), "{stranger:?}");
     }
@@ -131,25 +131,25 @@ fn regress_monitor_accepts_only_its_vehicle() {
     tape.hold(2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     assert!(monitor.is_from_vehicle(&beat(1, 1, px4)) && !monitor.is_from_vehicle(&beat(9, 1, px4)));
-    // A forwarded heartbeat from another vehicle doesn't change the monitor's system ID; `sent` checks the IDs in its
+    // A forwarded heartbeat from another vehicle doesn't change the monitor's system ID; `sent_messages` checks the IDs in its
     // messages.
-    sent(&mut monitor);
+    sent_messages(&mut monitor);
     monitor.handle_datagram(&beat(9, 1, px4));
     tape.datagrams.clear();
     tape.hold(1.5);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
-    assert!(!sent(&mut monitor).is_empty());
+    assert!(!sent_messages(&mut monitor).is_empty());
 }
 
 #[test]
 fn exact_timestamps_increase_after_simulator_restart() {
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     for seconds in [20.0, 2.0] {
         let mut tape = Tape::new();
         tape.hold(seconds);
         tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     }
-    let (log, _) = written(&mut monitor);
+    let (log, _) = session_output(&mut monitor);
     let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.timestamp_us).collect();
     assert_eq!(stamps.last(), Some(&(START_US + 22_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
@@ -159,16 +159,16 @@ fn exact_timestamps_increase_after_simulator_restart() {
 fn exact_killed_monitor_resumes_at_end_of_log() {
     let tape = clean_flight();
     let half = tape.datagrams.len() / 2;
-    let mut first = monitor_of(one_task());
+    let mut first = new_monitor(one_task());
     tape.datagrams[..half].iter().for_each(|datagram| first.handle_datagram(datagram));
-    let (mut log, _) = written(&mut first);
+    let (mut log, _) = session_output(&mut first);
     log.truncate(log.len() - 5);
     log.truncate(spandrel_mavlink::telemetry::tlog::complete_len(&log));
     let mut second = Monitor::resume(config(one_task()), &log).unwrap();
     assert!(second.flight_time().is_some());
     tape.datagrams[half..].iter().for_each(|datagram| second.handle_datagram(datagram));
     let outcome = second.finished().expect("landed").clone().unwrap();
-    let (rest, events) = written(&mut second);
+    let (rest, events) = session_output(&mut second);
     assert!(events[0].contains("monitor_restarted"));
     log.extend(rest);
     let replayed = assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap();
@@ -178,17 +178,17 @@ fn exact_killed_monitor_resumes_at_end_of_log() {
 
 #[test]
 fn exact_timesync_reply_is_last_and_addressed_to_sender() {
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     let mut tape = Tape::new();
     tape.hold(1.5);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
-    sent(&mut monitor);
+    sent_messages(&mut monitor);
     tape.datagrams.clear();
     tape.hold(0.6);
     let sync = TIMESYNC_DATA { tc1: 0, ts1: 4242, ..TIMESYNC_DATA::default() };
     tape.send(&MavMessage::TIMESYNC(sync));
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
-    let messages = sent(&mut monitor);
+    let messages = sent_messages(&mut monitor);
     assert!(messages.len() > 1, "heartbeat and cues are missing");
     let Some(MavMessage::TIMESYNC(answer)) = messages.last() else { panic!("last message is {:?}", messages.last()) };
     assert_eq!((answer.ts1, answer.target_system, answer.target_component), (4242, 1, 1));
@@ -197,7 +197,7 @@ fn exact_timesync_reply_is_last_and_addressed_to_sender() {
 
 #[test]
 fn exact_timesync_replies_and_foreign_requests_are_ignored() {
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     let mut encoder = Encoder::new(1, 1);
     for sync in [
         TIMESYNC_DATA { tc1: 5, ts1: 6, ..TIMESYNC_DATA::default() },
@@ -205,12 +205,12 @@ fn exact_timesync_replies_and_foreign_requests_are_ignored() {
     ] {
         monitor.handle_datagram(&encoder.encode(&MavMessage::TIMESYNC(sync)));
     }
-    assert!(sent(&mut monitor).is_empty());
+    assert!(sent_messages(&mut monitor).is_empty());
 }
 
 #[test]
 fn exact_commands_are_unsupported_and_parameter_requests_ignored() {
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     let mut encoder = Encoder::new(255, 190);
     let command = |target_component| {
         MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
@@ -221,21 +221,21 @@ fn exact_commands_are_unsupported_and_parameter_requests_ignored() {
         })
     };
     monitor.handle_datagram(&encoder.encode(&command(191)));
-    let messages = sent(&mut monitor);
+    let messages = sent_messages(&mut monitor);
     let [MavMessage::COMMAND_ACK(ack)] = &messages[..] else { panic!("{messages:?}") };
     assert_eq!(ack.result, MavResult::MAV_RESULT_UNSUPPORTED);
     assert_eq!((ack.target_system, ack.target_component), (255, 190));
     monitor.handle_datagram(&encoder.encode(&command(1)));
     let list = PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 0 };
     monitor.handle_datagram(&encoder.encode(&MavMessage::PARAM_REQUEST_LIST(list)));
-    assert!(sent(&mut monitor).is_empty());
+    assert!(sent_messages(&mut monitor).is_empty());
 }
 
 #[test]
 fn exact_heartbeat_identifies_onboard_controller_at_1_hz() {
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     monitor.handle_timeout(SimTime::ZERO);
-    let messages = sent(&mut monitor);
+    let messages = sent_messages(&mut monitor);
     let [MavMessage::HEARTBEAT(beat)] = &messages[..] else { panic!("{messages:?}") };
     assert_eq!(beat.mavtype, MavType::MAV_TYPE_ONBOARD_CONTROLLER);
     assert_eq!(beat.autopilot, MavAutopilot::MAV_AUTOPILOT_INVALID);
@@ -243,7 +243,7 @@ fn exact_heartbeat_identifies_onboard_controller_at_1_hz() {
     let mut tape = Tape::new();
     tape.hold(10.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
-    let beats = sent(&mut monitor).iter().filter(|message| matches!(message, MavMessage::HEARTBEAT(_))).count();
+    let beats = sent_messages(&mut monitor).iter().filter(|message| matches!(message, MavMessage::HEARTBEAT(_))).count();
     assert_eq!(beats, 11);
 }
 
@@ -251,16 +251,16 @@ fn exact_heartbeat_identifies_onboard_controller_at_1_hz() {
 fn exact_wrong_scenario_is_rejected_with_status_text() {
     let mut scenario = one_task();
     scenario.crc = 5;
-    let mut monitor = monitor_of(scenario);
+    let mut monitor = new_monitor(scenario);
     Tape::new().datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     assert!(matches!(monitor.refused(), Some(AssessError::OtherScenario { .. })));
     assert!(matches!(monitor.finished(), Some(Err(AssessError::OtherScenario { .. }))));
-    assert!(sent(&mut monitor).iter().any(|message| matches!(message, MavMessage::STATUSTEXT(_))));
+    assert!(sent_messages(&mut monitor).iter().any(|message| matches!(message, MavMessage::STATUSTEXT(_))));
 }
 
 #[test]
 fn exact_closing_in_flight_is_scored_as_abort() {
-    let mut monitor = monitor_of(one_task());
+    let mut monitor = new_monitor(one_task());
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
@@ -268,6 +268,6 @@ fn exact_closing_in_flight_is_scored_as_abort() {
     let graded = monitor.finished().unwrap().clone().unwrap();
     assert_eq!(graded.assessment.end.reason, spandrel_monitor::session::EndReason::Abort);
     assert!(!graded.assessment.certification.passed);
-    let (log, _) = written(&mut monitor);
+    let (log, _) = session_output(&mut monitor);
     assert!(assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap() == graded, "the replay gave different results");
 }

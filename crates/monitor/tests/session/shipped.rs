@@ -73,7 +73,7 @@ fn flight_pictures_of_shipped_defects_are_hits() {
 }
 
 #[test]
-fn flight_exact_flight_of_shipped_paths_has_full_conformity() {
+fn flight_along_shipped_paths_has_full_conformity() {
     let (scenario, vehicle) = shipped();
     let site = build_site(&scenario, spandrel_testkit::job::SEED);
     let mut tape = Tape::of(&scenario);

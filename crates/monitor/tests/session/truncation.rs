@@ -139,7 +139,7 @@ fn exact_session_ends_at_time_limit() {
 }
 
 #[test]
-fn exact_hitting_a_person_or_vehicle_ends_the_session() {
+fn exact_hitting_person_or_vehicle_ends_session() {
     for (code, reason, person, car) in [(5, EndReason::Person, 1, 0), (4, EndReason::Vehicle, 0, 1)] {
         let mut tape = Tape::new();
         tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -156,7 +156,7 @@ fn exact_hitting_a_person_or_vehicle_ends_the_session() {
 }
 
 #[test]
-fn exact_long_contact_is_one_crash_and_short_contact_counts() {
+fn exact_long_contact_is_one_crash_and_short_contact_is_not_lost() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.contact(1);
@@ -210,7 +210,7 @@ fn exact_soft_ground_contact_away_from_home_is_a_crash() {
 }
 
 #[test]
-fn exact_overlapping_paths_count_once_for_the_relatively_nearer_task() {
+fn exact_overlapping_paths_count_for_relatively_nearer_task() {
     let wide = task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 6.0);
     let narrow = task(2, line((10.0, 2.0, 10.0), (60.0, 2.0, 10.0)), 2.0);
     let scenario = scenario(vec![wide, narrow]);
@@ -228,7 +228,7 @@ fn exact_overlapping_paths_count_once_for_the_relatively_nearer_task() {
 }
 
 #[test]
-fn exact_task_never_entered_has_no_window() {
+fn exact_unentered_task_has_no_window() {
     let mut scenario = one_task();
     scenario.tasks.push(task(2, line((10.0, 90.0, 10.0), (60.0, 90.0, 10.0)), 3.0));
     let assessment = score_tape(&clean_flight(), &scenario).assessment;
@@ -241,7 +241,7 @@ fn exact_task_never_entered_has_no_window() {
 }
 
 #[test]
-fn exact_no_task_entered_is_no_evidence_in_certification() {
+fn exact_certification_without_entered_task_has_no_evidence() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 3.0), 2.0);
     tape.land();
@@ -253,7 +253,7 @@ fn exact_no_task_entered_is_no_evidence_in_certification() {
 }
 
 #[test]
-fn exact_short_path_visit_is_not_rewarded_in_certification() {
+fn exact_short_path_visit_earns_no_certification_credit() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((9.0, 0.0, 10.0), 4.0);
@@ -266,7 +266,7 @@ fn exact_short_path_visit_is_not_rewarded_in_certification() {
 }
 
 #[test]
-fn exact_pictures_count_once_and_dark_picture_has_reason() {
+fn exact_pictures_count_once_and_dark_ones_have_reason() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((20.0, 0.0, 10.0), 4.0);
@@ -327,7 +327,7 @@ impl SiteSurvey for NarrowViewSite {
             .map(|view| DefectView { hit: view.hit && narrow, ..view })
             .collect()
     }
-    fn name_near(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<String> {
+    fn nearest_object_name(&self, _: Vec3<Enu>, _: f64, _: SimTime) -> Option<String> {
         None
     }
 }

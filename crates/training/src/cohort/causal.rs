@@ -62,7 +62,7 @@ struct Respondent {
 
 /// Estimates the model and appends the estimate's limitations to `warnings`.
 pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
-    let people: Vec<Respondent> = firsts.iter().filter_map(|record| person(record)).collect();
+    let people: Vec<Respondent> = firsts.iter().filter_map(|record| respondent(record)).collect();
     let n = people.len();
     if n < RECOMMENDED_TRAINEES {
         warnings.push(format!(
@@ -79,7 +79,7 @@ pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<M
     }
 }
 
-fn person(record: &SessionRecord) -> Option<Respondent> {
+fn respondent(record: &SessionRecord) -> Option<Respondent> {
     let scales = record.scales()?;
     let (demand, strain, feedback) = (scales.demand?, scales.strain?, scales.feedback?);
     Some(Respondent { demand, strain, feedback, performance: measured_pct(record) })

@@ -15,7 +15,7 @@ pub use answers::{Contradiction, Likert, SelfRating, SelfRatingPair};
 pub use causal::{IndirectEffect, MediationModel, RECOMMENDED_TRAINEES};
 pub use learning::GroupCurve;
 pub use progress::{JobProgress, Repetition, ScoreCurve, TraineeProgress, by_job};
-pub use scores::{Comparison, CrashRow, CrashTable, Distribution, GroupHomogeneityTest, Individual, RepetitionBox, TaskShare};
+pub use scores::{Comparison, CrashRow, CrashTable, Distribution, FirstSession, GroupHomogeneityTest, RepetitionBox, TaskShare};
 pub use tables::{TABLES, table, tables};
 
 use super::record::{IncompletePolicy, SessionRecord};
@@ -56,7 +56,7 @@ pub struct Cohort {
     /// Score distributions of the first sessions.
     pub distributions: Vec<Distribution>,
     /// Scores and task results of each trainee's first session.
-    pub individuals: Vec<Individual>,
+    pub individuals: Vec<FirstSession>,
     /// Crashes in the first sessions by trainee, task and kind.
     pub crashes: CrashTable,
     /// The group's scores by repetition.
@@ -114,7 +114,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
         repetitions,
         group: group.keys().map(|trainee| (*trainee).to_owned()).collect(),
         distributions: scores::distributions(&firsts),
-        individuals: firsts.iter().map(|record| scores::individual(record)).collect(),
+        individuals: firsts.iter().map(|record| scores::first_session(record)).collect(),
         crashes: scores::crash_table(&firsts),
         boxes: scores::boxes(&group, repetitions),
         tests: scores::comparisons(&group, repetitions, &mut warnings),

@@ -24,7 +24,7 @@ pub struct Distribution {
 
 /// One trainee's first session.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Individual {
+pub struct FirstSession {
     /// Trainee's pseudonym.
     pub trainee: String,
     /// Session ID (its folder name).
@@ -148,7 +148,7 @@ pub fn distributions(firsts: &[&SessionRecord]) -> Vec<Distribution> {
     SCORES.into_iter().filter_map(one).collect()
 }
 
-pub fn individual(record: &SessionRecord) -> Individual {
+pub fn first_session(record: &SessionRecord) -> FirstSession {
     let share = |task: &crate::record::TaskRecord| TaskShare {
         id: task.id,
         name: task.name.clone(),
@@ -156,7 +156,7 @@ pub fn individual(record: &SessionRecord) -> Individual {
         on_path: task.on_path,
         speeding: task.speeding,
     };
-    Individual {
+    FirstSession {
         trainee: record.trainee.clone(),
         session: record.id.clone(),
         purpose: record.purpose.clone(),
@@ -182,7 +182,7 @@ pub fn crash_table(firsts: &[&SessionRecord]) -> CrashTable {
     let rows: Vec<CrashRow> = firsts.iter().map(row).collect();
     CrashTable {
         total: rows.iter().map(|row| row.total).sum(),
-        by_kind: firsts.iter().map(|record| record.crashes()).fold(Crashes::default(), Crashes::with_added),
+        by_kind: firsts.iter().map(|record| record.crashes()).fold(Crashes::default(), Crashes::combined_with),
         by_task: (0..=tasks.len()).map(|k| rows.iter().map(|row| row.by_task[k]).sum()).collect(),
         tasks,
         rows,

@@ -43,7 +43,7 @@ pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
         "progress.csv" => progress(cohort),
         "learning_curves.csv" => curves(cohort),
         "learning_of_the_group.csv" => learning(cohort),
-        "warnings.csv" => CsvTable::new(&["warning"]).rows(cohort.warnings.iter().map(|words| vec![text(words)])),
+        "warnings.csv" => CsvWriter::new(&["warning"]).rows(cohort.warnings.iter().map(|words| vec![text(words)])),
         _ => return None,
     })
 }
@@ -54,9 +54,9 @@ pub fn tables(cohort: &Cohort) -> Vec<(&'static str, String)> {
     TABLES.iter().filter_map(|name| Some((*name, table(cohort, name)?))).collect()
 }
 
-struct CsvTable(String);
+struct CsvWriter(String);
 
-impl CsvTable {
+impl CsvWriter {
     fn new(columns: &[&str]) -> Self {
         Self(columns.join(",") + "\n")
     }
@@ -87,7 +87,7 @@ fn optional_number(value: Option<f64>) -> String {
 
 fn distributions(cohort: &Cohort) -> String {
     let columns = ["score", "n", "mean", "sd", "min", "q1", "median", "q3", "max", "range", "skewness"];
-    CsvTable::new(&columns).rows(cohort.distributions.iter().map(|one| {
+    CsvWriter::new(&columns).rows(cohort.distributions.iter().map(|one| {
         let s = &one.summary;
         let figures = [s.min, s.q1, s.median, s.q3, s.max, s.range].map(number);
         [
@@ -104,12 +104,12 @@ fn histograms(cohort: &Cohort) -> String {
     let row = |(score, bar): (&String, &crate::statistics::HistogramBin)| {
         vec![text(score), number(bar.from), number(bar.to), number(bar.count)]
     };
-    CsvTable::new(&["score", "from", "to", "count"]).rows(bars.map(row))
+    CsvWriter::new(&["score", "from", "to", "count"]).rows(bars.map(row))
 }
 
 fn individuals(cohort: &Cohort) -> String {
     let columns = ["trainee", "session", "conformity", "efficiency", "safety", "accuracy", "overall", "seconds", "purpose"];
-    CsvTable::new(&columns).rows(cohort.individuals.iter().map(|one| {
+    CsvWriter::new(&columns).rows(cohort.individuals.iter().map(|one| {
         let purpose = one.purpose.as_deref().map_or(String::new(), text);
         let scores = [one.conformity, Some(one.efficiency), Some(one.safety), one.accuracy, Some(one.overall), Some(one.seconds)];
         [vec![text(&one.trainee), text(&one.session)], scores.map(optional_number).to_vec(), vec![purpose]].concat()
@@ -118,7 +118,7 @@ fn individuals(cohort: &Cohort) -> String {
 
 fn conformity(cohort: &Cohort) -> String {
     let rows = cohort.individuals.iter().flat_map(|one| one.tasks.iter().map(|task| (&one.trainee, task)));
-    CsvTable::new(&["trainee", "task", "name", "attempted", "on_path", "speeding"]).rows(rows.map(|(trainee, task)| {
+    CsvWriter::new(&["trainee", "task", "name", "attempted", "on_path", "speeding"]).rows(rows.map(|(trainee, task)| {
         let attempted = u8::from(task.attempted);
         vec![text(trainee), number(task.id), text(&task.name), number(attempted), number(task.on_path), number(task.speeding)]
     }))
@@ -130,7 +130,7 @@ fn crashes(cohort: &Cohort) -> String {
         ["trainee"].into_iter().chain(tasks.iter().map(String::as_str)).chain(["outside", "total"]).collect();
     let sum = (&"all".to_owned(), &cohort.crashes.by_task, cohort.crashes.total);
     let people = cohort.crashes.rows.iter().map(|row| (&row.trainee, &row.by_task, row.total));
-    CsvTable::new(&columns).rows(people.chain([sum]).map(|(who, by_task, total)| {
+    CsvWriter::new(&columns).rows(people.chain([sum]).map(|(who, by_task, total)| {
         let counts = by_task.iter().map(number);
         [text(who)].into_iter().chain(counts).chain([number(total)]).collect()
     }))
@@ -138,7 +138,7 @@ fn crashes(cohort: &Cohort) -> String {
 
 fn repetitions(cohort: &Cohort) -> String {
     let columns = ["score", "repetition", "n", "mean", "low_whisker", "q1", "median", "q3", "high_whisker", "outliers"];
-    CsvTable::new(&columns).rows(cohort.boxes.iter().map(|one| {
+    CsvWriter::new(&columns).rows(cohort.boxes.iter().map(|one| {
         let p = &one.plot;
         let outliers: Vec<String> = p.outliers.iter().map(number).collect();
         let figures = [p.mean, p.low_whisker, p.q1, p.median, p.q3, p.high_whisker].map(number);
@@ -166,7 +166,7 @@ fn t_tests(cohort: &Cohort) -> String {
         "p_lower_holm",
         "p_two_holm",
     ];
-    CsvTable::new(&columns).rows(cohort.tests.iter().map(|one| {
+    CsvWriter::new(&columns).rows(cohort.tests.iter().map(|one| {
         let t = &one.test;
         let tails = |p: &Option<TailProbabilities>| {
             [p.map(|p| p.upper), p.map(|p| p.lower), p.map(|p| p.two)].map(optional_number).to_vec()
@@ -194,7 +194,7 @@ fn homogeneity(cohort: &Cohort) -> String {
         "p",
         "smallest_expected",
     ];
-    CsvTable::new(&columns).rows(cohort.homogeneity.iter().map(|one| {
+    CsvWriter::new(&columns).rows(cohort.homogeneity.iter().map(|one| {
         let counts = one.group.iter().chain(&one.others).map(number).collect();
         let test = &one.test;
         let test = vec![number(test.chi_squared), number(test.df), number(test.p), number(test.smallest_expected)];
@@ -205,7 +205,7 @@ fn homogeneity(cohort: &Cohort) -> String {
 fn likert(cohort: &Cohort) -> String {
     let columns =
         ["question", "repetition", "strongly_agree", "agree", "neutral", "disagree", "strongly_disagree", "n", "agreeing"];
-    CsvTable::new(&columns).rows(cohort.likert.iter().map(|one| {
+    CsvWriter::new(&columns).rows(cohort.likert.iter().map(|one| {
         let repetition = one.repetition.map_or("all first".to_owned(), number);
         [vec![text(&one.question), repetition], one.counts.map(number).to_vec(), vec![number(one.n), number(one.agree)]].concat()
     }))
@@ -214,17 +214,17 @@ fn likert(cohort: &Cohort) -> String {
 fn self_rating(cohort: &Cohort) -> String {
     let people = cohort.self_rating.people.iter();
     let row = |one: &super::SelfRatingPair| vec![text(&one.trainee), number(one.self_rating), number(one.measured_pct)];
-    CsvTable::new(&["trainee", "self_rating", "measured_pct"]).rows(people.map(row))
+    CsvWriter::new(&["trainee", "self_rating", "measured_pct"]).rows(people.map(row))
 }
 
 fn contradictions(cohort: &Cohort) -> String {
     let found = cohort.self_rating.contradictions.iter();
-    CsvTable::new(&["trainee", "words"]).rows(found.map(|one| vec![text(&one.trainee), text(&one.words)]))
+    CsvWriter::new(&["trainee", "words"]).rows(found.map(|one| vec![text(&one.trainee), text(&one.words)]))
 }
 
 fn causal(cohort: &Cohort) -> String {
     let columns = ["model", "term", "estimate", "standard_error", "t", "p", "low_95", "high_95"];
-    let Some(model) = &cohort.causal else { return CsvTable::new(&columns).rows(std::iter::empty()) };
+    let Some(model) = &cohort.causal else { return CsvWriter::new(&columns).rows(std::iter::empty()) };
     let terms = |name: &'static str, regression: &Regression| {
         let row = move |one: &crate::statistics::Coefficient| {
             let start = vec![name.to_owned(), text(&one.name), number(one.estimate), number(one.standard_error)];
@@ -240,7 +240,7 @@ fn causal(cohort: &Cohort) -> String {
         [vec!["resampled".to_owned(), text(&name), number(one.effect), none(), none(), none()], ends.to_vec()].concat()
     });
     let rows = [terms("strain", &model.strain), terms("performance", &model.performance), effects.collect()].concat();
-    CsvTable::new(&columns).rows(rows.into_iter())
+    CsvWriter::new(&columns).rows(rows.into_iter())
 }
 
 fn progress(cohort: &Cohort) -> String {
@@ -249,7 +249,7 @@ fn progress(cohort: &Cohort) -> String {
     let end = ["bridge", "terrain", "water", "other", "vehicle", "person"];
     let columns: Vec<&str> = start.into_iter().chain(tasks.iter().map(String::as_str)).chain(end).collect();
     let rows = cohort.progress.iter().flat_map(|one| one.repetitions.iter().map(|repetition| (&one.trainee, repetition)));
-    CsvTable::new(&columns).rows(rows.map(|(trainee, one)| {
+    CsvWriter::new(&columns).rows(rows.map(|(trainee, one)| {
         let scores = [one.conformity, Some(one.efficiency), Some(one.safety), one.accuracy, Some(one.overall), Some(one.seconds)];
         let on_path = |id: &u32| optional_number(one.on_path.iter().find(|(task, _)| task == id).and_then(|(_, share)| *share));
         let crashes = one.crashes.by_kind().map(|(_, count)| number(count)).to_vec();
@@ -261,7 +261,7 @@ fn progress(cohort: &Cohort) -> String {
 
 fn curves(cohort: &Cohort) -> String {
     let rows = cohort.progress.iter().flat_map(|one| one.curves.iter().map(|curve| (&one.trainee, curve)));
-    CsvTable::new(&["trainee", "score", "n", "first", "exponent", "r_squared", "next"]).rows(rows.map(|(trainee, one)| {
+    CsvWriter::new(&["trainee", "score", "n", "first", "exponent", "r_squared", "next"]).rows(rows.map(|(trainee, one)| {
         let c = &one.curve;
         let figures = vec![number(c.n), number(c.first), number(c.exponent), optional_number(c.r_squared), number(c.next)];
         [vec![text(trainee), text(&one.score)], figures].concat()
@@ -271,7 +271,7 @@ fn curves(cohort: &Cohort) -> String {
 fn learning(cohort: &Cohort) -> String {
     let columns = ["score", "people", "repetition", "mean", "fitted", "first", "exponent", "r_squared"];
     let rows = cohort.learning.iter().flat_map(|one| one.means.iter().enumerate().map(move |(k, mean)| (one, k + 1, *mean)));
-    CsvTable::new(&columns).rows(rows.map(|(one, repetition, mean)| {
+    CsvWriter::new(&columns).rows(rows.map(|(one, repetition, mean)| {
         let c = &one.curve;
         let curve = vec![number(c.at(repetition as f64)), number(c.first), number(c.exponent), optional_number(c.r_squared)];
         [vec![text(&one.score), number(one.people), number(repetition), number(mean)], curve].concat()

@@ -127,7 +127,7 @@ fn exact_learning_curve_requires_four_repetitions() {
 }
 
 #[test]
-fn exact_group_curve_fits_means_of_eligible_trainees() {
+fn exact_group_curve_fits_eligible_trainee_means() {
     let safety = |first: f64, k: usize| first * spandrel_model::math::pow(k as f64, 0.3);
     let mut records = Vec::new();
     // Two trainees' curves have the same exponent, so the curve of their mean does, too. Only repetitions that both
@@ -151,7 +151,7 @@ fn exact_group_curve_fits_means_of_eligible_trainees() {
 }
 
 #[test]
-fn exact_jobs_of_one_trainee_are_separate() {
+fn exact_progress_is_separate_per_job() {
     let mut records: Vec<SessionRecord> = (1..=9).map(|k| perfect_record("anna", k)).collect();
     for record in records.iter_mut().step_by(2) {
         record.scenario = "drill-gap".into();

@@ -82,7 +82,7 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
 }
 
 #[test]
-fn exact_good_drill_recommends_the_job() {
+fn exact_good_drill_recommends_job() {
     let mut job = perfect_record("anna", 1);
     job.tasks[2].on_path = 0.3;
     let mut drill = perfect_record("anna", 2);

@@ -1,6 +1,6 @@
 //! Reads and writes `answers.json`, which stores a trainee's answers so far.
 
-use super::language_tag::is_tag;
+use super::language_tag::is_language_tag;
 use super::{QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale};
 use serde::de::Error as _;
 use serde::ser::SerializeMap;
@@ -130,7 +130,7 @@ impl AnswerReader<'_> {
             }
             None => self.invalid_answer("format", "", &FORMAT.to_string(), "missing"),
         }
-        let language = map.get("language").and_then(Value::as_str).filter(|tag| is_tag(tag));
+        let language = map.get("language").and_then(Value::as_str).filter(|tag| is_language_tag(tag));
         if language.is_none() {
             let value = map.get("language").map(json_text).unwrap_or_default();
             self.invalid_answer("language", &value, "a language tag such as en", "missing or invalid");

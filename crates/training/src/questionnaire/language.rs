@@ -1,6 +1,6 @@
 //! Available questionnaire languages (shipped and site-specific) and language selection.
 
-use super::language_tag::is_tag;
+use super::language_tag::is_language_tag;
 use super::wording::{Wording, read_wording};
 use spandrel_model::toml::Problems;
 
@@ -60,7 +60,7 @@ fn parse_accept_entry(part: &str) -> Option<(&str, f64)> {
     let (tag, parameter) = part.split_once(';').unwrap_or((part, "q=1"));
     let weight: f64 = parameter.trim().strip_prefix("q=")?.parse().ok()?;
     let tag = tag.trim();
-    (is_tag(tag) && weight > 0.0 && weight <= 1.0).then_some((tag, weight))
+    (is_language_tag(tag) && weight > 0.0 && weight <= 1.0).then_some((tag, weight))
 }
 
 #[cfg(test)]
@@ -107,10 +107,10 @@ mod tests {
     #[test]
     fn exact_language_tags_are_recognized() {
         for good in ["en", "de-CH", "zh-Hant-TW", "es-419"] {
-            assert!(is_tag(good), "{good}");
+            assert!(is_language_tag(good), "{good}");
         }
         for bad in ["", "-", "de-", "de_CH", "d\u{e4}", "<b>", "waytoolongtag", &"ab-".repeat(20)] {
-            assert!(!is_tag(bad), "{bad}");
+            assert!(!is_language_tag(bad), "{bad}");
         }
     }
 }

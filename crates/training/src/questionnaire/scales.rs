@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_raw_tlx_is_the_mean_of_six() {
+    fn exact_raw_tlx_is_mean_of_six_scales() {
         let mut answers = Answers::default();
         for (scale, value) in TlxScale::ALL.into_iter().zip([10, 20, 30, 40, 50, 90]) {
             assert_eq!(raw_tlx(&answers), None);

@@ -1,6 +1,6 @@
 //! Wording of the questionnaire in one language, read from a TOML file.
 
-use super::language_tag::is_tag;
+use super::language_tag::is_language_tag;
 use super::{
     InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP, TlxScale,
 };
@@ -89,7 +89,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
     reader.integer(root, "format", (FORMAT, FORMAT), None);
     let [language, language_name, title, introduction] =
         read_texts(reader, root, ["language", "language_name", "title", "introduction"]);
-    if root.has("language") && !is_tag(&language) {
+    if root.has("language") && !is_language_tag(&language) {
         reader.add_problem(root, "language", &language, "a language tag such as de or pt-BR", "not a language tag");
     }
     let mut scale = reader.section(root, "scale");

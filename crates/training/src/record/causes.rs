@@ -1,7 +1,7 @@
 //! Causes of a session's scores, computed per task from the session's frames.
 
 use super::source::RecordSource;
-use super::task_record::{Crashes, DefectRecord, TaskRecord, kind_word};
+use super::task_record::{Crashes, DefectRecord, TaskRecord, kind_key};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::defect_codes::defect_name;
 use spandrel_model::frames::{Enu, Vec3};
@@ -67,7 +67,7 @@ fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize,
     TaskRecord {
         id: described.id,
         name: described.name.clone(),
-        kind: kind_word(described.kind).to_owned(),
+        kind: kind_key(described.kind).to_owned(),
         attempted: result.attempted,
         state: Some(result.state),
         covered: Some(result.covered),

@@ -234,7 +234,7 @@ impl SessionRecord {
     /// Returns the crash counts for the whole session.
     #[must_use]
     pub fn crashes(&self) -> Crashes {
-        self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::with_added)
+        self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::combined_with)
     }
 
     /// Returns the questionnaire's scale scores; `None` if it was not started.
@@ -303,6 +303,6 @@ mod tests {
             crashes.add(with);
         }
         assert_eq!((crashes.bridge, crashes.water, crashes.total()), (2, 1, 4));
-        assert_eq!(crashes.with_added(crashes).total(), 8);
+        assert_eq!(crashes.combined_with(crashes).total(), 8);
     }
 }

@@ -80,7 +80,7 @@ impl Crashes {
 
     /// Returns the sum of two counts.
     #[must_use]
-    pub fn with_added(self, more: Self) -> Self {
+    pub fn combined_with(self, more: Self) -> Self {
         Self {
             bridge: self.bridge + more.bridge,
             terrain: self.terrain + more.terrain,
@@ -135,7 +135,7 @@ pub struct DefectRecord {
     pub in_view_s: Option<f64>,
 }
 
-pub(super) fn kind_word(kind: TaskKind) -> &'static str {
+pub(super) fn kind_key(kind: TaskKind) -> &'static str {
     match kind {
         TaskKind::SlabSide => "slab_side",
         TaskKind::ArchBottom => "arch_bottom",

@@ -65,7 +65,7 @@ impl DefectOutcome {
 
     /// Returns a camera pose that shows the defect well.
     #[must_use]
-    pub fn good_view(&self) -> CameraPose {
+    pub fn reference_view(&self) -> CameraPose {
         let forward = self.defect.normal * -1.0;
         let up = Vec3::new(0.0, 0.0, 1.0);
         // If the camera points straight up or down, any horizontal direction can be "right".
@@ -113,7 +113,7 @@ fn best_approach(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproa
         if view.hit {
             best_approach.in_view_s += stride as f64 / rate_hz;
         }
-        if best_approach.best.as_ref().is_none_or(|(_, best)| failed_conditions(&view) < failed_conditions(best)) {
+        if best_approach.best.as_ref().is_none_or(|(_, best)| failed_condition_count(&view) < failed_condition_count(best)) {
             best_approach.best = Some((t_s, view));
         }
     }
@@ -121,7 +121,7 @@ fn best_approach(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproa
 }
 
 /// Returns the number of failed conditions. An occluded defect ranks worse than a poorly visible one.
-fn failed_conditions(view: &DefectView) -> usize {
+fn failed_condition_count(view: &DefectView) -> usize {
     view.conditions().iter().filter(|holds| !**holds).count() + if view.unoccluded { 0 } else { 6 }
 }
 

@@ -30,7 +30,7 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_monitor::assessment::{Assessment, identified_flight};
+use spandrel_monitor::assessment::{Assessment, flight_with_seed};
 use spandrel_monitor::measures::attention;
 use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
@@ -120,7 +120,7 @@ impl Review {
         let events = feedback::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log)?;
-        let (flight, seed) = identified_flight(&timeline, scenario, vehicle)?;
+        let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
         let link = timeline.counts();
         drop(timeline);
         let site = Site::build(scenario, seed).with_closures(attention::bridge_closures(&flight));

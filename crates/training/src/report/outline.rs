@@ -63,7 +63,7 @@ impl ParallelView {
 
     /// Returns the unit vector toward the viewer.
     #[must_use]
-    pub fn towards(&self) -> Vec3<Enu> {
+    pub fn toward_viewer(&self) -> Vec3<Enu> {
         self.right.cross(self.up)
     }
 }
@@ -98,7 +98,7 @@ pub fn hull(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 /// are skipped.
 #[must_use]
 pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelView, least_m: f64) -> Vec<MemberOutline> {
-    let towards = view.towards();
+    let towards = view.toward_viewer();
     let one = |member: &Member| {
         let corners = hull(&member.solid.vertices_m.iter().map(|v| view.at(*v)).collect::<Vec<_>>());
         let near_m = member.solid.vertices_m.iter().map(|v| v.dot(towards)).fold(f64::NEG_INFINITY, f64::max);
@@ -176,10 +176,10 @@ mod tests {
             assert!(view.right.dot(view.up).abs() < 1e-12);
             assert!((view.right.norm() - 1.0).abs() < 1e-12 && (view.up.norm() - 1.0).abs() < 1e-12);
         }
-        assert!((ParallelView::plan().towards() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "plan view looks down");
-        assert!((ParallelView::from_south().towards() - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
+        assert!((ParallelView::plan().toward_viewer() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "plan view looks down");
+        assert!((ParallelView::from_south().toward_viewer() - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
         // The view looks north and down, so the viewer is to the south and above.
-        let towards = ParallelView::oblique(0.0, 30.0).towards();
+        let towards = ParallelView::oblique(0.0, 30.0).toward_viewer();
         assert!((towards - Vec3::new(0.0, -math::cos(30f64.to_radians()), 0.5)).norm() < 1e-12, "{towards:?}");
     }
 }

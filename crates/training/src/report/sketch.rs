@@ -34,19 +34,19 @@ const SKY_INDEX: ShadeIndex = 0;
 
 /// A site's colors. A drawing stores an index per pixel, which takes a sixth of the space of a full color.
 struct Palette {
-    colours: Vec<[f64; 3]>,
+    colors: Vec<[f64; 3]>,
     numbers: BTreeMap<[u64; 3], ShadeIndex>,
 }
 
 impl Palette {
     fn new() -> Self {
-        Self { colours: vec![SKY], numbers: [(SKY.map(f64::to_bits), SKY_INDEX)].into() }
+        Self { colors: vec![SKY], numbers: [(SKY.map(f64::to_bits), SKY_INDEX)].into() }
     }
 
-    fn number(&mut self, colour: [f64; 3]) -> ShadeIndex {
-        let next = self.colours.len();
-        *self.numbers.entry(colour.map(f64::to_bits)).or_insert_with(|| {
-            self.colours.push(colour);
+    fn number(&mut self, color: [f64; 3]) -> ShadeIndex {
+        let next = self.colors.len();
+        *self.numbers.entry(color.map(f64::to_bits)).or_insert_with(|| {
+            self.colors.push(color);
             ShadeIndex::try_from(next).unwrap_or(SKY_INDEX)
         })
     }
@@ -61,7 +61,7 @@ struct ShadedBody {
 /// The shaded site, ready to draw from any camera.
 pub struct Sketcher {
     bodies: Vec<ShadedBody>,
-    colours: Vec<[f64; 3]>,
+    colors: Vec<[f64; 3]>,
 }
 
 /// Lighting of a drawing.
@@ -81,7 +81,7 @@ impl Sketcher {
         let mut palette = Palette::new();
         let mut bodies: Vec<ShadedBody> = site.members().iter().map(|member| structure(member, sun, &mut palette)).collect();
         bodies.extend(ground(site, scenario, sun, &mut palette));
-        Self { bodies, colours: palette.colours }
+        Self { bodies, colors: palette.colors }
     }
 
     /// Draws the camera's view and returns it as a PNG file.
@@ -105,7 +105,7 @@ impl Sketcher {
                 sheet.draw(&lens, facet);
             }
         }
-        encode(&sheet.shaded(&self.colours, exposure), WIDTH_PX, height)
+        encode(&sheet.shaded(&self.colors, exposure), WIDTH_PX, height)
     }
 }
 
@@ -241,13 +241,13 @@ impl SketchCanvas {
     }
 
     /// Applies edges, haze and light, and converts the colors to 8 bits per channel.
-    fn shaded(&self, colours: &[[f64; 3]], exposure: SketchExposure) -> Vec<u8> {
+    fn shaded(&self, colors: &[[f64; 3]], exposure: SketchExposure) -> Vec<u8> {
         let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
         let mut rgb = Vec::with_capacity(3 * self.near.len());
         for y in 0..self.height {
             for x in 0..WIDTH_PX {
                 let at = y * WIDTH_PX + x;
-                let mut colour = colours[self.shade[at] as usize];
+                let mut colour = colors[self.shade[at] as usize];
                 if self.near[at] > 0.0 {
                     if self.is_edge(x, y) {
                         colour = colour.map(|c| 0.72 * c);
@@ -382,6 +382,6 @@ mod tests {
         let mut palette = Palette::new();
         let numbers = [[0.1, 0.2, 0.3], SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]].map(|colour| palette.number(colour));
         assert_eq!(numbers, [1, SKY_INDEX, 1, 2]);
-        assert_eq!(palette.colours, [SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]);
+        assert_eq!(palette.colors, [SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]);
     }
 }

@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_correlation_of_line_and_cross() {
+    fn exact_correlation_of_line_is_1_and_of_cross_is_0() {
         let line = pearson(&[1.0, 2.0, 3.0], &[2.0, 4.0, 6.0]).unwrap();
         assert!((line.r - 1.0).abs() < 1e-15 && line.p.unwrap() < 1e-6);
         assert!(pearson(&[-1.0, 1.0, 1.0, -1.0], &[1.0, 1.0, -1.0, -1.0]).unwrap().r.abs() < 1e-15);
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_equal_values_share_a_rank() {
+    fn exact_tied_values_share_mean_rank() {
         assert_eq!(ranks(&[10.0, 30.0, 10.0, 20.0]), [1.5, 4.0, 1.5, 3.0]);
         let monotone = spearman(&[1.0, 2.0, 3.0, 4.0], &[1.0, 10.0, 100.0, 1000.0]).unwrap();
         assert!((monotone.r - 1.0).abs() < 1e-15);

@@ -80,13 +80,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_two_degrees_of_chi_squared_are_exponential() {
+    fn exact_chi_squared_with_two_degrees_of_freedom_is_exponential() {
         let exact = spandrel_model::math::exp(-1.5);
         assert!((chi_squared_upper_tail(3.0, 2.0).unwrap() - exact).abs() < TOLERANCE);
     }
 
     #[test]
-    fn exact_f_with_two_and_two_has_closed_form() {
+    fn exact_f_with_two_and_two_degrees_of_freedom_has_closed_form() {
         // P(F > x) = 1 / (1 + x) for 2 and 2 degrees of freedom.
         assert!((f_upper_tail(3.0, 2.0, 2.0).unwrap() - 0.25).abs() < TOLERANCE);
         assert_eq!(f_upper_tail(f64::INFINITY, 2.0, 2.0), Some(0.0));

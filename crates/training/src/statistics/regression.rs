@@ -135,7 +135,7 @@ mod tests {
     const EXACT: f64 = 1e-11;
 
     #[test]
-    fn exact_a_line_through_three_points_matches_the_closed_form() {
+    fn exact_line_fit_to_three_points_matches_closed_form() {
         // y = 1, 3, 2 at x = 0, 1, 2: slope 1/2, intercept 3/2, residual sum of squares 3/2, standard error of the slope
         // sqrt(3/2/2) = sqrt 3/2.
         let model = least_squares(&[1.0, 3.0, 2.0], &[("x", &[0.0, 1.0, 2.0])]).unwrap();

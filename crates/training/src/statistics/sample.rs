@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_summary_of_a_small_sample() {
+    fn exact_small_sample_summary() {
         let told = summary(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]).unwrap();
         assert_eq!((told.n, told.mean, told.median, told.range), (8, 5.0, 4.5, 7.0));
         assert!((told.sd.unwrap() - (32.0f64 / 7.0).sqrt()).abs() < EXACT);
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_histogram_counts_every_value_once() {
+    fn exact_histogram_counts_every_value_once() {
         let bins = histogram(&[0.0, 9.99, 10.0, 100.0, 55.0], (0.0, 100.0), 10);
         let counts: Vec<usize> = bins.iter().map(|bin| bin.count).collect();
         assert_eq!(counts, [2, 1, 0, 0, 0, 1, 0, 0, 0, 1]);

@@ -27,7 +27,7 @@ pub struct BrowserSession {
     /// CSRF token included in every form.
     pub token: String,
     started_us: u64,
-    used_us: u64,
+    last_used_us: u64,
 }
 
 /// Login sessions of all browsers.
@@ -36,7 +36,7 @@ pub struct BrowserSessions(BTreeMap<[u8; 32], BrowserSession>);
 
 /// Encodes a secret as text for a cookie or form.
 #[must_use]
-pub fn text_of(secret: &TokenBytes) -> String {
+pub fn encode_token(secret: &TokenBytes) -> String {
     secret.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
@@ -49,13 +49,13 @@ impl BrowserSessions {
     pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<BrowserSession> {
         let key = key(cookie);
         let visit = self.0.get_mut(&key)?;
-        let over = now_us.saturating_sub(visit.used_us) > IDLE_TIMEOUT_US
+        let over = now_us.saturating_sub(visit.last_used_us) > IDLE_TIMEOUT_US
             || now_us.saturating_sub(visit.started_us) > MAX_SESSION_AGE_US;
         if over {
             self.0.remove(&key);
             return None;
         }
-        visit.used_us = now_us;
+        visit.last_used_us = now_us;
         Some(visit.clone())
     }
 
@@ -71,8 +71,8 @@ impl BrowserSessions {
             self.evict_oldest(now_us);
         }
         let (name, credential) = who.map(|(name, credential)| (name.to_owned(), credential)).unzip();
-        let visit = BrowserSession { name, credential, token: text_of(&token), started_us: now_us, used_us: now_us };
-        let cookie = text_of(&cookie);
+        let visit = BrowserSession { name, credential, token: encode_token(&token), started_us: now_us, last_used_us: now_us };
+        let cookie = encode_token(&cookie);
         self.0.insert(key(&cookie), visit.clone());
         (cookie, visit)
     }
@@ -83,7 +83,7 @@ impl BrowserSessions {
     }
 
     /// Updates the credential of a login session so that users who change their own password stay logged in.
-    pub fn renew(&mut self, cookie: &str, credential: CredentialHash) {
+    pub fn update_credential(&mut self, cookie: &str, credential: CredentialHash) {
         if let Some(visit) = self.0.get_mut(&key(cookie)).filter(|visit| visit.name.is_some()) {
             visit.credential = Some(credential);
         }
@@ -100,9 +100,9 @@ impl BrowserSessions {
         if self.0.len() < MAX_ANONYMOUS_SESSIONS {
             return;
         }
-        self.0.retain(|_, visit| now_us.saturating_sub(visit.used_us) <= IDLE_TIMEOUT_US);
+        self.0.retain(|_, visit| now_us.saturating_sub(visit.last_used_us) <= IDLE_TIMEOUT_US);
         let mut strangers: Vec<(u64, [u8; 32])> =
-            self.0.iter().filter(|(_, visit)| visit.name.is_none()).map(|(key, visit)| (visit.used_us, *key)).collect();
+            self.0.iter().filter(|(_, visit)| visit.name.is_none()).map(|(key, visit)| (visit.last_used_us, *key)).collect();
         if strangers.len() >= MAX_ANONYMOUS_SESSIONS {
             strangers.sort_unstable();
             // Removes a quarter of them so that further anonymous requests don't each trigger a scan.
@@ -154,14 +154,14 @@ mod tests {
             [("anna", 1), ("anna", 2), ("ben", 3)].map(|(name, k)| visits.begin(Some((name, TEST_CREDENTIAL)), secrets(k), 0).0);
         visits.end_all_of("anna", Some(&cookies[0]));
         assert_eq!(cookies.each_ref().map(|cookie| visits.find(cookie, 1).is_some()), [true, false, true]);
-        visits.renew(&cookies[0], [2; 32]);
+        visits.update_credential(&cookies[0], [2; 32]);
         let credential = |visits: &mut BrowserSessions, cookie: &str| visits.find(cookie, 1).and_then(|visit| visit.credential);
         assert_eq!(
             (credential(&mut visits, &cookies[0]), credential(&mut visits, &cookies[2])),
             (Some([2; 32]), Some(TEST_CREDENTIAL))
         );
         let (stranger, _) = visits.begin(None, secrets(4), 0);
-        visits.renew(&stranger, TEST_CREDENTIAL);
+        visits.update_credential(&stranger, TEST_CREDENTIAL);
         assert_eq!(credential(&mut visits, &stranger), None, "an anonymous session has no credential");
         visits.end(&cookies[0]);
         assert_eq!(visits.find(&cookies[0], 1), None);

@@ -24,7 +24,7 @@ pub struct CohortPageSelection<'a> {
 
 /// Renders the page; without sessions, only the form and a note.
 #[must_use]
-pub fn group(visitor: &Visitor, chosen: &CohortPageSelection<'_>, cohort: Option<&Cohort>) -> Markup {
+pub fn cohort_page(visitor: &Visitor, chosen: &CohortPageSelection<'_>, cohort: Option<&Cohort>) -> Markup {
     let body = html! {
         section {
             form.inline method="get" action="/cohort" {
@@ -83,13 +83,13 @@ mod tests {
             incomplete: IncompletePolicy::Exclude,
             left_out: 0,
         };
-        let text = group(&administrator(), &chosen, Some(&cohort)).into_string();
+        let text = cohort_page(&administrator(), &chosen, Some(&cohort)).into_string();
         check(&text);
         assert!(text.contains("href=\"/cohort/tables/t_tests.csv?scenario="), "{text}");
         assert!(text.contains("2 trainees, 2 sessions") && text.contains("class=\"histogram\""), "{text}");
-        assert!(group(&administrator(), &chosen, None).into_string().contains("No sessions yet"));
+        assert!(cohort_page(&administrator(), &chosen, None).into_string().contains("No sessions yet"));
         let chosen = CohortPageSelection { incomplete: IncompletePolicy::Include, ..chosen };
-        let text = group(&administrator(), &chosen, Some(&cohort)).into_string();
+        let text = cohort_page(&administrator(), &chosen, Some(&cohort)).into_string();
         assert!(text.contains("incomplete=1") && text.contains("value=\"1\" checked"), "{text}");
     }
 }

@@ -3,7 +3,7 @@
 //! kept in memory as a hash of cookie and name, so after a restart, browsers are unknown until the next login. Callers
 //! pass the time and random bytes.
 
-use super::browser_sessions::{TokenBytes, text_of};
+use super::browser_sessions::{TokenBytes, encode_token};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ impl KnownBrowsers {
     /// one.
     pub fn remember(&mut self, cookie: Option<&str>, name: &str, secret: &TokenBytes, now_us: u64) -> String {
         let known = cookie.filter(|cookie| self.find(cookie, name, now_us).is_some());
-        let cookie = known.map_or_else(|| text_of(secret), str::to_owned);
+        let cookie = known.map_or_else(|| encode_token(secret), str::to_owned);
         self.0.insert(browser_key(&cookie, name), now_us);
         if self.0.len() > MAX_KNOWN_BROWSERS
             && let Some(oldest) = self.0.iter().min_by_key(|(_, login_us)| **login_us).map(|(device, _)| *device)
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_browser_is_remembered_per_user() {
+    fn exact_browser_is_remembered_per_user() {
         let mut devices = KnownBrowsers::default();
         let cookie = devices.remember(None, "anna", &[1; 32], 0);
         assert!(devices.find(&cookie, "anna", BROWSER_EXPIRY_US - 1).is_some());

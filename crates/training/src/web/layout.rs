@@ -21,18 +21,24 @@ const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 8] = [
 /// Renders a page. `at` is the URL of its navigation entry.
 #[must_use]
 pub fn page(visitor: &Visitor, at: &str, title: &str, body: &Markup) -> Markup {
-    scripted(visitor, at, title, None, body)
+    page_with_script(visitor, at, title, None, body)
 }
 
 /// Renders a page that loads one of the scripts in [`assets`].
 #[must_use]
-pub fn scripted(visitor: &Visitor, at: &str, title: &str, script: Option<&str>, body: &Markup) -> Markup {
-    in_language(visitor, at, title, ("en", script), body)
+pub fn page_with_script(visitor: &Visitor, at: &str, title: &str, script: Option<&str>, body: &Markup) -> Markup {
+    page_in_language(visitor, at, title, ("en", script), body)
 }
 
 /// Renders a page whose body is in another language. The navigation stays in English and has its own `lang` attribute.
 #[must_use]
-pub fn in_language(visitor: &Visitor, at: &str, title: &str, (language, script): (&str, Option<&str>), body: &Markup) -> Markup {
+pub fn page_in_language(
+    visitor: &Visitor,
+    at: &str,
+    title: &str,
+    (language, script): (&str, Option<&str>),
+    body: &Markup,
+) -> Markup {
     html! {
         (DOCTYPE)
         html lang=(language) {
@@ -163,7 +169,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn exact_names_are_escaped_and_forms_contain_the_token() {
+    fn exact_names_are_escaped_and_forms_contain_token() {
         let text = page(&administrator(), "/sessions", HOSTILE_NAME, &html! { p { (HOSTILE_NAME) } }).into_string();
         check(&text);
         assert!(text.contains("href=\"/sessions\" aria-current=\"page\""), "{text}");

@@ -2,7 +2,7 @@
 
 use super::access::Visitor;
 use super::assets;
-use super::layout::{scripted, section, token};
+use super::layout::{page_with_script, section, token};
 use maud::{Markup, PreEscaped, html};
 
 /// Maximum length of an instructor's note, characters; a note is sent as one MAVLink message.
@@ -88,7 +88,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&JobDrawings>, choice: &VehicleSele
             }
         }
     };
-    scripted(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
+    page_with_script(visitor, "/live", "Live flight", Some(assets::LIVE_NAME), &body)
 }
 
 /// Renders the page that shows trainees their own flight's camera image; its script refreshes the image.
@@ -104,7 +104,7 @@ pub fn own_flight(visitor: &Visitor) -> Markup {
             }
         }
     };
-    scripted(visitor, "/flight", "My flight", Some(assets::FLIGHT_NAME), &body)
+    page_with_script(visitor, "/flight", "My flight", Some(assets::FLIGHT_NAME), &body)
 }
 
 /// Renders links to the other vehicles.
@@ -159,7 +159,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_own_flight_page_shows_only_the_camera() {
+    fn exact_own_flight_page_shows_only_camera() {
         let trainee = Visitor { role: crate::trainee::Role::Trainee, ..administrator() };
         let text = own_flight(&trainee).into_string();
         check(&text);

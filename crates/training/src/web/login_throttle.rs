@@ -60,7 +60,7 @@ impl LoginThrottle {
     /// Records a failed login.
     pub fn record_failure(&mut self, from: LoginOrigin, name: &str, now_us: u64) {
         if self.0.len() >= MAX_ORIGINS {
-            self.forget_oldest(now_us);
+            self.evict_oldest(now_us);
         }
         let failures = self.0.entry(from).or_default();
         failures.retain(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US);
@@ -75,7 +75,7 @@ impl LoginThrottle {
         }
     }
 
-    fn forget_oldest(&mut self, now_us: u64) {
+    fn evict_oldest(&mut self, now_us: u64) {
         let newest = |failures: &Vec<(u64, String)>| failures.last().map_or(0, |(at, _)| *at);
         self.0.retain(|_, failures| now_us.saturating_sub(newest(failures)) < WINDOW_US);
         if self.0.len() >= MAX_ORIGINS
@@ -109,7 +109,7 @@ fn network(from: IpAddr) -> IpAddr {
 mod tests {
     use super::*;
 
-    fn this_machine() -> LoginOrigin {
+    fn localhost() -> LoginOrigin {
         LoginOrigin::for_address([127, 0, 0, 1].into(), None)
     }
 
@@ -117,29 +117,29 @@ mod tests {
     fn regress_login_wait_doubles_up_to_a_minute() {
         let mut throttle = LoginThrottle::default();
         for k in 0..5 {
-            assert_eq!(throttle.wait_us(this_machine(), "anna", k), None);
-            throttle.record_failure(this_machine(), "anna", k);
+            assert_eq!(throttle.wait_us(localhost(), "anna", k), None);
+            throttle.record_failure(localhost(), "anna", k);
         }
-        assert_eq!(throttle.wait_us(this_machine(), "anna", 4), Some(FIRST_WAIT_US));
-        assert_eq!(throttle.wait_us(this_machine(), "ben", 10), None, "other names are not delayed");
+        assert_eq!(throttle.wait_us(localhost(), "anna", 4), Some(FIRST_WAIT_US));
+        assert_eq!(throttle.wait_us(localhost(), "ben", 10), None, "other names are not delayed");
         assert_eq!(
             throttle.wait_us(LoginOrigin::for_address([10, 0, 0, 1].into(), None), "anna", 10),
             None,
             "other addresses are not delayed"
         );
-        assert_eq!(throttle.wait_us(this_machine(), "anna", 4 + FIRST_WAIT_US), None);
+        assert_eq!(throttle.wait_us(localhost(), "anna", 4 + FIRST_WAIT_US), None);
         let mut now_us = 4;
         let waits: Vec<u64> = (0..6)
             .map(|_| {
-                let wait_us = throttle.wait_us(this_machine(), "anna", now_us).unwrap_or_default();
+                let wait_us = throttle.wait_us(localhost(), "anna", now_us).unwrap_or_default();
                 now_us += wait_us;
-                throttle.record_failure(this_machine(), "anna", now_us);
+                throttle.record_failure(localhost(), "anna", now_us);
                 wait_us / 1_000_000
             })
             .collect();
         assert_eq!(waits, [4, 8, 16, 32, 60, 60]);
-        throttle.clear_failures(this_machine(), "anna");
-        assert_eq!(throttle.wait_us(this_machine(), "anna", now_us), None);
+        throttle.clear_failures(localhost(), "anna");
+        assert_eq!(throttle.wait_us(localhost(), "anna", now_us), None);
     }
 
     #[test]
@@ -154,21 +154,21 @@ mod tests {
     fn regress_known_browser_is_throttled_separately() {
         let mut throttle = LoginThrottle::default();
         let known = LoginOrigin::for_address([127, 0, 0, 1].into(), Some([7; 32]));
-        (0..30).for_each(|_| throttle.record_failure(this_machine(), "anna", 0));
-        assert_eq!(throttle.wait_us(this_machine(), "anna", 1), Some(MAX_WAIT_US - 1), "an unknown browser at the same address");
+        (0..30).for_each(|_| throttle.record_failure(localhost(), "anna", 0));
+        assert_eq!(throttle.wait_us(localhost(), "anna", 1), Some(MAX_WAIT_US - 1), "an unknown browser at the same address");
         assert_eq!(throttle.wait_us(known, "anna", 1), None, "a known browser");
         (0..MAX_FAILURES_PER_NAME).for_each(|_| throttle.record_failure(known, "anna", 1));
         assert_eq!(throttle.wait_us(known, "anna", 1), Some(FIRST_WAIT_US), "guessing with a stolen cookie");
     }
 
     #[test]
-    fn exact_failures_for_many_names_throttle_the_address() {
+    fn exact_failures_for_many_names_throttle_address() {
         let mut throttle = LoginThrottle::default();
         for k in 0..20 {
-            assert_eq!(throttle.wait_us(this_machine(), &format!("n{k}"), 0), None, "{k}");
-            throttle.record_failure(this_machine(), &format!("n{k}"), 0);
+            assert_eq!(throttle.wait_us(localhost(), &format!("n{k}"), 0), None, "{k}");
+            throttle.record_failure(localhost(), &format!("n{k}"), 0);
         }
-        assert_eq!(throttle.wait_us(this_machine(), "one-more", 1), Some(FIRST_WAIT_US - 1));
+        assert_eq!(throttle.wait_us(localhost(), "one-more", 1), Some(FIRST_WAIT_US - 1));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use super::access::Visitor;
 use super::assets;
-use super::layout::{in_language, message, token};
+use super::layout::{message, page_in_language, token};
 use crate::questionnaire::{
     Answers, InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TLX_MAX, TLX_STEP,
     TlxScale, Wording,
@@ -78,42 +78,42 @@ fn parse_number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: im
 
 /// Renders the questionnaire page.
 #[must_use]
-pub fn page(visitor: &Visitor, asked: &FormContext<'_>) -> Markup {
-    let tasks: Vec<u32> = asked.tasks.iter().map(|(id, _)| *id).collect();
-    let (all, open) = (QuestionnaireItem::all(&tasks).len(), asked.answers.open(&tasks).len());
+pub fn page(visitor: &Visitor, context: &FormContext<'_>) -> Markup {
+    let tasks: Vec<u32> = context.tasks.iter().map(|(id, _)| *id).collect();
+    let (all, open) = (QuestionnaireItem::all(&tasks).len(), context.answers.open(&tasks).len());
     let overall: Vec<QuestionnaireItem> = OverallItem::ALL.map(QuestionnaireItem::Overall).to_vec();
-    let words = &asked.wording.form;
+    let words = &context.wording.form;
     let body = html! {
-        (language_selection(asked))
-        p.lead { (asked.wording.introduction) }
-        @if asked.saved { (message("good", &words.saved)) }
-        form.questions method="post" action={ "/sessions/" (asked.id) "/questions" } data-save data-answered=(words.answered) data-not-saved=(words.not_saved) {
+        (language_selection(context))
+        p.lead { (context.wording.introduction) }
+        @if context.saved { (message("good", &words.saved)) }
+        form.questions method="post" action={ "/sessions/" (context.id) "/questions" } data-save data-answered=(words.answered) data-not-saved=(words.not_saved) {
             (token(visitor))
-            input type="hidden" name="language" value=(asked.wording.language);
+            input type="hidden" name="language" value=(context.wording.language);
             p.status { span role="status" data-status { (words.answered(all - open, all)) } " · " (words.at_once) }
-            (question_group(&asked.wording.overall_heading, &overall, asked))
+            (question_group(&context.wording.overall_heading, &overall, context))
             @for phase in InspectionPhase::all(&tasks) {
-                (question_group(&phase_name(asked, phase), &PhaseAspect::ALL.map(|aspect| QuestionnaireItem::Phase(phase, aspect)), asked))
+                (question_group(&phase_name(context, phase), &PhaseAspect::ALL.map(|aspect| QuestionnaireItem::Phase(phase, aspect)), context))
             }
-            (workload(asked))
+            (workload(context))
             p.tools {
                 button type="submit" { (words.save) }
-                a href={ "/sessions/" (asked.id) } { (words.back) }
+                a href={ "/sessions/" (context.id) } { (words.back) }
             }
         }
     };
-    in_language(visitor, "/sessions", &asked.wording.title, (&asked.wording.language, Some(assets::FORM_NAME)), &body)
+    page_in_language(visitor, "/sessions", &context.wording.title, (&context.wording.language, Some(assets::FORM_NAME)), &body)
 }
 
 /// Renders the language selection, with each language in its own name. Answers are already saved, so switching loses none.
-fn language_selection(asked: &FormContext<'_>) -> Markup {
-    let words = &asked.wording.form;
+fn language_selection(context: &FormContext<'_>) -> Markup {
+    let words = &context.wording.form;
     html! {
-        form.inline.languages method="get" action={ "/sessions/" (asked.id) "/questions" } {
+        form.inline.languages method="get" action={ "/sessions/" (context.id) "/questions" } {
             label { (words.choose_language) " "
                 select name="language" {
-                    @for one in asked.languages {
-                        option value=(one.language) lang=(one.language) selected[one.language == asked.wording.language] { (one.language_name) }
+                    @for one in context.languages {
+                        option value=(one.language) lang=(one.language) selected[one.language == context.wording.language] { (one.language_name) }
                     }
                 }
             }
@@ -122,27 +122,27 @@ fn language_selection(asked: &FormContext<'_>) -> Markup {
     }
 }
 
-fn phase_name(asked: &FormContext<'_>, phase: InspectionPhase) -> String {
-    let name = |id: u32| asked.tasks.iter().find(|(task, _)| *task == id).map_or(String::new(), |(_, name)| name.clone());
-    asked.wording.phase(phase, name)
+fn phase_name(context: &FormContext<'_>, phase: InspectionPhase) -> String {
+    let name = |id: u32| context.tasks.iter().find(|(task, _)| *task == id).map_or(String::new(), |(_, name)| name.clone());
+    context.wording.phase(phase, name)
 }
 
-fn question_group(heading: &str, items: &[QuestionnaireItem], asked: &FormContext<'_>) -> Markup {
+fn question_group(heading: &str, items: &[QuestionnaireItem], context: &FormContext<'_>) -> Markup {
     html! {
         section {
             h2 { (heading) }
-            @for item in items { (question(*item, heading, asked)) }
+            @for item in items { (question(*item, heading, context)) }
         }
     }
 }
 
-fn question(item: QuestionnaireItem, heading: &str, asked: &FormContext<'_>) -> Markup {
-    let given = asked.answers.given.get(&item).copied();
+fn question(item: QuestionnaireItem, heading: &str, context: &FormContext<'_>) -> Markup {
+    let given = context.answers.given.get(&item).copied();
     html! {
         fieldset.likert-question data-question {
-            legend { (asked.wording.statement(item)) span.hidden { " (" (heading) ")" } }
+            legend { (context.wording.statement(item)) span.hidden { " (" (heading) ")" } }
             div.choices {
-                @for (k, words) in (STRONGLY_AGREE..=STRONGLY_DISAGREE).zip(&asked.wording.scale) {
+                @for (k, words) in (STRONGLY_AGREE..=STRONGLY_DISAGREE).zip(&context.wording.scale) {
                     label { input type="radio" name=(item) value=(k) checked[given == Some(k)]; span { (words) } }
                 }
             }
@@ -150,20 +150,20 @@ fn question(item: QuestionnaireItem, heading: &str, asked: &FormContext<'_>) -> 
     }
 }
 
-fn workload(asked: &FormContext<'_>) -> Markup {
+fn workload(context: &FormContext<'_>) -> Markup {
     html! {
         section {
-            details open[!asked.answers.tlx.is_empty()] {
-                summary { (asked.wording.tlx_title) }
-                p { (asked.wording.tlx_introduction) }
+            details open[!context.answers.tlx.is_empty()] {
+                summary { (context.wording.tlx_title) }
+                p { (context.wording.tlx_introduction) }
                 @for scale in TlxScale::ALL {
-                    @let (question, low, high) = asked.wording.tlx(scale);
+                    @let (question, low, high) = context.wording.tlx(scale);
                     label.scale {
                         span { (question) }
                         select name={ (TLX_FIELD_PREFIX) (scale.key()) } {
-                            option value="" selected[!asked.answers.tlx.contains_key(&scale)] { "–" }
+                            option value="" selected[!context.answers.tlx.contains_key(&scale)] { "–" }
                             @for value in (0..=TLX_MAX).step_by(usize::from(TLX_STEP)) {
-                                option value=(value) selected[asked.answers.tlx.get(&scale) == Some(&value)] {
+                                option value=(value) selected[context.answers.tlx.get(&scale) == Some(&value)] {
                                     (value) @if value == 0 { " " (low) } @else if value == TLX_MAX { " " (high) }
                                 }
                             }

@@ -21,7 +21,7 @@ pub struct ScenarioEntry {
 
 /// Renders the scenario list with the result of an upload, if any.
 #[must_use]
-pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str)>) -> Markup {
+pub fn list(visitor: &Visitor, named: &[ScenarioEntry], notice: Option<(&str, &str)>) -> Markup {
     let rows = html! {
         @for one in named {
             tr {
@@ -32,7 +32,7 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], told: Option<(&str, &str
         }
     };
     let body = html! {
-        @if let Some((kind, words)) = told { (message_lines(kind, words)) }
+        @if let Some((kind, words)) = notice { (message_lines(kind, words)) }
         section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("Source", false)], &rows)) }
         @if visitor.satisfies(AccessLevel::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
     };
@@ -109,9 +109,14 @@ pub enum UploadMessage<'a> {
 
 /// Renders the import form for recorded flights, with the error from the previous import, if any.
 #[must_use]
-pub fn recorded(visitor: &Visitor, scenarios: &[ScenarioEntry], vehicles: &[String], told: Option<UploadMessage<'_>>) -> Markup {
+pub fn recorded(
+    visitor: &Visitor,
+    scenarios: &[ScenarioEntry],
+    vehicles: &[String],
+    notice: Option<UploadMessage<'_>>,
+) -> Markup {
     let body = html! {
-        @match told {
+        @match notice {
             None => {},
             Some(UploadMessage::Invalid(words)) => (message("bad", words)),
             Some(UploadMessage::AlreadyImported { id, trainee }) => p.message.good role="status" {

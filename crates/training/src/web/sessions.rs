@@ -178,7 +178,7 @@ fn tasks(record: &SessionRecord) -> Markup {
     let row = |task: &TaskRecord| ShareRow {
         name: format!("{} · {}", task.id, task.name),
         bars: vec![("b-on", task.on_path)],
-        instead: (!task.attempted).then_some("not attempted"),
+        placeholder: (!task.attempted).then_some("not attempted"),
     };
     let rows: Vec<ShareRow> = record.tasks.iter().map(row).collect();
     html! {

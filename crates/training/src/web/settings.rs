@@ -10,7 +10,7 @@ use maud::{Markup, html};
 #[derive(Debug, Clone, Copy)]
 pub struct SettingsPage<'a> {
     /// All users, with or without a password.
-    pub people: &'a [Trainee],
+    pub users: &'a [Trainee],
     /// Users who may log in.
     pub with_password: &'a [String],
     /// Location of the database, without a password.
@@ -41,7 +41,7 @@ pub fn settings(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
 }
 
 fn logins(visitor: &Visitor, settings: &SettingsPage<'_>) -> Markup {
-    let role = |name: &String| settings.people.iter().find(|one| one.pseudonym == *name).map_or("", |one| one.role.word());
+    let role = |name: &String| settings.users.iter().find(|one| one.pseudonym == *name).map_or("", |one| one.role.word());
     html! {
         @if visitor.open { (message("warn", "No passwords are set: anyone on this machine has full access, and the server accepts connections only from this machine. After the first password is set, everyone must log in, so set an administrator's password first.")) }
         @if !settings.with_password.is_empty() {
@@ -99,7 +99,7 @@ mod tests {
         let names = [HOSTILE_NAME.to_owned(), "ben".to_owned()];
         let people = [Trainee::new(HOSTILE_NAME), Trainee::new("ben")];
         let shown = SettingsPage {
-            people: &people,
+            users: &people,
             with_password: &names,
             database: HOSTILE_NAME,
             folders: &names,

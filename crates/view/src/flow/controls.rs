@@ -88,7 +88,7 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
         y = pen.lines((left, y + 0.02), half, 1.1 * TEXT, HudColor::White, prompt) + 0.02;
     }
     let y = menu::draw(pen, (left, y + 0.01), half, rows, focus);
-    let y = pen.lines((left, y + 0.035), half, SMALL, HudColor::Grey, &controls.note);
+    let y = pen.lines((left, y + 0.035), half, SMALL, HudColor::Gray, &controls.note);
     let x = left + half + 0.08;
     let room = pen.width - x - 0.02;
     let size = (0.5 * (room - 0.1)).min(0.36);
@@ -117,23 +117,23 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
 
 /// Draws a square with a dot that follows the stick.
 fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64, f64), [name, vertical, across]: [&str; 3]) {
-    const DOT: f64 = 0.018;
+    const DOT_SIZE: f64 = 0.018;
     let (mx, my, r) = (x + 0.5 * size, y + 0.5 * size, 0.5 * size);
-    pen.panel((x, y), (size, size), HudColor::Card);
-    pen.line(&[(x, my), (x + size, my)], 0.002, HudColor::Grey);
-    pen.line(&[(mx, y), (mx, y + size)], 0.002, HudColor::Grey);
-    let (dx, dy) = (mx + (r - DOT) * right.clamp(-1.0, 1.0), my - (r - DOT) * up.clamp(-1.0, 1.0));
+    pen.panel((x, y), (size, size), HudColor::InputField);
+    pen.line(&[(x, my), (x + size, my)], 0.002, HudColor::Gray);
+    pen.line(&[(mx, y), (mx, y + size)], 0.002, HudColor::Gray);
+    let (dx, dy) = (mx + (r - DOT_SIZE) * right.clamp(-1.0, 1.0), my - (r - DOT_SIZE) * up.clamp(-1.0, 1.0));
     pen.line(&[(mx, my), (dx, dy)], 0.005, HudColor::Yellow);
     let dot: Vec<(f64, f64)> = (0..16)
         .map(|k| {
             let (s, c) = spandrel_model::math::sin_cos(spandrel_model::math::TAU * f64::from(k) / 16.0);
-            (dx + DOT * s, dy + DOT * c)
+            (dx + DOT_SIZE * s, dy + DOT_SIZE * c)
         })
         .collect();
     pen.fill(&dot, HudColor::Yellow);
     pen.text((mx, y - 0.035), TextAlign::Middle, TEXT, HudColor::White, name);
-    pen.text((mx, y + size + 0.03), TextAlign::Middle, SMALL, HudColor::Grey, format!("vertical: {vertical}"));
-    pen.text((mx, y + size + 0.07), TextAlign::Middle, SMALL, HudColor::Grey, format!("horizontal: {across}"));
+    pen.text((mx, y + size + 0.03), TextAlign::Middle, SMALL, HudColor::Gray, format!("vertical: {vertical}"));
+    pen.text((mx, y + size + 0.07), TextAlign::Middle, SMALL, HudColor::Gray, format!("horizontal: {across}"));
 }
 
 /// Draws each raw axis as a bar with its range and value.
@@ -145,13 +145,16 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
     for (k, (axis, value, (low, high))) in all.iter().take(MAX_AXES).enumerate() {
         let y = y + 0.042 * k as f64;
         // On Linux, the upper half of the number is the event type; users know only the lower half, which starts at 0.
-        pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL, HudColor::Grey, format!("axis {}", axis & 0xffff));
-        pen.panel((from, y), (full, BAR_HEIGHT), HudColor::Card);
-        pen.fill(&[(at(*low), y), (at(*high), y), (at(*high), y + BAR_HEIGHT), (at(*low), y + BAR_HEIGHT)], HudColor::Focus);
+        pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL, HudColor::Gray, format!("axis {}", axis & 0xffff));
+        pen.panel((from, y), (full, BAR_HEIGHT), HudColor::InputField);
+        pen.fill(
+            &[(at(*low), y), (at(*high), y), (at(*high), y + BAR_HEIGHT), (at(*low), y + BAR_HEIGHT)],
+            HudColor::FocusedField,
+        );
         pen.panel((at(*value) - 0.004, y - 0.004), (0.008, BAR_HEIGHT + 0.008), HudColor::Yellow);
     }
     if all.is_empty() {
-        pen.text((x, y), TextAlign::Left, SMALL, HudColor::Grey, "No axis moved yet.");
+        pen.text((x, y), TextAlign::Left, SMALL, HudColor::Gray, "No axis moved yet.");
     }
 }
 

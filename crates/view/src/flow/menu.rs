@@ -116,13 +116,13 @@ pub fn draw(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRo
 
 fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, lit): (usize, bool)) {
     let middle = y + 0.5 * ROW_HEIGHT;
-    pen.panel((x, y), (width, ROW_HEIGHT), if lit { HudColor::Focus } else { HudColor::Card });
-    pen.spot((x, y), (width, ROW_HEIGHT), KeyPress::Row(k));
+    pen.panel((x, y), (width, ROW_HEIGHT), if lit { HudColor::FocusedField } else { HudColor::InputField });
+    pen.click_area((x, y), (width, ROW_HEIGHT), KeyPress::Row(k));
     if lit {
         // A bar at the edge marks the focus in addition to the color.
         pen.panel((x - 0.014, y), (0.008, ROW_HEIGHT), HudColor::White);
     }
-    let label = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Grey };
+    let label = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Gray };
     pen.text((x + 0.02, middle), TextAlign::Left, TEXT, label, row.label.clone());
     if row.kind == RowKind::Button {
         return;
@@ -136,7 +136,7 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
         let tip = edge + 0.5 * ARROW_WIDTH + way * 0.011;
         let base = edge + 0.5 * ARROW_WIDTH - way * 0.011;
         pen.fill(&[(tip, middle), (base, middle - 0.014), (base, middle + 0.014)], HudColor::White);
-        pen.spot((edge, y), (ARROW_WIDTH, ROW_HEIGHT), KeyPress::Step(k, on));
+        pen.click_area((edge, y), (ARROW_WIDTH, ROW_HEIGHT), KeyPress::Step(k, on));
     }
 }
 

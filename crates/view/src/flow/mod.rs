@@ -103,7 +103,7 @@ impl WindowFlow {
 
     /// Checks whether a dialog is shown over the flight.
     #[must_use]
-    pub fn is_asking(&self) -> bool {
+    pub fn is_dialog_open(&self) -> bool {
         matches!(self.page, Page::Paused | Page::Leaving)
     }
 
@@ -242,7 +242,7 @@ impl WindowFlow {
     /// click hit a control.
     pub fn click(&mut self, place: ScreenPoint, aspect: f64) -> bool {
         // The last item drawn is on top.
-        let spots = self.sheet(aspect).spots;
+        let spots = self.sheet(aspect).click_areas;
         let Some(spot) = spots.iter().rev().find(|spot| spot.contains(place)) else { return false };
         if self.page == Page::Flight {
             self.pause();

@@ -15,12 +15,12 @@ pub const END_TEXT: [&str; 2] = ["End the assessment?", "Clock is running. Unflo
 pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], focus: usize) -> PageLayout {
     let width = 0.95_f64.min(pen.width - 0.04);
     let left = 0.5 * (pen.width - width);
-    pen.panel((left, 0.22), (width, 0.53), HudColor::Night);
+    pen.panel((left, 0.22), (width, 0.53), HudColor::PageBackground);
     pen.text((left + 0.05, 0.30), TextAlign::Left, TITLE, HudColor::White, *head);
-    pen.text((left + 0.05, 0.375), TextAlign::Left, SMALL, HudColor::Grey, *means);
+    pen.text((left + 0.05, 0.375), TextAlign::Left, SMALL, HudColor::Gray, *means);
     menu::draw(&mut pen, (left + 0.05, 0.42), width - 0.1, rows, focus);
     let help = "Up/down select, Enter confirm; or click.";
-    pen.text((left + 0.05, 0.68), TextAlign::Left, SMALL, HudColor::Grey, help);
+    pen.text((left + 0.05, 0.68), TextAlign::Left, SMALL, HudColor::Gray, help);
     pen.done()
 }
 
@@ -36,8 +36,8 @@ pub fn button(flow: &WindowFlow, mut pen: PageWriter) -> PageLayout {
         let (width, height) = (text_width(&words, SMALL) + 0.03, 0.045);
         let middle = pen.across(across);
         let (x, y) = (middle - 0.5 * width, down - 0.5 * height);
-        pen.panel((x, y), (width, height), HudColor::Shade);
-        pen.spot((x, y), (width, height), KeyPress::Escape);
+        pen.panel((x, y), (width, height), HudColor::TextBackground);
+        pen.click_area((x, y), (width, height), KeyPress::Escape);
         pen.text((middle, down), TextAlign::Middle, SMALL, HudColor::White, words);
     }
     pen.done()

@@ -118,7 +118,7 @@ pub struct FlightSummary {
 }
 
 /// Names of the four scores, in order.
-pub const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
+pub const SCORE_NAMES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
 
 /// Messages from `train` to its window.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

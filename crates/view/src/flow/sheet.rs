@@ -56,7 +56,7 @@ pub struct PageLayout {
     /// Items to draw, in order.
     pub items: Vec<DrawItem>,
     /// Clickable areas.
-    pub spots: Vec<ClickArea>,
+    pub click_areas: Vec<ClickArea>,
 }
 
 /// Writes a page in units of the window's height: x from the page's left edge, y from the window's top edge.
@@ -129,13 +129,13 @@ impl PageWriter {
 
     /// Adds an arrow.
     pub fn arrow(&mut self, from: (f64, f64), to: (f64, f64), color: HudColor) {
-        const HEAD_LENGTH: f64 = 0.022;
+        const ARROWHEAD_LENGTH: f64 = 0.022;
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let long = (dx * dx + dy * dy).sqrt().max(1e-9);
         let (ux, uy) = (dx / long, dy / long);
-        let neck = (to.0 - HEAD_LENGTH * ux, to.1 - HEAD_LENGTH * uy);
+        let neck = (to.0 - ARROWHEAD_LENGTH * ux, to.1 - ARROWHEAD_LENGTH * uy);
         self.line(&[from, neck], 0.006, color);
-        let wing = |side: f64| (neck.0 - side * 0.5 * HEAD_LENGTH * uy, neck.1 + side * 0.5 * HEAD_LENGTH * ux);
+        let wing = |side: f64| (neck.0 - side * 0.5 * ARROWHEAD_LENGTH * uy, neck.1 + side * 0.5 * ARROWHEAD_LENGTH * ux);
         self.fill(&[to, wing(1.0), wing(-1.0)], color);
     }
 
@@ -146,9 +146,9 @@ impl PageWriter {
     }
 
     /// Adds a clickable area.
-    pub fn spot(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), press: KeyPress) {
+    pub fn click_area(&mut self, (x, y): (f64, f64), (width, height): (f64, f64), press: KeyPress) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
-        self.sheet.spots.push(ClickArea { from, to, press });
+        self.sheet.click_areas.push(ClickArea { from, to, press });
     }
 
     /// Returns the finished page.
@@ -211,8 +211,8 @@ mod tests {
         for (aspect, left) in [(4.0, 0.5 * (4.0 - MAX_PAGE_WIDTH) / 4.0), (1.5, 0.0)] {
             let mut pen = PageWriter::new(aspect);
             let width = pen.width;
-            pen.spot((0.0, 0.1), (width, 0.2), KeyPress::Char('x'));
-            let spot = pen.done().spots.remove(0);
+            pen.click_area((0.0, 0.1), (width, 0.2), KeyPress::Char('x'));
+            let spot = pen.done().click_areas.remove(0);
             assert!((spot.from.x - left).abs() < 1e-12 && (spot.to.x - (1.0 - left)).abs() < 1e-12, "{spot:?}");
             assert!(spot.contains(at(0.5, 0.2)) && !spot.contains(at(0.5, 0.35)));
         }

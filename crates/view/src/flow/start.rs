@@ -22,7 +22,7 @@ impl WindowFlow {
             | Page::Calibrating
             | Page::Tutorial(..)
             | Page::Waiting
-            | Page::Over => pen.ground(HudColor::Night),
+            | Page::Over => pen.ground(HudColor::PageBackground),
         }
         match self.page {
             Page::Start => self.start(&mut pen, &rows),
@@ -44,7 +44,7 @@ impl WindowFlow {
         let half = 0.56 * pen.width;
         menu::draw(pen, (left, 0.17), half, rows, self.focus);
         let help = "Up/down select, left/right change, Enter confirm; or click.";
-        pen.text((left, 0.70), TextAlign::Left, SMALL, HudColor::Grey, help);
+        pen.text((left, 0.70), TextAlign::Left, SMALL, HudColor::Gray, help);
         let (x, width) = (left + half + 0.06, pen.width - half - left - 0.08);
         let mut y = 0.19;
         for (head, words) in self.choice_explanation() {
@@ -85,7 +85,7 @@ fn draw_notice(pen: &mut PageWriter, words: &str) {
     let lines = wrap_text(words, width - 2.0 * margin, TEXT);
     let high = LINE_SPACING * TEXT * lines.len() as f64 + 0.025;
     let top = (0.985 - high).max(0.0);
-    pen.panel((0.0, top), (width, high), HudColor::Card);
+    pen.panel((0.0, top), (width, high), HudColor::InputField);
     for (k, line) in lines.into_iter().enumerate() {
         let y = top + 0.0125 + LINE_SPACING * TEXT * (k as f64 + 0.5);
         if y < 0.985 {

@@ -1,7 +1,7 @@
 //! Result page: four scores, links to the report and questionnaire, and the next steps.
 
 use super::menu::{self, MenuAction, MenuRow};
-use super::pipe::{FlightSummary, SCORES};
+use super::pipe::{FlightSummary, SCORE_NAMES};
 use super::sheet::{PageWriter, SMALL, TEXT, TITLE, text_width};
 use crate::hud::{HudColor, TextAlign};
 
@@ -36,8 +36,8 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
     // Shrinks the headline to fit on one line; its length depends on the job.
     let height = TITLE.min((pen.width - 2.0 * left) / text_width(title, 1.0));
     pen.text((left, 0.08), TextAlign::Left, height, HudColor::White, title);
-    pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL, HudColor::Grey, &note);
-    for (k, (name, score)) in SCORES.iter().zip(&ended.scores).enumerate() {
+    pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL, HudColor::Gray, &note);
+    for (k, (name, score)) in SCORE_NAMES.iter().zip(&ended.scores).enumerate() {
         bar(pen, (left, 0.21 + 0.085 * k as f64), half, name, score.map(|score| score.pct));
     }
     let overall = match ended.overall {
@@ -63,17 +63,17 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
 
 /// Draws a score as a bar from 0 to 100 with its value.
 fn bar(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, name: &str, pct: Option<f64>) {
-    const HIGH: f64 = 0.05;
+    const BAR_HEIGHT: f64 = 0.05;
     let (from, full) = (x + 0.28, width - 0.44);
-    pen.text((x, y + 0.5 * HIGH), TextAlign::Left, TEXT, HudColor::White, name);
-    pen.panel((from, y), (full, HIGH), HudColor::Card);
+    pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, TEXT, HudColor::White, name);
+    pen.panel((from, y), (full, BAR_HEIGHT), HudColor::InputField);
     let Some(pct) = pct else {
-        pen.text((from + 0.02, y + 0.5 * HIGH), TextAlign::Left, SMALL, HudColor::Grey, "not applicable");
+        pen.text((from + 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL, HudColor::Gray, "not applicable");
         return;
     };
     let long = full * (pct / 100.0).clamp(0.0, 1.0);
     if long > 0.0 {
-        pen.fill(&[(from, y), (from + long, y), (from + long, y + HIGH), (from, y + HIGH)], HudColor::Blue);
+        pen.fill(&[(from, y), (from + long, y), (from + long, y + BAR_HEIGHT), (from, y + BAR_HEIGHT)], HudColor::Blue);
     }
-    pen.text((x + width - 0.02, y + 0.5 * HIGH), TextAlign::Right, TEXT, HudColor::White, format!("{pct:.1}"));
+    pen.text((x + width - 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Right, TEXT, HudColor::White, format!("{pct:.1}"));
 }

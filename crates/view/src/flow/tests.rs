@@ -126,7 +126,7 @@ fn choose_practice(flow: &mut WindowFlow) {
 }
 
 #[test]
-fn exact_tutorial_precedes_every_trainees_first_practice() {
+fn exact_tutorial_precedes_each_trainees_first_practice() {
     let mut flow = in_flight(Purpose::Assessment);
     flow.handle_message(ToWindow::Ended(ended()));
     // Goes from the start page to the flight: enters the name, checks the controller, and starts.
@@ -151,7 +151,7 @@ fn exact_tutorial_precedes_every_trainees_first_practice() {
 }
 
 #[test]
-fn exact_flight_keys_have_no_effect_on_a_page_that_opens() {
+fn exact_flight_keys_have_no_effect_on_a_newly_opened_page() {
     let mut flow = in_flight(Purpose::Practice);
     flow.handle_message(ToWindow::Ended(ended()));
     pending_requests(&mut flow);
@@ -202,7 +202,7 @@ fn regress_flight_end_clears_the_restart_request() {
 }
 
 #[test]
-fn exact_pages_show_bound_keys_and_the_awaited_operation() {
+fn exact_pages_show_bound_keys_and_the_pending_operation() {
     let (mut flight, mut seen) = (in_flight(Purpose::Practice), String::new());
     for (name, flow) in every_page() {
         assert!(!words(&flow).contains('{'), "{name}: {}", words(&flow));
@@ -235,7 +235,7 @@ fn exact_names_accept_only_valid_characters() {
 }
 
 #[test]
-fn exact_pause_and_restart_require_practice() {
+fn exact_pause_and_restart_are_available_only_in_practice() {
     let mut flow = in_flight(Purpose::Practice);
     flow.pause();
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Pause)]);
@@ -361,9 +361,12 @@ fn prop_pages_fit_windows_of_any_aspect_ratio() {
                 };
                 assert!(points.iter().all(inside), "{name} at {aspect}: {item:?}");
             }
-            assert!(sheet.spots.iter().all(|spot| inside(&spot.from) && inside(&spot.to)), "{name} at {aspect}");
+            assert!(sheet.click_areas.iter().all(|spot| inside(&spot.from) && inside(&spot.to)), "{name} at {aspect}");
             assert!(sheet.pictures.iter().all(|picture| PICTURES.iter().any(|known| known.0 == picture.name)), "{name}");
-            assert!(flow.rows().is_empty() || sheet.spots.len() >= flow.rows().len(), "{name}: every row must be clickable");
+            assert!(
+                flow.rows().is_empty() || sheet.click_areas.len() >= flow.rows().len(),
+                "{name}: every row must be clickable"
+            );
         }
     }
 }

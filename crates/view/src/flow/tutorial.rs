@@ -112,7 +112,7 @@ fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64
     // The arrow starts on the side of the label that faces its target.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
     pen.arrow(foot, (tx, ty), HudColor::Yellow);
-    pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::Night);
+    pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::PageBackground);
     pen.text((x, y), TextAlign::Middle, SMALL, HudColor::Yellow, words);
 }
 
@@ -139,7 +139,7 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
         (x, y),
         frame.width,
         SMALL,
-        HudColor::Grey,
+        HudColor::Gray,
         "The bracket in your view marks the drone and shows its distance. On the map, the triangle is the drone, the square is the \
          pad, and the lines are the tasks' paths.",
     );
@@ -200,7 +200,7 @@ fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
     let words = "Release the sticks to hover. Keys: {arm} arm, {take_off} take off, {up} {down} up and down, {turn_left} \
                  {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} tilt \
                  the camera, {land} land, {pause} pause.";
-    pen.lines((x, y), frame.width, SMALL, HudColor::Grey, &names.fill(words));
+    pen.lines((x, y), frame.width, SMALL, HudColor::Gray, &names.fill(words));
 }
 
 /// Returns an example HUD in flight.
@@ -219,14 +219,14 @@ fn example(cues: i32) -> Hud {
         cues,
         hit: None,
         height_m: 12.0,
-        home_m: 118.0,
+        home_distance_m: 118.0,
         mode: "Position".into(),
         gnss: Some(GnssStatus { fixed: true, satellites: 17 }),
         telemetry_age_s: 0.0,
         gimbal_rad: 0.1,
         zoom: 1.0,
         lamp: false,
-        left_s: 1104.0,
+        remaining_s: 1104.0,
         pictures: 2,
         // Red elements blink; they are visible in the first half of the period.
         shutter: false,

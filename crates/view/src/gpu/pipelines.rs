@@ -290,7 +290,7 @@ const LEAN_ENTRY_POINTS: (&str, &str) = ("vs_lean", "fs_lean");
 const DEPTH_COMPARE: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
 
 /// Returns the key of a pipeline that converts radiance to a picture by drawing one full-screen triangle.
-fn film<'a>(
+fn full_screen_key<'a>(
     solid: &PipelineKey<'a>,
     (module, layouts): (&'a wgpu::ShaderModule, &'a [Option<&'a wgpu::BindGroupLayout>]),
     constants: &'a [(&'a str, f64)],
@@ -361,7 +361,7 @@ impl Pipelines {
             ..solid
         };
         let blur = [("BLUR", f64::from(u8::from(quality.blur_taps > 1)))];
-        let film = film(&solid, (&develop, &develop_layouts), &blur);
+        let film = full_screen_key(&solid, (&develop, &develop_layouts), &blur);
         Self {
             surfaces: surfaces(gpu, &shaded, quality, 0.0),
             surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),

@@ -10,7 +10,7 @@ use super::lru_cache::LruCache;
 use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, upload};
 use super::pipelines::{DEPTH_FORMAT, LabelPipelines, MaterialPipelines, Pipelines};
 use super::targets::{RenderTargets, noise_texture, tile_texture};
-use super::uniforms::{DevelopUniforms, Globals, MAPS, ShadowMaps};
+use super::uniforms::{DevelopUniforms, Globals, MAX_SHADOW_MAPS, ShadowMaps};
 use crate::cells::{self, CellBounds, Frustum};
 use crate::quality::Quality;
 use crate::scene::{DefectPatch, Instance, MoverModel, Scene};
@@ -31,14 +31,14 @@ pub struct DrawCounts {
     /// Number of triangles.
     pub triangles: u64,
     /// Number of draw calls.
-    pub draws: u32,
+    pub draw_calls: u32,
 }
 
 impl DrawCounts {
     /// Returns the sum of two statistics.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
-        Self { triangles: self.triangles + other.triangles, draws: self.draws + other.draws }
+        Self { triangles: self.triangles + other.triangles, draw_calls: self.draw_calls + other.draw_calls }
     }
 }
 
@@ -71,7 +71,7 @@ impl Renderer {
     #[must_use]
     pub fn new(gpu: &Gpu, quality: Quality, scene: &Scene) -> Self {
         let pipelines = Pipelines::new(gpu, &quality);
-        let maps_texture = maps_texture(gpu, &quality);
+        let maps_texture = shadow_map_texture(gpu, &quality);
         let all = maps_texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
@@ -106,7 +106,7 @@ impl Renderer {
         Self {
             fixed: fixed(gpu, scene),
             models: scene.models.iter().map(|mesh| GpuMesh::new(gpu, mesh)).collect(),
-            model_radii_m: scene.models.iter().map(cells::reach_m).collect(),
+            model_radii_m: scene.models.iter().map(cells::max_vertex_distance_m).collect(),
             water: cells::split_into_cells(&scene.water, false)
                 .iter()
                 .filter_map(|cell| Some((GpuMesh::new(gpu, cell)?, CellBounds::of(cell))))
@@ -213,7 +213,7 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.shadow);
             pass.set_bind_group(0, group, &[]);
             let lit = Frustum::of(&map.projection);
-            for fixed in self.fixed.iter().filter(|fixed| fixed.casts && lit.cell_may_be_visible(&fixed.bounds)) {
+            for fixed in self.fixed.iter().filter(|fixed| fixed.casts_shadows && lit.cell_may_be_visible(&fixed.bounds)) {
                 count(&mut self.counts, fixed.solid.triangles(), &fixed.copies);
                 fixed.solid.draw(&mut pass, &fixed.copies);
             }
@@ -249,7 +249,7 @@ impl Renderer {
         );
         pass.set_pipeline(&self.pipelines.sky_mirrored);
         pass.draw(0..3, 0..1);
-        counts.draws += 1;
+        counts.draw_calls += 1;
         counts
     }
 
@@ -287,7 +287,7 @@ impl Renderer {
             pass.set_pipeline(pipeline);
             pass.set_vertex_buffer(0, buffer.slice(..));
             pass.draw(0..6, 0..*patches);
-            counts.draws += 1;
+            counts.draw_calls += 1;
             counts.triangles += 2 * u64::from(*patches);
         }
         counts
@@ -311,13 +311,13 @@ impl Renderer {
         pass.set_bind_group(1, &targets.water, &[]);
         for (water, _) in self.water.iter().filter(|(_, bounds)| view.lake && shown.cell_may_be_visible(bounds)) {
             water.draw_without_instances(&mut pass);
-            counts.draws += 1;
+            counts.draw_calls += 1;
             counts.triangles += u64::from(water.triangles());
         }
         // The lake has written its depth, so no sky is shaded behind it.
         pass.set_pipeline(&self.pipelines.sky);
         pass.draw(0..3, 0..1);
-        counts.draws += 1;
+        counts.draw_calls += 1;
         pass.set_pipeline(&self.pipelines.translucent);
         for (model, copies) in moving.iter().filter(|(model, _)| *model == MoverModel::Disc) {
             let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
@@ -331,7 +331,7 @@ impl Renderer {
 /// Uploads defects grouped by kind.
 fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
     let of = |kind: &u32| {
-        let same: Vec<DefectPatch> = all.iter().filter(|patch| patch.centre[3] as u32 == *kind).copied().collect();
+        let same: Vec<DefectPatch> = all.iter().filter(|patch| patch.center[3] as u32 == *kind).copied().collect();
         let buffer = (!same.is_empty()).then(|| upload(gpu, bytemuck::cast_slice(&same), wgpu::BufferUsages::VERTEX))?;
         Some((*kind, buffer, same.len() as u32))
     };
@@ -357,8 +357,8 @@ fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
 }
 
 /// Creates the shadow map array, with at least two layers because some drivers do not treat a single layer as an array.
-fn maps_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
-    let layers = (quality.cascades + u32::from(quality.lamp_shadow)).clamp(2, MAPS as u32);
+fn shadow_map_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
+    let layers = (quality.cascades + u32::from(quality.lamp_shadow)).clamp(2, MAX_SHADOW_MAPS as u32);
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("shadows"),
         size: wgpu::Extent3d { width: quality.shadow_px, height: quality.shadow_px, depth_or_array_layers: layers },
@@ -389,6 +389,6 @@ fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgp
 }
 
 fn count(counts: &mut DrawCounts, triangles: u32, copies: &MeshInstances) {
-    counts.draws += 1;
+    counts.draw_calls += 1;
     counts.triangles += u64::from(triangles) * u64::from(copies.count());
 }

@@ -9,7 +9,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
 /// Maximum number of shadow maps in a shader.
-pub const MAPS: usize = 5;
+pub const MAX_SHADOW_MAPS: usize = 5;
 /// Haze extinction per meter (estimate: 12 km visual range; Koschmieder's 3.9 divided by the range).
 const HAZE_PER_M: f64 = 3.9 / 12_000.0;
 
@@ -32,7 +32,7 @@ pub struct Globals {
     shadow: [f32; 4],
     texel: [f32; 4],
     size: [f32; 4],
-    shadow_proj: [[[f32; 4]; 4]; MAPS],
+    shadow_proj: [[[f32; 4]; 4]; MAX_SHADOW_MAPS],
 }
 
 /// Uniforms of the shader structure `DevelopUniforms`.
@@ -77,9 +77,9 @@ impl Globals {
         let (lamp, lamp_dir) = shot.beam.map_or(([0.0; 4], [0.0; 4]), |beam| {
             (with_w(beam.position_m, math::cos(beam.half_rad)), with_w(beam.forward, beam.candela))
         });
-        let mut shadow_proj = [Matrix::mirror(0.0).columns(); MAPS];
+        let mut shadow_proj = [Matrix::mirror(0.0).columns(); MAX_SHADOW_MAPS];
         let mut texel = [0.0; 4];
-        for (k, map) in maps.sun.iter().chain(maps.lamp).take(MAPS).enumerate() {
+        for (k, map) in maps.sun.iter().chain(maps.lamp).take(MAX_SHADOW_MAPS).enumerate() {
             shadow_proj[k] = map.projection.columns();
             if let Some(slot) = texel.get_mut(k) {
                 *slot = map.texel_m as f32;

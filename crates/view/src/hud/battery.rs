@@ -20,7 +20,7 @@ pub struct ChargeStyle {
     /// Icon shape.
     pub shape: IconShape,
     /// Whether a blinking element is currently off.
-    pub dark: bool,
+    pub blinked_off: bool,
 }
 
 /// Returns the appearance for a battery level in %.
@@ -33,7 +33,7 @@ pub fn charge_style(hud: &Hud, pct: f64) -> ChargeStyle {
         (HudColor::Red, IconShape::Octagon)
     };
     let dark = color == HudColor::Red && (hud.time_s * BLINK_HZ).rem_euclid(1.0) >= 0.5;
-    ChargeStyle { color, shape, dark }
+    ChargeStyle { color, shape, blinked_off: dark }
 }
 
 pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
@@ -43,12 +43,12 @@ pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let mut items = vec![pane.panel((from, EDGE), (right, EDGE + PANEL_HEIGHT))];
     let Some(pct) = hud.battery_pct else {
         let place = (words_at.0, EDGE + 0.037);
-        items.push(pane.text(place, TextAlign::Right, MIDDLE, HudColor::Grey, "no battery data"));
+        items.push(pane.text(place, TextAlign::Right, MIDDLE, HudColor::Gray, "no battery data"));
         return items;
     };
-    let ChargeStyle { color, shape, dark } = charge_style(hud, pct);
+    let ChargeStyle { color, shape, blinked_off: dark } = charge_style(hud, pct);
     if !dark {
-        items.extend(pane.symbol(shape, (from + 0.03, y), 0.036, color));
+        items.extend(pane.icon(shape, (from + 0.03, y), 0.036, color));
     }
     let filled = (!dark).then_some((pct / 100.0).clamp(0.0, 1.0));
     items.extend(battery_symbol(pane, (from + 0.062, y), filled, color));

@@ -17,7 +17,7 @@ pub enum IconShape {
 }
 
 /// Returns an icon with a dark outline; `size` is a fraction of the picture's height.
-pub fn symbol(shape: IconShape, middle: ScreenPoint, size: f64, aspect: f64, color: HudColor) -> Vec<DrawItem> {
+pub fn icon(shape: IconShape, middle: ScreenPoint, size: f64, aspect: f64, color: HudColor) -> Vec<DrawItem> {
     let ring = |count: u32, turn: f64, radius: f64| -> Vec<ScreenPoint> {
         (0..count)
             .map(|k| {

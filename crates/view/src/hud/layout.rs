@@ -43,7 +43,7 @@ pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
 fn crosshair(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let mut items = Vec::new();
     let (low, high, arm) = (0.5 - 0.5 * CENTRAL_FRACTION, 0.5 + 0.5 * CENTRAL_FRACTION, 0.035);
-    let color = if hud.shutter { HudColor::Yellow } else { HudColor::Grey };
+    let color = if hud.shutter { HudColor::Yellow } else { HudColor::Gray };
     for (x, right) in [(low * pane.width, arm), (high * pane.width, -arm)] {
         for (y, down) in [(low * pane.height, arm), (high * pane.height, -arm)] {
             items.push(pane.line(&[(x + right, y), (x, y), (x, y + down)], 0.003, color));
@@ -58,10 +58,10 @@ fn crosshair(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
 /// Returns the values below the battery: height, distance from home, gimbal, time, lamp, pictures.
 fn readouts(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let (right, top) = (pane.width - EDGE, EDGE + 0.085);
-    let left = hud.left_s.max(0.0);
+    let left = hud.remaining_s.max(0.0);
     let mut lines = vec![
         ("height", format!("{:.1} m", hud.height_m)),
-        ("home", format!("{:.0} m", hud.home_m)),
+        ("home", format!("{:.0} m", hud.home_distance_m)),
         ("gimbal", format!("{:+.0}°", hud.gimbal_rad.to_degrees())),
         ("time left", format!("{}:{:02}", (left / 60.0).floor(), (left % 60.0).floor())),
         ("lamp", if hud.lamp { "on".into() } else { "off".into() }),
@@ -77,7 +77,7 @@ fn readouts(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     for (k, (name, value)) in lines.into_iter().enumerate() {
         let y = top + 0.006 + step * (k as f64 + 0.5);
         let lit = name == "lamp" && hud.lamp;
-        items.push(pane.text((from + 0.012, y), TextAlign::Left, SMALL, HudColor::Grey, name));
+        items.push(pane.text((from + 0.012, y), TextAlign::Left, SMALL, HudColor::Gray, name));
         let color = if lit { HudColor::Yellow } else { HudColor::White };
         items.push(pane.text((right - 0.012, y), TextAlign::Right, SMALL, color, value));
     }

@@ -9,7 +9,7 @@ use spandrel_model::math;
 /// Half the side length of the map.
 const HALF_SIZE: f64 = 0.135;
 /// Distance of the map's center from the right and bottom edges.
-const FROM_EDGE: f64 = 0.16;
+const CENTER_OFFSET: f64 = 0.16;
 /// Font size, height and width of a label.
 const FONT_SIZE: f64 = 0.022;
 const LABEL_HEIGHT: f64 = 0.02;
@@ -21,7 +21,7 @@ const MIN_RANGE_M: f64 = 20.0;
 
 /// Returns the left edge of the map, or `None` if it is hidden.
 pub fn left(hud: &Hud, pane: Pane) -> Option<f64> {
-    (!hud.tracks.is_empty()).then_some(pane.width - FROM_EDGE - HALF_SIZE)
+    (!hud.tracks.is_empty()).then_some(pane.width - CENTER_OFFSET - HALF_SIZE)
 }
 
 /// Returns the items of the map.
@@ -29,7 +29,7 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     if hud.tracks.is_empty() {
         return Vec::new();
     }
-    let (x, y) = (pane.width - FROM_EDGE, pane.height - FROM_EDGE);
+    let (x, y) = (pane.width - CENTER_OFFSET, pane.height - CENTER_OFFSET);
     let place = scale(hud, (x, y));
     let mut items = vec![pane.panel((x - HALF_SIZE, y - HALF_SIZE), (x + HALF_SIZE, y + HALF_SIZE))];
     let mut labels: Vec<(f64, f64)> = Vec::new();
@@ -39,14 +39,14 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
         let start = points[0];
         items.push(pane.line(&points, 0.004, HudColor::Blue));
         let label = free_label_position(&labels, (start.0, start.1 - 0.014), x + HALF_SIZE - 0.5 * LABEL_WIDTH);
-        items.push(pane.text(label, TextAlign::Middle, FONT_SIZE, HudColor::Grey, format!("{}", track.id)));
+        items.push(pane.text(label, TextAlign::Middle, FONT_SIZE, HudColor::Gray, format!("{}", track.id)));
         labels.push(label);
     }
     let (pad, side) = (place(hud.pad_m), 0.007);
     let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
     items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
     items.push(pane.fill(&arrow(place(hud.position_m), hud.heading_rad), HudColor::Yellow));
-    items.push(pane.text((x, y - HALF_SIZE + 0.016), TextAlign::Middle, FONT_SIZE, HudColor::Grey, "N"));
+    items.push(pane.text((x, y - HALF_SIZE + 0.016), TextAlign::Middle, FONT_SIZE, HudColor::Gray, "N"));
     items
 }
 

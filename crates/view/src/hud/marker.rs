@@ -38,7 +38,7 @@ pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool
         }
         vec![vec![place(0.5, 1.0), place(1.0, 1.0), place(1.0, 0.5)]]
     };
-    let color = if hidden { HudColor::Grey } else { HudColor::White };
+    let color = if hidden { HudColor::Gray } else { HudColor::White };
     let mut items: Vec<DrawItem> = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
         .into_iter()
         .flat_map(|(right, down)| corner(right, down))
@@ -49,7 +49,7 @@ pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool
     // The background keeps the text legible against a bright sky.
     let ground = (0.5 * (text_width(&words, FONT_SIZE) + 0.4 * FONT_SIZE) / aspect, 0.6 * FONT_SIZE);
     let side = |sign: f64| at(place.x + sign * ground.0, place.y + sign * ground.1);
-    items.push(DrawItem::Panel { from: side(-1.0), to: side(1.0), color: HudColor::Shade });
+    items.push(DrawItem::Panel { from: side(-1.0), to: side(1.0), color: HudColor::TextBackground });
     items.push(DrawItem::Text { place, side: TextAlign::Middle, height: FONT_SIZE, color, words });
     items
 }
@@ -71,7 +71,7 @@ mod tests {
         assert!(marker(&eye, 1.5, Vec3::new(0.0, -80.0, 0.0), false).is_empty());
         let hidden = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), true);
         let told =
-            |item: &DrawItem| matches!(item, DrawItem::Text { words, color: HudColor::Grey, .. } if words == "80 m, hidden");
+            |item: &DrawItem| matches!(item, DrawItem::Text { words, color: HudColor::Gray, .. } if words == "80 m, hidden");
         assert!(hidden.len() > items.len() && hidden.iter().any(told), "the marker must be dashed and labeled");
     }
 }

@@ -61,7 +61,7 @@ pub fn messages(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
         let top = bottom - MESSAGE_HEIGHT - LINE_HEIGHT * (lines.len() - 1) as f64;
         let wide = INDENT + lines.iter().map(|line| width(line)).fold(0.0, f64::max) + MARGIN;
         items.push(pane.panel((EDGE, top), (EDGE + wide, bottom)));
-        items.extend(pane.symbol(shape, (EDGE + 0.5 * INDENT, 0.5 * (top + bottom)), 0.04, color));
+        items.extend(pane.icon(shape, (EDGE + 0.5 * INDENT, 0.5 * (top + bottom)), 0.04, color));
         for (k, line) in lines.into_iter().enumerate() {
             let y = top + 0.5 * MESSAGE_HEIGHT + LINE_HEIGHT * k as f64;
             items.push(pane.text((EDGE + INDENT, y), TextAlign::Left, MIDDLE, color, line));

@@ -47,9 +47,9 @@ pub enum HudColor {
     /// Text and lines.
     White,
     /// Secondary text.
-    Grey,
+    Gray,
     /// Background of text; half transparent.
-    Shade,
+    TextBackground,
     /// Normal.
     Green,
     /// Caution.
@@ -63,11 +63,11 @@ pub enum HudColor {
     /// Icon outlines.
     Black,
     /// Background of a page.
-    Night,
+    PageBackground,
     /// Input field on a page.
-    Card,
+    InputField,
     /// Focused field.
-    Focus,
+    FocusedField,
 }
 
 impl HudColor {
@@ -76,17 +76,17 @@ impl HudColor {
     pub const fn rgba(self) -> [u8; 4] {
         match self {
             Self::White => [245, 245, 245, 255],
-            Self::Grey => [200, 204, 208, 255],
-            Self::Shade => [12, 14, 18, 150],
+            Self::Gray => [200, 204, 208, 255],
+            Self::TextBackground => [12, 14, 18, 150],
             Self::Green => [0, 190, 130, 255],
             Self::Yellow => [240, 228, 66, 255],
             Self::Red => [235, 60, 40, 255],
             Self::Blue => [86, 180, 233, 255],
             Self::Orange => [240, 150, 20, 255],
             Self::Black => [0, 0, 0, 255],
-            Self::Night => [20, 24, 30, 255],
-            Self::Card => [42, 49, 60, 255],
-            Self::Focus => [20, 92, 140, 255],
+            Self::PageBackground => [20, 24, 30, 255],
+            Self::InputField => [42, 49, 60, 255],
+            Self::FocusedField => [20, 92, 140, 255],
         }
     }
 }

@@ -72,7 +72,7 @@ fn contains(outer: &PictureRect, inner: &PictureRect) -> bool {
 
 /// Converts a rectangle of a camera picture to fractions of a window with this aspect ratio.
 fn in_window(area: &PictureRect, lens: f64, window: f64) -> PictureRect {
-    let [camera, _] = ViewLayout::Camera.places();
+    let [camera, _] = ViewLayout::Camera.view_rects();
     assert_eq!(camera.which, ViewKind::Camera);
     let place = camera.fit_aspect(lens, window);
     let (x, y) = (|x: f64| place.left + place.width * x / lens, |y: f64| place.top + place.height * y);
@@ -126,13 +126,13 @@ fn states() -> Vec<(&'static str, Hud)> {
         speed_m_s: 44.4,
         battery_pct: Some(100.0),
         height_m: -120.4,
-        home_m: 4321.0,
+        home_distance_m: 4321.0,
         mode: "mode 4294967295".into(),
         gnss: dark(99),
         telemetry_age_s: 86_400.0,
         gimbal_rad: -1.55,
         zoom: 10.0,
-        left_s: 5_999.0,
+        remaining_s: 5_999.0,
         lamp: true,
         pictures: 999,
         tracks: [1, 2, 3, 4].map(|id| track(id, 150.0)).to_vec(),
@@ -187,7 +187,7 @@ fn prop_status_text_does_not_cover_the_hud() {
     // the pilot uses for aiming.
     const TEXT_HEIGHT: f64 = 0.2;
     let words = ViewLayout::Camera.words();
-    let [_, eyes] = ViewLayout::Camera.places();
+    let [_, eyes] = ViewLayout::Camera.view_rects();
     assert!(words.extends_down);
     assert!(words.left_edge >= eyes.left + eyes.width && words.edge + TEXT_HEIGHT < 0.48, "{words:?}");
     let room = [words.left_edge, words.edge, words.left_edge + words.width, words.edge + TEXT_HEIGHT];
@@ -209,7 +209,7 @@ fn prop_status_text_does_not_cover_the_hud() {
 #[test]
 fn prop_inset_view_does_not_cover_the_hud() {
     let all = Hud { cues: ALL_CUES, hit: Some("suspension bridge, tower leg".into()), zoom: 2.0, ..hud() };
-    let [_, eyes] = ViewLayout::Camera.places();
+    let [_, eyes] = ViewLayout::Camera.view_rects();
     assert_eq!(eyes.which, ViewKind::Inspector);
     let small = [eyes.left, eyes.top, eyes.left + eyes.width, eyes.top + eyes.height];
     for window in [4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {

@@ -40,7 +40,7 @@ impl Pane {
 
     /// Returns the background of a block from its upper left to its lower right corner.
     pub fn panel(self, from: (f64, f64), to: (f64, f64)) -> DrawItem {
-        DrawItem::Panel { from: self.at(from), to: self.at(to), color: HudColor::Shade }
+        DrawItem::Panel { from: self.at(from), to: self.at(to), color: HudColor::TextBackground }
     }
 
     /// Returns a line of text.
@@ -59,8 +59,8 @@ impl Pane {
     }
 
     /// Returns an icon with a dark outline.
-    pub fn symbol(self, shape: IconShape, middle: (f64, f64), size: f64, color: HudColor) -> Vec<DrawItem> {
-        icons::symbol(shape, self.at(middle), self.share(size), self.width / self.height, color)
+    pub fn icon(self, shape: IconShape, middle: (f64, f64), size: f64, color: HudColor) -> Vec<DrawItem> {
+        icons::icon(shape, self.at(middle), self.share(size), self.width / self.height, color)
     }
 
     fn all(self, points: &[(f64, f64)]) -> Vec<ScreenPoint> {

@@ -51,9 +51,9 @@ pub fn essential_items(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<Draw
 fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let Some(pct) = hud.battery_pct else {
         let words = "battery ?";
-        return block(pane, (pane.width - EDGE - width(words, false), EDGE), None, HudColor::Grey, words);
+        return block(pane, (pane.width - EDGE - width(words, false), EDGE), None, HudColor::Gray, words);
     };
-    let ChargeStyle { color, shape, dark } = charge_style(hud, pct);
+    let ChargeStyle { color, shape, blinked_off: dark } = charge_style(hud, pct);
     let words = format!("{pct:.0} %");
     block(pane, (pane.width - EDGE - width(&words, true), EDGE), Some((shape, !dark)), color, &words)
 }
@@ -67,7 +67,7 @@ fn block(pane: Pane, (x, y): (f64, f64), sign: Option<(IconShape, bool)>, color:
     let middle = y + 0.5 * ROW_HEIGHT;
     let mut items = vec![pane.panel((x, y), (x + width(words, sign.is_some()), y + ROW_HEIGHT))];
     if let Some((shape, true)) = sign {
-        items.extend(pane.symbol(shape, (x + PADDING + 0.5, middle), ICON_HEIGHT, color));
+        items.extend(pane.icon(shape, (x + PADDING + 0.5, middle), ICON_HEIGHT, color));
     }
     let from = x + PADDING + sign.map_or(0.0, |_| ICON_COLUMN_WIDTH);
     items.push(pane.text((from, middle), TextAlign::Left, 1.0, color, words));

@@ -25,6 +25,6 @@ pub(super) fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     vec![
         pane.panel((EDGE, EDGE), (EDGE + 0.25, EDGE + 0.105)),
         pane.text((inner, EDGE + 0.037), TextAlign::Left, LARGE, color, words),
-        pane.text((inner, EDGE + 0.081), TextAlign::Left, SMALL, HudColor::Grey, limit),
+        pane.text((inner, EDGE + 0.081), TextAlign::Left, SMALL, HudColor::Gray, limit),
     ]
 }

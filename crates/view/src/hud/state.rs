@@ -53,7 +53,7 @@ pub struct Hud {
     /// Height above the pad, m.
     pub height_m: f64,
     /// Horizontal distance from the pad, m.
-    pub home_m: f64,
+    pub home_distance_m: f64,
     /// Name of the flight mode.
     pub mode: String,
     /// Satellite navigation status.
@@ -67,7 +67,7 @@ pub struct Hud {
     /// Whether the lamp is on.
     pub lamp: bool,
     /// Remaining flight time, s.
-    pub left_s: f64,
+    pub remaining_s: f64,
     /// Number of pictures taken.
     pub pictures: usize,
     /// Whether a picture has just been taken.

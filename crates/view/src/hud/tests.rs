@@ -19,14 +19,14 @@ pub(super) fn hud() -> Hud {
         cues: 0,
         hit: None,
         height_m: 21.4,
-        home_m: 118.0,
+        home_distance_m: 118.0,
         mode: "Position".into(),
         gnss: Some(GnssStatus { fixed: true, satellites: 14 }),
         telemetry_age_s: 0.02,
         gimbal_rad: 0.35,
         zoom: 1.0,
         lamp: false,
-        left_s: 1234.5,
+        remaining_s: 1234.5,
         pictures: 3,
         shutter: false,
         time_s: 100.0,
@@ -121,7 +121,7 @@ fn prop_items_stay_inside_at_any_aspect_ratio() {
 }
 
 #[test]
-fn exact_icon_shapes_differ_like_their_colors() {
+fn exact_icons_differ_in_shape_and_color() {
     let corners = |pct: f64| {
         layout(&Hud { battery_pct: Some(pct), tracks: vec![], ..hud() }, WIDE).into_iter().find_map(|item| match item {
             DrawItem::Fill { points, .. } => Some(points.len()),
@@ -139,7 +139,7 @@ fn changed_texts(hud: &Hud) -> Vec<String> {
 }
 
 #[test]
-fn exact_texts_of_every_abnormal_state() {
+fn exact_texts_in_every_abnormal_state() {
     let gnss = |fixed, satellites| Hud { gnss: Some(GnssStatus { fixed, satellites }), ..hud() };
     let warned = |cues| Hud { cues, ..hud() };
     let crash = "Red: CRASH: bridge member arch/rib-left/07";

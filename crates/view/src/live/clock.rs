@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_bursts_play_evenly_at_any_speed() {
+    fn exact_bursty_telemetry_plays_smoothly_at_any_speed() {
         for (speed_factor, burst) in [(0.5, 1), (1.0, 3), (4.0, 3)] {
             let all = shown(speed_factor, burst);
             let settled = &all[120..];

@@ -33,10 +33,10 @@ use std::collections::{BTreeSet, VecDeque};
 
 /// System ID of a viewer, distinct from those of vehicles and ground stations (255 is QGroundControl, 254 is `spandrel
 /// rc`).
-pub const SYSTEM: u8 = 253;
+pub const SYSTEM_ID: u8 = 253;
 /// MAV_COMP_ID_ONBOARD_COMPUTER2: distinct from the monitor's.
-const COMPONENT: u8 = 192;
-const AUTOPILOT: u8 = 1;
+const COMPONENT_ID: u8 = 192;
+const AUTOPILOT_COMPONENT: u8 = 1;
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
 /// Time without ground truth, after which the vehicle counts as a real one and this client requests its estimates.
 const TRUTH_TIMEOUT: SimTime = SimTime::from_ms(3_000);
@@ -120,7 +120,7 @@ impl LiveFlight {
             plane: LocalPlane::new(scenario.origin),
             pad_up_m: scenario.ground_team.pad_m.up(),
             decoder: Decoder::new(),
-            encoder: Encoder::new(SYSTEM, COMPONENT),
+            encoder: Encoder::new(SYSTEM_ID, COMPONENT_ID),
             out: VecDeque::new(),
             next_heartbeat: SimTime::ZERO,
             next_truth_request: None,
@@ -184,7 +184,7 @@ impl LiveFlight {
     }
 
     fn handle_frame(&mut self, frame: &ReceivedFrame, wall: SimTime) {
-        let beats = matches!(frame.message, Some(MavMessage::HEARTBEAT(_))) && frame.component_id == AUTOPILOT;
+        let beats = matches!(frame.message, Some(MavMessage::HEARTBEAT(_))) && frame.component_id == AUTOPILOT_COMPONENT;
         if self.system.is_none() && (beats || sample::truth_time(&frame.bytes).is_some()) {
             self.system = Some(frame.system_id);
             self.first_message_at = Some(wall);
@@ -398,13 +398,13 @@ impl LiveFlight {
 /// Returns a request to send a message at a rate, Hz.
 fn message_interval_request(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
     let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
-    MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))
+    MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))
 }
 
 /// Returns a request to send a message once.
 fn message_request(system: u8, id: u32) -> MavMessage {
     let params = [id as f32, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT, MavCmd::MAV_CMD_REQUEST_MESSAGE, params))
+    MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_REQUEST_MESSAGE, params))
 }
 
 #[cfg(test)]

@@ -63,7 +63,7 @@ mod tests {
     const ROUNDING: f64 = 1e-12;
 
     #[test]
-    fn exact_value_is_interpolated_between_samples_and_held_outside() {
+    fn exact_value_is_interpolated_between_samples_and_clamped_outside() {
         let mut series = TimeSeries::default();
         assert_eq!(series.at(SimTime::ZERO), None);
         for (ms, value) in [(100, 1.0), (500, 1.6), (300, 1.2), (2_000, 9.0)] {

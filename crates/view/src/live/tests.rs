@@ -107,7 +107,7 @@ fn exact_restart_resets_the_state_and_other_systems_are_ignored() {
 }
 
 #[test]
-fn exact_another_seed_starts_a_new_session() {
+fn exact_new_seed_starts_a_new_session() {
     let mut wire = FakeVehicle::new();
     let say_seed = |wire: &mut FakeVehicle, value: i32, wall_ms: i64| {
         wire.send(
@@ -137,7 +137,7 @@ fn exact_another_seed_starts_a_new_session() {
 }
 
 #[test]
-fn exact_vehicle_without_truth_is_shown_by_its_estimate() {
+fn exact_vehicle_without_truth_is_drawn_from_its_own_estimate() {
     let mut wire = FakeVehicle::new();
     wire.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()), 0);
     let said = |wire: &mut FakeVehicle, ms: i64| {

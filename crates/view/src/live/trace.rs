@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_turn_rate_follows_from_the_samples() {
+    fn exact_turn_rate_is_derived_from_the_samples() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.turn_at(SimTime::ZERO), CameraTurnRate::default());
         // The heading crosses south, where it wraps around.
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_zoom_is_smooth_although_sent_at_5_hz() {
+    fn exact_zoom_is_smooth_with_telemetry_at_5_hz() {
         let mut trace = MotionHistory::default();
         assert_eq!(trace.lens_at(SimTime::ZERO), None);
         let (mut shown, from_ms) = (Vec::new(), 2_000);

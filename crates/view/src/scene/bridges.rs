@@ -76,8 +76,8 @@ pub fn parts(scenario: &Scenario, bake: &LightBaker, quality: &Quality) -> Vec<S
     let [straight, in_lake] = meshes(scenario, bake, quality, [&straight, &in_lake]);
     let (straight, in_lake) = (SceneItem::here("bridges", straight, true), SceneItem::here("reflected bridges", in_lake, false));
     vec![
-        SceneItem { visible_range: VisibleRange::STRAIGHT, ..straight },
-        SceneItem { visible_range: VisibleRange::IN_LAKE, ..in_lake },
+        SceneItem { visible_range: VisibleRange::DIRECT_ONLY, ..straight },
+        SceneItem { visible_range: VisibleRange::LAKE_ONLY, ..in_lake },
     ]
 }
 
@@ -260,8 +260,8 @@ fn quad_face<'a>(
     let light = fill_gaps(&samples, columns);
     let light_at = |row: usize, column: usize| light[row * columns + column];
     for (mesh, off) in wanted {
-        let kept_rows = kept(rows, off, &|row| (0..columns).map(|column| light_at(row, column)).collect());
-        let kept_columns = kept(columns, off, &|column| (0..rows).map(|row| light_at(row, column)).collect());
+        let kept_rows = kept_lines(rows, off, &|row| (0..columns).map(|column| light_at(row, column)).collect());
+        let kept_columns = kept_lines(columns, off, &|column| (0..rows).map(|row| light_at(row, column)).collect());
         let first = mesh.vertices.len() as u32;
         for &row in &kept_rows {
             for &column in &kept_columns {
@@ -285,7 +285,7 @@ fn quad_face<'a>(
 }
 
 /// Returns the indices of the sample lines to keep: the first, the last, and those needed to stay within the tolerance.
-fn kept(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
+fn kept_lines(lines: usize, off: f32, line: &dyn Fn(usize) -> Vec<[f32; 2]>) -> Vec<usize> {
     let all: Vec<Vec<[f32; 2]>> = (0..lines).map(line).collect();
     let smooth = |from: usize, to: usize| {
         (from + 1..to).all(|k| {
@@ -353,7 +353,7 @@ mod tests {
 
     #[test]
     fn exact_sample_lines_with_linear_light_are_omitted() {
-        let of = |values: &[f32]| kept(values.len(), LIGHT_TOLERANCE, &|k| vec![[values[k], 0.0], [0.5, 1.0 - values[k]]]);
+        let of = |values: &[f32]| kept_lines(values.len(), LIGHT_TOLERANCE, &|k| vec![[values[k], 0.0], [0.5, 1.0 - values[k]]]);
         assert_eq!(of(&[0.1, 0.2, 0.3, 0.4, 0.5]), [0, 4]);
         assert_eq!(of(&[0.1, 0.1, 0.1, 0.9, 0.9, 0.9]), [0, 2, 3, 5]);
         assert_eq!(of(&[0.3, 0.31, 0.3]), [0, 2], "differences below the tolerance are ignored");

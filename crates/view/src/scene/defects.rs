@@ -20,7 +20,7 @@ const EDGE_FACTOR: f64 = 1.06;
 #[repr(C)]
 pub struct DefectPatch {
     /// Center, m; AASHTO code.
-    pub centre: [f32; 4],
+    pub center: [f32; 4],
     /// Outward normal; a random number in 0..1.
     pub normal: [f32; 4],
     /// Direction of the longest extent; length, m.
@@ -66,7 +66,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
     // Pseudorandom number that is different but constant for each defect.
     let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
     DefectPatch {
-        centre: four(defect.position_m, f64::from(drawn_kind(defect))),
+        center: four(defect.position_m, f64::from(drawn_kind(defect))),
         normal: four(defect.normal, own),
         along: four(defect.along, defect.length_m),
         size: [defect.width_m as f32, f32::from(defect.condition_state), -defect.along.up() as f32, -across.up() as f32],
@@ -101,7 +101,7 @@ mod tests {
         let defect = vertical_crack();
         let line = patch(&defect, [0.2, 0.1]);
         assert_eq!(line.light[2..], [0.53, 0.031]);
-        assert_eq!((line.centre[3], line.size[2]), (1130.0, 1.0), "the crack must run straight down");
+        assert_eq!((line.center[3], line.size[2]), (1130.0, 1.0), "the crack must run straight down");
         let area = patch(&PlacedDefect { line: false, width_m: 0.5, ..defect }, [0.2, 0.1]);
         assert_eq!(area.light[2..], [0.53, 0.265]);
     }
@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn exact_unsupported_kinds_are_drawn_as_crack_or_abrasion() {
         let decay = PlacedDefect { kind: 1140, line: false, ..vertical_crack() };
-        assert_eq!(patch(&decay, [0.2, 0.1]).centre[3], 1190.0);
-        assert_eq!(patch(&PlacedDefect { line: true, ..decay }, [0.2, 0.1]).centre[3], 1130.0);
+        assert_eq!(patch(&decay, [0.2, 0.1]).center[3], 1190.0);
+        assert_eq!(patch(&PlacedDefect { line: true, ..decay }, [0.2, 0.1]).center[3], 1130.0);
     }
 }

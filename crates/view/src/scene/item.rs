@@ -18,7 +18,7 @@ pub struct Instance {
 
 impl Instance {
     /// Identity transform; keeps the light stored in the mesh.
-    pub const HERE: Self =
+    pub const IDENTITY: Self =
         Self { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]], paint: [0.0; 4], around: [1.0; 4] };
 
     /// Creates an instance from an origin and three axis vectors, whose lengths set the scale.
@@ -60,7 +60,7 @@ pub struct SceneItem {
     /// Instances.
     pub instances: Vec<Instance>,
     /// Whether it is drawn into shadow maps.
-    pub casts: bool,
+    pub casts_shadows: bool,
     /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
     /// Whether it belongs to the backdrop, which is split into sectors.
@@ -84,9 +84,9 @@ impl VisibleRange {
     /// Visible in the direct view and in the lake's reflection at any distance.
     pub const EVERYWHERE: Self = Self { direct_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
     /// Visible only in the direct view.
-    pub const STRAIGHT: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
+    pub const DIRECT_ONLY: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
     /// Visible only in the lake's reflection, for simplified substitutes.
-    pub const IN_LAKE: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
+    pub const LAKE_ONLY: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
 
     /// Returns the range of distances up to this one, m.
     #[must_use]
@@ -110,7 +110,14 @@ impl VisibleRange {
 
 impl SceneItem {
     /// Creates an item with one instance at the identity transform.
-    pub(super) fn here(name: &'static str, mesh: Mesh, casts: bool) -> Self {
-        Self { name, mesh, instances: vec![Instance::HERE], casts, visible_range: VisibleRange::EVERYWHERE, backdrop: false }
+    pub(super) fn here(name: &'static str, mesh: Mesh, casts_shadows: bool) -> Self {
+        Self {
+            name,
+            mesh,
+            instances: vec![Instance::IDENTITY],
+            casts_shadows: casts_shadows,
+            visible_range: VisibleRange::EVERYWHERE,
+            backdrop: false,
+        }
     }
 }

@@ -101,11 +101,11 @@ impl Scene {
         ]);
         if quality.sparse {
             let coarse = SceneItem::here("reflected mountains", ground::mountains(scenario, site, true), false);
-            parts[ground_at].visible_range = VisibleRange::STRAIGHT;
-            parts[ground_at + 1].visible_range = VisibleRange::STRAIGHT;
-            parts.push(SceneItem { backdrop: true, visible_range: VisibleRange::IN_LAKE, ..coarse });
+            parts[ground_at].visible_range = VisibleRange::DIRECT_ONLY;
+            parts[ground_at + 1].visible_range = VisibleRange::DIRECT_ONLY;
+            parts.push(SceneItem { backdrop: true, visible_range: VisibleRange::LAKE_ONLY, ..coarse });
             let rough = ground(&fields::sparse(scenario, site, LAKE_TOLERANCE_FACTOR), 0.0);
-            parts.push(SceneItem { visible_range: VisibleRange::IN_LAKE, ..SceneItem::here("reflected ground", rough, false) });
+            parts.push(SceneItem { visible_range: VisibleRange::LAKE_ONLY, ..SceneItem::here("reflected ground", rough, false) });
         }
         parts.extend(plants::parts(scenario, site, quality));
         Self {

@@ -73,13 +73,19 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
         rocks.push(plant_instance(foot, size, turn));
     }
     let on_shore = if quality.sparse {
-        VisibleRange { direct_m: VisibleRange::within(MAX_BOULDER_DISTANCE_M), ..VisibleRange::STRAIGHT }
+        VisibleRange { direct_m: VisibleRange::within(MAX_BOULDER_DISTANCE_M), ..VisibleRange::DIRECT_ONLY }
     } else {
         VisibleRange::EVERYWHERE
     };
     let (spruce, fir) = (conifer(0.21, 5, quality.branches_per_whorl), conifer(0.15, 6, quality.branches_per_whorl));
-    let copies =
-        |name, mesh, instances, seen| SceneItem { name, mesh, instances, casts: true, visible_range: seen, backdrop: false };
+    let copies = |name, mesh, instances, seen| SceneItem {
+        name,
+        mesh,
+        instances,
+        casts_shadows: true,
+        visible_range: seen,
+        backdrop: false,
+    };
     let boulders = copies("boulders", boulder(quality.branches_per_whorl), rocks, on_shore);
     if quality.sparse {
         // Software renderers process instances one by one, so a merged mesh is faster.
@@ -92,7 +98,7 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
             direct_m: VisibleRange::within(FAR_TREE_DISTANCE_M + LOD_OVERLAP_M),
             in_lake_m: VisibleRange::within(MAX_REFLECTED_TREE_DISTANCE_M),
         };
-        let far = VisibleRange { direct_m: VisibleRange::beyond(FAR_TREE_DISTANCE_M), ..VisibleRange::STRAIGHT };
+        let far = VisibleRange { direct_m: VisibleRange::beyond(FAR_TREE_DISTANCE_M), ..VisibleRange::DIRECT_ONLY };
         return vec![
             SceneItem { visible_range: near, ..SceneItem::here("trees", wood(&spruce, &fir), true) },
             SceneItem {
@@ -167,7 +173,7 @@ fn conifer(radius: f64, whorls: u32, branches_per_whorl: u32) -> Mesh {
         };
         let top = Vec3::new(0.0, 0.0, high);
         if branches_per_whorl < 8 {
-            cone(&mut mesh, &(0..branches_per_whorl).map(rim).collect::<Vec<_>>(), top);
+            add_whorl(&mut mesh, &(0..branches_per_whorl).map(rim).collect::<Vec<_>>(), top);
             continue;
         }
         let hollow = Vec3::new(0.0, 0.0, low + 0.05);
@@ -189,14 +195,14 @@ fn distant_conifer(radius: f64) -> Mesh {
             let (s, c) = math::sin_cos(math::TAU * (f64::from(k) + low) / 4.0);
             Vec3::new(0.85 * radius * share * c, 0.85 * radius * share * s, low)
         };
-        cone(&mut mesh, &(0..4).map(rim).collect::<Vec<_>>(), Vec3::new(0.0, 0.0, high));
+        add_whorl(&mut mesh, &(0..4).map(rim).collect::<Vec<_>>(), Vec3::new(0.0, 0.0, high));
     }
     soften_normals(&mut mesh);
     mesh
 }
 
 /// Adds a whorl with shared vertices, which uses a third as many vertices as separate faces.
-fn cone(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
+fn add_whorl(mesh: &mut Mesh, rim: &[Vec3<Enu>], top: Vec3<Enu>) {
     let (first, count) = (mesh.vertices.len() as u32, rim.len() as u32);
     mesh.polygon(rim, NEEDLES);
     mesh.indices.truncate(mesh.indices.len() - 3 * (rim.len() - 2));

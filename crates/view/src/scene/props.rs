@@ -9,11 +9,11 @@ const GLASS: SurfaceFinish = SurfaceFinish::new(Material::Glass, [6, 8, 10]);
 const TIRE: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [6, 6, 6]);
 const RIM: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [90, 90, 92]);
 const DARK: SurfaceFinish = SurfaceFinish::new(Material::Rubber, [12, 12, 13]);
-const LAMP: SurfaceFinish = SurfaceFinish::new(Material::Glass, [200, 200, 190]);
-const TAIL: SurfaceFinish = SurfaceFinish::new(Material::Glass, [120, 6, 4]);
+const HEADLIGHT: SurfaceFinish = SurfaceFinish::new(Material::Glass, [200, 200, 190]);
+const TAIL_LIGHT: SurfaceFinish = SurfaceFinish::new(Material::Glass, [120, 6, 4]);
 const BOX: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [150, 150, 146]);
 const SKIN: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [120, 72, 50]);
-const TROUSERS: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [16, 20, 34]);
+const PANTS: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [16, 20, 34]);
 const HAIR: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [22, 14, 8]);
 
 /// Common car colors, linear.
@@ -103,8 +103,8 @@ pub fn car(rounds: RoundDetail) -> Mesh {
         }
     }
     for y in [0.62, -0.62] {
-        mesh.block([2.16, y - 0.18, 0.62], [2.235, y + 0.18, 0.76], [0.0; 3], LAMP);
-        mesh.block([-2.235, y - 0.18, 0.66], [-2.16, y + 0.18, 0.80], [0.0; 3], TAIL);
+        mesh.block([2.16, y - 0.18, 0.62], [2.235, y + 0.18, 0.76], [0.0; 3], HEADLIGHT);
+        mesh.block([-2.235, y - 0.18, 0.66], [-2.16, y + 0.18, 0.80], [0.0; 3], TAIL_LIGHT);
     }
     mesh.block([2.17, -0.5, 0.36], [2.24, 0.5, 0.50], [0.0; 3], DARK);
     mesh.block([-2.24, -0.26, 0.46], [-2.19, 0.26, 0.57], [0.0; 3], BOX);
@@ -123,8 +123,8 @@ pub fn truck(rounds: RoundDetail) -> Mesh {
     mesh.block([3.55, -1.195, 1.66], [4.35, 1.195, 2.30], [0.14, 0.0, 0.06], GLASS);
     mesh.block([4.9, -0.8, 0.75], [4.99, 0.8, 1.25], [0.0; 3], DARK);
     for y in [0.92, -0.92] {
-        mesh.block([4.9, y - 0.17, 0.72], [4.985, y + 0.17, 0.92], [0.0; 3], LAMP);
-        mesh.block([-5.0, y - 0.15, 0.72], [-4.96, y + 0.15, 0.86], [0.0; 3], TAIL);
+        mesh.block([4.9, y - 0.17, 0.72], [4.985, y + 0.17, 0.92], [0.0; 3], HEADLIGHT);
+        mesh.block([-5.0, y - 0.15, 0.72], [-4.96, y + 0.15, 0.86], [0.0; 3], TAIL_LIGHT);
     }
     // Box body with a ribbed frame, door gap and bars. Avoids coplanar faces, which would cause z-fighting.
     mesh.block([-4.98, -1.22, 0.95], [2.56, 1.22, 3.46], [0.0; 3], BOX);
@@ -148,8 +148,8 @@ pub fn truck(rounds: RoundDetail) -> Mesh {
 pub fn person(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
     for y in [0.09, -0.09] {
-        mesh.round((p(0.02, y, 0.06), 0.055), (p(0.0, y, 0.48), 0.07), rounds.sides(8), TROUSERS);
-        mesh.round((p(0.0, y, 0.48), 0.07), (p(0.0, y, 0.88), 0.09), rounds.sides(8), TROUSERS);
+        mesh.round((p(0.02, y, 0.06), 0.055), (p(0.0, y, 0.48), 0.07), rounds.sides(8), PANTS);
+        mesh.round((p(0.0, y, 0.48), 0.07), (p(0.0, y, 0.88), 0.09), rounds.sides(8), PANTS);
         mesh.block([-0.08, y - 0.05, 0.0], [0.18, y + 0.05, 0.09], [0.08, 0.0, 0.01], DARK);
     }
     for y in [0.225, -0.225] {

@@ -52,11 +52,11 @@ pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> boo
     for corner in squares.iter().flat_map(|square| square.corners(side)) {
         used[corner] = true;
     }
-    squares.iter().flat_map(|square| filled(square, side, &used)).collect()
+    squares.iter().flat_map(|square| square_triangles(square, side, &used)).collect()
 }
 
 /// Returns the triangles of a square: two, or a fan around its center if smaller neighbors have vertices on its boundary.
-fn filled(square: &GridSquare, side: usize, used: &[bool]) -> Vec<[u32; 3]> {
+fn square_triangles(square: &GridSquare, side: usize, used: &[bool]) -> Vec<[u32; 3]> {
     let boundary: Vec<u32> = square.boundary(side).filter(|corner| used[*corner]).map(|corner| corner as u32).collect();
     if let [sw, se, ne, nw] = *boundary {
         return vec![[sw, se, ne], [sw, ne, nw]];
@@ -71,7 +71,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     /// Returns a grid that is subdivided only around one corner.
-    fn field(side: usize) -> Vec<[u32; 3]> {
+    fn locally_refined_grid(side: usize) -> Vec<[u32; 3]> {
         triangles(side, 8, &|square| square.column + square.row > 6 + 2 * square.size)
     }
 
@@ -83,7 +83,7 @@ mod tests {
             let ((ax, ay), (bx, by), (cx, cy)) = (at(a), at(b), at(c));
             (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         };
-        let all = field(SIDE);
+        let all = locally_refined_grid(SIDE);
         assert!(all.len() < 2 * 40 * 40 / 8, "{} triangles", all.len());
         assert!(all.iter().all(|t| twice_area(*t) > 0.0), "all triangles must face up");
         assert_eq!(all.iter().map(|t| twice_area(*t)).sum::<f64>(), 2.0 * 40.0 * 40.0);
@@ -93,7 +93,7 @@ mod tests {
     fn exact_edges_have_no_gaps() {
         const SIDE: usize = 41;
         let mut edges: BTreeMap<(u32, u32), i32> = BTreeMap::new();
-        for [a, b, c] in field(SIDE) {
+        for [a, b, c] in locally_refined_grid(SIDE) {
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 *edges.entry((from.min(to), from.max(to))).or_default() += if from < to { 1 } else { -1 };
             }

@@ -89,7 +89,7 @@ fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
 }
 
 // Cellular pattern: distance to the nearest center, and a random number for its cell.
-fn pebbles(p: vec2<f32>) -> vec2<f32> {
+fn cell_noise(p: vec2<f32>) -> vec2<f32> {
     let found = textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0);
     return vec2<f32>(found.b * 1.28, found.a);
 }
@@ -102,7 +102,7 @@ fn cover(d: f32, width: f32, footprint: f32) -> f32 {
 
 // Mean of exp(-|x| / reach) over a pixel (`footprint` wide) at x. Prevents flicker and steps in the leakage from a line
 // narrower than a pixel.
-fn seeping(x: f32, reach: f32, footprint: f32) -> f32 {
+fn leakage(x: f32, reach: f32, footprint: f32) -> f32 {
     let half = 0.5 * max(footprint, 1e-6);
     let ends = vec2<f32>(x - half, x + half);
     let sums = sign(ends) * reach * (1.0 - exp(-abs(ends) / reach));
@@ -125,13 +125,13 @@ fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
     let angle = acos(clamp(dot(direction, g.sun.xyz), -1.0, 1.0));
     let glow = 1.0 + 2.2 * exp(-3.2 * angle) + 5.0 * exp(-22.0 * angle);
     let clear = (0.32 + 0.68 * fall) * glow * mix(vec3<f32>(0.62, 0.97, 2.0), vec3<f32>(0.94, 0.995, 1.24), fall);
-    let grey = (1.0 + 2.0 * up) / 3.0 * vec3<f32>(0.97, 1.0, 1.05);
-    return g.scene.x * mix(clear, grey, g.sun_rgb.w);
+    let gray = (1.0 + 2.0 * up) / 3.0 * vec3<f32>(0.97, 1.0, 1.05);
+    return g.scene.x * mix(clear, gray, g.sun_rgb.w);
 }
 
 // ---- shadows ----
 
-fn compared(layer: i32, uv: vec2<f32>, depth: f32) -> f32 {
+fn shadow_compare(layer: i32, uv: vec2<f32>, depth: f32) -> f32 {
     return textureSampleCompareLevel(shadow_map, shadow_sampler, uv, layer, depth);
 }
 
@@ -141,15 +141,15 @@ fn map_visible(layer: i32, q: vec3<f32>) -> f32 {
     let s = 1.0 / f32(textureDimensions(shadow_map).x);
     let a = 0.5 * s * (f32(TAPS) - 1.0);
     if TAPS < 2u {
-        return compared(layer, uv, q.z);
+        return shadow_compare(layer, uv, q.z);
     }
-    var sum = compared(layer, uv + vec2<f32>(-a, -a), q.z) + compared(layer, uv + vec2<f32>(a, -a), q.z)
-        + compared(layer, uv + vec2<f32>(-a, a), q.z) + compared(layer, uv + vec2<f32>(a, a), q.z);
+    var sum = shadow_compare(layer, uv + vec2<f32>(-a, -a), q.z) + shadow_compare(layer, uv + vec2<f32>(a, -a), q.z)
+        + shadow_compare(layer, uv + vec2<f32>(-a, a), q.z) + shadow_compare(layer, uv + vec2<f32>(a, a), q.z);
     if TAPS < 3u {
         return 0.25 * sum;
     }
-    sum += compared(layer, uv + vec2<f32>(-a, 0.0), q.z) + compared(layer, uv + vec2<f32>(a, 0.0), q.z)
-        + compared(layer, uv + vec2<f32>(0.0, -a), q.z) + compared(layer, uv + vec2<f32>(0.0, a), q.z) + compared(layer, uv, q.z);
+    sum += shadow_compare(layer, uv + vec2<f32>(-a, 0.0), q.z) + shadow_compare(layer, uv + vec2<f32>(a, 0.0), q.z)
+        + shadow_compare(layer, uv + vec2<f32>(0.0, -a), q.z) + shadow_compare(layer, uv + vec2<f32>(0.0, a), q.z) + shadow_compare(layer, uv, q.z);
     return sum / 9.0;
 }
 
@@ -253,7 +253,7 @@ fn caustics(p: vec3<f32>) -> f32 {
 }
 
 // Radiance along a reflected ray: the sky, or the mean of land and lake.
-fn surroundings(ray: vec3<f32>) -> vec3<f32> {
+fn reflected_radiance(ray: vec3<f32>) -> vec3<f32> {
     if ray.z < 0.0 {
         return 0.12 * (g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * g.sun_rgb.xyz);
     }
@@ -295,19 +295,19 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
         let r = reflect(-v, n);
         let open = clamp(m.light.x * 1.2, 0.0, 1.0);
         let fresnel = f0 + (max(vec3<f32>(1.0 - m.roughness), f0) - f0) * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 5.0);
-        out += fresnel * mix(indirect, surroundings(r), (1.0 - m.roughness) * open) * (1.0 - 0.5 * m.roughness);
+        out += fresnel * mix(indirect, reflected_radiance(r), (1.0 - m.roughness) * open) * (1.0 - 0.5 * m.roughness);
     }
     return haze(out, v, distance);
 }
 
 // Haze: distant objects fade into the horizon.
-fn haze(colour: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
+fn haze(color: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
     let clear = exp(-distance * g.scene.z);
     if !DETAIL {
-        return mix(horizon_radiance(v) * 0.85, colour, clear);
+        return mix(horizon_radiance(v) * 0.85, color, clear);
     }
     let horizon = normalize(vec3<f32>(-v.x, -v.y, 0.04));
-    return mix(sky_radiance(horizon) * 0.85, colour, clear);
+    return mix(sky_radiance(horizon) * 0.85, color, clear);
 }
 
 // Radiance of the sky just above the horizon in the view direction, a cheap approximation for haze. Powers model the
@@ -319,6 +319,6 @@ fn horizon_radiance(v: vec3<f32>) -> vec3<f32> {
     return g.scene.x * mix(clear, vec3<f32>(0.34, 0.35, 0.36), g.sun_rgb.w);
 }
 
-fn exposed(colour: vec3<f32>) -> vec4<f32> {
-    return vec4<f32>(min(colour * g.look.x, vec3<f32>(200.0)), 1.0);
+fn exposed(color: vec3<f32>) -> vec4<f32> {
+    return vec4<f32>(min(color * g.look.x, vec3<f32>(200.0)), 1.0);
 }

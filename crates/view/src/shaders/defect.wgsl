@@ -7,11 +7,11 @@ override KIND: u32 = 0u;
 override MASK: bool = false;
 // Minimum covered fraction of a labeled pixel. A line half a pixel wide, the minimum for detection
 // (docs/src/reference/domain.md, "Resolution"), covers at least a quarter of a pixel even if it straddles two.
-const MARKED: f32 = 0.25;
+const MIN_LABELED_COVERAGE: f32 = 0.25;
 
 struct Patch {
     // Center; AASHTO code.
-    @location(0) centre: vec4<f32>,
+    @location(0) center: vec4<f32>,
     // Normal; a random number in 0..1.
     @location(1) normal: vec4<f32>,
     // Direction of the longest extent; length, m.
@@ -45,7 +45,7 @@ fn vs(@builtin(vertex_index) k: u32, d: Patch) -> Fragment {
     let q = corners[k] * d.light.zw;
     let across = cross(d.normal.xyz, d.along.xyz);
     var out: Fragment;
-    out.p = d.centre.xyz + d.along.xyz * q.x + across * q.y;
+    out.p = d.center.xyz + d.along.xyz * q.x + across * q.y;
     // Offset toward the camera, so that the patch is in front of the surface.
     let shown = out.p + d.normal.xyz * 0.0015;
     out.clip = g.view_proj * vec4<f32>(shown, 1.0);
@@ -65,7 +65,7 @@ struct Look {
 }
 
 // Lateral offset of a crack's center line at x, m: straight segments with kinks, up to 25 mm.
-fn stray(x: f32, seed: f32, footprint: f32) -> f32 {
+fn crack_offset(x: f32, seed: f32, footprint: f32) -> f32 {
     let s = seed * 91.7;
     var y = 0.016 * (noise(vec2<f32>(x * 4.0 + s, s)) * 2.0 - 1.0);
     y += 0.006 * (noise(vec2<f32>(x * 17.0 + s, s + 7.0)) * 2.0 - 1.0) * (1.0 - smoothstep(0.006, 0.03, footprint));
@@ -115,7 +115,7 @@ fn frame_normal(in: Fragment, slope: vec2<f32>) -> vec3<f32> {
 }
 
 // Fraction of sunlight that the edge of a pit lets through at a point inside it.
-fn lip_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards: vec3<f32>) -> f32 {
+fn pit_edge_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards: vec3<f32>) -> f32 {
     let across = cross(in.normal.xyz, in.along.xyz);
     let l = vec3<f32>(dot(towards, in.along.xyz), dot(towards, across), dot(towards, in.normal.xyz));
     if l.z <= 0.02 {
@@ -135,11 +135,11 @@ fn lip_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards
 // Aggregate with the given number of stones per meter along and across. `bend_m`, m, distorts the round outlines.
 fn stones(q: vec2<f32>, bend_m: f32, per_m: vec2<f32>, f: f32) -> vec2<f32> {
     let bent = q + bend_m * (vec2<f32>(fbm(q * 30.0, f * 30.0), fbm(q * 30.0 + 40.0, f * 30.0)) - 0.5);
-    return pebbles(bent * per_m);
+    return cell_noise(bent * per_m);
 }
 
 // Tilt of the stones' faces.
-fn knobs(q: vec2<f32>) -> vec2<f32> {
+fn stone_tilt(q: vec2<f32>) -> vec2<f32> {
     return vec2<f32>(noise(q * 42.0), noise(q * 42.0 + 11.0)) - 0.5;
 }
 
@@ -154,20 +154,20 @@ fn broken(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, f: f32, loo
     let stone = stones(q, 0.010, vec2<f32>(38.0, 45.0), f);
     let shown = 1.0 - smoothstep(0.006, 0.03, f);
     let stony = shown * (1.0 - smoothstep(0.30, 0.44, stone.x));
-    let knob = 0.7 * stony * knobs(q);
+    let knob = 0.7 * stony * stone_tilt(q);
     (*look).matter.normal = frame_normal(in, clamp(slope, vec2<f32>(-2.5), vec2<f32>(2.5)) + knob);
-    var colour = vec3<f32>(0.36, 0.335, 0.295) * (0.75 + 0.5 * fbm(q * 24.0 + seed, f * 24.0));
+    var color = vec3<f32>(0.36, 0.335, 0.295) * (0.75 + 0.5 * fbm(q * 24.0 + seed, f * 24.0));
     let pebble = mix(vec3<f32>(0.20, 0.18, 0.16), vec3<f32>(0.42, 0.37, 0.31), stone.y);
-    colour = mix(colour, pebble, 0.85 * stony);
+    color = mix(color, pebble, 0.85 * stony);
     // A dark line between mortar and stone.
-    colour *= 1.0 - 0.3 * shown * (1.0 - smoothstep(0.0, 0.08, abs(stone.x - 0.40)));
+    color *= 1.0 - 0.3 * shown * (1.0 - smoothstep(0.0, 0.08, abs(stone.x - 0.40)));
     let shelter = smoothstep(0.6, 1.0, e) * smoothstep(0.0, 0.06, deepest);
     (*look).matter.light *= 1.0 - 0.55 * shelter;
-    (*look).matter.sunlit = lip_shadow(in, q, half, deepest, g.sun.xyz);
+    (*look).matter.sunlit = pit_edge_shadow(in, q, half, deepest, g.sun.xyz);
     // The broken edge is a dark line.
     let edge = fwidth(e);
-    colour *= 1.0 - 0.55 * (1.0 - smoothstep(0.0, 0.06 + edge, abs(e - 0.96)));
-    (*look).matter.albedo = colour;
+    color *= 1.0 - 0.55 * (1.0 - smoothstep(0.0, 0.06 + edge, abs(e - 0.96)));
+    (*look).matter.albedo = color;
     (*look).matter.roughness = 0.95;
     (*look).alpha = 1.0 - smoothstep(1.0 - 0.5 * edge, 1.0 + 0.5 * edge, e);
 }
@@ -229,12 +229,12 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     let crust = fbm(in.q * 60.0, f * 60.0);
     let patches = smoothstep(0.30, 0.70, fbm(in.q * vec2<f32>(11.0, 23.0) + seed * 5.0, f * 23.0));
     let thick = clamp(body * (0.25 + 0.75 * patches) + 0.7 * (crust - 0.5), 0.0, 1.0);
-    var colour = mix(vec3<f32>(0.50, 0.48, 0.44), vec3<f32>(0.80, 0.79, 0.75), smoothstep(0.3, 0.8, thick)) * (0.60 + 0.7 * crust);
+    var color = mix(vec3<f32>(0.50, 0.48, 0.44), vec3<f32>(0.80, 0.79, 0.75), smoothstep(0.3, 0.8, thick)) * (0.60 + 0.7 * crust);
     if in.size.y > 2.5 {
         let stain = smoothstep(0.45, 0.75, fbm(vec2<f32>(y * 19.0 + 5.0 + seed, in.q.x * 1.2), f * 19.0));
-        colour = mix(colour, vec3<f32>(0.38, 0.17, 0.06), 0.75 * stain);
+        color = mix(color, vec3<f32>(0.38, 0.17, 0.06), 0.75 * stain);
     }
-    (*look).matter.albedo = colour;
+    (*look).matter.albedo = color;
     (*look).matter.roughness = 0.8;
     let turned = vec2<f32>(0.8 * in.q.x - 0.6 * in.q.y, 0.6 * in.q.x + 0.8 * in.q.y);
     let bump = 0.35 * (vec2<f32>(fbm(turned * 40.0, f * 40.0), fbm(turned * 40.0 + 19.0, f * 40.0)) - 0.5) * (1.0 - smoothstep(0.004, 0.02, f));
@@ -252,7 +252,7 @@ fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     let paste = vec3<f32>(0.25, 0.235, 0.21);
     let mask = 1.0 - smoothstep(0.30, 0.46, stone.x);
     (*look).matter.albedo = mix(vec3<f32>(0.27, 0.25, 0.225), mix(paste, pebble, mask), shown) * (0.85 + 0.4 * (fbm(in.q * 5.0, f * 5.0) - 0.5));
-    let bump = 1.2 * mask * knobs(in.q) * shown;
+    let bump = 1.2 * mask * stone_tilt(in.q) * shown;
     (*look).matter.normal = frame_normal(in, bump);
     (*look).alpha = 1.0 - smoothstep(0.78, 1.02, e);
 }
@@ -266,12 +266,12 @@ fn corroded(in: Fragment, f: f32, look: ptr<function, Look>) {
     let core = 1.0 - smoothstep(0.72, 0.78 + f * 4.0, eaten);
     let rim = (1.0 - smoothstep(0.0, 0.05 + f, abs(eaten - 0.78)));
     let stain = 1.0 - smoothstep(0.8, 1.15, e);
-    var colour = rust(in.q + seed * 3.0, f);
-    let flake = pebbles(in.q * vec2<f32>(30.0, 55.0));
+    var color = rust(in.q + seed * 3.0, f);
+    let flake = cell_noise(in.q * vec2<f32>(30.0, 55.0));
     let shown = 1.0 - smoothstep(0.004, 0.02, f);
-    colour *= 1.0 + 0.7 * shown * (flake.y - 0.5);
+    color *= 1.0 + 0.7 * shown * (flake.y - 0.5);
     let halo = mix(in.tint, vec3<f32>(0.30, 0.12, 0.04), 0.65);
-    (*look).matter.albedo = mix(mix(halo, in.tint * 1.3, 0.6 * rim), colour, core);
+    (*look).matter.albedo = mix(mix(halo, in.tint * 1.3, 0.6 * rim), color, core);
     let bump = 1.6 * core * shown * (vec2<f32>(noise(in.q * 40.0), noise(in.q * 40.0 + 23.0)) - 0.5);
     (*look).matter.normal = frame_normal(in, bump);
     (*look).matter.roughness = mix(0.6, 0.95, core);
@@ -293,16 +293,16 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     let first = all(cell == floor(0.5 * count));
     let missing = select(0.0, 1.0, luck > 0.88 || first);
     let head = cover(d, 2.0 * radius, f);
-    var colour = in.tint * 0.92;
+    var color = in.tint * 0.92;
     let hole = cover(d, 1.3 * radius, f);
     let ring = cover(abs(d - 0.95 * radius), 0.35 * radius, f);
-    let gone = mix(mix(colour, vec3<f32>(0.45, 0.42, 0.38), ring), vec3<f32>(0.008), hole);
-    let bolt = mix(colour, in.tint * (1.25 - 0.8 * smoothstep(0.6 * radius, radius, d)), head);
-    colour = mix(bolt, gone, missing);
+    let gone = mix(mix(color, vec3<f32>(0.45, 0.42, 0.38), ring), vec3<f32>(0.008), hole);
+    let bolt = mix(color, in.tint * (1.25 - 0.8 * smoothstep(0.6 * radius, radius, d)), head);
+    color = mix(bolt, gone, missing);
     let bleed = smoothstep(0.2, 0.6, fbm(in.q * 25.0 + in.normal.w * 9.0, f * 25.0)) * missing * (1.0 - smoothstep(radius, 0.5 * pitch, d));
-    colour = mix(colour, rust(in.q, f), 0.8 * bleed * (1.0 - hole));
+    color = mix(color, rust(in.q, f), 0.8 * bleed * (1.0 - hole));
     let plate = cover(abs(inside - 0.97) * min(half.x, half.y), 0.004, f);
-    (*look).matter.albedo = colour * (1.0 - 0.6 * plate);
+    (*look).matter.albedo = color * (1.0 - 0.6 * plate);
     (*look).matter.normal = frame_normal(in, -at / radius * 0.8 * head * (1.0 - missing));
     (*look).matter.roughness = 0.5;
     (*look).alpha = 1.0 - smoothstep(0.98, 1.0, inside);
@@ -312,7 +312,7 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
 fn fatigue(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     let line = crack(in, f, off);
     let half = 0.5 * in.along.w;
-    let near = seeping(off, 0.006, f) * (1.0 - smoothstep(half * 0.95, half * 1.05 + f, abs(in.q.x)));
+    let near = leakage(off, 0.006, f) * (1.0 - smoothstep(half * 0.95, half * 1.05 + f, abs(in.q.x)));
     let bleed = 0.95 * near * (0.45 + 0.55 * fbm(vec2<f32>(in.q.x * 60.0, in.q.y * 9.0), f * 60.0));
     let sick = max(line, bleed);
     (*look).matter.albedo = mix(vec3<f32>(0.30, 0.12, 0.045), vec3<f32>(0.012), line);
@@ -347,7 +347,7 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     // Some cracks have lime deposits.
     let half = 0.5 * in.along.w;
     let limed = select(0.0, 1.0, fract(in.normal.w * 7.0) > 0.55);
-    let rim = limed * seeping(off, 0.007, f) * smoothstep(0.45, 0.7, noise(vec2<f32>(in.q.x * 9.0, in.normal.w * 31.0)))
+    let rim = limed * leakage(off, 0.007, f) * smoothstep(0.45, 0.7, noise(vec2<f32>(in.q.x * 9.0, in.normal.w * 31.0)))
         * (1.0 - smoothstep(0.85 * half, half, abs(in.q.x)));
     // The gap is in the lime, not below it.
     let veil = (1.0 - line) * 0.35 * rim;
@@ -360,7 +360,7 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let f = max(length(vec2<f32>(dpdx(in.q.x), dpdy(in.q.x))), length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y))));
     // A crack along a weld is nearly straight.
-    let off = in.q.y - select(1.0, 0.15, KIND == 1010u) * stray(in.q.x, in.normal.w, f);
+    let off = in.q.y - select(1.0, 0.15, KIND == 1010u) * crack_offset(in.q.x, in.normal.w, f);
     // Size of a pixel across the line.
     let across = length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y)));
     var look: Look;
@@ -390,7 +390,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         worn(in, f, &look);
     }
     if MASK {
-        if look.alpha < MARKED {
+        if look.alpha < MIN_LABELED_COVERAGE {
             discard;
         }
         return vec4<f32>(0.0, in.id, 0.0, 1.0);

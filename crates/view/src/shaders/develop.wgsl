@@ -45,7 +45,7 @@ fn random(p: vec2<u32>, k: u32) -> vec4<f32> {
 // Contrast of 1.3 around a mid-gray of 0.26 (estimate: standard camera profiles have 1.2 to 1.5). Surfaces two stops
 // underexposed look black, consistent with the score. Equals (x / 0.26)^0.3 up to its limit of 1.25, with an error
 // below 0.2 of 255 steps in the picture.
-fn steeper(x: f32) -> f32 {
+fn raised_contrast(x: f32) -> f32 {
     let s = sqrt(x);
     return (0.19498184 + 2.25033308 * s) / (1.0 + 0.66570929 * s);
 }
@@ -60,7 +60,7 @@ fn encoded(y: vec3<f32>) -> vec3<f32> {
 
 fn developed(x: vec3<f32>) -> vec3<f32> {
     let brightness = dot(x, vec3<f32>(0.2126, 0.7152, 0.0722));
-    let y = x * 0.82 * min(steeper(brightness), 1.25);
+    let y = x * 0.82 * min(raised_contrast(brightness), 1.25);
     // The curve reaches white at 8.1. Far beyond that, the rational function would decrease again.
     return clamp(encoded(min(y, vec3<f32>(12.0))), vec3<f32>(0.0), vec3<f32>(1.0));
 }
@@ -68,7 +68,7 @@ fn developed(x: vec3<f32>) -> vec3<f32> {
 @fragment
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let pixel = vec2<u32>(in.uv * d.size.xy);
-    var colour = textureLoad(light, vec2<i32>(pixel), 0).rgb;
+    var color = textureLoad(light, vec2<i32>(pixel), 0).rgb;
     let taps = select(1, i32(d.grain.z), BLUR);
     if BLUR && taps > 1 {
         let z = textureLoad(depth, vec2<i32>(pixel), 0);
@@ -77,23 +77,23 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         if was.w > 0.0 {
             let opened = vec2<f32>(0.5 + 0.5 * was.x / was.w, 0.5 - 0.5 * was.y / was.w);
             let path = clamp(opened - in.uv, vec2<f32>(-0.06), vec2<f32>(0.06));
-            var sum = colour;
+            var sum = color;
             for (var k = 1; k < taps; k++) {
                 sum += textureSampleLevel(light, light_sampler, in.uv + path * (f32(k) / f32(taps - 1)), 0.0).rgb;
             }
-            colour = sum / f32(taps);
+            color = sum / f32(taps);
         }
     }
     if SENSOR {
         let out = in.uv - 0.5;
-        colour *= 1.0 - d.grain.w * dot(out, out);
+        color *= 1.0 - d.grain.w * dot(out, out);
         // Photon noise grows with the square root of radiance, above a noise floor.
         let grains = random(pixel, u32(d.grain.y));
         let a = grains.x + grains.y + grains.z - 1.5;
         let c = grains.w - 0.5;
-        let brightness = max(dot(colour, vec3<f32>(0.2126, 0.7152, 0.0722)), 0.0);
+        let brightness = max(dot(color, vec3<f32>(0.2126, 0.7152, 0.0722)), 0.0);
         let noise = d.grain.x * (sqrt(brightness * 5.0) + 0.25);
-        colour += 0.2 * noise * (a + vec3<f32>(0.5, -0.2, -0.5) * c);
+        color += 0.2 * noise * (a + vec3<f32>(0.5, -0.2, -0.5) * c);
     }
-    return vec4<f32>(developed(max(colour, vec3<f32>(0.0))), 1.0);
+    return vec4<f32>(developed(max(color, vec3<f32>(0.0))), 1.0);
 }

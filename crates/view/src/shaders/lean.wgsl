@@ -42,7 +42,7 @@ fn reflected(v: vec3<f32>, n: vec3<f32>, smooth_by: f32, light: vec2<f32>, indir
     let away = 1.0 - clamp(dot(n, v), 0.0, 1.0);
     let fresnel = 0.04 + (max(smooth_by, 0.04) - 0.04) * away * away * away * away * away;
     let open = clamp(light.x * 1.2, 0.0, 1.0);
-    return select(0.0, fresnel * (0.5 + 0.5 * smooth_by), smooth_by > 0.3) * mix(indirect, surroundings(r), smooth_by * open);
+    return select(0.0, fresnel * (0.5 + 0.5 * smooth_by), smooth_by > 0.3) * mix(indirect, reflected_radiance(r), smooth_by * open);
 }
 
 @vertex
@@ -96,16 +96,16 @@ fn lean_concrete(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     let tie = length((fract(uv / cell + vec2<f32>(0.5, 0.25)) - 0.5) * cell);
     tone *= 1.0 - 0.5 * cover(tie, 0.025, f) * (1.0 - smoothstep(0.02, 0.08, f)) * wall;
     tone *= 1.0 - wall * 0.42 * tile.g;
-    var colour = vec3<f32>(0.36, 0.345, 0.315) * tone;
-    colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * tile.b);
-    colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * tile.a * step(-0.3, in.normal.z));
+    var color = vec3<f32>(0.36, 0.345, 0.315) * tone;
+    color = mix(color, vec3<f32>(0.13, 0.127, 0.115), 0.5 * tile.b);
+    color = mix(color, vec3<f32>(0.72, 0.71, 0.66), 0.75 * tile.a * step(-0.3, in.normal.z));
     let over = in.p.z - g.scene.y;
-    colour = befriended(colour, in, in.normal, f);
+    color = befriended(color, in, in.normal, f);
     let reach = 0.8 + 0.5 * tile.r;
     let slime = wall * (1.0 - smoothstep(0.15, reach, over));
-    colour = mix(colour, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
+    color = mix(color, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
     let band = wall * smoothstep(reach, reach + 0.15, over) * (1.0 - smoothstep(reach + 0.2, reach + 1.2, over));
-    (*m).albedo = mix(colour, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
+    (*m).albedo = mix(color, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
 }
 
 // Same as `ground`, with one tile lookup: level ground by horizontal position, rock by position in the plane of the
@@ -121,15 +121,15 @@ fn lean_ground(in: Fragment, broad: f32, m: ptr<function, Matter>) {
         * (0.6 + 0.8 * tile.a) * (0.9 + 0.2 * smoothstep(0.40, 0.55, tile.b + 0.3 * (tile.a - 0.5)));
     let gravel = mix(vec3<f32>(0.21, 0.195, 0.17), vec3<f32>(0.34, 0.32, 0.28), tile.a);
     let steep = smoothstep(0.22, 0.42, 1.0 - n.z + 0.18 * (near - 0.5));
-    var colour = meadow * (0.55 + 0.9 * tile.a);
-    colour = mix(colour, rock, steep);
-    colour = mix(colour, gravel, 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5)));
-    colour *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
+    var color = meadow * (0.55 + 0.9 * tile.a);
+    color = mix(color, rock, steep);
+    color = mix(color, gravel, 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5)));
+    color *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
     let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
     let wood = forest * smoothstep(0.38, 0.5, broad + 0.25 * (near - 0.5)) * (1.0 - 0.5 * steep);
-    colour = mix(colour, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + near), wood);
+    color = mix(color, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + near), wood);
     let snow = smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
-    (*m).albedo = mix(colour, vec3<f32>(0.8, 0.82, 0.85), snow);
+    (*m).albedo = mix(color, vec3<f32>(0.8, 0.82, 0.85), snow);
 }
 
 @fragment
@@ -162,7 +162,7 @@ fn fs_lean(lean: Lean) -> @location(0) vec4<f32> {
     let at = lean.spot.zw;
     let depth = lean.facing.w;
     let inside = max(abs(at.x - 0.5), abs(at.y - 0.5)) < 0.4925 && depth > 0.0 && depth < 1.0;
-    let seen = select(1.0, compared(0, at, depth), inside);
+    let seen = select(1.0, shadow_compare(0, at, depth), inside);
     var light = lean.light.rgb + (lean.light.a * seen) * g.sun_rgb.xyz;
     if LAMP {
         light += lamp_lux(in.p, normalize(in.normal)) * lean.veil.w * g.look.x;

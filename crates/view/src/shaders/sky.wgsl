@@ -18,7 +18,7 @@ fn vs(@builtin(vertex_index) k: u32) -> Fragment {
 @fragment
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let d = normalize(in.direction);
-    var colour = sky_radiance(vec3<f32>(d.xy, max(d.z, 0.0)));
+    var color = sky_radiance(vec3<f32>(d.xy, max(d.z, 0.0)));
     let cloud = g.sun_rgb.w;
     if d.z > 0.015 && cloud > 0.02 {
         // A cloud layer at 900 m that drifts with the wind.
@@ -32,11 +32,11 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         let thick = smoothstep(edge, edge + 0.35, heap);
         let sunny = g.sun.w * max(g.sun.z, 0.0) * (0.55 - 0.35 * thick) * g.sun_rgb.xyz;
         let shaded = (1.0 + 2.0 * d.z) / 3.0 * vec3<f32>(0.97, 1.0, 1.05) * g.sky_rgb.w * (1.15 - 0.45 * thick);
-        colour = mix(colour, shaded + sunny, cover_at * min(1.0, 0.25 + 1.1 * cloud) * smoothstep(0.015, 0.16, d.z));
+        color = mix(color, shaded + sunny, cover_at * min(1.0, 0.25 + 1.1 * cloud) * smoothstep(0.015, 0.16, d.z));
     }
     // The sun's disk, 0.53 degrees across, dimmed behind clouds. Its edge is between 4 and 6 mrad. The square of a
     // small angle is twice the difference between 1 and its cosine.
     let off = 2.0 - 2.0 * dot(d, g.sun.xyz);
-    colour += g.sun.w * g.sun_rgb.xyz * 40.0 * (1.0 - smoothstep(16e-6, 36e-6, off));
-    return exposed(colour);
+    color += g.sun.w * g.sun_rgb.xyz * 40.0 * (1.0 - smoothstep(16e-6, 36e-6, off));
+    return exposed(color);
 }

@@ -56,37 +56,37 @@ fn vs(v: Corner) -> Fragment {
 }
 
 // Size of the concrete cells that may contain a distractor, m.
-const FRIEND_M: vec2<f32> = vec2<f32>(5.3, 3.7);
+const DISTRACTOR_CELL_M: vec2<f32> = vec2<f32>(5.3, 3.7);
 // Maximum height of spray paint above the water, m: within reach from the ground, a boat or a ladder (estimate).
-const REACHED_M: f32 = 12.0;
+const MAX_SPRAY_PAINT_HEIGHT_M: f32 = 12.0;
 
 // Distractors left by people and spiders (docs/src/reference/domain.md, "Defects"): at most one per cell, and none in
 // most cells. Weathering and formwork marks are drawn with the concrete.
-fn befriended(colour: vec3<f32>, in: Fragment, n: vec3<f32>, f: f32) -> vec3<f32> {
-    let at = floor(in.uv / FRIEND_M);
+fn befriended(color: vec3<f32>, in: Fragment, n: vec3<f32>, f: f32) -> vec3<f32> {
+    let at = floor(in.uv / DISTRACTOR_CELL_M);
     // Parallel faces share coordinates but must have different distractors.
     let plane = i32(floor(0.7 * dot(in.p, n) + 0.377));
     let cell = vec2<i32>(at) + plane * vec2<i32>(31, 17);
     let luck = hash2(cell + vec2<i32>(401, 97));
     if luck < 0.70 {
-        return colour;
+        return color;
     }
     let own = hash2(cell + vec2<i32>(13, 211));
-    let q = in.uv - (at + 0.5) * FRIEND_M;
+    let q = in.uv - (at + 0.5) * DISTRACTOR_CELL_M;
     if luck < 0.80 {
-        if abs(n.z) < 0.5 && in.p.z - q.y - g.scene.y < REACHED_M {
-            return sprayed(colour, q, own, f);
+        if abs(n.z) < 0.5 && in.p.z - q.y - g.scene.y < MAX_SPRAY_PAINT_HEIGHT_M {
+            return sprayed(color, q, own, f);
         }
-        return colour;
+        return color;
     }
     if luck < 0.89 {
-        return sealed(colour, q, own, f);
+        return sealed(color, q, own, f);
     }
-    return webbed(colour, q - vec2<f32>(1.8, 1.2) * (vec2<f32>(own, fract(own * 7.0)) - 0.5), own, f);
+    return webbed(color, q - vec2<f32>(1.8, 1.2) * (vec2<f32>(own, fract(own * 7.0)) - 0.5), own, f);
 }
 
 // A sealed crack: a band of resin with the round marks of the injection ports.
-fn sealed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
+fn sealed(color: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     let turn = 0.9 * (own - 0.5);
     let axis = vec2<f32>(sin(turn), cos(turn));
     let along = dot(q, axis);
@@ -97,16 +97,16 @@ fn sealed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     let port = length(vec2<f32>(across, (fract(along / 0.28) - 0.5) * 0.28));
     let foot = cover(port, 0.055, f) * step(beyond, 0.0);
     let resin = vec3<f32>(0.45, 0.435, 0.385) * (0.90 + 0.2 * noise(q * 23.0));
-    let sealed_over = mix(colour, resin, 0.9 * max(band, foot));
+    let sealed_over = mix(color, resin, 0.9 * max(band, foot));
     return mix(sealed_over, vec3<f32>(0.17, 0.165, 0.155), cover(port, 0.016, f) * step(beyond, 0.0));
 }
 
 // A dusty spider web.
-fn webbed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
+fn webbed(color: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     let d = length(q);
     let reach = 0.15 + 0.10 * own;
     if d > reach {
-        return colour;
+        return color;
     }
     let turns = atan2(q.y, q.x) / (2.0 * PI) * 14.0;
     let spoke = abs(fract(turns) - 0.5) * 2.0 * PI * d / 14.0;
@@ -115,11 +115,11 @@ fn webbed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     let threads = max(cover(0.22 * d - min(spoke, 0.22 * d), 0.0014, f), lines(d + sag, 0.014, 0.0010, f));
     let gone = smoothstep(0.68, 0.85, noise(q * 9.0 + own * 40.0)) + smoothstep(0.8 * reach, reach, d);
     let dust = 0.25 * (1.0 - smoothstep(0.0, reach, d));
-    return mix(colour, vec3<f32>(0.60, 0.59, 0.56), clamp(0.75 * threads + dust, 0.0, 1.0) * (1.0 - min(gone, 1.0)));
+    return mix(color, vec3<f32>(0.60, 0.59, 0.56), clamp(0.75 * threads + dust, 0.0, 1.0) * (1.0 - min(gone, 1.0)));
 }
 
 // A name in spray paint: five handwritten letters, underlined.
-fn sprayed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
+fn sprayed(color: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     const LETTER_M: f32 = 0.46;
     let slanted = q.x - 0.22 * q.y;
     let k = floor(slanted / LETTER_M + 2.5);
@@ -145,7 +145,7 @@ fn sprayed(colour: vec3<f32>, q: vec2<f32>, own: f32, f: f32) -> vec3<f32> {
     // Runs of excess paint.
     let run = cover(abs(fract(q.x / 0.37 + own) - 0.5) * 0.37, 0.012, f) * step(q.y, -0.44) * step(-0.95 + 0.5 * noise(vec2<f32>(floor(q.x / 0.37 + own) * 3.3, own)), q.y);
     let paint = select(select(vec3<f32>(0.030, 0.030, 0.034), vec3<f32>(0.035, 0.09, 0.34), own > 0.35), vec3<f32>(0.42, 0.035, 0.04), own > 0.7);
-    return mix(colour, paint, 0.92 * max(stroke, run * step(abs(q.x), 1.1)));
+    return mix(color, paint, 0.92 * max(stroke, run * step(abs(q.x), 1.1)));
 }
 
 // Cast concrete: formwork boards, construction joints, tie holes, blotches, rain streaks, algae near the water.
@@ -175,32 +175,32 @@ fn concrete(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>)
     tone *= 1.0 - wall * 0.42 * smoothstep(0.52, 0.78, streak);
     // Air holes left by the formwork, a few millimeters wide.
     if DETAIL {
-        let hole = pebbles(uv * 14.0 + 5.0);
+        let hole = cell_noise(uv * 14.0 + 5.0);
         let bore = 0.03 + 0.09 * fract(hole.y * 7.3);
         tone *= 1.0 - 0.5 * step(0.72, hole.y) * cover(hole.x, bore, f * 14.0) * (1.0 - smoothstep(0.004, 0.012, f));
     }
-    var colour = vec3<f32>(0.36, 0.345, 0.315) * tone;
+    var color = vec3<f32>(0.36, 0.345, 0.315) * tone;
     // Soot and lichen in large patches.
     let dark = smoothstep(0.6, 0.8, fbm(uv * 0.17 + 11.0, f * 0.17));
-    colour = mix(colour, vec3<f32>(0.13, 0.127, 0.115), 0.5 * dark);
+    color = mix(color, vec3<f32>(0.13, 0.127, 0.115), 0.5 * dark);
     // Bird droppings: white splashes that are not defects. Downward faces have none.
     let spot = floor(uv / 1.7);
     let lucky = hash2(vec2<i32>(spot) + vec2<i32>(77, 19));
     if lucky > 0.93 && n.z > -0.3 {
-        let centre = (spot + 0.3 + 0.4 * vec2<f32>(hash2(vec2<i32>(spot)), hash2(vec2<i32>(spot) + 5))) * 1.7;
-        let d = length((uv - centre) * vec2<f32>(1.0, mix(1.0, 0.45, wall)));
+        let center = (spot + 0.3 + 0.4 * vec2<f32>(hash2(vec2<i32>(spot)), hash2(vec2<i32>(spot) + 5))) * 1.7;
+        let d = length((uv - center) * vec2<f32>(1.0, mix(1.0, 0.45, wall)));
         let splash = 0.055 * fine(uv * 38.0, 0.0, grain);
-        colour = mix(colour, vec3<f32>(0.72, 0.71, 0.66), 0.75 * (1.0 - smoothstep(splash - 0.5 * f, splash + 0.5 * f + 0.004, d)));
+        color = mix(color, vec3<f32>(0.72, 0.71, 0.66), 0.75 * (1.0 - smoothstep(splash - 0.5 * f, splash + 0.5 * f + 0.004, d)));
     }
     let over = in.p.z - g.scene.y;
-    colour = befriended(colour, in, n, f);
+    color = befriended(color, in, n, f);
     // Splash zone: algae and a wet base.
     let reach = 0.8 + 0.5 * fine(uv * 0.8 + 4.0, f * 0.8, blotch);
     let slime = wall * (1.0 - smoothstep(0.15, reach, over));
-    colour = mix(colour, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
+    color = mix(color, vec3<f32>(0.055, 0.065, 0.04), 0.9 * slime);
     let band = wall * smoothstep(reach, reach + 0.15, over) * (1.0 - smoothstep(reach + 0.2, reach + 1.2, over));
-    colour = mix(colour, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
-    (*m).albedo = colour;
+    color = mix(color, vec3<f32>(0.5, 0.48, 0.43), 0.35 * band);
+    (*m).albedo = color;
     (*m).roughness = mix(0.92, 0.45, slime);
 }
 
@@ -215,9 +215,9 @@ fn deck(in: Fragment, fp: vec2<f32>, m: ptr<function, Matter>) {
     let patches = fbm(in.uv * vec2<f32>(0.12, 0.7), f * 0.7);
     var asphalt = vec3<f32>(0.062, 0.062, 0.065) * (0.75 + 0.5 * patches + 0.3 * (stones - 0.5)) * (1.0 + 0.25 * worn);
     let dash = smoothstep(0.0, fp.x / 9.0 + 0.001, 0.333 - fract(in.uv.x / 9.0));
-    let centre = cover(across, 0.15, fp.y) * dash;
+    let center = cover(across, 0.15, fp.y) * dash;
     let edge = cover(abs(across - 0.345 * half * 2.0), 0.12, fp.y);
-    asphalt = mix(asphalt, vec3<f32>(0.62, 0.61, 0.57) * (0.6 + 0.6 * stones), clamp(centre + edge, 0.0, 1.0) * 0.85);
+    asphalt = mix(asphalt, vec3<f32>(0.62, 0.61, 0.57) * (0.6 + 0.6 * stones), clamp(center + edge, 0.0, 1.0) * 0.85);
     let kerb = cover(abs(across - 0.372 * half * 2.0), 0.12, fp.y);
     let slabs = lines(in.uv.x, 1.0, 0.01, fp.x);
     let walk = vec3<f32>(0.36, 0.35, 0.33) * (0.75 + 0.5 * patches) * (1.0 - 0.3 * slabs);
@@ -232,23 +232,23 @@ fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     let wall = 1.0 - smoothstep(0.5, 0.9, abs(n.z));
     let chalk = fbm(uv * 0.6, f * 0.6);
     let skin = fbm(uv * 26.0, f * 26.0);
-    var colour = in.tint.rgb * (0.72 + 0.44 * chalk + 0.16 * skin);
+    var color = in.tint.rgb * (0.72 + 0.44 * chalk + 0.16 * skin);
     let streak = fbm(vec2<f32>(uv.x * 4.0, uv.y * 0.3 + 9.0), f * 4.0);
-    colour *= 1.0 - wall * 0.3 * smoothstep(0.55, 0.8, streak);
+    color *= 1.0 - wall * 0.3 * smoothstep(0.55, 0.8, streak);
     // A butt strap every 6 m with two rows of rivets on each side.
     let seam = abs(fract(uv.x / 6.0 + 0.5) - 0.5) * 6.0;
-    colour *= 1.0 - 0.45 * cover(seam, 0.006, fp.x);
-    colour *= 1.0 - 0.12 * cover(abs(seam - 0.22), 0.008, fp.x);
+    color *= 1.0 - 0.45 * cover(seam, 0.006, fp.x);
+    color *= 1.0 - 0.12 * cover(abs(seam - 0.22), 0.008, fp.x);
     let row = min(abs(seam - 0.07), abs(seam - 0.15));
     let along = (fract(uv.y / 0.09) - 0.5) * 0.09;
     let head = length(vec2<f32>(row, along));
     let shown = 1.0 - smoothstep(0.008, 0.03, f);
     let rivet = cover(head, 0.03, f) * shown;
-    colour = mix(colour, colour * (1.25 - 0.9 * smoothstep(0.008, 0.016, head)), rivet);
+    color = mix(color, color * (1.25 - 0.9 * smoothstep(0.008, 0.016, head)), rivet);
     // Small, dry, superficial rust specks in gaps of the paint.
     let freckle = smoothstep(0.74, 0.82, fbm(uv * 2.3 + 40.0, f * 2.3)) * smoothstep(0.45, 0.7, fbm(uv * 0.3 + 2.0, f * 0.3));
-    colour = mix(colour, vec3<f32>(0.19, 0.085, 0.04), 0.55 * freckle);
-    (*m).albedo = colour;
+    color = mix(color, vec3<f32>(0.19, 0.085, 0.04), 0.55 * freckle);
+    (*m).albedo = color;
     (*m).roughness = mix(0.48, 0.85, max(freckle, 0.6 * chalk));
 }
 
@@ -270,42 +270,42 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
         * (0.6 + 0.8 * chip) * (0.9 + 0.2 * smoothstep(0.40, 0.55, bed + 0.3 * (chip - 0.5)));
     let gravel = mix(vec3<f32>(0.21, 0.195, 0.17), vec3<f32>(0.34, 0.32, 0.28), fine_at);
     let steep = smoothstep(0.22, 0.42, 1.0 - n.z + 0.18 * (near - 0.5));
-    var colour = meadow * (0.55 + 0.55 * fine_at + 0.35 * blades);
-    colour = mix(colour, rock, steep);
+    var color = meadow * (0.55 + 0.55 * fine_at + 0.35 * blades);
+    color = mix(color, rock, steep);
     let shore = 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5));
-    colour = mix(colour, gravel, shore);
+    color = mix(color, gravel, shore);
     // Wet at the waterline.
-    colour *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
+    color *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
     // Forest on distant slopes, and snow at high elevations.
     let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
     let canopy = fine(at * 0.09, f * 0.09, near);
-    colour = mix(colour, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + canopy), forest * smoothstep(0.38, 0.5, broad + 0.25 * (canopy - 0.5)) * (1.0 - 0.5 * steep));
+    color = mix(color, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + canopy), forest * smoothstep(0.38, 0.5, broad + 0.25 * (canopy - 0.5)) * (1.0 - 0.5 * steep));
     let snow = smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
-    colour = mix(colour, vec3<f32>(0.8, 0.82, 0.85), snow);
-    (*m).albedo = colour;
+    color = mix(color, vec3<f32>(0.8, 0.82, 0.85), snow);
+    (*m).albedo = color;
     (*m).roughness = 0.95;
 }
 
 fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
-    var colour = in.tint.rgb;
+    var color = in.tint.rgb;
     var roughness = 0.85;
     switch in.material {
         case 3u: {
             // Wrapped wire of cables.
-            colour = mix(vec3<f32>(0.30, 0.31, 0.32), colour, 0.5) * (0.8 + 0.4 * fbm(in.uv * 3.0, f * 3.0));
+            color = mix(vec3<f32>(0.30, 0.31, 0.32), color, 0.5) * (0.8 + 0.4 * fbm(in.uv * 3.0, f * 3.0));
             roughness = 0.55;
         }
         case 5u: {
             let tuft = fbm(in.p.xy * 3.0 + in.p.z * 2.3, f * 3.0);
-            colour *= 0.45 + 1.1 * tuft;
+            color *= 0.45 + 1.1 * tuft;
             roughness = 0.9;
         }
-        case 6u: { colour *= 0.6 + 0.8 * fbm(in.uv * vec2<f32>(9.0, 2.0), f * 9.0); }
+        case 6u: { color *= 0.6 + 0.8 * fbm(in.uv * vec2<f32>(9.0, 2.0), f * 9.0); }
         case 7u: {
             let stone = fbm(in.p.xy * 2.0 + in.p.zz * 1.7, f * 2.0);
-            colour *= 0.6 + 0.8 * stone;
-            colour = mix(colour, vec3<f32>(0.10, 0.12, 0.04), 0.5 * smoothstep(0.5, 0.7, stone) * clamp(n.z, 0.0, 1.0));
-            colour *= mix(0.5, 1.0, smoothstep(0.0, 0.35, in.p.z - g.scene.y));
+            color *= 0.6 + 0.8 * stone;
+            color = mix(color, vec3<f32>(0.10, 0.12, 0.04), 0.5 * smoothstep(0.5, 0.7, stone) * clamp(n.z, 0.0, 1.0));
+            color *= mix(0.5, 1.0, smoothstep(0.0, 0.35, in.p.z - g.scene.y));
         }
         case 8u, 15u: { roughness = 0.3; }
         case 9u: { roughness = 0.08; }
@@ -315,12 +315,12 @@ fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
             let d = length(in.uv);
             let ring = cover(abs(d - 0.72), 0.06, f);
             let h = max(cover(abs(abs(in.uv.x) - 0.25), 0.1, f) * step(abs(in.uv.y), 0.4), cover(abs(in.uv.y), 0.1, f) * step(abs(in.uv.x), 0.3));
-            colour = mix(vec3<f32>(0.85, 0.25, 0.03), vec3<f32>(0.85), clamp(ring + h, 0.0, 1.0));
-            colour *= 0.85 + 0.3 * fbm(in.uv * 6.0, f * 6.0) * step(at, 2.0);
+            color = mix(vec3<f32>(0.85, 0.25, 0.03), vec3<f32>(0.85), clamp(ring + h, 0.0, 1.0));
+            color *= 0.85 + 0.3 * fbm(in.uv * 6.0, f * 6.0) * step(at, 2.0);
         }
         default: {}
     }
-    (*m).albedo = colour;
+    (*m).albedo = color;
     (*m).roughness = roughness;
 }
 

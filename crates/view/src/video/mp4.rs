@@ -7,7 +7,7 @@ use shiguredo_mp4::{TrackKind, Uint};
 use std::num::NonZeroU32;
 
 /// Ticks per second of the file's time base.
-const TICKS_S: u32 = 90_000;
+const TICKS_PER_S: u32 = 90_000;
 /// NAL unit types (H.264, table 7-1).
 const SPS: u8 = 7;
 const PPS: u8 = 8;
@@ -57,12 +57,12 @@ impl Mp4Writer {
         }
         self.pictures += 1;
         // Uses whole ticks without drift: picture n ends at n / rate.
-        let until = (self.pictures as f64 / self.rate_hz * f64::from(TICKS_S)).round() as u64;
+        let until = (self.pictures as f64 / self.rate_hz * f64::from(TICKS_PER_S)).round() as u64;
         let sample = Sample {
             track_kind: TrackKind::Video,
             sample_entry: (!self.track_started).then(|| sample_entry(&encoded.units, self.size_px)).transpose()?,
             keyframe: encoded.key,
-            timescale: NonZeroU32::new(TICKS_S).unwrap_or(NonZeroU32::MIN),
+            timescale: NonZeroU32::new(TICKS_PER_S).unwrap_or(NonZeroU32::MIN),
             duration: (until - self.ticks) as u32,
             composition_time_offset: None,
             data_offset: self.end,

@@ -79,7 +79,7 @@ fn exact_streams_have_distinct_identifiers() {
 }
 
 #[test]
-fn exact_mp4_file_contains_all_pictures_and_times() {
+fn exact_mp4_file_contains_all_pictures_and_timestamps() {
     let pictures = encoded(30);
     let (mut file, head) = Mp4Writer::new((320, 180), 15.0).unwrap();
     let mut bytes = Vec::new();
@@ -111,7 +111,7 @@ fn exact_chapter_titles_are_escaped_single_lines() {
 }
 
 #[test]
-fn exact_rate_needs_two_pictures_and_covers_two_seconds() {
+fn exact_picture_rate_requires_two_pictures_and_averages_two_seconds() {
     let mut rate = PictureRate::default();
     let mut after = |ms: i64| {
         rate.count(SimTime::from_ms(ms));

@@ -18,12 +18,19 @@ pub struct Chapter {
 pub fn write(chapters: &[Chapter]) -> String {
     let mut out = String::from("WEBVTT\n");
     for (k, chapter) in chapters.iter().enumerate() {
-        let _ = write!(out, "\n{}\n{} --> {}\n{}\n", k + 1, stamp(chapter.from_s), stamp(chapter.to_s), escaped(&chapter.title));
+        let _ = write!(
+            out,
+            "\n{}\n{} --> {}\n{}\n",
+            k + 1,
+            timestamp(chapter.from_s),
+            timestamp(chapter.to_s),
+            escaped(&chapter.title)
+        );
     }
     out
 }
 
-fn stamp(s: f64) -> String {
+fn timestamp(s: f64) -> String {
     let ms = (s.max(0.0) * 1000.0).round() as u64;
     format!("{:02}:{:02}:{:02}.{:03}", ms / 3_600_000, ms / 60_000 % 60, ms / 1000 % 60, ms % 1000)
 }

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 const BLOCK: u32 = 2;
 /// Maximum mean absolute difference per channel over the picture, out of 255. JPEG at quality 90 causes about half of
 /// that.
-const MEAN_MAX: f64 = 1.5;
+const MAX_MEAN: f64 = 1.5;
 /// Maximum for the worst tile. A missing or moved object the size of a tile exceeds it.
-const TILE_MAX: f64 = 7.0;
+const MAX_TILE: f64 = 7.0;
 /// Side of a tile, blocks: 24 px.
 const TILE: u32 = 12;
 /// JPEG quality of committed pictures, 1 to 100.
@@ -26,8 +26,8 @@ pub struct Difference {
 }
 
 impl Difference {
-    pub fn small(&self) -> bool {
-        self.mean <= MEAN_MAX && self.tile <= TILE_MAX
+    pub fn is_within_limits(&self) -> bool {
+        self.mean <= MAX_MEAN && self.tile <= MAX_TILE
     }
 }
 
@@ -91,13 +91,13 @@ pub fn check_picture_at(committed: &Path, name: &str, drawn: &Picture) -> Result
         let (width, height) = (expected.width, expected.height);
         format!("{name}: rendered at {} x {}, committed at {width} x {height}", drawn.width, drawn.height)
     })?;
-    if found.small() {
+    if found.is_within_limits() {
         return Ok(found);
     }
     let (drawn_at, difference_at) =
         (save(&format!("{name}.png"), drawn), save(&format!("{name}-difference.png"), &difference_picture(drawn, &expected)));
     Err(format!(
-        "{name}: mean {:.2} (at most {MEAN_MAX}), worst tile {:.2} (at most {TILE_MAX}); rendered: {}, difference: {}",
+        "{name}: mean {:.2} (at most {MAX_MEAN}), worst tile {:.2} (at most {MAX_TILE}); rendered: {}, difference: {}",
         found.mean,
         found.tile,
         drawn_at.display(),
@@ -164,12 +164,12 @@ fn exact_comparison_detects_missing_or_moved_parts_and_tolerates_jpeg() {
     let plain = sample(None, 0);
     assert_eq!(difference(&plain, &plain), Some(Difference { mean: 0.0, tile: 0.0 }));
     let spotted = difference(&plain, &sample(Some((60, 40)), 0)).unwrap();
-    assert!(!spotted.small(), "a square of 20 px must be detected: {spotted:?}");
+    assert!(!spotted.is_within_limits(), "a square of 20 px must be detected: {spotted:?}");
     let moved = difference(&plain, &sample(None, 3)).unwrap();
-    assert!(!moved.small(), "a shift of 3 px must be detected: {moved:?}");
+    assert!(!moved.is_within_limits(), "a shift of 3 px must be detected: {moved:?}");
     let read = image::load_from_memory(&jpeg(&plain)).unwrap().to_rgba8();
     let lossy = Picture { width: read.width(), height: read.height(), rgba: read.into_raw() };
     let found = difference(&plain, &lossy).unwrap();
-    assert!(found.small(), "JPEG losses alone: {found:?}");
+    assert!(found.is_within_limits(), "JPEG losses alone: {found:?}");
     assert_eq!(difference(&plain, &Picture { width: 1, height: 1, rgba: vec![0; 4] }), None);
 }

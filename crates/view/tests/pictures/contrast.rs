@@ -11,7 +11,7 @@ use spandrel_view::scene::DefectPatch;
 use spandrel_view::scene::defects::patch;
 
 /// Size of the crops from the camera's picture at full resolution, px.
-const CROP: (u32, u32) = (160, 200);
+const CROP_PX: (u32, u32) = (160, 200);
 const WIDTH_M: f64 = 0.0025;
 /// Random numbers that make defect.wgsl draw a crack without lime deposits, and one with them.
 const SEED_WITHOUT_LIME: f32 = 0.05;
@@ -61,9 +61,9 @@ impl Wall {
     /// Returns pictures of the wall with and without the crack at a ground sampling distance, m.
     fn pair(&mut self, gsd_m: f64) -> [Picture; 2] {
         let focal_px = self.studio.vehicle.camera.focal_px();
-        let hfov_deg = (2.0 * math::atan(0.5 * f64::from(CROP.0) / focal_px)).to_degrees();
+        let hfov_deg = (2.0 * math::atan(0.5 * f64::from(CROP_PX.0) / focal_px)).to_degrees();
         let from = self.crack.position_m + self.crack.normal * (gsd_m * focal_px);
-        let shot = self.studio.seen(from, self.crack.position_m, hfov_deg, false, CROP);
+        let shot = self.studio.seen(from, self.crack.position_m, hfov_deg, false, CROP_PX);
         [self.patches.clone(), Vec::new()].map(|patches| {
             let (gpu, renderer) = self.studio.renderer();
             renderer.set_patches(gpu, &patches);
@@ -80,12 +80,12 @@ fn row(picture: &Picture, y: u32) -> Vec<f64> {
 /// Returns the contrast between the crack's darkest point in a row and the bare wall, as a fraction, averaged over the
 /// rows.
 fn contrast(pair: &[Picture; 2]) -> f64 {
-    strongest(pair, |with, without| without - with)
+    peak_difference(pair, |with, without| without - with)
 }
 
 /// Returns the largest difference from the bare wall in a row, as a fraction of the wall's brightness there, averaged
 /// over the rows.
-fn strongest([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64) -> f64 {
+fn peak_difference([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64) -> f64 {
     let of = |y: u32| {
         let pairs = row(with, y).into_iter().zip(row(without, y));
         pairs.map(|(with, without)| by(with, without) / without.max(1.0)).fold(0.0, f64::max)
@@ -95,7 +95,7 @@ fn strongest([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64) -> f6
 
 /// Returns the variation of the bare wall between pixels that are two apart, as a fraction of its brightness: grain,
 /// sand, streaks.
-fn texture(without: &Picture) -> f64 {
+fn wall_variation(without: &Picture) -> f64 {
     let (mut squares, mut count) = (0.0, 0.0);
     for y in 0..without.height {
         let luma = row(without, y);
@@ -108,7 +108,7 @@ fn texture(without: &Picture) -> f64 {
 }
 
 #[test]
-fn val_crack_visibility_follows_its_width_in_pixels() {
+fn val_crack_visibility_depends_on_its_width_in_pixels() {
     // Multiples of the variation of the bare wall. 5 is Rose's limit of visibility (1948). Distinguishing a crack from
     // a stain or a formwork line requires more (estimate: four times that).
     const DETECTED: f64 = 5.0;
@@ -116,32 +116,35 @@ fn val_crack_visibility_follows_its_width_in_pixels() {
     const UNDETECTED: f64 = 2.0;
     // A line narrower than a pixel covers a fraction of it, so half the width has half the contrast. The tone curve
     // causes a small deviation.
-    const HALF: f64 = 0.5;
+    const HALF_CONTRAST: f64 = 0.5;
     const HALF_TOLERANCE: f64 = 0.12;
     let mut wall = Wall::new();
     let mut found = Vec::new();
     for share in [2.0, 1.0, 0.5, 0.1] {
         let gsd_m = WIDTH_M / share;
         let pair = wall.pair(gsd_m);
-        let (seen, bare) = (contrast(&pair), texture(&pair[1]));
+        let (seen, bare) = (contrast(&pair), wall_variation(&pair[1]));
         println!("{share} px ({:.1} m): contrast {seen:.3}, bare wall {bare:.3}", gsd_m / wall.gsd_m(1.0));
         found.push((seen, seen / bare));
     }
     assert!(found[1].1 >= IDENTIFIED && found[0].1 >= IDENTIFIED, "one and two pixels: {found:?}");
     assert!(found[2].1 >= DETECTED, "half a pixel: {found:?}");
     assert!(found[3].1 <= UNDETECTED, "a tenth of a pixel: {found:?}");
-    assert!((found[2].0 / found[1].0 - HALF).abs() <= HALF_TOLERANCE, "contrast at half a pixel relative to one: {found:?}");
+    assert!(
+        (found[2].0 / found[1].0 - HALF_CONTRAST).abs() <= HALF_TOLERANCE,
+        "contrast at half a pixel relative to one: {found:?}"
+    );
 }
 
 /// As the camera moves away from a crack in steps of 6 %, the contrast must decrease without jumps.
 #[test]
-fn prop_contrast_falls_without_steps() {
+fn prop_contrast_decreases_smoothly() {
     const STEP: f64 = 0.94;
     // Rounding to 8 bits, and different rows of the wall in the picture.
-    const RISE_MAX: f64 = 0.01;
+    const MAX_RISE: f64 = 0.01;
     // The contrast is inversely proportional to the distance, so a step changes it by 6 %, or by up to twice that where
     // the edge of the line leaves the adjacent pixel.
-    const FALL_MAX: f64 = 0.08;
+    const MAX_FALL: f64 = 0.08;
     let mut wall = Wall::new();
     let mut before: Option<f64> = None;
     let mut share = 4.0;
@@ -149,7 +152,7 @@ fn prop_contrast_falls_without_steps() {
         let seen = contrast(&wall.pair(WIDTH_M / share));
         if let Some(before) = before {
             let change = seen - before;
-            assert!((-FALL_MAX..=RISE_MAX).contains(&change), "{share:.3} px: {before:.3}, then {seen:.3}");
+            assert!((-MAX_FALL..=MAX_RISE).contains(&change), "{share:.3} px: {before:.3}, then {seen:.3}");
         }
         before = Some(seen);
         share *= STEP;
@@ -159,20 +162,20 @@ fn prop_contrast_falls_without_steps() {
 
 /// Leakage from a line (lime on concrete, rust on steel) must fade just as evenly.
 #[test]
-fn prop_leakage_contrast_falls_without_steps() {
+fn prop_leakage_contrast_decreases_smoothly() {
     const STEP: f64 = 0.94;
     // Rounding to 8 bits, different rows of the wall, and ends of the leakage that enter the picture.
-    const RISE_MAX: f64 = 0.03;
-    const FALL_MAX: f64 = 0.08;
+    const MAX_RISE: f64 = 0.03;
+    const MAX_FALL: f64 = 0.08;
     for (kind, own) in [(defect_codes::CRACK, SEED_WITH_LIME), (defect_codes::FATIGUE, SEED_WITHOUT_LIME)] {
         let mut wall = Wall::of(kind, own);
         let mut before: Option<f64> = None;
         let mut share = 4.0;
         while share > 0.1 {
-            let seen = strongest(&wall.pair(WIDTH_M / share), |with, without| (with - without).abs());
+            let seen = peak_difference(&wall.pair(WIDTH_M / share), |with, without| (with - without).abs());
             if let Some(before) = before {
                 let change = seen - before;
-                assert!((-FALL_MAX..=RISE_MAX).contains(&change), "{kind}: {share:.3} px: {before:.3}, then {seen:.3}");
+                assert!((-MAX_FALL..=MAX_RISE).contains(&change), "{kind}: {share:.3} px: {before:.3}, then {seen:.3}");
             }
             before = Some(seen);
             share *= STEP;

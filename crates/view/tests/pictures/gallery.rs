@@ -17,18 +17,18 @@ use spandrel_view::scene::defects::patch;
 use std::path::Path;
 
 /// Size of a scene picture, px.
-const SCENE: (u32, u32) = (640, 360);
+const SCENE_PX: (u32, u32) = (640, 360);
 /// Size of each view with a HUD, large enough for legible text.
-const VIEW: (u32, u32) = (640, 360);
+const VIEW_PX: (u32, u32) = (640, 360);
 /// Size of each close-up of a defect, px.
-const CLOSE: (u32, u32) = (320, 240);
+const CLOSE_UP_PX: (u32, u32) = (320, 240);
 /// Fields of view at 1 m and 3 m, which fit an object half a meter wide. At 8 m, the picture is a full-resolution crop
 /// of the camera's picture.
-const CLOSE_DEG: [f64; 2] = [30.0, 15.0];
+const CLOSE_UP_FOV_DEG: [f64; 2] = [30.0, 15.0];
 
 /// Size of the tutorial's defect pictures, px, and the field of view for all of them; at 1 m, half a meter just fits.
-const TUTORIAL: (u32, u32) = (240, 180);
-const TUTORIAL_DEG: f64 = 30.0;
+const TUTORIAL_PX: (u32, u32) = (240, 180);
+const TUTORIAL_FOV_DEG: f64 = 30.0;
 
 /// Collects all errors, so one run reports on every picture.
 #[derive(Default)]
@@ -37,7 +37,7 @@ struct Gallery {
 }
 
 impl Gallery {
-    fn hang(&mut self, name: &str, picture: &Picture) {
+    fn check(&mut self, name: &str, picture: &Picture) {
         self.record(name, check_picture(name, picture));
     }
 
@@ -62,9 +62,9 @@ fn regress_bridges_in_summer_light() {
         ("suspension-bridge-with-traffic", at(-62.0, 136.0, 20.0), at(0.0, 151.0, 14.0), 64.0),
         ("pier-at-the-water", at(-57.0, 133.0, 5.5), at(-70.0, 150.0, 5.5), 64.0),
     ] {
-        let shot = studio.seen(from, look, hfov_deg, false, SCENE);
+        let shot = studio.seen(from, look, hfov_deg, false, SCENE_PX);
         let picture = studio.draw(&shot);
-        wall.hang(name, &picture);
+        wall.check(name, &picture);
     }
     wall.assert_no_errors();
 }
@@ -79,11 +79,11 @@ fn regress_crew_and_drone_at_the_pad() {
         ("drone-near", at(-111.0, 76.4, 7.0), at(-112.0, 78.0, 6.3), at(-112.0, 78.0, 6.3 - 0.02), 24.0),
     ] {
         let moment = studio.moment(drone, at(0.0, 150.0, 14.0), false, at(0.0, 0.0, 0.0));
-        let aspect = f64::from(SCENE.0) / f64::from(SCENE.1);
+        let aspect = f64::from(SCENE_PX.0) / f64::from(SCENE_PX.1);
         let eye = PinholeCamera::at(from, look, f64::to_radians(vfov_deg), aspect);
-        let shot = studio.stage().inspector_shot(eye, &moment, SCENE);
+        let shot = studio.stage().inspector_shot(eye, &moment, SCENE_PX);
         let picture = studio.draw(&shot);
-        wall.hang(name, &picture);
+        wall.check(name, &picture);
     }
     wall.assert_no_errors();
 }
@@ -101,10 +101,10 @@ fn regress_distractors() {
         (at(-62.5, 152.0, 2.8), at(-68.0, 153.0, 1.9), 50.0),
     ]
     .map(|(from, look, hfov_deg)| {
-        let shot = studio.seen(from, look, hfov_deg, false, CLOSE);
+        let shot = studio.seen(from, look, hfov_deg, false, CLOSE_UP_PX);
         studio.draw(&shot)
     });
-    wall.hang("false-friends", &beside(&pictures));
+    wall.check("false-friends", &beside(&pictures));
     wall.assert_no_errors();
 }
 
@@ -113,7 +113,7 @@ fn regress_distractors() {
 fn regress_lamp_lights_dark_places() {
     // Maximum mean luma of the picture's center in the dark, out of 255, and minimum factor by which the lamp brightens
     // it.
-    const DARK_MAX: f64 = 75.0;
+    const MAX_DARK_LUMA: f64 = 75.0;
     const MIN_LAMP_FACTOR: f64 = 1.5;
     let mut studio = Studio::new(dusk(), 7, "medium", SimTime::ZERO);
     let mut wall = Gallery::default();
@@ -122,15 +122,15 @@ fn regress_lamp_lights_dark_places() {
     {
         let mut lumas = Vec::new();
         for (lamp, state) in [(false, "lamp-off"), (true, "lamp-on")] {
-            let shot = studio.seen(from, look, 84.0, lamp, SCENE);
+            let shot = studio.seen(from, look, 84.0, lamp, SCENE_PX);
             let picture = studio.draw(&shot);
-            let (w, h) = SCENE;
+            let (w, h) = SCENE_PX;
             lumas.push(picture.luma((w / 3, h / 3), (w - w / 3, h - h / 3)));
-            wall.hang(&format!("{name}-{state}"), &picture);
+            wall.check(&format!("{name}-{state}"), &picture);
         }
         println!("{name}: middle of the picture {lumas:.0?} of 255");
-        if lumas[0] > DARK_MAX || lumas[1] < MIN_LAMP_FACTOR * lumas[0] {
-            wall.errors.push(format!("{name}: lamp off {:.0} (at most {DARK_MAX}), on {:.0}", lumas[0], lumas[1]));
+        if lumas[0] > MAX_DARK_LUMA || lumas[1] < MIN_LAMP_FACTOR * lumas[0] {
+            wall.errors.push(format!("{name}: lamp off {:.0} (at most {MAX_DARK_LUMA}), on {:.0}", lumas[0], lumas[1]));
         }
     }
     wall.assert_no_errors();
@@ -159,7 +159,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
 }
 
 /// Replaces all defects with this one, in the light at its position.
-fn hang_patch(studio: &mut Studio, defect: &PlacedDefect) {
+fn show_only_defect(studio: &mut Studio, defect: &PlacedDefect) {
     let light = spandrel_model::site::light::ray_bundle(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
     let sun = studio.site.light().daylight(studio.at).sun;
@@ -178,19 +178,19 @@ fn close_up(studio: &mut Studio, defect: &PlacedDefect, distance_m: f64, hfov_de
 }
 
 /// Returns a line of sight from the lake to a wall of the arch bridge.
-fn wall_at() -> (Vec3<Enu>, Vec3<Enu>) {
+fn wall_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
     (at(-55.0, -15.0, 24.0), at(-55.0, 0.0, 24.0))
 }
 
 /// Returns a line of sight to a girder of the suspension bridge.
-fn girder_at() -> (Vec3<Enu>, Vec3<Enu>) {
+fn girder_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
     (at(-20.0, 138.0, 12.7), at(-20.0, 150.0, 12.7))
 }
 
 #[test]
 fn regress_defects_at_1_3_and_8_m() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
-    let (wall_at, girder_at) = (wall_at(), girder_at());
+    let (wall_at, girder_at) = (wall_sight_line(), girder_sight_line());
     let mut wall = Gallery::default();
     for (name, sight, kind, size_m, down) in [
         ("crack", wall_at, defect_codes::CRACK, (0.9, 0.003), true),
@@ -203,12 +203,12 @@ fn regress_defects_at_1_3_and_8_m() {
         ("missing-bolts", girder_at, defect_codes::CONNECTION, (0.30, 0.16), false),
     ] {
         let defect = placed(&studio, sight, kind, size_m, down);
-        hang_patch(&mut studio, &defect);
+        show_only_defect(&mut studio, &defect);
         let focal_px = studio.vehicle.camera.focal_px();
-        let crop_deg = 2.0 * math::atan(0.5 * f64::from(CLOSE.0) / focal_px).to_degrees();
-        let pictures = [(1.0, CLOSE_DEG[0]), (3.0, CLOSE_DEG[1]), (8.0, crop_deg)]
-            .map(|(distance_m, hfov_deg)| close_up(&mut studio, &defect, distance_m, hfov_deg, CLOSE));
-        wall.hang(&format!("defect-{name}"), &beside(&pictures));
+        let crop_deg = 2.0 * math::atan(0.5 * f64::from(CLOSE_UP_PX.0) / focal_px).to_degrees();
+        let pictures = [(1.0, CLOSE_UP_FOV_DEG[0]), (3.0, CLOSE_UP_FOV_DEG[1]), (8.0, crop_deg)]
+            .map(|(distance_m, hfov_deg)| close_up(&mut studio, &defect, distance_m, hfov_deg, CLOSE_UP_PX));
+        wall.check(&format!("defect-{name}"), &beside(&pictures));
     }
     wall.assert_no_errors();
 }
@@ -220,14 +220,14 @@ fn regress_tutorial_shows_defects_at_true_scale() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
     let mut wall = Gallery::default();
     for (name, sight, kind, size_m, down) in [
-        ("crack", wall_at(), defect_codes::CRACK, (0.9, 0.003), true),
-        ("spall", wall_at(), defect_codes::SPALL, (0.42, 0.30), false),
-        ("efflorescence", wall_at(), defect_codes::EFFLORESCENCE, (0.8, 0.42), true),
-        ("corrosion", girder_at(), defect_codes::CORROSION, (0.42, 0.3), false),
+        ("crack", wall_sight_line(), defect_codes::CRACK, (0.9, 0.003), true),
+        ("spall", wall_sight_line(), defect_codes::SPALL, (0.42, 0.30), false),
+        ("efflorescence", wall_sight_line(), defect_codes::EFFLORESCENCE, (0.8, 0.42), true),
+        ("corrosion", girder_sight_line(), defect_codes::CORROSION, (0.42, 0.3), false),
     ] {
         let defect = placed(&studio, sight, kind, size_m, down);
-        hang_patch(&mut studio, &defect);
-        let row = [1.0, 3.0, 8.0].map(|distance_m| close_up(&mut studio, &defect, distance_m, TUTORIAL_DEG, TUTORIAL));
+        show_only_defect(&mut studio, &defect);
+        let row = [1.0, 3.0, 8.0].map(|distance_m| close_up(&mut studio, &defect, distance_m, TUTORIAL_FOV_DEG, TUTORIAL_PX));
         let taught =
             Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("crates/view/src/flow/pictures/{name}.jpg"));
         wall.record(name, check_picture_at(&taught, &format!("tutorial-{name}"), &beside(&row)));
@@ -247,14 +247,14 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         cues: 0,
         hit: None,
         height_m: position_m.up() - studio.scenario.ground_team.pad_m.up(),
-        home_m: (position_m - studio.scenario.ground_team.pad_m).horizontal_norm(),
+        home_distance_m: (position_m - studio.scenario.ground_team.pad_m).horizontal_norm(),
         mode: "Position".into(),
         gnss: Some(GnssStatus { fixed: true, satellites: 17 }),
         telemetry_age_s: 0.02,
         gimbal_rad: 0.1,
         zoom: 1.0,
         lamp: false,
-        left_s: 1104.0,
+        remaining_s: 1104.0,
         pictures: 2,
         shutter: false,
         time_s: 95.0,
@@ -286,7 +286,7 @@ fn regress_both_views_in_every_hud_state() {
             hud.battery_pct = Some(17.0);
             hud.cues = cue::CRASH | cue::TOO_CLOSE;
             hud.hit = Some("bridge".into());
-            hud.left_s = 71.0;
+            hud.remaining_s = 71.0;
         }),
         ("lamp-zoom-no-satellites", between, |hud| {
             hud.lamp = true;
@@ -305,13 +305,13 @@ fn regress_both_views_in_every_hud_state() {
         change(&mut display);
         let mut moment = studio.moment(from, look, display.lamp, Vec3::new(0.5, 0.0, 0.0));
         moment.lens.hfov_rad = 2.0 * math::atan(math::tan(0.5 * moment.lens.hfov_rad) / display.zoom);
-        let inspector = studio.stage().inspector(&moment, VIEW);
+        let inspector = studio.stage().inspector(&moment, VIEW_PX);
         let marked = studio.stage().drone_marker(&inspector, &moment);
-        let seen = largest_even_size_px(VIEW, moment.lens.aspect());
+        let seen = largest_even_size_px(VIEW_PX, moment.lens.aspect());
         let camera = studio.stage().camera(&moment, seen);
         let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));
         let views = [studio.draw_with(&inspector, &marked), studio.draw_with(&camera, &shown)];
-        wall.hang(&format!("views-{name}"), &beside(&views));
+        wall.check(&format!("views-{name}"), &beside(&views));
     }
     wall.assert_no_errors();
 }

@@ -16,11 +16,11 @@ use spandrel_view::stage::camera_aimed_at;
 use std::collections::BTreeMap;
 
 /// Number of photos that show a defect.
-const SHOWN: usize = 200;
+const PHOTO_COUNT: usize = 200;
 /// Number of photos tried for each defect.
-const TRIES: usize = 4;
+const TRIES_PER_DEFECT: usize = 4;
 /// Size of the rendered area around each defect, in camera pixels.
-const CROP: (u32, u32) = (192, 144);
+const CROP_PX: (u32, u32) = (192, 144);
 /// Size of the picture for metering the exposure, px; any size will do.
 const FRAME: (u32, u32) = (400, 300);
 
@@ -60,11 +60,11 @@ fn render_pair(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) 
         None,
         (SimTime::ZERO, FRAME),
     );
-    let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP.0) / lens.focal_px());
+    let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP_PX.0) / lens.focal_px());
     let towards = camera_aimed_at(snapshot.pose.position_m, defect.position_m, snapshot.pose.lamp_on);
     let mut shot = whole;
     shot.eye = PinholeCamera::of(&towards, &Camera { hfov_rad, ..lens });
-    shot.size_px = CROP;
+    shot.size_px = CROP_PX;
     shot.finish.vignette = 0.0;
     let sun = studio.site.light().daylight(SimTime::ZERO).sun;
     let patches = defects::patches(&studio.site, sun);
@@ -77,24 +77,24 @@ fn render_pair(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) 
 
 /// Returns, for each pixel of a crop, whether its position on the defect's plane is within the defect's extent.
 fn defect_mask(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec<bool> {
-    let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP.0) / lens.focal_px());
+    let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP_PX.0) / lens.focal_px());
     let towards = camera_aimed_at(snapshot.pose.position_m, defect.position_m, false);
     let eye = PinholeCamera::of(&towards, &Camera { hfov_rad, ..*lens });
-    let aspect = f64::from(CROP.0) / f64::from(CROP.1);
+    let aspect = f64::from(CROP_PX.0) / f64::from(CROP_PX.1);
     let gsd_m = (defect.position_m - eye.position_m).norm() / lens.focal_px();
     let across = defect.normal.cross(defect.along);
     // Maximum distance of a line from its center line (defect.wgsl).
     let stray_m = if defect.line { 0.025 } else { 0.0 };
     let on = |k: u32| {
-        let (x, y) = (f64::from(k % CROP.0) + 0.5, f64::from(k / CROP.0) + 0.5);
-        let ray = eye.ray(2.0 * x / f64::from(CROP.0) - 1.0, 1.0 - 2.0 * y / f64::from(CROP.1), aspect);
+        let (x, y) = (f64::from(k % CROP_PX.0) + 0.5, f64::from(k / CROP_PX.0) + 0.5);
+        let ray = eye.ray(2.0 * x / f64::from(CROP_PX.0) - 1.0, 1.0 - 2.0 * y / f64::from(CROP_PX.1), aspect);
         let t = (defect.position_m - eye.position_m).dot(defect.normal) / ray.dot(defect.normal);
         let q = eye.position_m + ray * t - defect.position_m;
         t > 0.0
             && q.dot(defect.along).abs() <= 0.5 * defect.length_m + gsd_m
             && q.dot(across).abs() <= 0.5 * defect.width_m + stray_m + gsd_m
     };
-    (0..CROP.0 * CROP.1).map(on).collect()
+    (0..CROP_PX.0 * CROP_PX.1).map(on).collect()
 }
 
 /// Visibility of a defect in its region.
@@ -141,12 +141,12 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
         Default::default();
     let mut wrong = Vec::new();
     for seed in 1.. {
-        if shown.len() >= SHOWN {
+        if shown.len() >= PHOTO_COUNT {
             break;
         }
         studio.site = Site::build(&studio.scenario, seed);
         for defect in studio.site.defects().to_vec() {
-            let tries: Vec<Snapshot> = (0..TRIES)
+            let tries: Vec<Snapshot> = (0..TRIES_PER_DEFECT)
                 .filter_map(|_| snapshot(&studio.site, &studio.vehicle, &defect, &mut stream))
                 .filter(|s| s.view.hit)
                 .collect();

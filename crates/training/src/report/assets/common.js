@@ -8,7 +8,7 @@ const Flight = (function () {
     return (t < -0.5 ? '\u2212' : '') + Math.floor(whole / 60) + ':' + String(whole % 60).padStart(2, '0');
   };
   const number = (value, digits, unit) => (value === null ? '–' : value.toFixed(digits) + ' ' + unit);
-  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // Returns the index of the time nearest to t in an ascending list.
   function indexAt(times, t) {
@@ -71,8 +71,8 @@ const Flight = (function () {
     let drawn = [];
     function chart(host) {
       const { times, lines, range } = curves(host);
-      const axis = { stroke: colour('--faint'), grid: { stroke: colour('--grid'), width: 1 }, ticks: { stroke: colour('--grid'), width: 1 }, font: '12px system-ui, sans-serif' };
-      const series = lines.map((line) => ({ stroke: colour(line.colour), width: line.width, dash: line.dash, points: { show: false } }));
+      const axis = { stroke: color('--faint'), grid: { stroke: color('--grid'), width: 1 }, ticks: { stroke: color('--grid'), width: 1 }, font: '12px system-ui, sans-serif' };
+      const series = lines.map((line) => ({ stroke: color(line.color), width: line.width, dash: line.dash, points: { show: false } }));
       const plot = new uPlot({
         width: host.clientWidth, height: HEIGHT, legend: { show: false }, cursor: { y: false, points: { show: false }, drag: { x: true, y: false }, sync: { key: 'flight' } },
         scales: { x: { time: false }, y: { range } },
@@ -108,7 +108,7 @@ const Flight = (function () {
   }
 
   // Charts use the colors of the screen theme. Printouts use the light theme.
-  function whenColoursChange(repaint) {
+  function whenColorsChange(repaint) {
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
     addEventListener('beforeprint', () => { document.documentElement.dataset.theme = 'light'; repaint(); });
     addEventListener('afterprint', () => { delete document.documentElement.dataset.theme; repaint(); });
@@ -118,5 +118,5 @@ const Flight = (function () {
   // meaningful value.
   const fromZero = (most) => (u, low, high) => [0, Math.max(1, most ? Math.min(most, high) : high) * 1.05];
 
-  return { byId, all, clock, number, colour, indexAt, drone, place, player, charts, whenColoursChange, fromZero };
+  return { byId, all, clock, number, color, indexAt, drone, place, player, charts, whenColorsChange, fromZero };
 })();

@@ -54,10 +54,10 @@
     const name = host.dataset.columns;
     const lines = flights.map((flight, k) => ({
       values: times.map((t) => { const i = index(k, t); return i === null ? null : flight.series[name][i]; }),
-      colour: '--s' + (k + 1), width: 1.6, dash: k === 1 ? [7, 3] : undefined,
+      color: '--s' + (k + 1), width: 1.6, dash: k === 1 ? [7, 3] : undefined,
     }));
     const limit = { speed: data.limits.speed, clearance: data.limits.close }[name];
-    if (limit) lines.push({ values: times.map(() => limit), colour: '--faint', width: 1.2, dash: [2, 4] });
+    if (limit) lines.push({ values: times.map(() => limit), color: '--faint', width: 1.2, dash: [2, 4] });
     return { times, lines, range: name === 'battery' ? [0, 100] : Flight.fromZero({ distance: 20, clearance: 20 }[name]) };
   }, () => times[now], (moment) => { stop(); show(Flight.indexAt(times, moment)); });
 
@@ -84,7 +84,7 @@
   });
   slider.addEventListener('input', () => { stop(); show(Number(slider.value)); });
   select.addEventListener('change', () => { stop(); lineUp(); });
-  Flight.whenColoursChange(() => curves.draw());
+  Flight.whenColorsChange(() => curves.draw());
   byId('run').hidden = false;
   byId('readout').hidden = false;
   document.body.classList.add('live');

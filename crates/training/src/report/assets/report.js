@@ -2,7 +2,7 @@
 // inserted as text, never as markup.
 (function () {
   'use strict';
-  const { byId, all, clock, number, colour } = Flight;
+  const { byId, all, clock, number, color } = Flight;
   const block = byId('flight-data');
   if (!block) return;
   const data = JSON.parse(block.textContent);
@@ -66,14 +66,14 @@
   };
   const curves = Flight.charts((host) => {
     const columns = host.dataset.columns.split(' ');
-    const lines = columns.map((name, k) => ({ values: s[name], colour: '--s' + (k + 1), width: columns.length > 1 ? 1.2 : 1.6 }));
+    const lines = columns.map((name, k) => ({ values: s[name], color: '--s' + (k + 1), width: columns.length > 1 ? 1.2 : 1.6 }));
     const limit = limits[columns[0]];
-    if (limit) lines.push({ values: limit(), colour: '--off', width: 1.5, dash: [6, 4] });
+    if (limit) lines.push({ values: limit(), color: '--off', width: 1.5, dash: [6, 4] });
     const range = { battery: [0, 100], fb: [-1, 1] }[columns[0]];
     return { times: s.t, lines, range: range || Flight.fromZero({ distance: 20, clearance: 20 }[columns[0]]) };
   }, () => s.t[now], (moment) => { stop(); show(Flight.indexAt(s.t, moment)); });
   listeners.push(curves.follow);
-  Flight.whenColoursChange(() => { curves.draw(); if (model) model.paint(); });
+  Flight.whenColorsChange(() => { curves.draw(); if (model) model.paint(); });
 
   // Creates the CSV file of the time series in the browser and offers it as a download.
   const csv = byId('series-csv');
@@ -204,16 +204,16 @@
     for (const defect of data.defects) ball(defect.at, defect.found ? 'found' : 'missed', 0.5);
     const drone = ball([s.e[0], s.n[0], s.u[0]], 'drone', 1.1);
 
-    const speedColours = ['--q1', '--q2', '--q3', '--q4', '--bad-fill'];
-    const clearColours = ['--between', '--c4', '--c3', '--c2', '--c1'];
-    const stateColours = ['--between', '--off', '--on'];
+    const speedColors = ['--q1', '--q2', '--q3', '--q4', '--bad-fill'];
+    const clearanceColors = ['--between', '--c4', '--c3', '--c2', '--c1'];
+    const stateColors = ['--between', '--off', '--on'];
     const choose = {
-      'by-path': (i) => stateColours[s.state[i]],
-      'by-speed': (i) => speedColours[s.speed[i] > data.limits.speed ? 4 : Math.min(3, Math.max(0, Math.ceil(s.speed[i] / data.limits.speed * 4) - 1))],
-      'by-clearance': (i) => clearColours[s.clearance[i] === null ? 0 : 4 - data.limits.clearances.filter((limit) => s.clearance[i] >= limit).length],
+      'by-path': (i) => stateColors[s.state[i]],
+      'by-speed': (i) => speedColors[s.speed[i] > data.limits.speed ? 4 : Math.min(3, Math.max(0, Math.ceil(s.speed[i] / data.limits.speed * 4) - 1))],
+      'by-clearance': (i) => clearanceColors[s.clearance[i] === null ? 0 : 4 - data.limits.clearances.filter((limit) => s.clearance[i] >= limit).length],
     };
     function paint() {
-      const paintOf = (name) => new T.Color(colour(name));
+      const paintOf = (name) => new T.Color(color(name));
       scene.background = paintOf('--page');
       structure.material.color = paintOf('--steel');
       ground.material.color = paintOf('--ground');
@@ -222,13 +222,13 @@
       const styles = { crash: '--bad-fill', 'v-hit': '--good-fill', 'v-repeat': '--good-fill', 'v-near': '--warn-fill', 'v-false': '--bad-fill', found: '--good', missed: '--bad', drone: '--ink' };
       for (const kind of Object.keys(shared)) shared[kind].color = paintOf(styles[kind]);
       const chosen = choose[document.querySelector('input[name="colouring"]:checked').value];
-      const known = {}, colours = track.geometry.getAttribute('color');
+      const known = {}, colors = track.geometry.getAttribute('color');
       for (let i = 0; i < count; i++) {
         const name = chosen(i);
         const c = known[name] = known[name] || paintOf(name);
-        colours.setXYZ(i, c.r, c.g, c.b);
+        colors.setXYZ(i, c.r, c.g, c.b);
       }
-      colours.needsUpdate = true;
+      colors.needsUpdate = true;
       render();
     }
     all('input[name="colouring"]').forEach((input) => input.addEventListener('change', paint));

@@ -49,7 +49,7 @@ pub struct AveragePicture {
 /// The best picture of a patch so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BestPicture {
-    pub fate: SurfaceOutcome,
+    pub outcome: SurfaceOutcome,
     pub incidence_rad: f64,
     pub gsd_m: f64,
     pub blur_px: f64,
@@ -58,10 +58,10 @@ pub(super) struct BestPicture {
 
 impl ElementSurface {
     /// Adds a surface patch's area with its outcome and best picture.
-    pub(super) fn add(&mut self, area_m2: f64, fate: SurfaceOutcome, best: Option<&BestPicture>) {
+    pub(super) fn add(&mut self, area_m2: f64, outcome: SurfaceOutcome, best: Option<&BestPicture>) {
         self.inspectable_m2 += area_m2;
-        *self.area_by_outcome_m2.entry(fate).or_default() += area_m2;
-        let Some(best) = best.filter(|best| best.fate > SurfaceOutcome::TooOblique) else { return };
+        *self.area_by_outcome_m2.entry(outcome).or_default() += area_m2;
+        let Some(best) = best.filter(|best| best.outcome > SurfaceOutcome::TooOblique) else { return };
         self.sums.area_m2 += area_m2;
         self.sums.incidence_rad += area_m2 * best.incidence_rad;
         self.sums.gsd_m += area_m2 * best.gsd_m;
@@ -84,14 +84,14 @@ impl ElementSurface {
 
     /// Returns the area with this outcome, m².
     #[must_use]
-    pub fn area_m2(&self, fate: SurfaceOutcome) -> f64 {
-        self.area_by_outcome_m2.get(&fate).copied().unwrap_or_default()
+    pub fn area_m2(&self, outcome: SurfaceOutcome) -> f64 {
+        self.area_by_outcome_m2.get(&outcome).copied().unwrap_or_default()
     }
 
     /// Returns the area with this outcome or a better one, m².
     #[must_use]
-    pub fn at_least_m2(&self, fate: SurfaceOutcome) -> f64 {
-        self.area_by_outcome_m2.range(fate..).map(|(_, area_m2)| area_m2).sum()
+    pub fn at_least_m2(&self, outcome: SurfaceOutcome) -> f64 {
+        self.area_by_outcome_m2.range(outcome..).map(|(_, area_m2)| area_m2).sum()
     }
 
     /// Returns the area photographed at the required pixel size and angle, m².

@@ -63,7 +63,7 @@ pub fn compute_coverage(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture])
 impl EvaluatedPatch {
     fn fate(&self) -> SurfaceOutcome {
         let unpictured = if self.in_view { SurfaceOutcome::NotPhotographed } else { SurfaceOutcome::NeverInView };
-        self.best.map_or(unpictured, |best| best.fate)
+        self.best.map_or(unpictured, |best| best.outcome)
     }
 }
 
@@ -100,17 +100,17 @@ fn add_picture(pieces: &mut [EvaluatedPatch], picture: &ReviewedPicture, light: 
             SurfaceOutcome::Shown
         };
         let gsd_m = away_m / camera.focal_px();
-        let worse = |best: &BestPicture| (best.fate, -best.gsd_m) < (most, -gsd_m);
-        if !piece.best.as_ref().is_none_or(worse) || !is_clear(pose.position_m, piece.patch.above_m, light.scene) {
+        let worse = |best: &BestPicture| (best.outcome, -best.gsd_m) < (most, -gsd_m);
+        if !piece.best.as_ref().is_none_or(worse) || !is_clear(pose.position_m, piece.patch.sight_end_m, light.scene) {
             continue;
         }
         let incidence_rad = math::acos(cosine.min(1.0));
-        let mut now = BestPicture { fate: most, incidence_rad, gsd_m, blur_px: 0.0, lux: 0.0 };
+        let mut now = BestPicture { outcome: most, incidence_rad, gsd_m, blur_px: 0.0, lux: 0.0 };
         if most == SurfaceOutcome::Shown {
             (now.lux, now.blur_px) = light.with_motion_blur(&piece.patch, picture);
-            now.fate = outcome_of_light_and_blur(now.lux, now.blur_px, picture);
+            now.outcome = outcome_of_light_and_blur(now.lux, now.blur_px, picture);
         }
-        if piece.best.is_none_or(|best| (best.fate, -best.gsd_m) < (now.fate, -now.gsd_m)) {
+        if piece.best.is_none_or(|best| (best.outcome, -best.gsd_m) < (now.outcome, -now.gsd_m)) {
             piece.best = Some(now);
         }
     }
@@ -137,7 +137,7 @@ fn add_flight(pieces: &mut [EvaluatedPatch], scene: &ReviewContext<'_>) {
         for piece in pieces.iter_mut().filter(|piece| !piece.in_view && piece.best.is_none()) {
             let near = in_image(&piece.patch, &pose, &camera, reach_m(&camera));
             piece.in_view =
-                near.is_some_and(|(_, cosine)| cosine >= steepest) && is_clear(pose.position_m, piece.patch.above_m, scene);
+                near.is_some_and(|(_, cosine)| cosine >= steepest) && is_clear(pose.position_m, piece.patch.sight_end_m, scene);
         }
     }
 }

@@ -23,7 +23,7 @@ pub struct SurfacePatch {
     /// The member's element.
     pub element: Element,
     /// End point for lines of sight, slightly in front of the center, m.
-    pub above_m: Vec3<Enu>,
+    pub sight_end_m: Vec3<Enu>,
     /// Center of the patch, m.
     pub point_m: Vec3<Enu>,
     /// Unit normal that points out of the member.
@@ -39,14 +39,14 @@ pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
     let stations: Vec<Vec3<Enu>> = scene.scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied()).collect();
     let mut patches = Vec::new();
     for member in scene.site.members() {
-        let near: Vec<Vec3<Enu>> = points_within_reach(&member.solid, &stations, reach);
+        let near: Vec<Vec3<Enu>> = reference_points_within_reach(&member.solid, &stations, reach);
         if near.is_empty() {
             continue;
         }
         for (point_m, normal, area_m2) in sample_faces(&member.solid) {
             if is_visible_from(&near, (point_m, normal), reach, scene) {
                 let (element, above_m) = (member.element, point_m + normal * SURFACE_OFFSET_M);
-                patches.push(SurfacePatch { element, above_m, point_m, normal, area_m2 });
+                patches.push(SurfacePatch { element, sight_end_m: above_m, point_m, normal, area_m2 });
             }
         }
     }
@@ -54,7 +54,7 @@ pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
 }
 
 /// Returns the reference points within reach of a solid's bounding box.
-fn points_within_reach(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> Vec<Vec3<Enu>> {
+fn reference_points_within_reach(solid: &Solid, stations: &[Vec3<Enu>], reach_m: f64) -> Vec<Vec3<Enu>> {
     let empty = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let (low, high) =
         solid.vertices_m.iter().map(|v| v.array()).fold(empty, |(low, high), v| {
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_patches_of_a_box_cover_its_surface() {
+    fn exact_box_patches_cover_its_surface() {
         let samples = sample_faces(&box_solid());
         let area: f64 = samples.iter().map(|sample| sample.2).sum();
         assert!((area - 2.0 * (12.0 + 8.0 + 6.0)).abs() < 1e-9, "{area}");

@@ -4,7 +4,7 @@ use super::figure::{figure, legend};
 use crate::report::Review;
 use crate::report::coverage::{BLUR_MAX_PX, ElementSurface, REQUIRED_GSD_M, SurfaceCoverage, SurfaceOutcome, reach_m};
 use crate::report::formatting;
-use crate::report::plots::bars::{StackedBar, stacks};
+use crate::report::plots::bars::{StackedBar, stacked_bars};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 use spandrel_model::elements::Element;
@@ -25,7 +25,7 @@ pub fn section(review: &Review) -> Markup {
     let key: Vec<(&str, String)> = SurfaceOutcome::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
     html! {
         p { "The pictures capture " b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " of the inspectable bridge surface well ("
-            (formatting::number(total.inspectable_m2, 0)) " m² can be inspected from the reference paths)." @if let Some(why) = reasons_not_shown(&total) { " The rest: " (why) "." } }
+            (formatting::number(total.inspectable_m2, 0)) " m² can be inspected from the reference paths)." @if let Some(why) = reasons_not_captured(&total) { " The rest: " (why) "." } }
         p.note { "A surface is inspectable if it is visible from at least one point of a reference path at " (formatting::number(1000.0 * REQUIRED_GSD_M, 2))
             " mm per pixel or finer (a 1.27 mm crack, the limit between condition states 2 and 3, then covers half a pixel; with this camera, this corresponds to a distance of "
             (formatting::number(reach_m(&review.vehicle.camera), 1)) " m) and at an angle of at most "
@@ -37,8 +37,8 @@ pub fn section(review: &Review) -> Markup {
                 // Distributes the rows between two columns of about equal length.
                 @let rows = rows(&review.coverage);
                 @let (left, right) = rows.split_at(rows.len().div_ceil(2));
-                (stacks(left, "Surface coverage by element"))
-                @if !right.is_empty() { (stacks(right, "Surface coverage by element, continued")) }
+                (stacked_bars(left, "Surface coverage by element"))
+                @if !right.is_empty() { (stacked_bars(right, "Surface coverage by element, continued")) }
             }
         }))
         (table(&review.coverage).folded())
@@ -46,14 +46,14 @@ pub fn section(review: &Review) -> Markup {
 }
 
 /// Returns the main reasons that surface is not captured well; `None` if each is below [`MIN_REASON_SHARE`].
-fn reasons_not_shown(total: &ElementSurface) -> Option<String> {
-    let share = |fate: &SurfaceOutcome| total.area_m2(*fate) / total.inspectable_m2;
+fn reasons_not_captured(total: &ElementSurface) -> Option<String> {
+    let share = |outcome: &SurfaceOutcome| total.area_m2(*outcome) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> = SurfaceOutcome::ALL
         .into_iter()
         .filter(|fate| *fate != SurfaceOutcome::Shown && share(fate) >= MIN_REASON_SHARE)
         .collect();
     rest.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    let words = |fate: &SurfaceOutcome| format!("{} % {}", formatting::number(100.0 * share(fate), 0), fate.name());
+    let words = |outcome: &SurfaceOutcome| format!("{} % {}", formatting::number(100.0 * share(outcome), 0), outcome.name());
     let words: Vec<String> = rest.iter().take(MAX_REASONS).map(words).collect();
     (!words.is_empty()).then(|| words.join("; "))
 }
@@ -123,7 +123,7 @@ mod tests {
         ] {
             element.area_by_outcome_m2.insert(fate, area_m2);
         }
-        assert_eq!(reasons_not_shown(&element).unwrap(), "35 % too dark, lamp off; 20 % blurred; 5 % too far");
+        assert_eq!(reasons_not_captured(&element).unwrap(), "35 % too dark, lamp off; 20 % blurred; 5 % too far");
         let table = table(&SurfaceCoverage { elements: [(Element::RcBoxGirder, element)].into() });
         for (k, fate) in SurfaceOutcome::ALL.iter().enumerate() {
             assert_eq!(table.columns[3 + k], format!("{}, m²", fate.name()));
@@ -135,6 +135,6 @@ mod tests {
             area_by_outcome_m2: [(SurfaceOutcome::Shown, 1.0)].into(),
             ..ElementSurface::default()
         };
-        assert_eq!(reasons_not_shown(&all), None);
+        assert_eq!(reasons_not_captured(&all), None);
     }
 }

@@ -12,11 +12,11 @@ pub const KINDS: [(&str, &str); 5] = [
 ];
 
 /// Returns the number of crashes of each kind, in the order of [`KINDS`].
-pub fn counted(crashes: &Crashes) -> [usize; 5] {
+pub fn crash_counts(crashes: &Crashes) -> [usize; 5] {
     [crashes.bridge, crashes.terrain, crashes.water, crashes.other, crashes.person + crashes.vehicle]
 }
 
 /// Returns the CSS class and number of crashes of each kind.
 pub fn segments(crashes: &Crashes) -> Vec<(&'static str, usize)> {
-    KINDS.iter().zip(counted(crashes)).map(|((class, _), count)| (*class, count)).collect()
+    KINDS.iter().zip(crash_counts(crashes)).map(|((class, _), count)| (*class, count)).collect()
 }

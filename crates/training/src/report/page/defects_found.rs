@@ -42,31 +42,31 @@ fn drawings(review: &Review, bridge: &Bridge) -> Markup {
     let scroll = |title: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label={ "Defects: " (title) } { (body) } };
     let side = format!("Side view of bridge '{}'", bridge.name);
     let under = format!("Top view of bridge '{}'", bridge.name);
-    let above = ParallelView { right: ParallelView::side(bridge).right, up: ParallelView::side(bridge).towards() * -1.0 };
+    let above = ParallelView { right: ParallelView::side(bridge).right, up: ParallelView::side(bridge).toward_viewer() * -1.0 };
     html! {
         (figure(&side, &scroll(&side, &map::findings(review, bridge, ParallelView::side(bridge), &side))))
         (figure(&under, &scroll(&under, &map::findings(review, bridge, above, &under))))
     }
 }
 
-fn card(review: &Review, fate: &DefectOutcome, sketcher: &Sketcher) -> Markup {
-    let defect = &fate.defect;
+fn card(review: &Review, outcome: &DefectOutcome, sketcher: &Sketcher) -> Markup {
+    let defect = &outcome.defect;
     let marks =
         [DefectMark { id: defect.id, at_m: defect.position_m, length_m: defect.length_m, class: "missed", hidden: false }];
     let alt = format!("Defect {}, seen from 4 m away", defect.id);
     let exposure = SketchExposure { light: 1.0, by_lamp: true };
     html! {
         li.shot {
-            (frame(sketcher, (&fate.good_view(), &review.vehicle.camera), exposure, &marks, &alt))
+            (frame(sketcher, (&outcome.reference_view(), &review.vehicle.camera), exposure, &marks, &alt))
             p { span.badge.v-false { "missed" } " " b { "Defect " (defect.id) } ", " (defect_name(defect.kind)) ", condition state " (defect.condition_state) }
-            p { "On " (defect.member) " (" (defect.element.name()) "), " (size(fate)) "." }
-            p.note { "It was " (fate.words()) "." }
+            p { "On " (defect.member) " (" (defect.element.name()) "), " (size(outcome)) "." }
+            p.note { "It was " (outcome.words()) "." }
         }
     }
 }
 
-fn size(fate: &DefectOutcome) -> String {
-    let defect = &fate.defect;
+fn size(outcome: &DefectOutcome) -> String {
+    let defect = &outcome.defect;
     let long = formatting::number(100.0 * defect.length_m, 0);
     if defect.line {
         format!("{long} cm long, {} mm wide", formatting::number(1000.0 * defect.width_m, 2))
@@ -76,10 +76,10 @@ fn size(fate: &DefectOutcome) -> String {
 }
 
 fn table(review: &Review) -> Table {
-    let row = |fate: &DefectOutcome| {
-        let defect = &fate.defect;
+    let row = |outcome: &DefectOutcome| {
+        let defect = &outcome.defect;
         let [east, north, up] = defect.position_m.array();
-        let best_approach = fate.best_approach.as_ref();
+        let best_approach = outcome.best_approach.as_ref();
         let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
         vec![
             defect.id.into(),
@@ -93,10 +93,10 @@ fn table(review: &Review) -> Table {
             TableCell::Number(east, 2),
             TableCell::Number(north, 2),
             TableCell::Number(up, 2),
-            fate.found_by.map_or("missed".into(), |number| format!("picture {number}")).into(),
+            outcome.found_by.map_or("missed".into(), |number| format!("picture {number}")).into(),
             number(best_approach.map(|c| c.in_view_s), 1),
             number(best_approach.map(|c| c.nearest.0), 1),
-            fate.words().into(),
+            outcome.words().into(),
         ]
     };
     Table {

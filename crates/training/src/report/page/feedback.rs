@@ -4,7 +4,7 @@ use super::figure::{figure, scrolling};
 use crate::report::Review;
 use crate::report::feedback::{CueEpisode, KINDS, median};
 use crate::report::formatting;
-use crate::report::plots::{line, sheet, ticks, unit};
+use crate::report::plots::{coord, line, svg_figure, ticks};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
@@ -74,19 +74,19 @@ fn x_of_reaction(reaction_s: f64) -> f64 {
 fn reactions(review: &Review) -> Markup {
     let kinds: Vec<usize> = (0..KINDS.len()).filter(|kind| !times(review, *kind).is_empty()).collect();
     let bottom = ROW * kinds.len() as f64 + 4.0;
-    sheet(
+    svg_figure(
         (WIDTH, bottom + 24.0),
         "Reaction times by cue",
         "reactions",
         &html! {
             @for tick in ticks(MAX_REACTION_S, 5) {
                 path.grid d=(line(&[(x_of_reaction(tick), 0.0), (x_of_reaction(tick), bottom)], false)) {}
-                text.tick x=(unit(x_of_reaction(tick))) y=(unit(bottom + 16.0)) text-anchor="middle" { (formatting::number(tick, 0)) " s" }
+                text.tick x=(coord(x_of_reaction(tick))) y=(coord(bottom + 16.0)) text-anchor="middle" { (formatting::number(tick, 0)) " s" }
             }
             @for (k, kind) in kinds.iter().enumerate() {
                 @let y = ROW * k as f64 + 0.5 * ROW;
-                text.label x=(unit(LEFT - 10.0)) y=(unit(y + 5.0)) text-anchor="end" { (KINDS[*kind].name) }
-                @for reaction_s in times(review, *kind) { circle.reaction cx=(unit(x_of_reaction(reaction_s))) cy=(unit(y)) r="5" {} }
+                text.label x=(coord(LEFT - 10.0)) y=(coord(y + 5.0)) text-anchor="end" { (KINDS[*kind].name) }
+                @for reaction_s in times(review, *kind) { circle.reaction cx=(coord(x_of_reaction(reaction_s))) cy=(coord(y)) r="5" {} }
                 @if let Some(middle) = median(times(review, *kind)) { path.median d=(line(&[(x_of_reaction(middle), y - 11.0), (x_of_reaction(middle), y + 11.0)], false)) {} }
             }
         },

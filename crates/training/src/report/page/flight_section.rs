@@ -2,7 +2,7 @@
 
 use super::figure::{figure, legend, scrolling};
 use crate::report::feedback::KINDS;
-use crate::report::plots::timeline::{TimeStrip, strips};
+use crate::report::plots::timeline::{TimelineRow, strips};
 use crate::report::plots::{colors, map};
 use crate::report::table::{Table, TableCell};
 use crate::report::{Review, formatting};
@@ -24,7 +24,7 @@ pub fn section(review: &Review) -> Markup {
         (marks_legend())
         (drawings(review))
         (figure("Session timeline", &html! {
-            (legend(&strip_legend()))
+            (legend(&timeline_legend()))
             (scrolling("Timeline", &strips(&rows(review), end_s(review), "Control source, tasks, feedback, pictures and gaps over time")))
         }))
         div.charts {
@@ -114,7 +114,7 @@ fn drawings(review: &Review) -> Markup {
     }
 }
 
-fn strip_legend() -> Vec<(&'static str, String)> {
+fn timeline_legend() -> Vec<(&'static str, String)> {
     vec![
         ("h-pilot", "flown by the pilot".into()),
         ("h-other", "flown by mission, script or autopilot".into()),
@@ -128,20 +128,20 @@ fn stick_legend() -> Markup {
     legend(&[("s-fb", "forward".into()), ("s-rl", "right".into()), ("s-ud", "up".into()), ("s-rt", "turn clockwise".into())])
 }
 
-fn rows(review: &Review) -> Vec<TimeStrip> {
+fn rows(review: &Review) -> Vec<TimelineRow> {
     let mut rows = vec![control_intervals(review)];
     for (k, window) in review.on_path.windows.iter().enumerate() {
         let stretch =
             window.map(|w| ("w-task".to_owned(), review.t_s(w.first), review.t_s(w.last), review.scenario.tasks[k].name.clone()));
-        rows.push(TimeStrip {
+        rows.push(TimelineRow {
             name: format!("task {}", review.scenario.tasks[k].id),
-            stretches: stretch.into_iter().collect(),
+            intervals: stretch.into_iter().collect(),
             marks: Vec::new(),
         });
     }
     for (kind, about) in KINDS.iter().enumerate() {
         let mine = review.feedback.episodes.iter().filter(|episode| episode.kind == kind);
-        let stretches: Vec<_> = mine
+        let intervals: Vec<_> = mine
             .map(|e| {
                 (
                     "cue".to_owned(),
@@ -151,19 +151,23 @@ fn rows(review: &Review) -> Vec<TimeStrip> {
                 )
             })
             .collect();
-        if !stretches.is_empty() {
-            rows.push(TimeStrip { name: about.name.to_owned(), stretches, marks: Vec::new() });
+        if !intervals.is_empty() {
+            rows.push(TimelineRow { name: about.name.to_owned(), intervals: intervals, marks: Vec::new() });
         }
     }
     let picture = |p: &crate::report::pictures::ReviewedPicture| {
         (format!("picture-dot {}", p.verdict.class()), p.t_s, format!("picture {}: {}", p.number, p.verdict.name()))
     };
-    rows.push(TimeStrip { name: "pictures".into(), stretches: Vec::new(), marks: review.pictures.iter().map(picture).collect() });
+    rows.push(TimelineRow {
+        name: "pictures".into(),
+        intervals: Vec::new(),
+        marks: review.pictures.iter().map(picture).collect(),
+    });
     if !review.feedback.notes.is_empty() {
         let note = |(t_s, text): &(f64, String)| ("note-dot".to_owned(), *t_s, format!("note: {text}"));
-        rows.push(TimeStrip {
+        rows.push(TimelineRow {
             name: "notes".into(),
-            stretches: Vec::new(),
+            intervals: Vec::new(),
             marks: review.feedback.notes.iter().map(note).collect(),
         });
     }
@@ -171,18 +175,22 @@ fn rows(review: &Review) -> Vec<TimeStrip> {
     rows
 }
 
-fn control_intervals(review: &Review) -> TimeStrip {
+fn control_intervals(review: &Review) -> TimelineRow {
     let stretch = |s: &spandrel_monitor::assessment::ControlInterval| {
         let class = if s.by == Some(spandrel_mavlink::contract::modes::ControlSource::Pilot) { "h-pilot" } else { "h-other" };
         let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
         (class.to_owned(), t_s(s.from_frame), t_s(s.to_frame), formatting::control_source_label(s.by).to_owned())
     };
-    TimeStrip { name: "flown by".into(), stretches: review.assessment.flown_by.iter().map(stretch).collect(), marks: Vec::new() }
+    TimelineRow {
+        name: "flown by".into(),
+        intervals: review.assessment.flown_by.iter().map(stretch).collect(),
+        marks: Vec::new(),
+    }
 }
 
 /// Returns the periods without telemetry, in which frames are interpolated or missing.
-fn gaps(review: &Review) -> TimeStrip {
-    let mut stretches: Vec<(String, f64, f64, String)> = Vec::new();
+fn gaps(review: &Review) -> TimelineRow {
+    let mut intervals: Vec<(String, f64, f64, String)> = Vec::new();
     let mut open: Option<usize> = None;
     for (i, frame) in review.frames.iter().enumerate() {
         let gap = frame.missing || frame.interpolated;
@@ -190,14 +198,14 @@ fn gaps(review: &Review) -> TimeStrip {
             None if gap => open = Some(i),
             Some(from) if !gap => {
                 let seconds = formatting::number(review.t_s(i) - review.t_s(from), 1);
-                stretches.push(("gap".into(), review.t_s(from), review.t_s(i), format!("no telemetry for {seconds} s")));
+                intervals.push(("gap".into(), review.t_s(from), review.t_s(i), format!("no telemetry for {seconds} s")));
                 open = None;
             }
             None | Some(_) => {}
         }
     }
-    stretches.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "no telemetry until the end".into())));
-    TimeStrip { name: "gaps".into(), stretches, marks: Vec::new() }
+    intervals.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "no telemetry until the end".into())));
+    TimelineRow { name: "gaps".into(), intervals: intervals, marks: Vec::new() }
 }
 
 /// Returns the charts' data as a table with one row every few seconds.

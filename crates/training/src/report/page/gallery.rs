@@ -5,7 +5,7 @@ use crate::report::Review;
 use crate::report::assets::base64;
 use crate::report::formatting;
 use crate::report::pictures::{PictureVerdict, ReviewedPicture};
-use crate::report::plots::unit;
+use crate::report::plots::coord;
 use crate::report::sketch::{SketchExposure, Sketcher, WIDTH_PX};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
@@ -143,15 +143,15 @@ pub fn frame(
     // If the image cannot be encoded, the page shows only its text.
     let drawing = sketcher.png(pose, camera, exposure).map(|png| base64(&png)).unwrap_or_default();
     html! {
-        svg.frame viewBox={ "0 0 " (unit(w)) " " (unit(h)) } role="img" aria-label=(words) {
+        svg.frame viewBox={ "0 0 " (coord(w)) " " (coord(h)) } role="img" aria-label=(words) {
             title { (words) }
-            image href={ "data:image/png;base64," (drawing) } width=(unit(w)) height=(unit(h)) {}
-            rect.central x=(unit(edge * w)) y=(unit(edge * h)) width=(unit(CENTRAL_FRACTION * w)) height=(unit(CENTRAL_FRACTION * h)) {}
+            image href={ "data:image/png;base64," (drawing) } width=(coord(w)) height=(coord(h)) {}
+            rect.central x=(coord(edge * w)) y=(coord(edge * h)) width=(coord(CENTRAL_FRACTION * w)) height=(coord(CENTRAL_FRACTION * h)) {}
             @for mark in marks {
                 @let ((x, y), r) = place(mark);
                 g class={ "ring " (mark.class) @if mark.hidden { " hidden-behind" } } {
-                    circle cx=(unit(x)) cy=(unit(y)) r=(unit(r)) {}
-                    text x=(unit(x + r + 3.0)) y=(unit(y + 5.0)) { (mark.id) }
+                    circle cx=(coord(x)) cy=(coord(y)) r=(coord(r)) {}
+                    text x=(coord(x + r + 3.0)) y=(coord(y + 5.0)) { (mark.id) }
                 }
             }
         }

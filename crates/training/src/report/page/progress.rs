@@ -2,14 +2,14 @@
 //! share by task, crashes by kind and, after four repetitions, learning curves. Used on the trainee's page and the
 //! cohort pages.
 
-use super::crash_kinds::{KINDS, counted, segments};
+use super::crash_kinds::{KINDS, crash_counts, segments};
 use super::figure::{figure, legend};
 use crate::cohort::{JobProgress, Repetition, ScoreCurve, TraineeProgress};
 use crate::record::omitted_summary;
 use crate::report::formatting;
 use crate::report::plots::bars::{CountRow, counts};
 use crate::report::plots::learning_curve::{PracticeChart, practice};
-use crate::report::plots::lines::{ChartLine, colour, lines};
+use crate::report::plots::lines::{ChartLine, color_number, lines};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
@@ -31,15 +31,15 @@ pub fn job_progress(job: &JobProgress) -> Markup {
     }
     html! {
         (left_out)
-        (pictures(progress, &job.tasks))
+        (progress_figures(progress, &job.tasks))
         @if !progress.curves.is_empty() { (learning(progress)) }
         (numbers(&job.scenario, progress).folded())
-        @if !job.tasks.is_empty() { (on_path_numbers(progress, &job.tasks).folded()) }
+        @if !job.tasks.is_empty() { (on_path_table(progress, &job.tasks).folded()) }
     }
 }
 
 /// Renders three figures by repetition: scores, on-path shares and crashes.
-pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
+pub fn progress_figures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
     let scores = scores(progress);
     let shares = shares(progress, tasks);
     let rows: Vec<CountRow> = progress
@@ -48,7 +48,7 @@ pub fn pictures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Markup {
         .map(|one| CountRow { name: format!("repetition {}", one.number), kinds: segments(&one.crashes) })
         .collect();
     let all = progress.repetitions.iter().fold([0; 5], |mut sum, one| {
-        sum.iter_mut().zip(counted(&one.crashes)).for_each(|(sum, count)| *sum += count);
+        sum.iter_mut().zip(crash_counts(&one.crashes)).for_each(|(sum, count)| *sum += count);
         sum
     });
     let seen =
@@ -92,7 +92,7 @@ fn shares(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Vec<ChartLine>
 
 fn key(lines: &[ChartLine]) -> Markup {
     const DOTS: [&str; 4] = ["dot-1", "dot-2", "dot-3", "dot-4"];
-    legend(&lines.iter().map(|one| (DOTS[colour(one.style) - 1], one.name.clone())).collect::<Vec<_>>())
+    legend(&lines.iter().map(|one| (DOTS[color_number(one.style) - 1], one.name.clone())).collect::<Vec<_>>())
 }
 
 fn learning(progress: &TraineeProgress) -> Markup {
@@ -107,11 +107,11 @@ fn learning(progress: &TraineeProgress) -> Markup {
             }
         }
         p.note { "The curves are power laws of practice fitted to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
-        (curve_numbers(&progress.curves).folded())
+        (curve_table(&progress.curves).folded())
     }
 }
 
-fn curve_numbers(curves: &[ScoreCurve]) -> Table {
+fn curve_table(curves: &[ScoreCurve]) -> Table {
     let row = |one: &ScoreCurve| {
         let c = &one.curve;
         let next = TableCell::Number(c.next.min(most(&one.score)), 1);
@@ -139,7 +139,7 @@ fn numbers(scenario: &str, progress: &TraineeProgress) -> Table {
         let mut row = vec![one.number.into(), scenario.into()];
         row.extend(SCORES.map(|score| maybe(one.score(score))));
         row.extend([TableCell::Number(one.overall, 1), TableCell::Clock(one.seconds)]);
-        row.extend(counted(&one.crashes).map(TableCell::from));
+        row.extend(crash_counts(&one.crashes).map(TableCell::from));
         row
     };
     let columns = ["repetition", "scenario", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
@@ -152,7 +152,7 @@ fn numbers(scenario: &str, progress: &TraineeProgress) -> Table {
     }
 }
 
-fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table {
+fn on_path_table(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table {
     let row = |one: &Repetition, (id, name): &(u32, String)| {
         let share = on_path(one, *id).map_or("not attempted".into(), |share| TableCell::Number(share, 1));
         vec![one.number.into(), (*id).into(), name.clone().into(), share]
@@ -166,7 +166,7 @@ fn on_path_numbers(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table
 }
 
 /// Returns the message for too few repetitions for a learning curve.
-pub fn too_few() -> String {
+pub fn too_few_repetitions() -> String {
     format!(
         "A learning curve requires {} repetitions of the same job.",
         formatting::number(crate::statistics::MIN_LEARNING_REPETITIONS as f64, 0)

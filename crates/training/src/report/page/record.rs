@@ -34,12 +34,12 @@ fn gaps(review: &Review) -> String {
 }
 
 fn control_intervals(review: &Review) -> Table {
-    let row = |stretch: &spandrel_monitor::assessment::ControlInterval| {
+    let row = |interval: &spandrel_monitor::assessment::ControlInterval| {
         let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
         vec![
-            TableCell::Clock(t_s(stretch.from_frame)),
-            TableCell::Clock(t_s(stretch.to_frame)),
-            formatting::control_source_label(stretch.by).into(),
+            TableCell::Clock(t_s(interval.from_frame)),
+            TableCell::Clock(t_s(interval.to_frame)),
+            formatting::control_source_label(interval.by).into(),
         ]
     };
     Table {

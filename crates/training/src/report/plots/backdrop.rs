@@ -1,7 +1,7 @@
 //! Water and ground in the background of a drawing.
 
 use super::plot_map::PlotMap;
-use super::{line, simplified, unit};
+use super::{coord, line, simplified};
 use maud::{Markup, html};
 use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::{Bridge, Scenario};
@@ -42,7 +42,7 @@ pub(super) fn lake(scenario: &Scenario, site: &Site, map: &PlotMap) -> Markup {
                 @let (x0, y) = map.at(Vec3::new(from, n, 0.0));
                 @let (x1, _) = map.at(Vec3::new(to, n, 0.0));
                 @if y > -side && y < map.size.1 + side && x1 > 0.0 && x0 < map.size.0 {
-                    rect x=(unit(x0)) y=(unit(y - 0.5 * side)) width=(unit(x1 - x0)) height=(unit(side + 0.5)) {}
+                    rect x=(coord(x0)) y=(coord(y - 0.5 * side)) width=(coord(x1 - x0)) height=(coord(side + 0.5)) {}
                 }
             }
         }
@@ -66,14 +66,14 @@ pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &B
         let along = from + (to - from) * k as f64 / count as f64;
         let at = bridge.center_m + axis * (along - middle);
         let up = site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half));
-        map.on_sheet((along, up))
+        map.to_drawing((along, up))
     });
     let mut corners = vec![(0.0, map.size.1)];
     corners.extend(profile.map(|(x, y)| (x, y.min(map.size.1))));
     corners.push((map.size.0, map.size.1));
-    let (_, water) = map.on_sheet((0.0, scenario.terrain.water_level_m));
+    let (_, water) = map.to_drawing((0.0, scenario.terrain.water_level_m));
     html! {
-        rect.water x="0" y=(unit(water)) width=(unit(map.size.0)) height=(unit((map.size.1 - water).max(0.0))) {}
+        rect.water x="0" y=(coord(water)) width=(coord(map.size.0)) height=(coord((map.size.1 - water).max(0.0))) {}
         path.ground d=(line(&simplified(&corners, 0.3), true)) {}
     }
 }

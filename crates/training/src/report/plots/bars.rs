@@ -1,6 +1,6 @@
 //! Horizontal bar charts: fractions of a whole and counts by kind.
 
-use super::{sheet, unit};
+use super::{coord, svg_figure};
 use crate::report::formatting;
 use maud::{Markup, html};
 
@@ -17,7 +17,7 @@ pub struct ShareRow {
     /// CSS class and fraction (0 to 1) of each bar, from top to bottom.
     pub bars: Vec<(&'static str, f64)>,
     /// Text shown in place of the bars, such as "not attempted".
-    pub instead: Option<&'static str>,
+    pub placeholder: Option<&'static str>,
 }
 
 /// Returns the length of the bar for `share` on an axis that ends at `full`, in drawing units.
@@ -35,21 +35,21 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
         places.push(y);
         y += 22.0 + (BAR + 4.0) * row.bars.len().max(1) as f64 + 8.0;
     }
-    sheet(
+    svg_figure(
         (WIDTH, y),
         title,
         "bars",
         &html! {
             @for (row, top) in rows.iter().zip(&places) {
-                text.label x=(unit(LEFT)) y=(unit(top + 14.0)) { (row.name) }
-                @if let Some(words) = row.instead {
-                    text.tick x=(unit(LEFT)) y=(unit(top + 22.0 + 11.0)) { (words) }
+                text.label x=(coord(LEFT)) y=(coord(top + 14.0)) { (row.name) }
+                @if let Some(words) = row.placeholder {
+                    text.tick x=(coord(LEFT)) y=(coord(top + 22.0 + 11.0)) { (words) }
                 } @else {
                     @for (k, (class, share)) in row.bars.iter().enumerate() {
                         @let at = top + 22.0 + (BAR + 4.0) * k as f64;
-                        rect.track x=(unit(LEFT)) y=(unit(at)) width=(unit(RIGHT - LEFT)) height=(unit(BAR)) rx="3" {}
-                        rect class=(class) x=(unit(LEFT)) y=(unit(at)) width=(unit(length(*share, 1.0))) height=(unit(BAR)) rx="3" {}
-                        text.tick x=(unit(WIDTH - 2.0)) y=(unit(at + 11.5)) text-anchor="end" { (formatting::number(100.0 * share, 0)) " %" }
+                        rect.track x=(coord(LEFT)) y=(coord(at)) width=(coord(RIGHT - LEFT)) height=(coord(BAR)) rx="3" {}
+                        rect class=(class) x=(coord(LEFT)) y=(coord(at)) width=(coord(length(*share, 1.0))) height=(coord(BAR)) rx="3" {}
+                        text.tick x=(coord(WIDTH - 2.0)) y=(coord(at + 11.5)) text-anchor="end" { (formatting::number(100.0 * share, 0)) " %" }
                     }
                 }
             }
@@ -71,21 +71,21 @@ pub struct CountRow {
 pub fn counts(rows: &[CountRow], title: &str) -> Markup {
     let sum = |row: &CountRow| row.kinds.iter().map(|(_, count)| count).sum::<usize>();
     let most = rows.iter().map(sum).max().unwrap_or(0).max(4) as f64;
-    sheet(
+    svg_figure(
         (WIDTH, 40.0 * rows.len() as f64 + 4.0),
         title,
         "bars",
         &html! {
             @for (k, row) in rows.iter().enumerate() {
                 @let top = 40.0 * k as f64;
-                text.label x=(unit(LEFT)) y=(unit(top + 14.0)) { (row.name) }
+                text.label x=(coord(LEFT)) y=(coord(top + 14.0)) { (row.name) }
                 @let kinds: Vec<_> = row.kinds.iter().map(|(class, count)| (*class, *count as f64)).collect();
                 @for (class, from, count) in parts(&kinds) {
-                    rect class=(class) x=(unit(LEFT + length(from, most))) y=(unit(top + 19.0))
-                        width=(unit((length(count, most) - 1.5).max(1.0))) height=(unit(BAR)) rx="2" {}
+                    rect class=(class) x=(coord(LEFT + length(from, most))) y=(coord(top + 19.0))
+                        width=(coord((length(count, most) - 1.5).max(1.0))) height=(coord(BAR)) rx="2" {}
                 }
                 @let total = sum(row);
-                text.tick x=(unit(LEFT + length(total as f64, most) + 5.0)) y=(unit(top + 30.5)) { (total) }
+                text.tick x=(coord(LEFT + length(total as f64, most) + 5.0)) y=(coord(top + 30.5)) { (total) }
             }
         },
     )
@@ -103,21 +103,21 @@ pub struct StackedBar {
 
 /// Draws stacked bars of equal length.
 #[must_use]
-pub fn stacks(rows: &[StackedBar], title: &str) -> Markup {
-    sheet(
+pub fn stacked_bars(rows: &[StackedBar], title: &str) -> Markup {
+    svg_figure(
         (WIDTH, 44.0 * rows.len() as f64 + 4.0),
         title,
         "bars",
         &html! {
             @for (k, row) in rows.iter().enumerate() {
                 @let top = 44.0 * k as f64;
-                text.label x=(unit(LEFT)) y=(unit(top + 14.0)) { (row.name) }
-                rect.track x=(unit(LEFT)) y=(unit(top + 21.0)) width=(unit(RIGHT - LEFT)) height=(unit(BAR)) rx="2" {}
+                text.label x=(coord(LEFT)) y=(coord(top + 14.0)) { (row.name) }
+                rect.track x=(coord(LEFT)) y=(coord(top + 21.0)) width=(coord(RIGHT - LEFT)) height=(coord(BAR)) rx="2" {}
                 @for (class, from, share) in parts(&row.parts) {
-                    rect class=(class) x=(unit(LEFT + length(from, 1.0))) y=(unit(top + 21.0)) width=(unit(length(share, 1.0))) height=(unit(BAR)) {}
+                    rect class=(class) x=(coord(LEFT + length(from, 1.0))) y=(coord(top + 21.0)) width=(coord(length(share, 1.0))) height=(coord(BAR)) {}
                 }
                 @let first = row.parts.first().map_or(0.0, |part| part.1);
-                text.tick x=(unit(WIDTH - 2.0)) y=(unit(top + 32.5)) text-anchor="end" { (formatting::number(100.0 * first, 0)) " %" }
+                text.tick x=(coord(WIDTH - 2.0)) y=(coord(top + 32.5)) text-anchor="end" { (formatting::number(100.0 * first, 0)) " %" }
             }
         },
     )
@@ -144,7 +144,7 @@ mod tests {
     fn exact_bar_length_is_proportional() {
         assert_eq!((length(0.0, 1.0), length(0.25, 1.0), length(1.0, 1.0)), (0.0, 92.0, 368.0));
         assert_eq!((length(2.0, 1.0), length(3.0, 12.0), length(1.0, 0.0)), (368.0, 92.0, 0.0));
-        let row = ShareRow { name: "task <1>".into(), bars: vec![("on", 0.5)], instead: None };
+        let row = ShareRow { name: "task <1>".into(), bars: vec![("on", 0.5)], placeholder: None };
         let figure = shares(&[row], "t").into_string();
         assert!(figure.contains("class=\"on\" x=\"4\" y=\"26\" width=\"184\""), "{figure}");
         assert!(figure.contains("task &lt;1&gt;") && figure.contains("50 %"), "{figure}");
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn exact_stacked_parts_are_contiguous_and_first_is_labeled() {
         let row = StackedBar { name: "deck".into(), parts: vec![("good", 0.25), ("none", 0.0), ("bad", 0.5)] };
-        let figure = stacks(&[row], "t").into_string();
+        let figure = stacked_bars(&[row], "t").into_string();
         assert!(figure.contains("class=\"good\" x=\"4\" y=\"21\" width=\"92\""), "{figure}");
         assert!(figure.contains("class=\"bad\" x=\"96\" y=\"21\" width=\"184\"") && !figure.contains("none"), "{figure}");
         assert!(figure.contains("25 %"), "{figure}");

@@ -1,6 +1,6 @@
 //! Box plots side by side on a common scale.
 
-use super::{line, sheet, ticks, unit};
+use super::{coord, line, svg_figure, ticks};
 use crate::report::formatting;
 use crate::statistics::BoxPlot;
 use maud::{Markup, html};
@@ -33,14 +33,14 @@ pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
     // Keeps a minimum width so that a few boxes are not enlarged.
     let width = LEFT + BOX_SPACING * named.len().max(5) as f64 + 10.0;
     let y = |value: f64| y_of(value, (0.0, most));
-    sheet(
+    svg_figure(
         (width, BOTTOM + 26.0),
         title,
         "boxes",
         &html! {
             @for tick in ticks(most, 5) {
                 path.grid d=(line(&[(LEFT, y(tick)), (width, y(tick))], false)) {}
-                text.tick x=(unit(LEFT - 6.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
+                text.tick x=(coord(LEFT - 6.0)) y=(coord(y(tick) + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for (k, one) in named.iter().enumerate() {
                 @let x = LEFT + BOX_SPACING * (k as f64 + 0.5);
@@ -50,14 +50,14 @@ pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
                     (line(&[(x - 7.0, y(b.high_whisker)), (x + 7.0, y(b.high_whisker))], false))
                     (line(&[(x - 7.0, y(b.low_whisker)), (x + 7.0, y(b.low_whisker))], false))
                 } {}
-                rect.box x=(unit(x - HALF_BOX_WIDTH)) y=(unit(y(b.q3))) width=(unit(2.0 * HALF_BOX_WIDTH)) height=(unit((y(b.q1) - y(b.q3)).max(1.0))) {
+                rect.box x=(coord(x - HALF_BOX_WIDTH)) y=(coord(y(b.q3))) width=(coord(2.0 * HALF_BOX_WIDTH)) height=(coord((y(b.q1) - y(b.q3)).max(1.0))) {
                     title { (one.name) ": median " (formatting::number(b.median, 1)) ", quartiles " (formatting::number(b.q1, 1)) " to " (formatting::number(b.q3, 1)) ", " (b.n) " trainees" }
                 }
                 path.median d=(line(&[(x - HALF_BOX_WIDTH, y(b.median)), (x + HALF_BOX_WIDTH, y(b.median))], false)) {}
                 path.mean d=(line(&[(x - 4.0, y(b.mean) - 4.0), (x + 4.0, y(b.mean) + 4.0)], false)) {}
                 path.mean d=(line(&[(x - 4.0, y(b.mean) + 4.0), (x + 4.0, y(b.mean) - 4.0)], false)) {}
-                @for place in places(&b.outliers, y) { circle.outlier cx=(unit(x)) cy=(place) r="3" {} }
-                text.tick x=(unit(x)) y=(unit(BOTTOM + 18.0)) text-anchor="middle" { (one.name) }
+                @for place in places(&b.outliers, y) { circle.outlier cx=(coord(x)) cy=(place) r="3" {} }
+                text.tick x=(coord(x)) y=(coord(BOTTOM + 18.0)) text-anchor="middle" { (one.name) }
             }
         },
     )
@@ -65,7 +65,7 @@ pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
 
 /// Returns the vertical positions of the outliers, ascending, rounded to whole units and without duplicates.
 fn places(outliers: &[f64], y: impl Fn(f64) -> f64) -> Vec<String> {
-    let mut places: Vec<String> = outliers.iter().map(|value| unit(y(*value).round())).collect();
+    let mut places: Vec<String> = outliers.iter().map(|value| coord(y(*value).round())).collect();
     places.dedup();
     places
 }

@@ -34,40 +34,40 @@ fn was_respawned(before: &Frame, next: &Frame) -> bool {
 fn color_segments(
     review: &Review,
     map: &PlotMap,
-    colours: usize,
-    colour_of: &dyn Fn(usize) -> usize,
+    color_count: usize,
+    color_index: &dyn Fn(usize) -> usize,
     shown: &dyn Fn(&Frame) -> bool,
 ) -> Vec<String> {
-    let mut color_segments = vec![String::new(); colours];
+    let mut color_segments = vec![String::new(); color_count];
     let mut run: Vec<(f64, f64)> = Vec::new();
-    let mut colour = 0;
-    let mut close = |run: &mut Vec<(f64, f64)>, colour: usize| {
+    let mut color = 0;
+    let mut close = |run: &mut Vec<(f64, f64)>, color: usize| {
         if run.len() > 1 {
-            color_segments[colour].push_str(&line(&simplified(run, TRACK_TOLERANCE), false));
+            color_segments[color].push_str(&line(&simplified(run, TRACK_TOLERANCE), false));
         }
         run.clear();
     };
     for (i, frame) in review.frames.iter().enumerate() {
         let broken = i > 0 && was_respawned(&review.frames[i - 1], frame);
         if broken || !shown(frame) {
-            close(&mut run, colour);
+            close(&mut run, color);
             if !shown(frame) {
                 continue;
             }
         }
-        let now = colour_of(i);
+        let now = color_index(i);
         let here = map.at(frame.position_m);
-        if now != colour {
+        if now != color {
             // A line between two points of different colors gets the first point's color.
             if !run.is_empty() {
                 run.push(here);
             }
-            close(&mut run, colour);
-            colour = now;
+            close(&mut run, color);
+            color = now;
         }
         run.push(here);
     }
-    close(&mut run, colour);
+    close(&mut run, color);
     color_segments
 }
 

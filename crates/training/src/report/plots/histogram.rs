@@ -1,6 +1,6 @@
 //! Histogram of one score with the mean marked.
 
-use super::{line, sheet, ticks, unit};
+use super::{coord, line, svg_figure, ticks};
 use crate::report::formatting;
 use crate::statistics::HistogramBin;
 use maud::{Markup, html};
@@ -18,7 +18,7 @@ pub fn histogram(bins: &[HistogramBin], mean: f64, title: &str) -> Markup {
     let most = bins.iter().map(|bin| bin.count).max().unwrap_or(0).max(2) as f64;
     let x = |value: f64| LEFT + (RIGHT - LEFT) * if to > from { ((value - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
     let y = |count: f64| BOTTOM - (BOTTOM - TOP) * count / most;
-    sheet(
+    svg_figure(
         SIZE,
         title,
         "histogram",
@@ -26,15 +26,15 @@ pub fn histogram(bins: &[HistogramBin], mean: f64, title: &str) -> Markup {
             // Counts are integers, so fractional ticks are omitted.
             @for tick in ticks(most, 4).into_iter().filter(|tick| tick.fract() == 0.0) {
                 path.grid d=(line(&[(LEFT, y(tick)), (RIGHT, y(tick))], false)) {}
-                text.tick x=(unit(LEFT - 5.0)) y=(unit(y(tick) + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
+                text.tick x=(coord(LEFT - 5.0)) y=(coord(y(tick) + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for bin in bins.iter().filter(|bin| bin.count > 0) {
-                rect.bar x=(unit(x(bin.from) + 0.5)) y=(unit(y(bin.count as f64))) width=(unit(x(bin.to) - x(bin.from) - 1.0)) height=(unit(BOTTOM - y(bin.count as f64))) {
+                rect.bar x=(coord(x(bin.from) + 0.5)) y=(coord(y(bin.count as f64))) width=(coord(x(bin.to) - x(bin.from) - 1.0)) height=(coord(BOTTOM - y(bin.count as f64))) {
                     title { (bin.count) " from " (formatting::number(bin.from, 0)) " to " (formatting::number(bin.to, 0)) }
                 }
             }
             path.median d=(line(&[(x(mean), TOP), (x(mean), BOTTOM)], false)) { title { "mean " (formatting::number(mean, 1)) } }
-            @for tick in ticks(to, 4) { text.tick x=(unit(x(tick))) y=(unit(BOTTOM + 17.0)) text-anchor="middle" { (formatting::number(tick, 0)) } }
+            @for tick in ticks(to, 4) { text.tick x=(coord(x(tick))) y=(coord(BOTTOM + 17.0)) text-anchor="middle" { (formatting::number(tick, 0)) } }
         },
     )
 }

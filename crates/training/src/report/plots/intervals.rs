@@ -1,6 +1,6 @@
 //! Estimates with confidence intervals, one per row, with a line at zero.
 
-use super::{line, sheet, ticks, unit};
+use super::{coord, line, svg_figure, ticks};
 use crate::report::formatting;
 use maud::{Markup, html};
 
@@ -24,7 +24,7 @@ pub struct IntervalEstimate {
 
 /// Returns the axis range: all estimates, intervals and zero, plus a margin.
 #[must_use]
-pub fn ends(estimates: &[IntervalEstimate]) -> (f64, f64) {
+pub fn axis_range(estimates: &[IntervalEstimate]) -> (f64, f64) {
     let all = estimates.iter().flat_map(|one| [Some(one.value), one.interval.map(|i| i[0]), one.interval.map(|i| i[1])]);
     let (low, high) = all.flatten().fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
     let room = if high > low { AXIS_MARGIN * (high - low) } else { 1.0 };
@@ -40,27 +40,27 @@ pub fn x_of(value: f64, (low, high): (f64, f64)) -> f64 {
 /// Draws all estimates on a common axis with the label `axis`.
 #[must_use]
 pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Markup {
-    let ends = ends(estimates);
+    let ends = axis_range(estimates);
     let bottom = ROW * estimates.len() as f64 + 4.0;
     let reach = ends.0.abs().max(ends.1.abs());
     let ticks = ticks(reach, 4);
     let below = ticks.iter().skip(1).map(|tick| -tick);
     let marks: Vec<f64> = below.chain(ticks.iter().copied()).filter(|tick| (ends.0..=ends.1).contains(tick)).collect();
     let digits = if reach < 1.0 { 2 } else { 1 };
-    sheet(
+    svg_figure(
         (WIDTH, bottom + 42.0),
         title,
         "intervals",
         &html! {
             @for tick in &marks {
                 path.grid d=(line(&[(x_of(*tick, ends), 0.0), (x_of(*tick, ends), bottom)], false)) {}
-                text.tick x=(unit(x_of(*tick, ends))) y=(unit(bottom + 15.0)) text-anchor="middle" { (formatting::number(*tick, digits)) }
+                text.tick x=(coord(x_of(*tick, ends))) y=(coord(bottom + 15.0)) text-anchor="middle" { (formatting::number(*tick, digits)) }
             }
             path.zero d=(line(&[(x_of(0.0, ends), 0.0), (x_of(0.0, ends), bottom)], false)) {}
-            text.tick x=(unit(0.5 * (LEFT + RIGHT))) y=(unit(bottom + 34.0)) text-anchor="middle" { (axis) }
+            text.tick x=(coord(0.5 * (LEFT + RIGHT))) y=(coord(bottom + 34.0)) text-anchor="middle" { (axis) }
             @for (k, one) in estimates.iter().enumerate() {
                 @let y = ROW * k as f64 + 0.5 * ROW;
-                text.label x=(unit(LEFT - 12.0)) y=(unit(y + 5.0)) text-anchor="end" { (one.name) }
+                text.label x=(coord(LEFT - 12.0)) y=(coord(y + 5.0)) text-anchor="end" { (one.name) }
                 @if let Some([low, high]) = one.interval {
                     path.whisker d={
                         (line(&[(x_of(low, ends), y), (x_of(high, ends), y)], false))
@@ -68,7 +68,7 @@ pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Mar
                         (line(&[(x_of(high, ends), y - 6.0), (x_of(high, ends), y + 6.0)], false))
                     } {}
                 }
-                circle.dot-1 cx=(unit(x_of(one.value, ends))) cy=(unit(y)) r="5" { title { (one.name) ": " (formatting::number(one.value, 2)) } }
+                circle.dot-1 cx=(coord(x_of(one.value, ends))) cy=(coord(y)) r="5" { title { (one.name) ": " (formatting::number(one.value, 2)) } }
             }
         },
     )
@@ -85,13 +85,13 @@ mod tests {
     #[test]
     fn exact_axis_contains_all_intervals_and_zero() {
         let all = [estimate(-2.0, Some([-4.0, -1.0])), estimate(0.5, Some([0.0, 1.0])), estimate(0.2, None)];
-        assert_eq!(ends(&all), (-4.4, 1.4));
-        assert_eq!((x_of(-4.4, ends(&all)), x_of(1.4, ends(&all))), (220.0, 600.0));
+        assert_eq!(axis_range(&all), (-4.4, 1.4));
+        assert_eq!((x_of(-4.4, axis_range(&all)), x_of(1.4, axis_range(&all))), (220.0, 600.0));
         let figure = intervals(&all, "points", "t").into_string();
         assert_eq!((figure.matches("class=\"whisker\"").count(), figure.matches("<circle").count()), (2, 3));
         assert_eq!(figure.matches("class=\"grid\"").count(), 3, "one tick each at -4, -2 and 0, none beyond the ends: {figure}");
         assert!(figure.contains("class=\"zero\"") && figure.contains("&lt;a&gt;"), "{figure}");
-        assert_eq!(ends(&[estimate(0.0, None)]), (-1.0, 1.0));
-        assert_eq!(ends(&[]), (-1.0, 1.0));
+        assert_eq!(axis_range(&[estimate(0.0, None)]), (-1.0, 1.0));
+        assert_eq!(axis_range(&[]), (-1.0, 1.0));
     }
 }

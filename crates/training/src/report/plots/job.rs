@@ -1,9 +1,9 @@
 //! Drawings of a job without a flight, used on the scenario page and as the background of the live page.
 
 use super::backdrop::{ground, lake};
-use super::map::{extent, nearness_data, north, pad, references, scale, structure};
+use super::map::{extent, near_bridge_data, north, pad, reference_paths, scale, structure};
 use super::plot_map::PlotMap;
-use super::sheet;
+use super::svg_figure;
 use crate::report::outline::ParallelView;
 use maud::{Markup, html};
 use spandrel_model::frames::{Enu, Vec3};
@@ -19,14 +19,14 @@ const TOP_MARGIN_M: f64 = 15.0;
 #[must_use]
 pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
-    sheet(
+    svg_figure(
         map.size,
         "Job site from above, north up",
         "map",
         &html! {
             (lake(scenario, site, &map))
             (structure(site, &map, None))
-            (references(scenario, &map, None))
+            (reference_paths(scenario, &map, None))
             (pad(scenario, &map))
             (north(&map))
             (drone(&map, None))
@@ -53,14 +53,14 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
     }
     let map = PlotMap::around(view, &points);
     let title = format!("Side view of bridge '{}'", bridge.name);
-    sheet(
+    svg_figure(
         map.size,
         &title,
         "map",
         &html! {
             (ground(scenario, site, &map, bridge))
             (structure(site, &map, Some(&prefix)))
-            (references(scenario, &map, Some(&bridge.name)))
+            (reference_paths(scenario, &map, Some(&bridge.name)))
             (drone(&map, Some(bridge)))
             (scale(&map))
         },
@@ -75,16 +75,16 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     points.push(Vec3::new(pad_m.east() - END_MARGIN_M, pad_m.north(), pad_m.up()));
     points.push(Vec3::new(pad_m.east() + END_MARGIN_M, pad_m.north(), pad_m.up() + TOP_MARGIN_M));
     let map = PlotMap::around(ParallelView::from_south(), &points);
-    let body = html! { (structure(site, &map, None)) (references(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
-    sheet(map.size, "Job site viewed from the south", "map", &body)
+    let body = html! { (structure(site, &map, None)) (reference_paths(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
+    svg_figure(map.size, "Job site viewed from the south", "map", &body)
 }
 
 /// Draws the drone and its trail, which a script updates. They are hidden until the script runs and, in a bridge's side
 /// view, while the drone is far from that bridge.
 fn drone(map: &PlotMap, bridge: Option<&Bridge>) -> Markup {
     html! {
-        path.trail data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] d="" {}
-        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] { circle r="7" {} circle.core r="2.5" {} }
+        path.trail data-matrix=(map.matrix()) data-near=[bridge.map(near_bridge_data)] d="" {}
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(near_bridge_data)] { circle r="7" {} circle.core r="2.5" {} }
     }
 }
 

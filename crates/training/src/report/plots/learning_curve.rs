@@ -1,6 +1,6 @@
 //! Scores by repetition with the fitted learning curve, extended by one repetition.
 
-use super::{line, sheet, ticks, unit};
+use super::{coord, line, svg_figure, ticks};
 use crate::report::formatting;
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
@@ -47,7 +47,7 @@ pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
         line(&steps.map(|n| at(n, curve.at(n))).collect::<Vec<_>>(), false)
     };
     let step = (count + 1).div_ceil(MAX_NUMBERED_REPETITIONS).max(1);
-    sheet(
+    svg_figure(
         SIZE,
         title,
         "practice",
@@ -55,19 +55,19 @@ pub fn practice(drawn: &PracticeChart<'_>, title: &str) -> Markup {
             @for tick in ticks(most, 4) {
                 @let (_, y) = at(1.0, tick);
                 path.grid d=(line(&[(LEFT, y), (RIGHT, y)], false)) {}
-                text.tick x=(unit(LEFT - 5.0)) y=(unit(y + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
+                text.tick x=(coord(LEFT - 5.0)) y=(coord(y + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for k in (1..=count + 1).step_by(step) {
-                text.tick x=(unit(at(k as f64, 0.0).0)) y=(unit(BOTTOM + 17.0)) text-anchor="middle" { (k) }
+                text.tick x=(coord(at(k as f64, 0.0).0)) y=(coord(BOTTOM + 17.0)) text-anchor="middle" { (k) }
             }
             @for other in drawn.others { path.one-of-many d=(along(other, other.n.min(count))) {} }
             path.fitted d=(along(drawn.curve, count + 1)) {}
             @for (k, value) in drawn.values.iter().enumerate() {
                 @let (x, y) = at((k + 1) as f64, *value);
-                circle.dot-1 cx=(unit(x)) cy=(unit(y)) r="4" {}
+                circle.dot-1 cx=(coord(x)) cy=(coord(y)) r="4" {}
             }
             @let (x, y) = at((count + 1) as f64, drawn.curve.next);
-            circle.expected cx=(unit(x)) cy=(unit(y)) r="4" { title { "predicted next: " (formatting::number(drawn.curve.next.min(most), 1)) } }
+            circle.expected cx=(coord(x)) cy=(coord(y)) r="4" { title { "predicted next: " (formatting::number(drawn.curve.next.min(most), 1)) } }
         },
     )
 }

@@ -1,6 +1,6 @@
 //! Likert charts: bars centered on "neutral", with agreement to the left and disagreement to the right.
 
-use super::{sheet, unit};
+use super::{coord, svg_figure};
 use maud::{Markup, html};
 
 const WIDTH: f64 = 640.0;
@@ -63,7 +63,7 @@ pub fn likert(questions: &[LikertQuestion], title: &str) -> Markup {
             (top, lines, question)
         })
         .collect();
-    sheet(
+    svg_figure(
         (WIDTH, height + 4.0),
         title,
         "likert",
@@ -74,14 +74,14 @@ pub fn likert(questions: &[LikertQuestion], title: &str) -> Markup {
 fn row(top: f64, lines: &[String], question: &LikertQuestion) -> Markup {
     let bar = top + 19.0 + LINE * (lines.len() - 1) as f64;
     html! {
-        text.label x="4" y=(unit(top + 13.0)) {
+        text.label x="4" y=(coord(top + 13.0)) {
             @for (k, line) in lines.iter().enumerate() { tspan x="4" dy=(if k == 0 { 0.0 } else { LINE }) { (line) } " " }
         }
         @for (answer, (x, width)) in bars(question.counts).into_iter().enumerate() {
             @let count = question.counts[answer];
             @if count > 0 {
-                rect class={ "answer-" (answer + 1) } x=(unit(x)) y=(unit(bar)) width=(unit(width)) height="16" {}
-                @if width >= 14.0 { text class={ "count count-" (answer + 1) } x=(unit(x + 0.5 * width)) y=(unit(bar + 12.0)) text-anchor="middle" { (count) } }
+                rect class={ "answer-" (answer + 1) } x=(coord(x)) y=(coord(bar)) width=(coord(width)) height="16" {}
+                @if width >= 14.0 { text class={ "count count-" (answer + 1) } x=(coord(x + 0.5 * width)) y=(coord(bar + 12.0)) text-anchor="middle" { (count) } }
             }
         }
     }

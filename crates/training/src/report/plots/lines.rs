@@ -1,6 +1,6 @@
 //! Line chart over repetitions: one line per score or task, one point per session.
 
-use super::{line, sheet, ticks, unit};
+use super::{coord, line, svg_figure, ticks};
 use crate::report::formatting;
 use maud::{Markup, html};
 
@@ -36,7 +36,7 @@ pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
     let count = lines.iter().map(|line| line.values.len()).max().unwrap_or(0);
     // With many sessions, only some are numbered.
     let step = count.div_ceil(12).max(1);
-    sheet(
+    svg_figure(
         SIZE,
         title,
         "lines",
@@ -44,16 +44,16 @@ pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
             @for tick in ticks(most, 5) {
                 @let (_, y) = place(0, 1, tick, most);
                 path.grid d=(line(&[(LEFT, y), (RIGHT, y)], false)) {}
-                text.tick x=(unit(LEFT - 6.0)) y=(unit(y + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
+                text.tick x=(coord(LEFT - 6.0)) y=(coord(y + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for k in (0..count).step_by(step) {
                 @let (x, _) = place(k, count, 0.0, most);
-                text.tick x=(unit(x)) y=(unit(BOTTOM + 18.0)) text-anchor="middle" { (k + 1) }
+                text.tick x=(coord(x)) y=(coord(BOTTOM + 18.0)) text-anchor="middle" { (k + 1) }
             }
             @for one in lines {
                 @let points = points(one, count, most);
-                path class={ "line line-" (colour(one.style)) @if one.style > LINE_COLORS { " broken" } } d=(line(&points, false)) {}
-                @for (x, y) in &points { circle class={ "dot-" (colour(one.style)) } cx=(unit(*x)) cy=(unit(*y)) r="4" {} }
+                path class={ "line line-" (color_number(one.style)) @if one.style > LINE_COLORS { " broken" } } d=(line(&points, false)) {}
+                @for (x, y) in &points { circle class={ "dot-" (color_number(one.style)) } cx=(coord(*x)) cy=(coord(*y)) r="4" {} }
             }
         },
     )
@@ -61,7 +61,7 @@ pub fn lines(lines: &[ChartLine], most: f64, title: &str) -> Markup {
 
 /// Returns the color number of a style, 1 to 4.
 #[must_use]
-pub fn colour(style: usize) -> usize {
+pub fn color_number(style: usize) -> usize {
     (style.max(1) - 1) % LINE_COLORS + 1
 }
 
@@ -82,6 +82,6 @@ mod tests {
         let figure = lines(&[one], 100.0, "<t>").into_string();
         assert!(figure.contains("d=\"M50 206L394 10\"") && figure.contains("&lt;t&gt;"), "{figure}");
         assert_eq!(figure.matches("<circle").count(), 2);
-        assert_eq!([1, 4, 5, 8, 9].map(colour), [1, 4, 1, 4, 1]);
+        assert_eq!([1, 4, 5, 8, 9].map(color_number), [1, 4, 1, 4, 1]);
     }
 }

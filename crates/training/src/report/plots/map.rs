@@ -4,7 +4,7 @@
 use super::backdrop::{ground, lake};
 use super::colors::{COLOR_MODES, track};
 use super::plot_map::{PlotMap, TRACK_TOLERANCE};
-use super::{line, sheet, simplified, unit};
+use super::{coord, line, simplified, svg_figure};
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::outline::{ParallelView, outlines};
@@ -32,7 +32,7 @@ pub fn plan(review: &Review) -> Markup {
         (job(review, &map, None, &all))
         (north(&map))
     };
-    sheet(map.size, "Flight from above, north up", "map", &body)
+    svg_figure(map.size, "Flight from above, north up", "map", &body)
 }
 
 /// Draws the oblique view of a flight.
@@ -40,7 +40,7 @@ pub fn plan(review: &Review) -> Markup {
 pub fn oblique(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::oblique(25.0, 22.0), &bounding_points(review));
     let all = |_: &Frame| true;
-    sheet(
+    svg_figure(
         map.size,
         "Oblique view of the flight, looking north",
         "map",
@@ -54,11 +54,11 @@ pub fn oblique(review: &Review) -> Markup {
 /// Draws one bridge from the side with the nearby flight path.
 #[must_use]
 pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
-    let near = is_beside(bridge);
+    let near = is_near_bridge(bridge);
     let map = side_view_map(&review.scenario, &review.site, bridge, review.frames.iter().filter(|frame| near(frame)));
     let prefix = format!("{}/", bridge.name);
     let title = format!("Side view of the flight at bridge '{}'", bridge.name);
-    sheet(
+    svg_figure(
         map.size,
         &title,
         "map",
@@ -72,7 +72,7 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
 
 /// Returns the values that the page's script uses to decide whether the drone is near a bridge: the center's east and
 /// north, the axis's east and north, and the limits along and across the bridge, m.
-pub(super) fn nearness_data(bridge: &Bridge) -> String {
+pub(super) fn near_bridge_data(bridge: &Bridge) -> String {
     let axis = ParallelView::side(bridge).right;
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
     [bridge.center_m.east(), bridge.center_m.north(), axis.east(), axis.north(), half_m, MAX_SIDE_DISTANCE_M]
@@ -81,9 +81,9 @@ pub(super) fn nearness_data(bridge: &Bridge) -> String {
 }
 
 /// Returns a function that decides whether a frame belongs in this bridge's side view.
-pub(super) fn is_beside(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
+pub(super) fn is_near_bridge(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
     let (view, center_m) = (ParallelView::side(bridge), bridge.center_m);
-    let (axis, towards) = (view.right, view.towards());
+    let (axis, towards) = (view.right, view.toward_viewer());
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;
     move |frame: &Frame| {
         let to = frame.position_m - center_m;
@@ -114,7 +114,7 @@ pub(super) fn side_view_map<'a>(
 pub fn south_elevation(review: &Review) -> Markup {
     let map = PlotMap::around(ParallelView::from_south(), &bounding_points(review));
     let all = |_: &Frame| true;
-    sheet(
+    svg_figure(
         map.size,
         "Flight viewed from the south",
         "map",
@@ -131,7 +131,7 @@ pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &st
     let points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
     let map = PlotMap::around(view, &points.into_iter().filter(|point| point.up() > water_m - 6.0).collect::<Vec<_>>());
     let mine = review.defects.iter().filter(|fate| fate.defect.member.starts_with(&prefix));
-    sheet(
+    svg_figure(
         map.size,
         title,
         "map",
@@ -139,7 +139,7 @@ pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &st
             (structure(&review.site, &map, Some(&prefix)))
             @for fate in mine {
                 @let (x, y) = map.at(fate.defect.position_m);
-                g transform={ "translate(" (unit(x)) " " (unit(y)) ")" } {
+                g transform={ "translate(" (coord(x)) " " (coord(y)) ")" } {
                     title { "defect " (fate.defect.id) ": " (fate.words()) }
                     @if fate.found_by.is_some() { circle.found r="9" {} } @else { path.missed d="M0 -12L12 0L0 12L-12 0Z" {} }
                     text.mark y="4" text-anchor="middle" { (fate.defect.id) }
@@ -171,7 +171,7 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
     html! {
         g.structure {
             @for shape in &shapes {
-                path d=(line(&shape.corners.iter().map(|corner| map.on_sheet(*corner)).collect::<Vec<_>>(), true)) {}
+                path d=(line(&shape.corners.iter().map(|corner| map.to_drawing(*corner)).collect::<Vec<_>>(), true)) {}
             }
         }
     }
@@ -180,20 +180,20 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
 /// Draws the reference paths (of one bridge or all), flight path, marks, drone and scale.
 fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
-        (references(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
+        (reference_paths(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
         @for (layer, (_, class)) in COLOR_MODES.iter().enumerate() {
             g class={ "flown " (class) } {
                 @for (colour, data) in track(review, map, layer, shown) { path class=(colour) d=(data) {} }
             }
         }
         (marks(review, map, shown))
-        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] { circle r="7" {} circle.core r="2.5" {} }
+        g.drone data-matrix=(map.matrix()) data-near=[bridge.map(near_bridge_data)] { circle r="7" {} circle.core r="2.5" {} }
         (scale(map))
     }
 }
 
 /// Draws the reference paths of one bridge or all.
-pub(super) fn references(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
+pub(super) fn reference_paths(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
     let of = |task: &&Task| {
         let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());
         bridge.is_none() || own.is_none() || own == bridge
@@ -210,7 +210,7 @@ pub(super) fn references(scenario: &Scenario, map: &PlotMap, bridge: Option<&str
 fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     let place = |point: Vec3<Enu>| {
         let (x, y) = map.at(point);
-        format!("translate({} {})", unit(x), unit(y))
+        format!("translate({} {})", coord(x), coord(y))
     };
     html! {
         (pad(&review.scenario, map))
@@ -238,12 +238,12 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
 /// Draws a square at the landing pad.
 pub(super) fn pad(scenario: &Scenario, map: &PlotMap) -> Markup {
     let (x, y) = map.at(scenario.ground_team.pad_m);
-    html! { g.pad transform={ "translate(" (unit(x)) " " (unit(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }
+    html! { g.pad transform={ "translate(" (coord(x)) " " (coord(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }
 }
 
 pub(super) fn north(map: &PlotMap) -> Markup {
     html! {
-        g.north transform={ "translate(" (unit(map.size.0 - 24.0)) " 34)" } {
+        g.north transform={ "translate(" (coord(map.size.0 - 24.0)) " 34)" } {
             path d="M0 -18L7 6L0 1L-7 6Z" {}
             text.tick y="22" text-anchor="middle" { "N" }
         }
@@ -256,7 +256,7 @@ pub(super) fn scale(map: &PlotMap) -> Markup {
     html! {
         g.scale {
             path d=(line(&[(16.0, y - 5.0), (16.0, y), (16.0 + length_m * map.scale, y), (16.0 + length_m * map.scale, y - 5.0)], false)) {}
-            text.tick x=(unit(22.0 + length_m * map.scale)) y=(unit(y)) { (formatting::number(length_m, 0)) " m" }
+            text.tick x=(coord(22.0 + length_m * map.scale)) y=(coord(y)) { (formatting::number(length_m, 0)) " m" }
         }
     }
 }

@@ -22,7 +22,7 @@ use maud::{Markup, html};
 
 /// Formats a coordinate with one decimal place, omitting ".0".
 #[must_use]
-pub fn unit(value: f64) -> String {
+pub fn coord(value: f64) -> String {
     let text = format!("{value:.1}");
     let text = text.strip_suffix(".0").unwrap_or(&text);
     if text == "-0" { "0".into() } else { text.to_owned() }
@@ -34,9 +34,9 @@ pub fn line(points: &[(f64, f64)], closed: bool) -> String {
     let mut data = String::new();
     for (k, (x, y)) in points.iter().enumerate() {
         data.push(if k == 0 { 'M' } else { 'L' });
-        data.push_str(&unit(*x));
+        data.push_str(&coord(*x));
         data.push(' ');
-        data.push_str(&unit(*y));
+        data.push_str(&coord(*y));
     }
     if closed && !points.is_empty() {
         data.push('Z');
@@ -96,9 +96,9 @@ pub fn ticks(most: f64, about: usize) -> Vec<f64> {
 
 /// Wraps a figure in an SVG element with a title for screen readers.
 #[must_use]
-pub fn sheet((width, height): (f64, f64), title: &str, class: &str, body: &Markup) -> Markup {
+pub fn svg_figure((width, height): (f64, f64), title: &str, class: &str, body: &Markup) -> Markup {
     html! {
-        svg class=(class) viewBox={ "0 0 " (unit(width)) " " (unit(height)) } role="img" aria-label=(title) {
+        svg class=(class) viewBox={ "0 0 " (coord(width)) " " (coord(height)) } role="img" aria-label=(title) {
             title { (title) }
             (body)
         }

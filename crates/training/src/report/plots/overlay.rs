@@ -2,9 +2,11 @@
 
 use super::backdrop::{ground, lake};
 use super::colors::plain_color;
-use super::map::{bounding_points, is_beside, nearness_data, north, pad, references, scale, side_view_map, structure};
+use super::map::{
+    bounding_points, is_near_bridge, near_bridge_data, north, pad, reference_paths, scale, side_view_map, structure,
+};
 use super::plot_map::PlotMap;
-use super::{sheet, unit};
+use super::{coord, svg_figure};
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::outline::ParallelView;
@@ -16,7 +18,7 @@ use spandrel_model::scenario::Bridge;
 #[must_use]
 pub fn plan(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &both.map(bounding_points).concat());
-    sheet(
+    svg_figure(
         map.size,
         "Both flights from above, north up",
         "map",
@@ -32,11 +34,11 @@ pub fn plan(both: [&Review; 2]) -> Markup {
 /// Draws one bridge from the side, with both flights near it.
 #[must_use]
 pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
-    let near = is_beside(bridge);
+    let near = is_near_bridge(bridge);
     let [first, _] = both;
     let flown = both.into_iter().flat_map(|review| review.frames.iter()).filter(|frame| near(frame));
     let map = side_view_map(&first.scenario, &first.site, bridge, flown);
-    sheet(
+    svg_figure(
         map.size,
         &format!("Side view of both flights at bridge '{}'", bridge.name),
         "map",
@@ -53,19 +55,19 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
 pub fn from_south(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::from_south(), &both.map(bounding_points).concat());
     let body = html! { (structure(&both[0].site, &map, None)) (flights(both, &map, None, &|_| true)) };
-    sheet(map.size, "Both flights viewed from the south", "map", &body)
+    svg_figure(map.size, "Both flights viewed from the south", "map", &body)
 }
 
 fn flights(both: [&Review; 2], map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
-        (references(&both[0].scenario, map, bridge.map(|bridge| bridge.name.as_str())))
+        (reference_paths(&both[0].scenario, map, bridge.map(|bridge| bridge.name.as_str())))
         @for (k, review) in both.into_iter().enumerate() {
             path class={ "overlaid line-" (k + 1) } d=(plain_color(review, map, shown)) { title { "session " (k + 1) } }
         }
         (pad(&both[0].scenario, map))
         @for (k, review) in both.into_iter().enumerate() { (crashes(k, review, map, shown)) }
         @for k in 0..2 {
-            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(nearness_data)] {
+            g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(near_bridge_data)] {
                 circle r="9" {}
                 text.mark y="4" text-anchor="middle" { (k + 1) }
             }
@@ -78,7 +80,7 @@ fn crashes(k: usize, review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> b
     html! {
         @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
             @let (x, y) = map.at(review.frames[crash.frame].position_m);
-            g class={ "crash of-" (k + 1) } transform={ "translate(" (unit(x)) " " (unit(y)) ")" } {
+            g class={ "crash of-" (k + 1) } transform={ "translate(" (coord(x)) " " (coord(y)) ")" } {
                 path d="M-5 -5L5 5M5 -5L-5 5" {}
                 title { "session " (k + 1) ": crash with " (formatting::contact_label(crash.with)) " at " (formatting::clock(review.t_s(crash.frame))) }
             }

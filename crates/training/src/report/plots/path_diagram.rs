@@ -1,7 +1,7 @@
 //! Path diagram of the causal model: demand affects strain, strain affects performance, and feedback moderates the effect of
 //! demand on strain.
 
-use super::{line, sheet, unit};
+use super::{coord, line, svg_figure};
 use maud::{Markup, html};
 
 const SIZE: (f64, f64) = (854.0, 268.0);
@@ -19,7 +19,7 @@ const ARROWHEAD_HALF_WIDTH: f64 = 5.0;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PathEffect {
     /// Estimate and confidence interval, as text.
-    pub words: String,
+    pub label: String,
     /// Whether the interval contains zero.
     pub contains_zero: bool,
 }
@@ -43,7 +43,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
     let middle = ROW + 0.5 * BOX.1;
     let (from, to) = (DEMAND + BOX.0, STRAIN);
     let crossing = 0.5 * (from + to);
-    sheet(
+    svg_figure(
         SIZE,
         title,
         "model-drawing",
@@ -57,7 +57,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
             (arrow(&[(STRAIN + BOX.0, middle), (PERFORMANCE, middle)], &effects.on_performance))
             (effect_text((0.5 * (STRAIN + BOX.0 + PERFORMANCE), middle + 24.0), &effects.on_performance))
             (arrow(&[(crossing, FEEDBACK.1 + BOX.1), (crossing, middle - 2.0)], &effects.moderation))
-            text.value x=(unit(crossing + 10.0)) y=(unit(FEEDBACK.1 + BOX.1 + 28.0)) { (effects.moderation.words) }
+            text.value x=(coord(crossing + 10.0)) y=(coord(FEEDBACK.1 + BOX.1 + 28.0)) { (effects.moderation.label) }
             @let (down, low) = (ROW + BOX.1, SIZE.1 - 30.0);
             (arrow(&[(DEMAND + 0.5 * BOX.0, down), (DEMAND + 0.5 * BOX.0, low), (PERFORMANCE + 0.5 * BOX.0, low), (PERFORMANCE + 0.5 * BOX.0, down)], &effects.direct))
             (effect_text((0.5 * SIZE.0, low + 20.0), &effects.direct))
@@ -67,14 +67,14 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
 
 fn labeled_box((x, y): (f64, f64), name: &str, what: &str) -> Markup {
     html! {
-        rect.node x=(unit(x)) y=(unit(y)) width=(unit(BOX.0)) height=(unit(BOX.1)) rx="8" {}
-        text.label x=(unit(x + 0.5 * BOX.0)) y=(unit(y + 23.0)) text-anchor="middle" { (name) }
-        text.tick x=(unit(x + 0.5 * BOX.0)) y=(unit(y + 41.0)) text-anchor="middle" { (what) }
+        rect.node x=(coord(x)) y=(coord(y)) width=(coord(BOX.0)) height=(coord(BOX.1)) rx="8" {}
+        text.label x=(coord(x + 0.5 * BOX.0)) y=(coord(y + 23.0)) text-anchor="middle" { (name) }
+        text.tick x=(coord(x + 0.5 * BOX.0)) y=(coord(y + 41.0)) text-anchor="middle" { (what) }
     }
 }
 
 fn effect_text((x, y): (f64, f64), effect: &PathEffect) -> Markup {
-    html! { text.value x=(unit(x)) y=(unit(y)) text-anchor="middle" { (effect.words) } }
+    html! { text.value x=(coord(x)) y=(coord(y)) text-anchor="middle" { (effect.label) } }
 }
 
 fn arrow(points: &[(f64, f64)], effect: &PathEffect) -> Markup {
@@ -106,7 +106,7 @@ mod tests {
         assert_eq!(arrowhead(&[(0.0, 0.0), (50.0, 0.0)]), [(50.0, 0.0), (40.0, 5.0), (40.0, -5.0)]);
         assert_eq!(arrowhead(&[(0.0, 9.0), (0.0, 50.0)]), [(0.0, 50.0), (5.0, 40.0), (-5.0, 40.0)]);
         assert!(arrowhead(&[(0.0, 0.0)]).is_empty());
-        let effect = |words: &str, contains_zero| PathEffect { words: words.into(), contains_zero };
+        let effect = |label: &str, contains_zero| PathEffect { label: label.into(), contains_zero };
         let effects = PathEffects {
             on_strain: effect("0.7 <a>", false),
             on_performance: effect("b", true),

@@ -1,6 +1,6 @@
 //! Radar chart (Kiviat diagram) with one axis per score, 0 at the center and 100 at the edge.
 
-use super::{line, sheet, unit};
+use super::{coord, line, svg_figure};
 use crate::report::formatting;
 use maud::{Markup, html};
 use spandrel_model::math;
@@ -41,27 +41,27 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
         let value = |spoke: &RadarAxis| spoke.values.get(session).copied().flatten();
         spokes.iter().enumerate().filter_map(|(k, spoke)| value(spoke).map(|pct| at(k, pct))).collect()
     };
-    sheet(
+    svg_figure(
         SIZE,
         title,
         "radar",
         &html! {
             @for pct in [25.0, 50.0, 75.0, 100.0] {
                 path.grid d=(ring(pct)) {}
-                @if pct < 100.0 { text.tick x=(unit(MIDDLE.0 + 4.0)) y=(unit(MIDDLE.1 - RADIUS * pct / 100.0 + 4.0)) { (formatting::number(pct, 0)) } }
+                @if pct < 100.0 { text.tick x=(coord(MIDDLE.0 + 4.0)) y=(coord(MIDDLE.1 - RADIUS * pct / 100.0 + 4.0)) { (formatting::number(pct, 0)) } }
             }
             @for (k, spoke) in spokes.iter().enumerate() {
                 @let (x, y) = at(k, 100.0);
                 path.grid d=(line(&[MIDDLE, (x, y)], false)) {}
                 @let (lx, ly) = label(at(k, 114.0));
-                text.label x=(unit(lx)) y=(unit(ly + 4.0)) text-anchor=(anchor(lx)) { (spoke.name) }
-                text.value x=(unit(lx)) y=(unit(ly + 22.0)) text-anchor=(anchor(lx)) {
+                text.label x=(coord(lx)) y=(coord(ly + 4.0)) text-anchor=(anchor(lx)) { (spoke.name) }
+                text.value x=(coord(lx)) y=(coord(ly + 22.0)) text-anchor=(anchor(lx)) {
                     (spoke.values.iter().map(|value| value.map_or("n/a".into(), |pct| formatting::number(pct, 0))).collect::<Vec<_>>().join(" / "))
                 }
             }
             @for session in 0..sessions {
                 path class={ "shape shape-" (session + 1) } d=(line(&shape(session), true)) {}
-                @for (x, y) in shape(session) { circle class={ "dot dot-" (session + 1) } cx=(unit(x)) cy=(unit(y)) r="4" {} }
+                @for (x, y) in shape(session) { circle class={ "dot dot-" (session + 1) } cx=(coord(x)) cy=(coord(y)) r="4" {} }
             }
         },
     )

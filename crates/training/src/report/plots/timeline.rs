@@ -1,6 +1,6 @@
 //! Timeline of the session with a common time axis: rows for control source, tasks, feedback, pictures and gaps.
 
-use super::{line, sheet, ticks, unit};
+use super::{coord, line, svg_figure, ticks};
 use crate::report::formatting;
 use maud::{Markup, html};
 
@@ -11,11 +11,11 @@ const ROW: f64 = 26.0;
 
 /// A row of the timeline.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TimeStrip {
+pub struct TimelineRow {
     /// Label at the left of the row.
     pub name: String,
     /// Intervals: CSS class, start and end (s), and description.
-    pub stretches: Vec<(String, f64, f64, String)>,
+    pub intervals: Vec<(String, f64, f64, String)>,
     /// Events: CSS class, time (s), and description.
     pub marks: Vec<(String, f64, String)>,
 }
@@ -28,11 +28,11 @@ pub fn x_of(t_s: f64, end_s: f64) -> f64 {
 
 /// Draws all rows on a time axis from 0 to `end_s`.
 #[must_use]
-pub fn strips(rows: &[TimeStrip], end_s: f64, title: &str) -> Markup {
+pub fn strips(rows: &[TimelineRow], end_s: f64, title: &str) -> Markup {
     let bottom = 6.0 + ROW * rows.len() as f64;
     // Ticks at whole or half minutes are easier to read than ticks at tenths of a minute.
     let minutes = ticks(end_s / 60.0, 8);
-    sheet(
+    svg_figure(
         (WIDTH, bottom + 26.0),
         title,
         "strips",
@@ -40,23 +40,23 @@ pub fn strips(rows: &[TimeStrip], end_s: f64, title: &str) -> Markup {
             @for minute in &minutes {
                 @let x = x_of(60.0 * minute, end_s);
                 path.grid d=(line(&[(x, 2.0), (x, bottom)], false)) {}
-                text.tick x=(unit(x)) y=(unit(bottom + 16.0)) text-anchor="middle" { (formatting::clock(60.0 * minute)) }
+                text.tick x=(coord(x)) y=(coord(bottom + 16.0)) text-anchor="middle" { (formatting::clock(60.0 * minute)) }
             }
             @for (k, row) in rows.iter().enumerate() {
                 @let top = 6.0 + ROW * k as f64;
-                text.label x=(unit(LEFT - 10.0)) y=(unit(top + 14.0)) text-anchor="end" { (row.name) }
+                text.label x=(coord(LEFT - 10.0)) y=(coord(top + 14.0)) text-anchor="end" { (row.name) }
                 path.grid d=(line(&[(LEFT, top + 9.5), (RIGHT, top + 9.5)], false)) {}
-                @for (class, from_s, to_s, said) in &row.stretches {
+                @for (class, from_s, to_s, said) in &row.intervals {
                     @let x = x_of(*from_s, end_s);
-                    rect class=(class) x=(unit(x)) y=(unit(top + 2.0)) width=(unit((x_of(*to_s, end_s) - x).max(1.5))) height="15" rx="2" {
+                    rect class=(class) x=(coord(x)) y=(coord(top + 2.0)) width=(coord((x_of(*to_s, end_s) - x).max(1.5))) height="15" rx="2" {
                         title { (said) }
                     }
                 }
                 @for (class, t_s, said) in &row.marks {
-                    circle class=(class) cx=(unit(x_of(*t_s, end_s))) cy=(unit(top + 9.5)) r="5" { title { (said) } }
+                    circle class=(class) cx=(coord(x_of(*t_s, end_s))) cy=(coord(top + 9.5)) r="5" { title { (said) } }
                 }
             }
-            path.cursor data-left=(unit(LEFT)) data-right=(unit(RIGHT)) d=(line(&[(0.0, 0.0), (0.0, bottom)], false)) {}
+            path.cursor data-left=(coord(LEFT)) data-right=(coord(RIGHT)) d=(line(&[(0.0, 0.0), (0.0, bottom)], false)) {}
         },
     )
 }
@@ -69,9 +69,9 @@ mod tests {
     fn exact_timeline_positions_increase_with_time() {
         assert_eq!((x_of(0.0, 100.0), x_of(50.0, 100.0), x_of(100.0, 100.0)), (118.0, 504.0, 890.0));
         assert_eq!((x_of(-1.0, 100.0), x_of(101.0, 100.0), x_of(1.0, 0.0)), (118.0, 890.0, 118.0));
-        let row = TimeStrip {
+        let row = TimelineRow {
             name: "row".into(),
-            stretches: vec![("on".into(), 25.0, 75.0, "<said>".into())],
+            intervals: vec![("on".into(), 25.0, 75.0, "<said>".into())],
             marks: vec![("hit".into(), 100.0, String::new())],
         };
         let figure = strips(&[row], 100.0, "t").into_string();

@@ -40,7 +40,7 @@ impl Renderer {
         shot: &Shot,
         target: &wgpu::Texture,
     ) {
-        let (moving, here) = (self.moving(gpu, &shot.moving), MeshInstances::new(gpu, &[Instance::HERE]));
+        let (moving, here) = (self.moving(gpu, &shot.moving), MeshInstances::new(gpu, &[Instance::IDENTITY]));
         let shown = Frustum::of(&shot.eye.view_projection(shot.aspect()));
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         let depth = texture(gpu, shot.size_px, DEPTH_FORMAT, 1);

@@ -13,7 +13,7 @@ pub struct StaticCell {
     /// Instances.
     pub copies: MeshInstances,
     /// Whether it is drawn into shadow maps.
-    pub casts: bool,
+    pub casts_shadows: bool,
     /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
     /// Bounds for culling.
@@ -28,12 +28,12 @@ pub fn fixed(gpu: &Gpu, scene: &Scene) -> Vec<StaticCell> {
             all.extend(MeshInstances::new(gpu, instances).map(|copies| StaticCell {
                 solid,
                 copies,
-                casts: part.casts,
+                casts_shadows: part.casts_shadows,
                 visible_range: part.visible_range,
                 bounds,
             }));
         };
-        if part.instances == [Instance::HERE] {
+        if part.instances == [Instance::IDENTITY] {
             for cell in cells::split_into_cells(&part.mesh, part.backdrop) {
                 if let Some(solid) = GpuMesh::new(gpu, &cell) {
                     add(Arc::new(solid), &part.instances, CellBounds::of(&cell));

@@ -57,12 +57,12 @@ fn effects(model: &MediationModel) -> PathEffects {
 
 fn effect(regression: &Regression, name: &str) -> PathEffect {
     let Some(one) = regression.coefficients.iter().find(|one| one.name == name) else {
-        return PathEffect { words: "–".into(), contains_zero: true };
+        return PathEffect { label: "–".into(), contains_zero: true };
     };
     let [low, high] = one.interval_95;
     let number = |value: f64| formatting::number(value, 2).replace('-', "−");
     PathEffect {
-        words: format!("{} [{}, {}]", number(one.estimate), number(low), number(high)),
+        label: format!("{} [{}, {}]", number(one.estimate), number(low), number(high)),
         contains_zero: low <= 0.0 && high >= 0.0,
     }
 }

@@ -1,6 +1,6 @@
 //! Scores of the first sessions: distributions, trainees and tasks, crashes.
 
-use super::super::crash_kinds::{KINDS, counted, segments};
+use super::super::crash_kinds::{KINDS, crash_counts, segments};
 use super::super::figure::{figure, legend};
 use super::lists_individuals::lists_individuals;
 use super::pooled;
@@ -35,10 +35,10 @@ pub fn distributions(cohort: &Cohort) -> Markup {
 
 /// Renders each trainee's scores and tasks, or distributions if there are too many trainees to list.
 pub fn people(cohort: &Cohort) -> Markup {
-    if lists_individuals(cohort) { one_by_one(cohort) } else { pooled::tasks(cohort) }
+    if lists_individuals(cohort) { individual_results(cohort) } else { pooled::tasks(cohort) }
 }
 
-fn one_by_one(cohort: &Cohort) -> Markup {
+fn individual_results(cohort: &Cohort) -> Markup {
     let rows: Vec<ShareRow> = cohort
         .individuals
         .iter()
@@ -50,7 +50,7 @@ fn one_by_one(cohort: &Cohort) -> Markup {
                 .zip(["dot-1", "dot-2", "dot-3", "dot-4"].iter().cycle())
                 .map(|(task, class)| (*class, task.on_path))
                 .collect(),
-            instead: one.tasks.is_empty().then_some("no tasks"),
+            placeholder: one.tasks.is_empty().then_some("no tasks"),
         })
         .collect();
     let key: Vec<(&str, String)> = cohort
@@ -89,8 +89,11 @@ fn one_by_one(cohort: &Cohort) -> Markup {
 /// Renders crashes by kind, task and trainee.
 pub fn crashes(cohort: &Cohort) -> Markup {
     let table = &cohort.crashes;
-    let key: Vec<(&str, String)> =
-        KINDS.iter().zip(counted(&table.by_kind)).map(|((class, name), count)| (*class, format!("{name}: {count}"))).collect();
+    let key: Vec<(&str, String)> = KINDS
+        .iter()
+        .zip(crash_counts(&table.by_kind))
+        .map(|((class, name), count)| (*class, format!("{name}: {count}")))
+        .collect();
     let names = table.tasks.iter().map(|id| format!("task {id}")).chain(["outside".to_owned()]);
     let by_task: Vec<CountRow> =
         names.zip(&table.by_task).map(|(name, count)| CountRow { name, kinds: vec![("k-bridge", *count)] }).collect();

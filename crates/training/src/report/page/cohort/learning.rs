@@ -1,7 +1,7 @@
 //! Practice effects: the group's learning curves and the trainees with repeat sessions.
 
 use super::super::figure::{figure, legend};
-use super::super::progress::{most, pictures, too_few};
+use super::super::progress::{most, progress_figures, too_few_repetitions};
 use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
 use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::table::{Table, TableCell};
@@ -22,7 +22,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
     ];
     html! {
         @if cohort.learning.is_empty() {
-            p.calm { (too_few()) " No trainee has flown that many yet." }
+            p.calm { (too_few_repetitions()) " No trainee has flown that many yet." }
         } @else {
             (legend(&key))
             div.trio {
@@ -76,21 +76,21 @@ fn numbers(curves: &[GroupCurve]) -> Table {
 }
 
 /// Renders each trainee with more than one session.
-pub fn one_by_one(cohort: &Cohort) -> Markup {
-    let repeated: Vec<&TraineeProgress> = repeated(cohort).collect();
+pub fn individual_results(cohort: &Cohort) -> Markup {
+    let repeated: Vec<&TraineeProgress> = repeat_trainees(cohort).collect();
     html! {
         @if repeated.len() > MAX_INDIVIDUAL_TRAINEES {
             p.calm { (repeated.len()) " trainees flew more than once. Above " (MAX_INDIVIDUAL_TRAINEES) ", trainees are not shown individually; see progress.csv." }
         } @else {
             @for one in repeated {
-                details.numbers { summary { (one.trainee) ", " (one.repetitions.len()) " times" } (pictures(one, &tasks(cohort, one))) }
+                details.numbers { summary { (one.trainee) ", " (one.repetitions.len()) " times" } (progress_figures(one, &tasks(cohort, one))) }
             }
         }
     }
 }
 
 /// Returns the trainees with more than one session.
-pub fn repeated(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress> {
+pub fn repeat_trainees(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress> {
     cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
 }
 

@@ -69,9 +69,9 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
     if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
         sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
     }
-    if learning::repeated(cohort).next().is_some() {
+    if learning::repeat_trainees(cohort).next().is_some() {
         sections.push(("learning", "Learning curves", learning::curves(cohort)));
-        sections.push(("one-by-one", "Individual progress", learning::one_by_one(cohort)));
+        sections.push(("one-by-one", "Individual progress", learning::individual_results(cohort)));
     }
     if !cohort.likert.is_empty() {
         sections.push(("answers", "Answers", answers::answers(cohort)));

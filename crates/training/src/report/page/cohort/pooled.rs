@@ -11,7 +11,7 @@ use maud::{Markup, html};
 /// Maximum number of bins in the crash histogram; beyond it, each bin covers several counts.
 const MAX_BINS: usize = 20;
 
-fn too_many_note(cohort: &Cohort, file: &str) -> Markup {
+fn too_many_trainees_note(cohort: &Cohort, file: &str) -> Markup {
     html! { p.note { (cohort.trainees) " trainees are too many to list. The figures show distributions; for individual data, see " (file) "." } }
 }
 
@@ -41,7 +41,7 @@ pub fn tasks(cohort: &Cohort) -> Markup {
     let of = |id: &u32| Some((format!("task {id}"), box_plot(&shares(*id)).ok()?));
     let all: Vec<LabeledBox> = cohort.crashes.tasks.iter().filter_map(of).collect();
     html! {
-        (too_many_note(cohort, "individuals.csv"))
+        (too_many_trainees_note(cohort, "individuals.csv"))
         @if !all.is_empty() {
             (figure("On-path share by task, %", &draw_boxes(&all, 100.0, "On-path share by task")))
             (table("on_path_by_task", "on-path share by task, %, only for trainees who attempted the task", "task", &all).shown())
@@ -88,7 +88,7 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
     };
     let all: Vec<LabeledBox> = (1..=5).filter_map(|rating| Some((rating.to_string(), rated(rating)?))).collect();
     html! {
-        (too_many_note(cohort, "self_rating.csv"))
+        (too_many_trainees_note(cohort, "self_rating.csv"))
         @if !all.is_empty() {
             (figure("Overall score (% of maximum) by self-rating (5 is best)", &draw_boxes(&all, 100.0, "Measured score by self-rating")))
             (table("measured_by_self_rating", "measured score by self-rating, %", "self-rating", &all).shown())

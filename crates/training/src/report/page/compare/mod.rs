@@ -70,7 +70,7 @@ fn rows(first: &Review, second: &Review) -> Vec<ShareRow> {
         .map(|(k, task)| ShareRow {
             name: format!("{} · {}", task.id, task.name),
             bars: vec![("dot-1", first.assessment.tasks[k].on_path), ("dot-2", second.assessment.tasks[k].on_path)],
-            instead: None,
+            placeholder: None,
         })
         .collect()
 }
