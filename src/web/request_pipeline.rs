@@ -52,8 +52,8 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
         Ok(head) => head,
         Err(refusal) => return error_response(&shared, None, &refusal),
     };
-    let RequestHead { request: mut web_request, identity: recognised } = head;
-    let cookie = recognised.filter(|recognised| recognised.is_new).map(|recognised| shared.state.auth.cookie(&recognised.cookie));
+    let RequestHead { request: mut web_request, identity: recognized } = head;
+    let cookie = recognized.filter(|recognized| recognized.is_new).map(|recognized| shared.state.auth.cookie(&recognized.cookie));
     let visitor = web_request.visitor.clone();
     let answered = async {
         authorize(&web_request, route)?;
@@ -109,15 +109,15 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
         state.auth.check_origin(&headers, changes, open)?;
         let from =
             state.auth.address(socket.ok_or_else(|| WebError::Failed("the request has no client address".into()))?, &headers)?;
-        let recognised = if file { None } else { Some(state.auth.identify(&state.database, state.auth.cookie_of(&headers))?) };
-        let visitor = recognised.as_ref().map_or_else(anonymous_visitor, |recognised| recognised.visitor.clone());
-        let cookie = recognised.as_ref().map(|recognised| recognised.cookie.clone());
+        let recognized = if file { None } else { Some(state.auth.identify(&state.database, state.auth.cookie_of(&headers))?) };
+        let visitor = recognized.as_ref().map_or_else(anonymous_visitor, |recognized| recognized.visitor.clone());
+        let cookie = recognized.as_ref().map(|recognized| recognized.cookie.clone());
         let device = state.auth.browser_cookie_of(&headers);
         let expects_json = accepts_json(&headers);
         let languages = headers.get(header::ACCEPT_LANGUAGE).and_then(|value| value.to_str().ok()).unwrap_or_default().to_owned();
         let web_request =
             WebRequest { visitor, cookie, from, device, path, query, form: Vec::new(), upload: None, languages, expects_json };
-        Ok(RequestHead { request: web_request, identity: recognised })
+        Ok(RequestHead { request: web_request, identity: recognized })
     })
     .await
 }

@@ -80,7 +80,7 @@ def test_val_masks_label_the_counted_defects(session):
     spandrel.run("render", str(session), "--snapshots", "--masks", "--quality", "low", "--size", size, program=spandrel.COCKPIT)
     legends = sorted((session / "snapshots").glob("*.masks.json"))
     assert len(legends) == len(list((session / "snapshots").glob("*.jpg"))) > 0
-    labelled = 0
+    labeled = 0
     for path in legends:
         legend = json.loads(path.read_text(encoding="utf-8"))
         stem = path.name.removesuffix(".masks.json")
@@ -95,8 +95,8 @@ def test_val_masks_label_the_counted_defects(session):
             assert (columns.max() - left + 1, rows.max() - top + 1) == (width, height)
             # Most of a defect is on its element, but its outline may extend over an edge.
             assert (pixels["elements"][rows, columns] == entry["element"]).mean() > 0.5
-        labelled += bool(legend["defects"])
-    assert labelled >= len(legends) / 2, "an expert must photograph defects"
+        labeled += bool(legend["defects"])
+    assert labeled >= len(legends) / 2, "an expert must photograph defects"
 
 
 def pixel_counts(labels):

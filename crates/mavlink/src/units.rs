@@ -10,20 +10,20 @@ pub fn deg_e7(deg: f64) -> i32 {
 
 /// Converts meters to millimeters.
 #[must_use]
-pub fn mm(metres: f64) -> i32 {
-    (metres * 1000.0).round() as i32
+pub fn mm(meters: f64) -> i32 {
+    (meters * 1000.0).round() as i32
 }
 
 /// Converts meters to centimeters, or meters per second to centimeters per second.
 #[must_use]
-pub fn cm(metres: f64) -> i16 {
-    (metres * 100.0).round() as i16
+pub fn cm(meters: f64) -> i16 {
+    (meters * 100.0).round() as i16
 }
 
 /// Converts meters to unsigned centimeters. Infinity becomes the maximum.
 #[must_use]
-pub fn cm_u16(metres: f64) -> u16 {
-    (metres * 100.0).round() as u16
+pub fn cm_u16(meters: f64) -> u16 {
+    (meters * 100.0).round() as u16
 }
 
 /// Converts a heading in radians to centidegrees, 0 to 35999.

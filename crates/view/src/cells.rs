@@ -253,6 +253,6 @@ mod tests {
         };
         let groups = group_instances(&mesh, &[at(1.0), at(5.0), at(500.0)]);
         assert_eq!(groups.iter().map(|(all, _)| all.len()).collect::<Vec<_>>(), [2, 1]);
-        assert!((groups[0].1.radius_m - 5.0).abs() < 1e-5, "half the distance and three metres: {}", groups[0].1.radius_m);
+        assert!((groups[0].1.radius_m - 5.0).abs() < 1e-5, "half the distance and three meters: {}", groups[0].1.radius_m);
     }
 }

@@ -35,7 +35,7 @@ pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, cookie: Option<String
 async fn still_has_access(state: &Arc<ServerState>, cookie: Option<String>) -> bool {
     let state = state.clone();
     let looked = tokio::task::spawn_blocking(move || state.auth.identify(&state.database, cookie)).await;
-    looked.is_ok_and(|recognised| {
-        recognised.is_ok_and(|recognised| !recognised.is_new && recognised.visitor.satisfies(AccessLevel::Instructor))
+    looked.is_ok_and(|recognized| {
+        recognized.is_ok_and(|recognized| !recognized.is_new && recognized.visitor.satisfies(AccessLevel::Instructor))
     })
 }

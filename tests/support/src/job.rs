@@ -338,10 +338,10 @@ impl Tape {
         self.int("contact", code);
     }
 
-    pub fn clearance(&mut self, metres: f32) {
+    pub fn clearance(&mut self, meters: f32) {
         let time_boot_ms = self.clock_ms();
         let name = "clearance".into();
-        self.send(&MavMessage::NAMED_VALUE_FLOAT(NAMED_VALUE_FLOAT_DATA { time_boot_ms, value: metres, name }));
+        self.send(&MavMessage::NAMED_VALUE_FLOAT(NAMED_VALUE_FLOAT_DATA { time_boot_ms, value: meters, name }));
     }
 
     pub fn battery(&mut self, pct: i8) {

@@ -274,7 +274,7 @@ fn stored_value(named: Named) -> Option<SampleValue> {
         Named::Traffic(code) => SampleValue::Traffic(code),
         Named::Seed(seed) => SampleValue::Seed(u64::from(seed)),
         Named::ScenarioCrc(crc) => SampleValue::ScenarioCrc(crc),
-        Named::ClearanceM(metres) => SampleValue::Clearance(metres),
+        Named::ClearanceM(meters) => SampleValue::Clearance(meters),
         Named::Lux(_) | Named::Pace(_) | Named::Cues(_) => return None,
     })
 }

@@ -29,8 +29,8 @@ impl OrientedBox {
     }
 
     fn local_from_world(&self, point_m: Vec3<Enu>) -> [f64; 3] {
-        let from_centre = point_m - self.center_m;
-        self.axes.map(|axis| axis.dot(from_centre))
+        let from_center = point_m - self.center_m;
+        self.axes.map(|axis| axis.dot(from_center))
     }
 
     fn world_from_local(&self, local: [f64; 3]) -> Vec3<Enu> {

@@ -150,10 +150,10 @@ impl WindField {
         let dryden = Dryden::at(height_m, mean.speed_m_s);
         // Turbulence drifts with the mean wind (Taylor's hypothesis), so a hovering drone also moves through it.
         let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(MIN_DRIFT_M_S);
-        let travelled_m = drift * SAMPLE_PERIOD.s();
-        let u = self.along.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
-        let v = self.across.step(travelled_m / dryden.length_horizontal_m, &mut self.stream);
-        let w = self.vertical.step(travelled_m / dryden.length_vertical_m, &mut self.stream);
+        let traveled_m = drift * SAMPLE_PERIOD.s();
+        let u = self.along.step(traveled_m / dryden.length_horizontal_m, &mut self.stream);
+        let v = self.across.step(traveled_m / dryden.length_horizontal_m, &mut self.stream);
+        let w = self.vertical.step(traveled_m / dryden.length_vertical_m, &mut self.stream);
         let along = direction_toward(mean.from_rad);
         let across = Vec3::new(-along.east(), along.north(), 0.0);
         let near_surface = (self.profile(height_m) / self.profile(MIN_TURBULENCE_HEIGHT_M)).min(1.0);
@@ -307,8 +307,8 @@ mod tests {
         let field = WindField::new(&w, 1);
         // The trapezoid rule is exact for a whole period of a cosine, so only rounding remains.
         let dt_s = 0.01;
-        let travelled: f64 = (0..1000).map(|k| field.mean_velocity(SimTime::from_ms(10 * k), 6.0).north() * dt_s).sum();
-        assert!((travelled - 12.0).abs() < 1e-9, "{travelled}");
+        let traveled: f64 = (0..1000).map(|k| field.mean_velocity(SimTime::from_ms(10 * k), 6.0).north() * dt_s).sum();
+        assert!((traveled - 12.0).abs() < 1e-9, "{traveled}");
         assert!((field.mean_velocity(SimTime::from_s(4.0), 6.0).north() - 6.0).abs() < 1e-12);
         assert_eq!(field.mean_velocity(SimTime::from_s(6.5), 6.0).norm(), 0.0);
     }

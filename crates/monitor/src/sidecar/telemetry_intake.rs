@@ -89,7 +89,7 @@ impl Monitor {
                     self.refuse(error);
                 }
             }
-            SampleValue::Clearance(metres) => self.live.clearance_m = Some(metres),
+            SampleValue::Clearance(meters) => self.live.clearance_m = Some(meters),
             SampleValue::Heartbeat { armed, by } => {
                 self.live.armed = Some(armed);
                 if self.live.flown_by.replace(by) != Some(by) {

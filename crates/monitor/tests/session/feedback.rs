@@ -115,11 +115,11 @@ fn regress_hovering_beside_end_or_leaving_mid_path_is_off_path() {
 #[test]
 fn exact_too_close_cue_has_hysteresis() {
     let mut watch = MonitoredFlight::airborne();
-    for (metres, on) in [(3.0, false), (2.6, false), (2.4, true), (2.6, true), (2.79, true), (2.81, false), (2.6, false)] {
-        watch.tape.clearance(metres);
+    for (meters, on) in [(3.0, false), (2.6, false), (2.4, true), (2.6, true), (2.79, true), (2.81, false), (2.6, false)] {
+        watch.tape.clearance(meters);
         watch.tape.hold(0.1);
         watch.run();
-        assert_eq!(watch.has(cue::TOO_CLOSE), on, "{metres} m");
+        assert_eq!(watch.has(cue::TOO_CLOSE), on, "{meters} m");
     }
     assert_eq!(watch.texts, ["Too close: 2.4 m"]);
 }
@@ -130,11 +130,11 @@ fn exact_task_clearance_limit_applies_on_its_path() {
     scenario.tasks[0].too_close_m = Some(1.0);
     let mut watch = MonitoredFlight::of(scenario);
     watch.tape.fly((30.0, 0.0, 10.0), 4.0);
-    for (metres, on) in [(1.5, false), (0.9, true), (1.2, true), (1.31, false)] {
-        watch.tape.clearance(metres);
+    for (meters, on) in [(1.5, false), (0.9, true), (1.2, true), (1.31, false)] {
+        watch.tape.clearance(meters);
         watch.tape.hold(0.1);
         watch.run();
-        assert_eq!(watch.has(cue::TOO_CLOSE), on, "{metres} m");
+        assert_eq!(watch.has(cue::TOO_CLOSE), on, "{meters} m");
     }
 }
 

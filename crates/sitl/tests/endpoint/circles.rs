@@ -23,7 +23,7 @@ fn angle_between(a: f32, b: f32) -> f32 {
 fn flight_orbit_keeps_radius_and_speed_facing_the_center() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sticks(0, 0, 500, 0);
-    let centre = station.place();
+    let center = station.place();
     let orbit = [-8.0, 2.0, 0.0, 0.0, NAN, NAN, NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(12_000);
@@ -35,7 +35,7 @@ fn flight_orbit_keeps_radius_and_speed_facing_the_center() {
     for _ in 0..120 {
         station.run_ms(100);
         let p = station.place();
-        let (n, e) = (p[0] - centre[0], p[1] - centre[1]);
+        let (n, e) = (p[0] - center[0], p[1] - center[1]);
         let radius = f64::from(n.hypot(e));
         assert!((radius - 8.0).abs() < RADIUS_TOLERANCE_M, "{radius}");
         assert!(angle_between(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {p:?}", yaw(&station));
@@ -193,11 +193,11 @@ fn orbit_center(station: &Station) -> (i32, i32, f32) {
 fn regress_orbit_with_yaw_unchanged_keeps_the_current_yaw_behavior() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sticks(0, 0, 500, 0);
-    let centre = station.place();
+    let center = station.place();
     let orbit = |yaw: f32| [8.0, 2.0, yaw, 0.0, NAN, NAN, NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, orbit(5.0)), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(15_000);
-    let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
+    let [n, e, _] = std::array::from_fn(|k| station.place()[k] - center[k]);
     assert!(angle_between(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
     // An orbit around the same center with the nose along the circle (3), then unchanged.
     let (x, y, z) = orbit_center(&station);
@@ -225,6 +225,6 @@ fn regress_orbit_with_yaw_unchanged_keeps_the_current_yaw_behavior() {
         assert_eq!(radius, Some(8.0));
     }
     station.run_ms(8_000);
-    let [n, e, _] = std::array::from_fn(|k| station.place()[k] - centre[k]);
+    let [n, e, _] = std::array::from_fn(|k| station.place()[k] - center[k]);
     assert!(angle_between(yaw(&station), n.atan2(-e)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
 }

@@ -94,7 +94,7 @@ fn flight_jump_counts_persist_until_a_mission_reset() {
             frame: MavFrame::MAV_FRAME_MISSION,
             ..item(2, MavCmd::MAV_CMD_DO_JUMP, 0.0, 0.0)
         };
-        let way = |seq, metres| item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, north + metres, 8.0);
+        let way = |seq, meters| item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, north + meters, 8.0);
         assert_eq!(upload(&mut station, &[way(0, 5.0), way(1, 10.0), jump, way(3, 7.0)]), ACCEPTED);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, p(&[])), OK);
         assert!(station.run_until(60.0, |s| reached(s) == [0, 1, 2]), "{:?}", reached(&station));
@@ -109,7 +109,7 @@ fn flight_jump_counts_persist_until_a_mission_reset() {
 fn flight_copter_spline_is_flown_as_a_waypoint() {
     let mut station = copter_at(5.0);
     let north = home_north(&station);
-    let spline = |seq, metres| item(seq, MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT, north + metres, 6.0);
+    let spline = |seq, meters| item(seq, MavCmd::MAV_CMD_NAV_SPLINE_WAYPOINT, north + meters, 6.0);
     let home = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, north, 0.0);
     assert_eq!(upload(&mut station, &[home, spline(1, 8.0), spline(2, 14.0)]), ACCEPTED);
     station.received.clear();

@@ -17,14 +17,14 @@ struct Plate {
 }
 
 impl Plate {
-    fn touch(&self, centre: Vec3<Enu>, radius: f64, margin: f64, out: &mut Vec<Contact>) {
+    fn touch(&self, center: Vec3<Enu>, radius: f64, margin: f64, out: &mut Vec<Contact>) {
         let middle = self.top_m - 0.5 * self.thick_m;
-        let up = if centre.up() >= middle { 1.0 } else { -1.0 };
-        let gap = (centre.up() - middle).abs() - 0.5 * self.thick_m - radius;
+        let up = if center.up() >= middle { 1.0 } else { -1.0 };
+        let gap = (center.up() - middle).abs() - 0.5 * self.thick_m - radius;
         if gap <= margin {
             let face = middle + up * 0.5 * self.thick_m;
             out.push(Contact {
-                point_m: Vec3::new(centre.east(), centre.north(), face),
+                point_m: Vec3::new(center.east(), center.north(), face),
                 normal: Vec3::new(0.0, 0.0, up),
                 gap_m: gap,
                 velocity_m_s: Vec3::zero(),

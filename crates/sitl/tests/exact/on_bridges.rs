@@ -183,9 +183,9 @@ fn exact_tilted_aircraft_on_the_deck_comes_to_rest_upright() {
 
 /// Checks that the arms do not penetrate anything: there must be no obstacle between the center and the hubs.
 fn is_free_of_obstacles(vehicle: &Vehicle, site: &Site, s: &PhysicsState) -> bool {
-    let centre = s.rigid.position_m.enu();
+    let center = s.rigid.position_m.enu();
     let mut all = vehicle.rotors.iter().map(|r| (s.rigid.attitude * r.position_m).enu());
-    all.all(|arm| site.geometry().ray(centre, arm.unit(), arm.norm()).is_none())
+    all.all(|arm| site.geometry().ray(center, arm.unit(), arm.norm()).is_none())
 }
 
 #[test]

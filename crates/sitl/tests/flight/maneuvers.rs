@@ -121,8 +121,8 @@ fn flight_manually_flown_circle_is_round() {
         bench.run(8.0, |_| ());
         let mut points = Vec::new();
         bench.run(math::TAU / rate, |b| points.push(b.position()));
-        let centre = points.iter().fold(Vec3::zero(), |sum, p| sum + *p) / points.len() as f64;
-        let radii: Vec<f64> = points.iter().map(|p| (*p - centre).horizontal_norm()).collect();
+        let center = points.iter().fold(Vec3::zero(), |sum, p| sum + *p) / points.len() as f64;
+        let radii: Vec<f64> = points.iter().map(|p| (*p - center).horizontal_norm()).collect();
         let mean = radii.iter().sum::<f64>() / radii.len() as f64;
         let worst = radii.iter().map(|r| (r - mean).abs()).fold(0.0, f64::max);
         assert!((mean - speed / rate).abs() < RADIUS_TOLERANCE * speed / rate, "{name}: radius {mean}");

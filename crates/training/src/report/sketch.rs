@@ -247,16 +247,16 @@ impl SketchCanvas {
         for y in 0..self.height {
             for x in 0..WIDTH_PX {
                 let at = y * WIDTH_PX + x;
-                let mut colour = colors[self.shade[at] as usize];
+                let mut color = colors[self.shade[at] as usize];
                 if self.near[at] > 0.0 {
                     if self.is_edge(x, y) {
-                        colour = colour.map(|c| 0.72 * c);
+                        color = color.map(|c| 0.72 * c);
                     }
                     let haze = 1.0 - math::exp(-1.0 / (self.near[at] * HAZE_M));
-                    colour = [0, 1, 2].map(|k| math::lerp(colour[k], SKY[k], haze));
+                    color = [0, 1, 2].map(|k| math::lerp(color[k], SKY[k], haze));
                 }
                 let lit = dim * if exposure.by_lamp { self.lamp_falloff(x, y) } else { 1.0 };
-                rgb.extend(colour.map(|c| (255.0 * (c * lit).clamp(0.0, 1.0) + 0.5) as u8));
+                rgb.extend(color.map(|c| (255.0 * (c * lit).clamp(0.0, 1.0) + 0.5) as u8));
             }
         }
         rgb
@@ -380,7 +380,7 @@ mod tests {
     #[test]
     fn exact_palette_indices_are_unique_and_sky_is_first() {
         let mut palette = Palette::new();
-        let numbers = [[0.1, 0.2, 0.3], SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]].map(|colour| palette.number(colour));
+        let numbers = [[0.1, 0.2, 0.3], SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]].map(|color| palette.number(color));
         assert_eq!(numbers, [1, SKY_INDEX, 1, 2]);
         assert_eq!(palette.colors, [SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]);
     }

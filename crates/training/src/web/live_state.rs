@@ -154,7 +154,7 @@ impl LiveFlightState {
         match value {
             SampleValue::Battery(pct) => self.battery_pct = Some(pct),
             SampleValue::Contact(contact) => self.contact = contact,
-            SampleValue::Clearance(metres) => self.clearance_m = Some(metres),
+            SampleValue::Clearance(meters) => self.clearance_m = Some(meters),
             SampleValue::Heartbeat { armed, .. } => self.armed = armed,
             SampleValue::Traffic(code) => self.gates.apply_code(code),
             SampleValue::Seed(seed) => self.seed = Some(seed),
@@ -215,7 +215,7 @@ impl LiveFlightState {
             "speed_m_s": self.truth.map(|truth| truth.motion.velocity_m_s.norm()),
             "height_m": self.truth.map(|truth| truth.motion.position_m.up()),
             "battery_pct": self.battery_pct,
-            "clearance_m": self.clearance_m.filter(|metres| metres.is_finite()),
+            "clearance_m": self.clearance_m.filter(|meters| meters.is_finite()),
             "contact": self.contact.label(),
             "armed": self.armed,
             "task": task,

@@ -55,14 +55,14 @@ fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
     let shown = hud.tracks.iter().flat_map(|t| t.path_m.iter().copied()).chain([hud.pad_m, hud.position_m]);
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for p in shown {
-        for (k, metres) in [p.east(), p.north()].into_iter().enumerate() {
-            low[k] = low[k].min(metres);
-            high[k] = high[k].max(metres);
+        for (k, meters) in [p.east(), p.north()].into_iter().enumerate() {
+            low[k] = low[k].min(meters);
+            high[k] = high[k].max(meters);
         }
     }
     let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
     let reach = (0.5 * (high[0] - low[0]).max(high[1] - low[1]) * MARGIN_FACTOR).max(MIN_RANGE_M);
-    let share = move |metres: f64, k: usize| (metres - middle[k]) / reach * HALF_SIZE * 0.94;
+    let share = move |meters: f64, k: usize| (meters - middle[k]) / reach * HALF_SIZE * 0.94;
     move |p| (x + share(p.east(), 0), y - share(p.north(), 1))
 }
 

@@ -195,11 +195,11 @@ fn water_vertex(p: Vec3<Enu>, light: [f32; 2], depth_m: f64) -> Vertex {
 pub fn pad(site: &Site) -> Mesh {
     let slab = &site.geometry().pad().solid.vertices_m;
     let top = slab.iter().map(|v| v.up()).fold(f64::NEG_INFINITY, f64::max);
-    let centre = slab.iter().fold(Vec3::zero(), |sum, v| sum + *v) / slab.len() as f64;
-    let half = slab.iter().map(|v| (v.east() - centre.east()).abs()).fold(0.0, f64::max);
+    let center = slab.iter().fold(Vec3::zero(), |sum, v| sum + *v) / slab.len() as f64;
+    let half = slab.iter().map(|v| (v.east() - center.east()).abs()).fold(0.0, f64::max);
     let mut mesh = Mesh::default();
     for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
-        let p = Vec3::new(centre.east() + x * half, centre.north() + y * half, top + 0.004);
+        let p = Vec3::new(center.east() + x * half, center.north() + y * half, top + 0.004);
         mesh.vertices.push(Vertex {
             position: single(p),
             normal: [0.0, 0.0, 1.0],

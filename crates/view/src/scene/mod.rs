@@ -212,7 +212,7 @@ fn bounds(site: &Site) -> (Vec3<Enu>, f64) {
             high[k] = high[k].max(x);
         }
     }
-    let centre = Vec3::new(0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2]));
-    let radius = points.iter().map(|p| (*p - centre).norm()).fold(10.0, f64::max);
-    (centre, radius)
+    let center = Vec3::new(0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2]));
+    let radius = points.iter().map(|p| (*p - center).norm()).fold(10.0, f64::max);
+    (center, radius)
 }

@@ -183,7 +183,7 @@ fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&
         (reference_paths(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
         @for (layer, (_, class)) in COLOR_MODES.iter().enumerate() {
             g class={ "flown " (class) } {
-                @for (colour, data) in track(review, map, layer, shown) { path class=(colour) d=(data) {} }
+                @for (color, data) in track(review, map, layer, shown) { path class=(color) d=(data) {} }
             }
         }
         (marks(review, map, shown))

@@ -40,13 +40,13 @@ pub(crate) fn global(v: &VehicleSnapshot) -> Option<MavMessage> {
 /// Sent only while orbiting.
 pub(crate) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
     let orbit = v.status.orbit?;
-    let centre = v.plane.geo_from_enu(orbit.center_m.enu());
+    let center = v.plane.geo_from_enu(orbit.center_m.enu());
     Some(MavMessage::ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA {
         time_usec: v.clock.boot_us(),
         radius: (orbit.radius_m * orbit.speed_m_s.signum()) as f32,
-        x: deg_e7(centre.latitude_deg),
-        y: deg_e7(centre.longitude_deg),
-        z: centre.altitude_m as f32,
+        x: deg_e7(center.latitude_deg),
+        y: deg_e7(center.longitude_deg),
+        z: center.altitude_m as f32,
         frame: MavFrame::MAV_FRAME_GLOBAL,
     }))
 }
