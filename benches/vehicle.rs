@@ -10,7 +10,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_sitl::endpoint::flavour::px4;
+use spandrel_sitl::endpoint::flavor::px4;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::{Sim, SimConfig, SimEvent};
 use std::process::ExitCode;
@@ -48,7 +48,7 @@ impl Job {
     fn sim(&self, lockstep: bool) -> Sim {
         let (scenario, vehicle) = (Arc::clone(&self.scenario), Arc::clone(&self.vehicle));
         let mut sim = Sim::new(
-            SimConfig { scenario, vehicle, seed: self.seed, instance: 0, flavour: &px4::FLAVOUR, after_crash: None },
+            SimConfig { scenario, vehicle, seed: self.seed, instance: 0, flavor: &px4::FLAVOR, after_crash: None },
             Arc::clone(&self.site),
         );
         sim.open_link(PILOT, LinkKind::GroundStation, lockstep);

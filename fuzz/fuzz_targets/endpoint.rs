@@ -9,7 +9,7 @@ use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, 
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::files::job::{DirectoryEntry, FileAction, FileError, FileJobResult};
-use spandrel_sitl::endpoint::flavour::px4;
+use spandrel_sitl::endpoint::flavor::px4;
 use spandrel_sitl::endpoint::{HANDLED, LinkId, LinkKind};
 use spandrel_sitl::sim::{Sim, SimConfig};
 use std::sync::{Arc, LazyLock};
@@ -25,8 +25,7 @@ static FLYING: LazyLock<Sim> = LazyLock::new(|| {
     );
     let vehicle = Arc::new(spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("the shipped file must be valid"));
     let site = Arc::new(Site::build(&scenario, 1));
-    let mut sim =
-        Sim::new(SimConfig { scenario, vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR, after_crash: None }, site);
+    let mut sim = Sim::new(SimConfig { scenario, vehicle, seed: 1, instance: 0, flavor: &px4::FLAVOR, after_crash: None }, site);
     sim.open_link(LINK, LinkKind::GroundStation, false);
     sim.handle_timeout(SimTime::from_ms(2_500));
     let mut encoder = Encoder::new(255, 190);

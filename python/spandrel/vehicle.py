@@ -63,7 +63,7 @@ class Vehicle:
     """A simulated drone, which starts disarmed on its pad.
 
     `scenario` and `vehicle` are shipped names (`spandrel.scenarios()`, `spandrel.vehicles()`) or paths to TOML files.
-    `seed` determines gusts, sensor noise, traffic and defects. `flavour` is the autopilot protocol: px4, ardupilot or generic.
+    `seed` determines gusts, sensor noise, traffic and defects. `flavor` is the autopilot protocol: px4, ardupilot or generic.
     `after_crash` is continue, respawn, end or scenario (the scenario's own rule).
 
     Simulation time advances only inside `step`, `run_for`, `run_until` and the commands, as fast as the machine allows, or in real time
@@ -76,10 +76,10 @@ class Vehicle:
         vehicle: str | os.PathLike[str] = "phantom2",
         seed: int = 1,
         *,
-        flavour: str = "px4",
+        flavor: str = "px4",
         after_crash: str = "scenario",
     ) -> None:
-        self._flight = Flight(os.fspath(scenario), os.fspath(vehicle), seed, flavour, after_crash)
+        self._flight = Flight(os.fspath(scenario), os.fspath(vehicle), seed, flavor, after_crash)
         self._connections: list[LockstepConnection] = []
         self._server: threading.Thread | None = None
         self._stop = threading.Event()

@@ -73,17 +73,17 @@ impl Flight {
 #[pymethods]
 impl Flight {
     #[new]
-    fn new(py: Python<'_>, scenario: &str, vehicle: &str, seed: u64, flavour: &str, after_crash: &str) -> PyResult<Self> {
+    fn new(py: Python<'_>, scenario: &str, vehicle: &str, seed: u64, flavor: &str, after_crash: &str) -> PyResult<Self> {
         let (job, aircraft) = (job::read_scenario(scenario)?, job::read_vehicle(vehicle)?);
-        let flavour = job::flavour(flavour)?;
-        let mut builder = Vehicle::builder().seed(seed).flavour(flavour);
+        let flavor = job::flavor(flavor)?;
+        let mut builder = Vehicle::builder().seed(seed).flavor(flavor);
         if let Some(rule) = job::after_crash(after_crash)? {
             builder = builder.after_crash(rule);
         }
         let start_unix_s = job.light.start_unix_s;
         let vehicle = py.detach(|| builder.build_from(job, aircraft));
         let inner = Inner { vehicle, links: Links::new(), asked: None, start_unix_s };
-        Ok(Self { inner: Mutex::new(inner), guided_mode: flavour.goto_mode })
+        Ok(Self { inner: Mutex::new(inner), guided_mode: flavor.goto_mode })
     }
 
     /// Returns the simulation time, ns.

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use spandrel_model::scenario::{self, AfterCrash, Scenario};
 use spandrel_model::shipped;
 use spandrel_model::vehicle::{self, Vehicle};
-use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
+use spandrel_sitl::endpoint::flavor::{Flavor, ardupilot, generic, px4};
 use std::fs;
 use std::path::Path;
 
@@ -56,12 +56,12 @@ fn text_of(name: &str, what: &str, shipped: &[(&str, &str)]) -> PyResult<String>
 }
 
 /// Returns an autopilot protocol by name.
-pub fn flavour(name: &str) -> PyResult<&'static Flavour> {
+pub fn flavor(name: &str) -> PyResult<&'static Flavor> {
     match name {
-        "px4" => Ok(&px4::FLAVOUR),
-        "ardupilot" => Ok(&ardupilot::FLAVOUR),
-        "generic" => Ok(&generic::FLAVOUR),
-        _ => Err(JobError::new_err(format!("unknown flavour {name}; allowed: px4, ardupilot, generic"))),
+        "px4" => Ok(&px4::FLAVOR),
+        "ardupilot" => Ok(&ardupilot::FLAVOR),
+        "generic" => Ok(&generic::FLAVOR),
+        _ => Err(JobError::new_err(format!("unknown flavor {name}; allowed: px4, ardupilot, generic"))),
     }
 }
 

@@ -40,7 +40,7 @@ def test_flight_arm_take_off_go_to_and_land():
 
 
 def test_flight_ardupilot_takes_off_in_guided():
-    vehicle = spandrel.Vehicle(flavour="ardupilot")
+    vehicle = spandrel.Vehicle(flavor="ardupilot")
     vehicle.arm()
     vehicle.take_off(5)
     assert vehicle.run_until(lambda state: state.height_m > 4.5, sim_s=30).armed
@@ -97,7 +97,7 @@ def test_exact_unmet_condition_raises_late_error():
         ({"scenario": "three-bridges"}, "three-bridges: no such scenario; .*two-bridges"),
         ({"vehicle": "phantom9"}, "phantom9: no such vehicle; .*phantom2"),
         ({"scenario": "missing.toml"}, "missing.toml: "),
-        ({"flavour": "betaflight"}, "unknown flavour betaflight; allowed: px4, ardupilot, generic"),
+        ({"flavor": "betaflight"}, "unknown flavor betaflight; allowed: px4, ardupilot, generic"),
         ({"after_crash": "cry"}, "unknown crash rule cry; allowed: scenario, continue, respawn, end"),
     ],
 )

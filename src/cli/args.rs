@@ -2,7 +2,7 @@
 
 use crate::io::clock;
 use spandrel_model::scenario::Scenario;
-use spandrel_sitl::endpoint::flavour as endpoint;
+use spandrel_sitl::endpoint::flavor as endpoint;
 use spandrel_view::flow::pipe;
 
 /// Maximum seed, because MAVLink messages encode the seed as a signed 32-bit integer.
@@ -42,7 +42,7 @@ pub fn random_seed() -> u64 {
 
 /// Autopilot protocol of the vehicle's MAVLink interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Flavour {
+pub enum Flavor {
     /// PX4; best supported by ground stations and SDKs
     Px4,
     /// ArduCopter: its flight modes and parameter names, home as the first mission item, telemetry streams on request
@@ -51,19 +51,19 @@ pub enum Flavour {
     Generic,
 }
 
-impl Flavour {
+impl Flavor {
     /// Returns the autopilot protocol.
-    pub fn display_name(self) -> &'static endpoint::Flavour {
+    pub fn display_name(self) -> &'static endpoint::Flavor {
         match self {
-            Self::Px4 => &endpoint::px4::FLAVOUR,
-            Self::Ardupilot => &endpoint::ardupilot::FLAVOUR,
-            Self::Generic => &endpoint::generic::FLAVOUR,
+            Self::Px4 => &endpoint::px4::FLAVOR,
+            Self::Ardupilot => &endpoint::ardupilot::FLAVOR,
+            Self::Generic => &endpoint::generic::FLAVOR,
         }
     }
 
     /// Returns the option as command-line arguments for a child process.
     pub fn to_args(self) -> Vec<String> {
-        vec!["--flavour".to_owned(), self.display_name().name.to_owned()]
+        vec!["--flavor".to_owned(), self.display_name().name.to_owned()]
     }
 }
 

@@ -47,8 +47,8 @@ pub struct Args {
     #[arg(long, value_name = "X|max", default_value = "5")]
     speed: SimulationSpeed,
     /// Autopilot protocol; does not affect the flight dynamics
-    #[arg(long, value_name = "NAME", default_value = "px4")]
-    flavour: args::Flavour,
+    #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
+    flavor: args::Flavor,
     /// Folder in which to create session folders
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
@@ -75,7 +75,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let mut pilot = Child::start("pilot", &pilot_args.concat())?;
     let pilot_port = pilot.read_announcement()?["port"].as_u64().unwrap_or_default();
     let monitor_port = announced["port"].as_u64().unwrap_or_default();
-    let sim_args = [args::common_args(&job, quiet), args.flavour.to_args(), sim_args(args, monitor_port, pilot_port)];
+    let sim_args = [args::common_args(&job, quiet), args.flavor.to_args(), sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     sim.read_announcement()?;
     tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);

@@ -62,8 +62,8 @@ pub struct Args {
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2", requires = "plan")]
     vehicle: String,
     /// Autopilot for the plan's firmwareType, which ground stations compare with the vehicle's
-    #[arg(long, value_name = "NAME", default_value = "px4", requires = "plan")]
-    flavour: args::Flavour,
+    #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4", requires = "plan")]
+    flavor: args::Flavor,
     /// Geometry as binary glTF 2.0, in m, y up; '-' for standard output
     #[arg(long, value_name = "FILE")]
     glb: Option<String>,
@@ -141,7 +141,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         };
         let map =
             PlanningContext { scenario: &scenario, site: &site, vehicle: &vehicle, at: SimTime::ZERO, transit_clearance_m: None };
-        files::write(target, json_text(&flight_plan::plan(&map, args.flavour.display_name().autopilot)).as_bytes())?;
+        files::write(target, json_text(&flight_plan::plan(&map, args.flavor.display_name().autopilot)).as_bytes())?;
     }
     if let Some(target) = &args.glb {
         files::write(target, &gltf::glb(&site))?;

@@ -37,7 +37,7 @@ Examples:
   spandrel sim --instance 1 --speed 4               a second vehicle, four times real time
   spandrel sim --instances 3                        three vehicles in one process: system IDs 1 to 3, consecutive ports
   spandrel sim --serial /dev/ttyUSB0:57600          also on a telemetry radio, within its data rate
-  spandrel sim --flavour ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
+  spandrel sim --flavor ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
   spandrel sim --ports ephemeral --announce         free ports, printed as one line of JSON
   spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
                                                     as fast as possible, in lockstep with a client that answers TIMESYNC
@@ -55,8 +55,8 @@ pub struct Args {
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
     lockstep: Vec<SocketAddr>,
     /// Autopilot protocol; does not affect the flight dynamics
-    #[arg(long, value_name = "NAME", default_value = "px4")]
-    flavour: args::Flavour,
+    #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
+    flavor: args::Flavor,
     /// Heartbeats of the camera component (100). Turn them off for simple clients that attribute every heartbeat to the
     /// vehicle (DroneKit, mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
@@ -215,7 +215,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
                 vehicle: vehicle.clone(),
                 seed,
                 instance,
-                flavour: args.flavour.display_name(),
+                flavor: args.flavor.display_name(),
                 after_crash: args.after_crash.rule(),
             };
             let mut shell = VehicleShell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())?;

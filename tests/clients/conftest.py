@@ -26,7 +26,7 @@ def pytest_terminal_summary(terminalreporter):
 @pytest.fixture
 def flight(request, tmp_path):
     """Simulator and monitor for one test. Emulates PX4 unless the test specifies another autopilot."""
-    flight = spandrel.Flight(tmp_path, flavour=getattr(request, "param", "px4"))
+    flight = spandrel.Flight(tmp_path, flavor=getattr(request, "param", "px4"))
     yield flight
     flight.close()
     print((tmp_path / "log.txt").read_text(encoding="utf-8")[-4000:])
@@ -42,11 +42,11 @@ def job():
 def vehicle(request, tmp_path):
     """MAVSDK's system for a simulated vehicle that is ready to arm, and its telemetry. Emulates PX4 unless the test
     specifies another autopilot."""
-    flavour = getattr(request, "param", "px4")
+    flavor = getattr(request, "param", "px4")
     port = spandrel.free_udp_port()
-    process = spandrel.start_sim(tmp_path, port, "--flavour", flavour)
+    process = spandrel.start_sim(tmp_path, port, "--flavor", flavor)
     mavsdk, system = sdk.connect(port)
-    yield system, (sdk.asked if flavour == "ardupilot" else sdk.ready)(system)
+    yield system, (sdk.asked if flavor == "ardupilot" else sdk.ready)(system)
     mavsdk.destroy()
     spandrel.end(process)
 
@@ -57,9 +57,9 @@ def launch(tmp_path):
     of the test."""
     started = []
 
-    def start(flavour, *more, speed=spandrel.SPEED):
+    def start(flavor, *more, speed=spandrel.SPEED):
         port = spandrel.free_udp_port()
-        started.append(spandrel.start_sim(tmp_path, port, "--flavour", flavour, *more, speed=speed))
+        started.append(spandrel.start_sim(tmp_path, port, "--flavor", flavor, *more, speed=speed))
         return port
 
     yield start

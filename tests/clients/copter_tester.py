@@ -37,7 +37,7 @@ class Copter:
         port = spandrel.free_udp_port()
         here = f"127.0.0.1:{port}"
         self.link = mavutil.mavlink_connection(f"udpin:{here}", source_system=255, source_component=190, dialect="ardupilotmega")
-        more = ["--flavour", "ardupilot", "--vehicle", VEHICLE, "--lockstep", here, "--camera", "off"]
+        more = ["--flavor", "ardupilot", "--vehicle", VEHICLE, "--lockstep", here, "--camera", "off"]
         self.process = spandrel.start_sim(folder, port, *more, speed="max", scenario=scenario)
         self.now = 0.0
         self.last = {}

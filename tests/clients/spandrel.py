@@ -58,7 +58,7 @@ def end(process):
 class Flight:
     """A simulator and a monitor with unused ports, and the session that they write."""
 
-    def __init__(self, folder, scenario="two-bridges", seed=7, speed=SPEED, flavour="px4"):
+    def __init__(self, folder, scenario="two-bridges", seed=7, speed=SPEED, flavor="px4"):
         self.sessions = pathlib.Path(folder) / "sessions"
         self.log = open(pathlib.Path(folder) / "log.txt", "w", encoding="utf-8")
         self.client_port = free_udp_port()
@@ -66,7 +66,7 @@ class Flight:
         self.payload_port = payload
         common = ["--scenario", scenario, "--seed", str(seed)]
         self.sim = self._start(
-            "sim", *common, "--flavour", flavour, "--speed", str(speed), "--gcs", f"127.0.0.1:{self.client_port}", "--sdk", "none",
+            "sim", *common, "--flavor", flavor, "--speed", str(speed), "--gcs", f"127.0.0.1:{self.client_port}", "--sdk", "none",
             "--gcs-port", "0", "--tcp-port", "none", "--payload-port", str(payload), "--monitor-port", str(monitor),
         )
         self.monitor = self._start(

@@ -399,10 +399,10 @@ def test_wire_superseded_payload_commands_are_answered(rig):
 
 
 @pytest.mark.timeout(300)
-@pytest.mark.parametrize("flavour, output, on, off", [("px4", 1, 1.0, -1.0), ("ardupilot", 9, 1900.0, 1100.0)])
-def test_wire_mavsdk_switches_the_lamp_as_a_relay_and_an_actuator(tmp_path, flavour, output, on, off):
+@pytest.mark.parametrize("flavor, output, on, off", [("px4", 1, 1.0, -1.0), ("ardupilot", 9, 1900.0, 1100.0)])
+def test_wire_mavsdk_switches_the_lamp_as_a_relay_and_an_actuator(tmp_path, flavor, output, on, off):
     """set_relay and set_actuator, which MAVSDK sends as different commands to an ArduPilot."""
-    rig = Rig(tmp_path, "--flavour", flavour)
+    rig = Rig(tmp_path, "--flavor", flavor)
     try:
         station = rig.station
 

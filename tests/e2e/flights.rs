@@ -72,12 +72,12 @@ fn wire_four_parallel_demos_succeed() {
 
 #[test]
 fn wire_demo_in_every_flavor_ends_with_scores() {
-    for flavour in ["ardupilot", "generic"] {
+    for flavor in ["ardupilot", "generic"] {
         let folder = tempfile::tempdir().unwrap();
-        let out = successful_stdout(&demo(folder.path(), "7").args(["--flavour", flavour]).output().unwrap());
+        let out = successful_stdout(&demo(folder.path(), "7").args(["--flavor", flavor]).output().unwrap());
         let assessment = json(&only_session(folder.path()).join("assessment.json"));
-        assert_eq!(assessment["end"]["reason"], "landed", "{flavour}: {out}");
-        assert!(assessment["tasks"][0]["on_path"].as_f64().unwrap() > 0.9, "{flavour}: {out}");
+        assert_eq!(assessment["end"]["reason"], "landed", "{flavor}: {out}");
+        assert!(assessment["tasks"][0]["on_path"].as_f64().unwrap() > 0.9, "{flavor}: {out}");
         assert!(
             assessment["flown_by"].to_string().contains("pilot"),
             "the sidecar must decode the autopilot's modes: {assessment}"

@@ -19,7 +19,7 @@ fn wire_invalid_arguments_and_files_exit_with_2_and_list_allowed_values() {
         (vec!["demo", "--speed", "0"], "0.1 to 100, or max"),
         (vec!["demo", "--seed", "-1"], "0 to 2147483647"),
         (vec!["demo", "--skill", "ace"], "expert"),
-        (vec!["sim", "--flavour", "slugs"], "ardupilot"),
+        (vec!["sim", "--flavor", "slugs"], "ardupilot"),
         (vec!["monitor", "--scenario", "no-such-job"], "two-bridges"),
         (vec!["monitor", "--vehicle", "no-such-drone"], "phantom2"),
         (vec!["monitor", "--session", "no-such-folder"], "not a session folder"),

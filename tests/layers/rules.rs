@@ -73,7 +73,7 @@ const AUTOPILOT_SIDE: &[&[&str]] = &[
     &["autopilot"],
     &["backend"],
     &["endpoint", "vehicle_link"],
-    &["endpoint", "flavour"],
+    &["endpoint", "flavor"],
     &["endpoint", "params"],
     &["endpoint", "snapshot"],
 ];

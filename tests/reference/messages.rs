@@ -5,7 +5,7 @@ use crate::{check, page_head};
 use mavlink::Message;
 use spandrel_mavlink::ardupilotmega;
 use spandrel_mavlink::dialect::MavMessage;
-use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
+use spandrel_sitl::endpoint::flavor::{Flavor, ardupilot, generic, px4};
 use spandrel_sitl::endpoint::streams::{CAMERA, STREAMS, StreamSpec};
 use spandrel_sitl::endpoint::{HANDLED, LinkKind};
 
@@ -29,9 +29,9 @@ fn rate(stream: &StreamSpec, kind: LinkKind) -> String {
     }
 }
 
-fn flavours(stream: &StreamSpec) -> String {
-    let all: [&Flavour; 3] = [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR];
-    let spoken: Vec<&str> = all.iter().filter(|flavour| stream.is_sent(flavour)).map(|flavour| flavour.name).collect();
+fn flavors(stream: &StreamSpec) -> String {
+    let all: [&Flavor; 3] = [&px4::FLAVOR, &ardupilot::FLAVOR, &generic::FLAVOR];
+    let spoken: Vec<&str> = all.iter().filter(|flavor| stream.is_sent(flavor)).map(|flavor| flavor.name).collect();
     if spoken.len() == all.len() { "all".to_owned() } else { spoken.join(", ") }
 }
 
@@ -42,7 +42,7 @@ fn streams() -> String {
         let component = if stream.component == CAMERA { "camera" } else { "autopilot" };
         let rates = [LinkKind::GroundStation, LinkKind::Sdk, LinkKind::Payload].map(|kind| rate(stream, kind));
         let row =
-            [vec![name(stream.id), stream.id.to_string(), component.to_owned()], rates.to_vec(), vec![flavours(stream)]].concat();
+            [vec![name(stream.id), stream.id.to_string(), component.to_owned()], rates.to_vec(), vec![flavors(stream)]].concat();
         if !rows.contains(&row) {
             rows.push(row);
         }
@@ -59,13 +59,13 @@ fn handled() -> String {
 
 #[test]
 fn exact_messages_page_matches_the_code() {
-    let asks: Vec<&str> = [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR]
+    let asks: Vec<&str> = [&px4::FLAVOR, &ardupilot::FLAVOR, &generic::FLAVOR]
         .iter()
         .filter(|f| f.streams_on_request_only)
         .map(|f| f.name)
         .collect();
     let about = format!(
-        "The vehicle sends these streams unrequested, at rates that depend on the kind of link. With `--flavour {}`, ground stations and SDKs \
+        "The vehicle sends these streams unrequested, at rates that depend on the kind of link. With `--flavor {}`, ground stations and SDKs \
          receive only heartbeats until they request streams; payload links receive all streams immediately. SET_MESSAGE_INTERVAL changes a \
          rate, and REQUEST_MESSAGE requests a single message. The named values for scoring are listed under [scoring data](wire.md#scoring-data).",
         asks.join(" or ")

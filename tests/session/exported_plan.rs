@@ -323,10 +323,10 @@ fn prop_traffic_respects_the_minimum_lane_distance() {
 
 #[test]
 fn regress_plan_firmware_follows_the_flavor() {
-    for flavour in
+    for flavor in
         [MavAutopilot::MAV_AUTOPILOT_PX4, MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA, MavAutopilot::MAV_AUTOPILOT_GENERIC]
     {
-        assert_eq!(plan_for("drill-hover", flavour)["mission"]["firmwareType"], flavour as u8);
+        assert_eq!(plan_for("drill-hover", flavor)["mission"]["firmwareType"], flavor as u8);
     }
 }
 

@@ -11,7 +11,7 @@ mod tick;
 
 use super::autopilot::{Autopilot, CONTROL_HZ};
 use super::backend::Backend;
-use super::endpoint::flavour::Flavour;
+use super::endpoint::flavor::Flavor;
 use super::endpoint::params::{AircraftValues, BatteryThresholds, InstructorSettings};
 use super::endpoint::{
     Endpoint, LinkId, LinkKind, LockstepState, ReceivedDatagram, ScoringTruth, SimulatedAircraft, Transmit, VehicleClock,
@@ -54,7 +54,7 @@ pub struct SimConfig {
     /// Zero-based vehicle number. The system ID is one higher.
     pub instance: u8,
     /// The emulated autopilot.
-    pub flavour: &'static Flavour,
+    pub flavor: &'static Flavor,
     /// Action after a crash. `None` uses the scenario's rule.
     pub after_crash: Option<AfterCrash>,
 }
@@ -162,7 +162,7 @@ impl Sim {
             returns_when_low: rules.low_battery_return,
             frame: autopilot.airframe_envelope(),
         };
-        let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavour);
+        let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavor);
         endpoint.prepare(&mut autopilot);
         Self {
             model: Arc::new(AirframeModel::new(vehicle, scenario.rules.battery)),

@@ -18,7 +18,7 @@
 //! The harness controls the vehicle as a ground station would, with MAVLink frames through the same interface.
 //! [`Vehicle::sim`] gives access to the simulator for further links, the true state and the digest.
 
-use crate::endpoint::flavour::{Flavour, px4};
+use crate::endpoint::flavor::{Flavor, px4};
 use crate::endpoint::{LinkId, LinkKind, Transmit};
 use crate::sim::{Sim, SimConfig};
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
@@ -74,7 +74,7 @@ pub struct VehicleBuilder {
     scenario: String,
     vehicle: String,
     seed: u64,
-    flavour: &'static Flavour,
+    flavor: &'static Flavor,
     instance: u8,
     after_crash: Option<AfterCrash>,
 }
@@ -85,7 +85,7 @@ impl Default for VehicleBuilder {
             scenario: shipped::DRILL_HOVER.to_owned(),
             vehicle: shipped::PHANTOM2.to_owned(),
             seed: 1,
-            flavour: &px4::FLAVOUR,
+            flavor: &px4::FLAVOR,
             instance: 0,
             after_crash: None,
         }
@@ -117,8 +117,8 @@ impl VehicleBuilder {
 
     /// Sets the emulated autopilot.
     #[must_use]
-    pub fn flavour(mut self, flavour: &'static Flavour) -> Self {
-        self.flavour = flavour;
+    pub fn flavor(mut self, flavor: &'static Flavor) -> Self {
+        self.flavor = flavor;
         self
     }
 
@@ -158,7 +158,7 @@ impl VehicleBuilder {
             vehicle: Arc::new(aircraft),
             seed: self.seed,
             instance: self.instance,
-            flavour: self.flavour,
+            flavor: self.flavor,
             after_crash: self.after_crash,
         };
         let pad_up_m = config.scenario.ground_team.pad_m.up();
@@ -166,7 +166,7 @@ impl VehicleBuilder {
         sim.open_link(STATION, LinkKind::GroundStation, false);
         Vehicle {
             sim,
-            flavour: self.flavour,
+            flavor: self.flavor,
             pad_up_m,
             encoder: Encoder::new(STATION_ID.0, STATION_ID.1),
             decoder: Decoder::new(),
@@ -185,7 +185,7 @@ pub struct Vehicle {
     pub encoder: Encoder,
     /// Received frames, oldest first; only the most recent ones are kept.
     pub received: Vec<ReceivedFrame>,
-    flavour: &'static Flavour,
+    flavor: &'static Flavor,
     pad_up_m: f64,
     decoder: Decoder,
     others: VecDeque<Transmit>,
@@ -339,7 +339,7 @@ impl Vehicle {
     /// # Errors
     /// Returns an error if the command was rejected.
     pub fn take_off(&mut self, height_m: f64) -> Result<(), MissedExpectation> {
-        if let Some(guided) = self.flavour.goto_mode {
+        if let Some(guided) = self.flavor.goto_mode {
             self.command(MavCmd::MAV_CMD_DO_SET_MODE, &[1.0, guided as f32])?;
             return self.command(MavCmd::MAV_CMD_NAV_TAKEOFF, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m as f32]);
         }

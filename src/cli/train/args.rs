@@ -56,8 +56,8 @@ pub struct Args {
     #[arg(long, value_name = "X|max", default_value = "1")]
     pub speed: SimulationSpeed,
     /// Autopilot protocol; does not affect the flight dynamics
-    #[arg(long, value_name = "NAME", default_value = "px4")]
-    pub flavour: args::Flavour,
+    #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
+    pub flavor: args::Flavor,
     /// Local port for the web pages of the sessions and the live flight, 0 for any free port, or none
     #[arg(long, value_name = "PORT|none", default_value = "0")]
     pub web: addresses::PortChoice,

@@ -71,7 +71,7 @@ impl FlightProcesses {
         let sim_args = [
             common,
             args.ports.to_args(),
-            args.flavour.to_args(),
+            args.flavor.to_args(),
             vec!["--speed".into(), args.speed.to_string(), "--monitor-port".into(), monitor_port],
             vec!["--files".into(), files, "--after-crash".into(), "scenario".into()],
         ];

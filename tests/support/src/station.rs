@@ -8,7 +8,7 @@ use spandrel_model::geodesy::Geo;
 use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::LinkId;
-use spandrel_sitl::endpoint::flavour::{self, Flavour};
+use spandrel_sitl::endpoint::flavor::{self, Flavor};
 use spandrel_sitl::testing::{STATION, Vehicle};
 use std::ops::{Deref, DerefMut};
 
@@ -53,32 +53,32 @@ impl Station {
 
     /// Creates a station for a custom job and aircraft.
     pub fn of(scenario: Scenario, vehicle: &str, seed: u64) -> Self {
-        Self::start(&flavour::px4::FLAVOUR, scenario, vehicle, (seed, 0), None)
+        Self::start(&flavor::px4::FLAVOR, scenario, vehicle, (seed, 0), None)
     }
 
     /// Creates a station for another emulated autopilot.
-    pub fn with_flavor(flavour: &'static Flavour, scenario_name: &str, seed: u64) -> Self {
-        Self::start(flavour, shipped::scenario(scenario_name), "phantom2", (seed, 0), None)
+    pub fn with_flavor(flavor: &'static Flavor, scenario_name: &str, seed: u64) -> Self {
+        Self::start(flavor, shipped::scenario(scenario_name), "phantom2", (seed, 0), None)
     }
 
     /// Creates a station for one of several vehicles.
     pub fn with_instance(scenario_name: &str, seed: u64, instance: u8) -> Self {
-        Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, instance), None)
+        Self::start(&flavor::px4::FLAVOR, shipped::scenario(scenario_name), "phantom2", (seed, instance), None)
     }
 
     /// Creates a station with a crash rule that overrides the one in the scenario.
     pub fn with_crash_rule(scenario_name: &str, seed: u64, rule: Option<AfterCrash>) -> Self {
-        Self::start(&flavour::px4::FLAVOUR, shipped::scenario(scenario_name), "phantom2", (seed, 0), rule)
+        Self::start(&flavor::px4::FLAVOR, shipped::scenario(scenario_name), "phantom2", (seed, 0), rule)
     }
 
     fn start(
-        flavour: &'static Flavour,
+        flavor: &'static Flavor,
         scenario: Scenario,
         vehicle: &str,
         (seed, instance): (u64, u8),
         after_crash: Option<AfterCrash>,
     ) -> Self {
-        let mut builder = Vehicle::builder().flavour(flavour).seed(seed).instance(instance);
+        let mut builder = Vehicle::builder().flavor(flavor).seed(seed).instance(instance);
         if let Some(rule) = after_crash {
             builder = builder.after_crash(rule);
         }

@@ -22,7 +22,7 @@ pub(super) fn payload_input<'v>(
         position_m: estimate.position_m,
         heading_rad: estimate.attitude.yaw_rad(),
         home_m: autopilot.status().home_m,
-        roi_above_sea_level: vehicle.flavour().roi_altitude_above_sea_level,
+        roi_above_sea_level: vehicle.flavor().roi_altitude_above_sea_level,
         sticks: sticks.map(|s| [s.forward, s.right, s.up, s.yaw]),
         truth: aircraft.truth,
         specific_force_m_s2: aircraft.specific_force_m_s2,

@@ -58,7 +58,7 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavRe
         return Some(request(message, (index, 0.0), c.component, x));
     }
     match c.number {
-        SEND_BANNER if !x.vehicle.flavour().banner.is_empty() => {
+        SEND_BANNER if !x.vehicle.flavor().banner.is_empty() => {
             x.vehicle.announce_identity();
             Some(ACCEPTED)
         }
@@ -92,28 +92,28 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut MessageReq
     if INDEXED_MESSAGES.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
         return DENIED;
     }
-    let flavour = x.vehicle.flavour();
+    let flavor = x.vehicle.flavor();
     let Some(link) = x.links.get_mut(x.link) else { return DENIED };
     let input = payload_input(x.vehicle, x.aircraft, x.autopilot);
     let inputs = StreamInputs::new(x.vehicle, x.payload, x.aircraft, x.autopilot, &input).for_link(link.kind);
     let mut is_available = false;
-    for row in addressed(id, component).filter(|row| STREAMS[*row].is_sent(flavour)) {
+    for row in addressed(id, component).filter(|row| STREAMS[*row].is_sent(flavor)) {
         let Some(message) = STREAMS[row].build(&inputs) else { continue };
         is_available = true;
-        if flavour.sends_message_after_ack {
+        if flavor.sends_message_after_ack {
             link.after_acknowledgment.push(row);
         } else {
             link.send(STREAMS[row].component, &message);
         }
     }
-    if is_available { ACCEPTED } else { flavour.refusals.message }
+    if is_available { ACCEPTED } else { flavor.refusals.message }
 }
 
 fn set_interval(id: u32, us: f64, component: u8, x: &mut MessageRequest) -> MavResult {
-    let flavour = x.vehicle.flavour();
-    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_sent(flavour)).collect();
+    let flavor = x.vehicle.flavor();
+    let rows: Vec<usize> = addressed(id, component).filter(|row| STREAMS[*row].is_sent(flavor)).collect();
     if rows.is_empty() {
-        return flavour.refusals.interval;
+        return flavor.refusals.interval;
     }
     let now = x.aircraft.clock.now;
     let Some(link) = x.links.get_mut(x.link) else { return DENIED };

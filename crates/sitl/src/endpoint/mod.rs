@@ -30,7 +30,7 @@ use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
 pub use vehicle_command::VehicleCommand;
 pub use vehicle_link::{FailureInjection, StorageRequest, VehicleLink};
-pub use vehicle_link::{flavour, logs, params, snapshot};
+pub use vehicle_link::{flavor, logs, params, snapshot};
 
 /// The vehicle's MAVLink endpoint.
 #[derive(Debug, Clone)]
@@ -49,10 +49,10 @@ pub struct Endpoint {
 impl Endpoint {
     /// Creates an endpoint without links.
     #[must_use]
-    pub fn new(system_id: u8, aircraft: params::AircraftValues, flavour: &'static flavour::Flavour) -> Self {
+    pub fn new(system_id: u8, aircraft: params::AircraftValues, flavor: &'static flavor::Flavor) -> Self {
         Self {
             links: Links::new(system_id),
-            vehicle: VehicleLink::new(system_id, aircraft, flavour),
+            vehicle: VehicleLink::new(system_id, aircraft, flavor),
             payload: PayloadLink::new(),
             digest_input: Vec::new(),
             row_buffer: Vec::new(),
@@ -61,7 +61,7 @@ impl Endpoint {
 
     /// Adds a link to a peer.
     pub fn open(&mut self, id: LinkId, kind: LinkKind, lockstep: bool, now: SimTime) {
-        let must_ask = self.vehicle.flavour().must_request_streams(kind);
+        let must_ask = self.vehicle.flavor().must_request_streams(kind);
         let schedule = streams::schedule(kind, must_ask, now);
         self.links.open(id, PeerLink::new(kind, lockstep, self.links.system_id(), must_ask, schedule, now));
     }

@@ -6,7 +6,7 @@ use super::inputs::StreamInputs;
 use super::link::{LinkKind, ScheduledStream, StreamSchedule};
 use super::payload::PayloadSnapshot;
 use super::payload::streams::{camera, gimbal, lamp, truth};
-use super::vehicle_link::flavour::Flavour;
+use super::vehicle_link::flavor::Flavor;
 use super::vehicle_link::snapshot::VehicleSnapshot;
 use super::vehicle_link::streams::{ardupilot, attitude, channels, position, sensors, system};
 use spandrel_mavlink::ardupilotmega;
@@ -61,7 +61,7 @@ impl StreamSpec {
     /// Builds the message; `None` if there is no data.
     #[must_use]
     pub fn build(&self, inputs: &StreamInputs) -> Option<OutgoingMessage> {
-        if !self.is_sent(inputs.vehicle.flavour) {
+        if !self.is_sent(inputs.vehicle.flavor) {
             return None;
         }
         match self.source {
@@ -78,8 +78,8 @@ impl StreamSpec {
 
     /// Checks whether a flavor sends this message.
     #[must_use]
-    pub fn is_sent(&self, flavour: &Flavour) -> bool {
-        flavour.ardupilot_dialect || !self.ardupilot_only
+    pub fn is_sent(&self, flavor: &Flavor) -> bool {
+        flavor.ardupilot_dialect || !self.ardupilot_only
     }
 
     /// Returns the rate for a kind of link, Hz.

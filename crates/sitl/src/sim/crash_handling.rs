@@ -191,7 +191,7 @@ fn contact_with(surface: Surface) -> ContactKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::endpoint::flavour::px4;
+    use crate::endpoint::flavor::px4;
     use crate::physics::ContactReport;
     use crate::sim::{SimConfig, SimEvent};
     use spandrel_model::frames::Enu;
@@ -213,7 +213,7 @@ mod tests {
         let vehicle = Arc::new(spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
         let site = Arc::new(Site::build(&scenario, 1));
         let mut sim = Sim::new(
-            SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0, flavour: &px4::FLAVOUR, after_crash: None },
+            SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0, flavor: &px4::FLAVOR, after_crash: None },
             site,
         );
         sim.has_lifted_off = true;

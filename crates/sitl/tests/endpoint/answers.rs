@@ -89,7 +89,7 @@ fn wire_messages_can_be_requested_once_or_at_a_rate() {
     for stream in STREAMS {
         let id = stream.id as f32;
         station.sticks(0, 0, 500, 0);
-        if !stream.is_sent(&spandrel_sitl::endpoint::flavour::px4::FLAVOUR) {
+        if !stream.is_sent(&spandrel_sitl::endpoint::flavor::px4::FLAVOR) {
             let refused = station.command(stream.component, MavCmd::MAV_CMD_REQUEST_MESSAGE, [id, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
             let rate =
                 station.command(stream.component, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id, 5e4, 0.0, 0.0, 0.0, 0.0, 0.0]);

@@ -3,7 +3,7 @@
 
 use super::copter_plans::item;
 use spandrel_mavlink::dialect::*;
-use spandrel_sitl::endpoint::flavour::ardupilot;
+use spandrel_sitl::endpoint::flavor::ardupilot;
 use spandrel_testkit::station::{Station, one};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
@@ -46,7 +46,7 @@ pub(super) fn next_heartbeat(station: &mut Station) -> HEARTBEAT_DATA {
 
 /// Returns a Copter on the ground, ready to arm, with the streams that these tests use.
 pub(super) fn copter() -> Station {
-    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut station = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 7);
     station.run_ms(2_500);
     for id in [32.0, 33.0, 245.0, 65.0] {
         let interval = [id, 50_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];

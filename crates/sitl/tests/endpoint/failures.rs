@@ -4,7 +4,7 @@ use spandrel_mavlink::dialect::*;
 use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::site::traffic::CREW_TRUCK;
 use spandrel_model::site::{Site, Surface};
-use spandrel_sitl::endpoint::flavour::{Flavour, ardupilot, generic, px4};
+use spandrel_sitl::endpoint::flavor::{Flavor, ardupilot, generic, px4};
 use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::{Station, p};
 
@@ -33,8 +33,8 @@ fn set_real(station: &mut Station, name: &str, value: f32) {
 
 /// Enables failure injection. ArduPilot sends integers as floating-point numbers; the other autopilots send their bit
 /// pattern.
-fn allow_failures(station: &mut Station, flavour: &Flavour) {
-    let one = if flavour.name == ardupilot::FLAVOUR.name { 1.0 } else { f32::from_bits(1) };
+fn allow_failures(station: &mut Station, flavor: &Flavor) {
+    let one = if flavor.name == ardupilot::FLAVOR.name { 1.0 } else { f32::from_bits(1) };
     set(station, "SYS_FAILURE_EN", one, MavParamType::MAV_PARAM_TYPE_INT32);
 }
 
@@ -172,20 +172,20 @@ fn wire_stuck_sensor_is_announced_and_prevents_arming() {
     // Time limit, s: two seconds with the same value, SYS_STATUS twice per second, and margin.
     const WITHIN_S: f64 = 4.0;
     let arm = p(&[1.0]);
-    for (flavour, unit, bit, words) in [
-        (&px4::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "BARO #0 failed: STALE!"),
-        (&px4::FLAVOUR, COMPASS, S::MAV_SYS_STATUS_SENSOR_3D_MAG, "MAG #0 failed: STALE!"),
-        (&px4::FLAVOUR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS #0 failed: STALE!"),
-        (&ardupilot::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Baro 1 not healthy"),
-        (&ardupilot::FLAVOUR, COMPASS, S::MAV_SYS_STATUS_SENSOR_3D_MAG, "Compass 1 not healthy"),
-        (&ardupilot::FLAVOUR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS Glitch or Compass error"),
-        (&generic::FLAVOUR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Barometer stuck: not used"),
+    for (flavor, unit, bit, words) in [
+        (&px4::FLAVOR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "BARO #0 failed: STALE!"),
+        (&px4::FLAVOR, COMPASS, S::MAV_SYS_STATUS_SENSOR_3D_MAG, "MAG #0 failed: STALE!"),
+        (&px4::FLAVOR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS #0 failed: STALE!"),
+        (&ardupilot::FLAVOR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Baro 1 not healthy"),
+        (&ardupilot::FLAVOR, COMPASS, S::MAV_SYS_STATUS_SENSOR_3D_MAG, "Compass 1 not healthy"),
+        (&ardupilot::FLAVOR, GNSS, S::MAV_SYS_STATUS_SENSOR_GPS, "GPS Glitch or Compass error"),
+        (&generic::FLAVOR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "Barometer stuck: not used"),
     ] {
-        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavor, "drill-hover", 7);
         // ArduPilot's streams start when they are requested.
         station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, p(&[1.0, 500_000.0]));
         station.run_ms(4_000);
-        allow_failures(&mut station, flavour);
+        allow_failures(&mut station, flavor);
         station.run_ms(600);
         assert!(health(&station).unwrap().contains(bit), "{words}");
         assert_eq!(inject(&mut station, unit, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);

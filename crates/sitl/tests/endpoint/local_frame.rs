@@ -4,7 +4,7 @@
 use spandrel_mavlink::dialect::*;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
-use spandrel_sitl::endpoint::flavour;
+use spandrel_sitl::endpoint::flavor;
 use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::{Station, p};
 
@@ -51,13 +51,13 @@ fn off(plane: &LocalPlane, geo: Geo, local: [f32; 3]) -> f64 {
 
 #[test]
 fn regress_local_position_on_the_pad_is_zero_and_matches_origin_and_home() {
-    for flavour in [&flavour::px4::FLAVOUR, &flavour::ardupilot::FLAVOUR] {
+    for flavor in [&flavor::px4::FLAVOR, &flavor::ardupilot::FLAVOR] {
         for seed in 1..=5 {
-            let mut station = Station::with_flavor(flavour, "two-bridges", seed);
+            let mut station = Station::with_flavor(flavor, "two-bridges", seed);
             station.run_ms(5_000);
             let at = local(&mut station);
             let far = at.iter().map(|c| c.abs()).fold(0.0, f32::max);
-            assert!(far < SETTLED_TOLERANCE_M, "{}, seed {seed}: {at:?}", flavour.name);
+            assert!(far < SETTLED_TOLERANCE_M, "{}, seed {seed}: {at:?}", flavor.name);
             let plane = plane(&mut station);
             let here = requested(&mut station, 33, |m| match m {
                 MavMessage::GLOBAL_POSITION_INT(g) => Some(place(g.lat, g.lon, g.alt)),

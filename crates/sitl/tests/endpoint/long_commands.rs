@@ -2,7 +2,7 @@
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
-use spandrel_sitl::endpoint::flavour::ardupilot;
+use spandrel_sitl::endpoint::flavor::ardupilot;
 use spandrel_testkit::plans::{ACCEPTED, home_north, item, ready, upload};
 use spandrel_testkit::station::Station;
 
@@ -37,7 +37,7 @@ fn has_fence(station: &mut Station) -> bool {
 
 #[test]
 fn wire_command_and_parameter_both_switch_the_fence() {
-    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut station = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 7);
     station.run_ms(2_500);
     let interval = [1.0, 200_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, interval), OK);

@@ -13,7 +13,7 @@ mod copter_pilots;
 mod copter_plans;
 mod failures;
 mod fence;
-mod flavours;
+mod flavors;
 mod impaired;
 mod impaired_files;
 mod items;

@@ -3,7 +3,7 @@
 use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::dialect::*;
 use spandrel_model::time::SimTime;
-use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
+use spandrel_sitl::endpoint::flavor::{ardupilot, generic, px4};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_testkit::station::{GCS, Station};
 
@@ -63,19 +63,19 @@ fn echoed_channels(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(L
 fn wire_stick_echo_matches_the_input_on_each_link() {
     const SDK: LinkId = LinkId(5);
     const SIDECAR: LinkId = LinkId(6);
-    for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
-        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
+    for flavor in [&px4::FLAVOR, &ardupilot::FLAVOR, &generic::FLAVOR] {
+        let mut station = Station::with_flavor(flavor, "drill-hover", 7);
         station.sim.open_link(SDK, LinkKind::Sdk, false);
         station.sim.open_link(SIDECAR, LinkKind::Payload, false);
         station.run_ms(1_000);
-        if flavour.streams_on_request_only {
+        if flavor.streams_on_request_only {
             let rate = [65.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
             assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, rate), MavResult::MAV_RESULT_ACCEPTED);
         }
         let wait = |station: &mut Station, sent: fn(&mut Station), [others, sidecar]: [[u16; 4]; 2]| {
             let heard = echoed_channels(station, sent);
-            assert!(heard.contains(&(GCS, others)) && heard.contains(&(SIDECAR, sidecar)), "{}: {heard:?}", flavour.name);
-            assert!(flavour.streams_on_request_only || heard.contains(&(SDK, others)), "{}: {heard:?}", flavour.name);
+            assert!(heard.contains(&(GCS, others)) && heard.contains(&(SIDECAR, sidecar)), "{}: {heard:?}", flavor.name);
+            assert!(flavor.streams_on_request_only || heard.contains(&(SDK, others)), "{}: {heard:?}", flavor.name);
         };
         wait(&mut station, |s| channels(s, 1300, 1600), [[1500, 1300, 1600, 1500], [1500, 1700, 1600, 1500]]);
         // Values beyond full deflection must be clamped.
@@ -85,7 +85,7 @@ fn wire_stick_echo_matches_the_input_on_each_link() {
         let again = [65.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, again), MavResult::MAV_RESULT_ACCEPTED);
         let asked = station.last_message(|m| if let MavMessage::RC_CHANNELS(c) = m { Some(c.chan2_raw) } else { None });
-        assert_eq!(asked, Some(1300), "{}: response to the ground station's request", flavour.name);
+        assert_eq!(asked, Some(1300), "{}: response to the ground station's request", flavor.name);
     }
 }
 

@@ -2,7 +2,7 @@
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use spandrel_mavlink::dialect::*;
-use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
+use spandrel_sitl::endpoint::flavor::{ardupilot, generic, px4};
 use spandrel_testkit::station::{Station, p};
 
 const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
@@ -44,8 +44,8 @@ fn control(station: &Station) -> Option<[(u8, u8); 2]> {
 /// home, as MAVSDK sends it. PX4 uses only the value; the other autopilots respect the frame.
 #[test]
 fn wire_region_of_interest_height_follows_the_flavor() {
-    for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
-        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
+    for flavor in [&px4::FLAVOR, &ardupilot::FLAVOR, &generic::FLAVOR] {
+        let mut station = Station::with_flavor(flavor, "drill-hover", 7);
         station.run_ms(2_500);
         let home = |m: &MavMessage| if let MavMessage::HOME_POSITION(h) = m { Some(h.clone()) } else { None };
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, p(&[242.0])), OK);
@@ -63,16 +63,16 @@ fn wire_region_of_interest_height_follows_the_flavor() {
                 ..Default::default()
             }));
             let steep = home.altitude as f32 / 1_000.0 + 50.0;
-            let wanted = if over_sea || flavour.roi_altitude_above_sea_level { 45.0 } else { steep.atan2(50.0).to_degrees() };
+            let wanted = if over_sea || flavor.roi_altitude_above_sea_level { 45.0 } else { steep.atan2(50.0).to_degrees() };
             let pitch = pitch_deg(&mut station);
             // The drone's estimate of its position is accurate to a meter.
-            assert!((pitch - wanted).abs() < 1.5, "{} {frame:?}: {pitch} not {wanted}", flavour.name);
+            assert!((pitch - wanted).abs() < 1.5, "{} {frame:?}: {pitch} not {wanted}", flavor.name);
         }
     }
     assert!(
-        px4::FLAVOUR.roi_altitude_above_sea_level
-            && !ardupilot::FLAVOUR.roi_altitude_above_sea_level
-            && !generic::FLAVOUR.roi_altitude_above_sea_level
+        px4::FLAVOR.roi_altitude_above_sea_level
+            && !ardupilot::FLAVOR.roi_altitude_above_sea_level
+            && !generic::FLAVOR.roi_altitude_above_sea_level
     );
 }
 

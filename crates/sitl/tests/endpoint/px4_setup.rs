@@ -120,7 +120,7 @@ fn regress_mavlink_console_responds() {
     assert!(armed.unwrap().contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED));
     assert!(console(&mut station, "commander mode nowhere").contains("unknown mode nowhere"));
     assert!(console(&mut station, "reboot now").contains("reboot: command not found"));
-    let mut copter = Station::with_flavor(&spandrel_sitl::endpoint::flavour::ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut copter = Station::with_flavor(&spandrel_sitl::endpoint::flavor::ardupilot::FLAVOR, "drill-hover", 7);
     copter.run_ms(1_000);
     assert_eq!(console(&mut copter, "help"), "", "ArduPilot must not have a console");
 }

@@ -5,7 +5,7 @@ use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
 use spandrel_mavlink::signing::{Signing, SigningKey};
 use spandrel_model::time::SimTime;
-use spandrel_sitl::endpoint::flavour::ardupilot;
+use spandrel_sitl::endpoint::flavor::ardupilot;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
 use spandrel_testkit::plans::{self, home_north, item, ready, upload};
@@ -132,7 +132,7 @@ fn armed(station: &mut Station) -> bool {
 
 #[test]
 fn wire_buttons_follow_the_rules_of_their_commands() {
-    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut station = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 7);
     station.run_ms(2_500);
     for (name, value) in [("BTN1_FUNCTION", 1.0), ("BTN2_FUNCTION", 3.0)] {
         station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
@@ -165,7 +165,7 @@ fn wire_buttons_follow_the_rules_of_their_commands() {
 
 #[test]
 fn wire_forced_arming_works_in_a_mode_that_is_not_armable() {
-    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut station = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 7);
     station.run_ms(2_500);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 6.0])), OK);
     assert_eq!(station.command(1, ARM, p(&[1.0])), FAILED);
@@ -174,7 +174,7 @@ fn wire_forced_arming_works_in_a_mode_that_is_not_armable() {
 
 #[test]
 fn wire_home_item_is_not_a_jump_target() {
-    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut station = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 7);
     station.run_ms(2_500);
     let result = |m: &MavMessage| if let MavMessage::MISSION_ACK(a) = m { Some(a.mavtype) } else { None };
     let home = item(0, MavCmd::MAV_CMD_NAV_WAYPOINT, 0.0, 0.0);
@@ -316,7 +316,7 @@ fn wire_rejections_include_a_reason() {
         station.run_ms(5);
         assert!(texts(&station).iter().any(|text| text.starts_with(words)), "{command:?}: {:?}", texts(&station));
     }
-    let mut copter = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut copter = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 7);
     copter.run_ms(2_500);
     assert_eq!(copter.command(1, M::MAV_CMD_DO_REPOSITION, p(&[0.0, 0.0, 0.0, NAN, NAN, NAN, NAN])), DENIED);
     copter.run_ms(5);

@@ -6,7 +6,7 @@ use spandrel_mavlink::dialect::*;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::files::job::{DirectoryEntry, FileAction, FileError, FileJobResult};
-use spandrel_sitl::endpoint::flavour::{ardupilot, px4};
+use spandrel_sitl::endpoint::flavor::{ardupilot, px4};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
 use std::collections::{BTreeMap, BTreeSet};
@@ -224,7 +224,7 @@ impl Driver<'_> {
 
 /// Returns the number of modes of the flavor with the most modes; AVAILABLE_MODES can request all of them at once.
 fn max_mode_count() -> usize {
-    px4::FLAVOUR.modes.len().max(ardupilot::FLAVOUR.modes.len())
+    px4::FLAVOR.modes.len().max(ardupilot::FLAVOR.modes.len())
 }
 
 /// Checks that all fields of a state message are finite numbers.

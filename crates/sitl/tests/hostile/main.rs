@@ -14,7 +14,7 @@ use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult};
 use spandrel_model::random::RandomStream;
 use spandrel_sitl::endpoint::HANDLED;
-use spandrel_sitl::endpoint::flavour::ardupilot;
+use spandrel_sitl::endpoint::flavor::ardupilot;
 use spandrel_sitl::sim::Sim;
 use spandrel_testkit::station::Station;
 
@@ -68,9 +68,9 @@ fn situations() -> Vec<Sim> {
     offboard.send(&seeds::messages(84)[0]);
     offboard.run_ms(1);
     offboard.command(1, MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let mut copter = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 3);
+    let mut copter = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 3);
     copter.run_ms(2_500);
-    let mut guided = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 3);
+    let mut guided = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 3);
     guided.run_ms(2_500);
     for (command, p) in [
         (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0]),

@@ -98,7 +98,7 @@ fn run(v: &mut VehicleLink, function: u16, position: SwitchPosition, a: &mut Inb
 
 /// Enters the mode when the switch goes high. When it leaves high, the mode switch selects the mode again.
 fn switch_mode(v: &mut VehicleLink, mode: u32, high: bool, a: &mut InboundMessage) {
-    let shown = v.flavour.row_of(a.autopilot.status().mode, v.requested_mode).number;
+    let shown = v.flavor.row_of(a.autopilot.status().mode, v.requested_mode).number;
     if high {
         mode_requests::enter_mode(v, mode, a);
     } else if shown == mode

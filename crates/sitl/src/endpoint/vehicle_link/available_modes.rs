@@ -8,7 +8,7 @@ use spandrel_mavlink::dialect::{AVAILABLE_MODES_DATA, MavMessage, MavModePropert
 impl VehicleLink {
     /// Sends one mode, or all modes if `index` is 0.
     pub(crate) fn send_modes(&self, index: f64, link: LinkId, links: &mut Links) -> MavResult {
-        let modes = self.flavour.modes;
+        let modes = self.flavor.modes;
         let count = modes.len();
         let requested = if index.is_finite() && index >= 0.0 { index as usize } else { return MavResult::MAV_RESULT_DENIED };
         if requested > count {

@@ -32,7 +32,7 @@ pub(super) fn data_stream(v: &mut VehicleLink, r: &REQUEST_DATA_STREAM_DATA, a: 
     let requested = r.req_stream_id as u8;
     let stop = r.start_stop == 0 || r.req_message_rate == 0;
     let us = if stop { -1.0 } else { 1e6 / f64::from(r.req_message_rate) };
-    for (_, ids) in v.flavour.groups.iter().filter(|(group, _)| requested == 0 || *group == requested) {
+    for (_, ids) in v.flavor.groups.iter().filter(|(group, _)| requested == 0 || *group == requested) {
         ids.iter().for_each(|id| link.streams.set_message_interval(*id, us, now));
     }
 }

@@ -26,7 +26,7 @@ pub(super) fn item_int(v: &mut VehicleLink, r: &MISSION_REQUEST_INT_DATA, a: &mu
 /// expect.
 pub(super) fn item(v: &mut VehicleLink, r: &MISSION_REQUEST_DATA, a: &mut InboundMessage) {
     let message = match plan_item(v, r.mission_type, r.seq, a) {
-        MavMessage::MISSION_ITEM_INT(item) if v.flavour.uses_float_items => {
+        MavMessage::MISSION_ITEM_INT(item) if v.flavor.uses_float_items => {
             MavMessage::MISSION_ITEM(ardupilot_items::in_degrees(&item))
         }
         other => other,
@@ -49,7 +49,7 @@ pub(super) fn receive_int(v: &mut VehicleLink, item: &MISSION_ITEM_INT_DATA, a: 
 }
 
 fn receive_item(v: &mut VehicleLink, item: &MISSION_ITEM_INT_DATA, a: &mut InboundMessage) {
-    if v.flavour.goto_mode.is_some() && ardupilot_items::is_fly_now_item(item) {
+    if v.flavor.goto_mode.is_some() && ardupilot_items::is_fly_now_item(item) {
         let result = ardupilot_items::fly_now(v, item, a);
         let message = ack(a.from, item.mission_type, result);
         a.answer(&message);

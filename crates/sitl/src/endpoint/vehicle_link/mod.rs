@@ -7,7 +7,7 @@ mod buttons;
 mod calibration;
 pub(super) mod commands;
 mod events;
-pub mod flavour;
+pub mod flavor;
 mod flight_times;
 mod follow_targets;
 mod ftp;
@@ -46,7 +46,7 @@ use super::simulated_aircraft::SimulatedAircraft;
 use crate::autopilot::{Autopilot, Sticks};
 use calibration::Calibration;
 use events::EventReports;
-use flavour::Flavour;
+use flavor::Flavor;
 pub use flight_times::FlightTimes;
 pub use host_requests::{FailureInjection, StorageRequest};
 pub(super) use inbound::InboundMessage;
@@ -69,7 +69,7 @@ use text_queue::TextQueue;
 #[derive(Debug, Clone)]
 pub struct VehicleLink {
     system_id: u8,
-    flavour: &'static Flavour,
+    flavor: &'static Flavor,
     /// The flavor's number of the last requested mode; several may map to the same internal mode.
     requested_mode: u32,
     /// The file server.
@@ -116,13 +116,13 @@ const STREAM_WARNING_INTERVAL: SimTime = SimTime::from_ms(1_000);
 impl VehicleLink {
     /// Creates the interface of an autopilot with the flavor's default parameters.
     #[must_use]
-    pub fn new(system_id: u8, aircraft: AircraftValues, flavour: &'static Flavour) -> Self {
-        let params = Params::new(system_id, aircraft, flavour.params);
+    pub fn new(system_id: u8, aircraft: AircraftValues, flavor: &'static Flavor) -> Self {
+        let params = Params::new(system_id, aircraft, flavor.params);
         Self {
             system_id,
-            flavour,
+            flavor,
             requested_mode: 0,
-            files: metadata_server(flavour),
+            files: metadata_server(flavor),
             logs: LogTransfers::default(),
             storage: ParamStorage::new(params.clone()),
             params,
@@ -131,10 +131,10 @@ impl VehicleLink {
             restart_requested: false,
             injections: VecDeque::new(),
             accepts_sticks: true,
-            plans: PlanStore::with_lead_items(u16::from(flavour.home_item))
-                .with_splines(flavour.splines)
-                .with_zero_as_current_position(flavour.zero_means_current_position)
-                .with_encoding(if flavour.uses_float_items { ItemEncoding::Float } else { ItemEncoding::Int }),
+            plans: PlanStore::with_lead_items(u16::from(flavor.home_item))
+                .with_splines(flavor.splines)
+                .with_zero_as_current_position(flavor.zero_means_current_position)
+                .with_encoding(if flavor.uses_float_items { ItemEncoding::Float } else { ItemEncoding::Int }),
             manual: ManualControl::default(),
             mode_switch: None,
             switches: [None; manual::AUX_COUNT],
@@ -154,8 +154,8 @@ impl VehicleLink {
 
     /// Returns the autopilot flavor.
     #[must_use]
-    pub fn flavour(&self) -> &'static Flavour {
-        self.flavour
+    pub fn flavor(&self) -> &'static Flavor {
+        self.flavor
     }
 
     /// Returns the vehicle's state at one instant, for messages to ground stations.
@@ -187,7 +187,7 @@ impl VehicleLink {
             lamp: payload.lamp,
             camera: payload.camera.summary(clock.now),
             plans: self.plans.summary(),
-            flavour: self.flavour,
+            flavor: self.flavor,
             requested_mode: self.requested_mode,
             fence_enabled: autopilot.tuning.fence_enabled,
             system_id: self.system_id,
@@ -275,20 +275,20 @@ impl VehicleLink {
 
     /// Broadcasts the banner that identifies the autopilot.
     pub fn announce_identity(&mut self) {
-        self.flavour.banner.iter().for_each(|line| self.texts.push(MavSeverity::MAV_SEVERITY_INFO, line));
+        self.flavor.banner.iter().for_each(|line| self.texts.push(MavSeverity::MAV_SEVERITY_INFO, line));
     }
 
     /// Checks whether the mode that accepts go-to commands (GUIDED) is active, for flavors that have one.
     fn is_guided(&self, autopilot: &Autopilot) -> bool {
-        let row = self.flavour.row_of(autopilot.status().mode, self.requested_mode);
-        self.flavour.goto_mode == Some(row.number)
+        let row = self.flavor.row_of(autopilot.status().mode, self.requested_mode);
+        self.flavor.goto_mode == Some(row.number)
     }
 }
 
 /// Creates the file server with the vehicle's metadata files.
-fn metadata_server(flavour: &Flavour) -> FileServer {
+fn metadata_server(flavor: &Flavor) -> FileServer {
     let mut server = FileServer::default();
-    let metadata::MetadataFiles { general, parameter, events } = metadata::files(flavour.params);
+    let metadata::MetadataFiles { general, parameter, events } = metadata::files(flavor.params);
     for file in [general, parameter].into_iter().chain(events) {
         server.generate(file.path, file.bytes.clone());
     }

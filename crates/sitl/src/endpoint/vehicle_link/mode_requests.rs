@@ -32,7 +32,7 @@ pub(super) fn mode_for_switch(v: &VehicleLink, position: usize) -> Option<u32> {
 }
 
 pub(super) fn set_mode(v: &mut VehicleLink, m: &SET_MODE_DATA, a: &mut InboundMessage) {
-    if !v.flavour.custom_flag || m.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) {
+    if !v.flavor.custom_flag || m.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) {
         enter_mode(v, m.custom_mode, a);
     }
 }
@@ -40,8 +40,8 @@ pub(super) fn set_mode(v: &mut VehicleLink, m: &SET_MODE_DATA, a: &mut InboundMe
 /// Enters a mode. SET_MODE has no acknowledgment, so a rejection is sent as a text.
 pub(super) fn enter_mode(v: &mut VehicleLink, custom_mode: u32, a: &mut InboundMessage) {
     let now = a.now();
-    let outcome = match v.flavour.row(custom_mode) {
-        Some(row) => v.flavour.enter(row, &mut v.requested_mode, a.autopilot, now),
+    let outcome = match v.flavor.row(custom_mode) {
+        Some(row) => v.flavor.enter(row, &mut v.requested_mode, a.autopilot, now),
         None => RequestOutcome::Denied(format!("No such mode {custom_mode}")),
     };
     if let RequestOutcome::TemporarilyRejected(reason) | RequestOutcome::Denied(reason) | RequestOutcome::Failed(reason) = outcome

@@ -106,13 +106,13 @@ pub fn local(t: &SET_POSITION_TARGET_LOCAL_NED_DATA, view: &VehicleSnapshot) -> 
             let position_m = from_local(axes([t.x, t.y, t.z], mask.position)?, view);
             require_setpoint(OffboardSetpoint { position_m, ..fixed })
         }
-        F::MAV_FRAME_LOCAL_OFFSET_NED if view.flavour.offsets => {
+        F::MAV_FRAME_LOCAL_OFFSET_NED if view.flavor.offsets => {
             let offset = axes([t.x, t.y, t.z], mask.position)?;
             require_setpoint(OffboardSetpoint { position_m: relative_to_vehicle(offset, view), ..fixed })
         }
         F::MAV_FRAME_BODY_NED | F::MAV_FRAME_BODY_OFFSET_NED | F::MAV_FRAME_BODY_FRD => {
             let heading = view.estimate.attitude.yaw_rad();
-            let offsets = view.flavour.offsets && t.coordinate_frame != F::MAV_FRAME_BODY_FRD;
+            let offsets = view.flavor.offsets && t.coordinate_frame != F::MAV_FRAME_BODY_FRD;
             let offset = if offsets { rotate_to_ned(axes([t.x, t.y, t.z], mask.position)?, heading)? } else { [None; 3] };
             require_setpoint(OffboardSetpoint {
                 position_m: relative_to_vehicle(offset, view),

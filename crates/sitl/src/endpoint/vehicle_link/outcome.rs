@@ -13,7 +13,7 @@ impl VehicleLink {
 
     /// Converts the autopilot's outcome to a result; its reason is sent as a text.
     pub(super) fn result_of(&mut self, outcome: RequestOutcome) -> MavResult {
-        let refusals = &self.flavour.refusals;
+        let refusals = &self.flavor.refusals;
         let (result, reason) = match outcome {
             RequestOutcome::Accepted => return MavResult::MAV_RESULT_ACCEPTED,
             RequestOutcome::TemporarilyRejected(reason) => (refusals.temporarily, reason),

@@ -69,7 +69,7 @@ impl VehicleLink {
         if autopilot.tuning.cruise_m_s != cruise_m_s {
             autopilot.request(AutopilotRequest::SetSpeed(None), autopilot.now());
         }
-        (self.flavour.tune)(&mut autopilot.tuning);
+        (self.flavor.tune)(&mut autopilot.tuning);
         self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
         self.manual.policy = self.params.stick_policy();
         payload.camera.announced.parameter = self.params.camera_announced();

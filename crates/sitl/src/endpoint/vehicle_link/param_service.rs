@@ -11,11 +11,11 @@ use spandrel_mavlink::dialect::{
 /// Queues the whole list, sent in parts over several ticks. The checksum is sent first, so a station with up-to-date
 /// values can stop the list; flavors with a banner also send it.
 pub(super) fn list(v: &mut VehicleLink, _: &PARAM_REQUEST_LIST_DATA, a: &mut InboundMessage) {
-    if v.flavour.params.hash {
+    if v.flavor.params.hash {
         let hash = param_hash(v);
         a.answer(&hash);
     }
-    v.flavour.banner.iter().for_each(|line| v.inform(line));
+    v.flavor.banner.iter().for_each(|line| v.inform(line));
     v.param_lists.insert(a.link, (0..v.params.count()).collect());
 }
 
@@ -31,7 +31,7 @@ pub(super) fn read(v: &mut VehicleLink, r: &PARAM_REQUEST_READ_DATA, a: &mut Inb
 }
 
 fn is_param_hash(v: &VehicleLink, name: &str) -> bool {
-    v.flavour.params.hash && name == HASH
+    v.flavor.params.hash && name == HASH
 }
 
 /// Changes a parameter. A change is broadcast to every link; a rejection is reported, followed by the old value as

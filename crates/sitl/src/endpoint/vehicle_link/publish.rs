@@ -32,7 +32,7 @@ impl VehicleLink {
         let actions = view.status.fence.taken;
         let changed = std::mem::replace(&mut self.fence_actions, actions) != actions;
         let forced = view.status.failsafe.is_some() && view.status.mode != view.status.intended;
-        if changed || forced { self.flavour.default_mode(view.status.mode).number } else { view.mode_row().number }
+        if changed || forced { self.flavor.default_mode(view.status.mode).number } else { view.mode_row().number }
     }
 
     /// Queues the texts of the autopilot's events.
@@ -47,7 +47,7 @@ impl VehicleLink {
                 Severity::Warning => MavSeverity::MAV_SEVERITY_WARNING,
                 Severity::Info => MavSeverity::MAV_SEVERITY_INFO,
             };
-            let (severity, text) = event.sensor.and_then(self.flavour.sensor_text).unwrap_or((severity, event.text));
+            let (severity, text) = event.sensor.and_then(self.flavor.sensor_text).unwrap_or((severity, event.text));
             self.texts.push_always(severity, text);
         }
     }
@@ -108,7 +108,7 @@ impl VehicleLink {
 
     /// Applies the flavor's parameter defaults to a new autopilot.
     pub(crate) fn prepare(&mut self, autopilot: &mut Autopilot, payload: &mut Payload) {
-        if !self.flavour.params.defaults.is_empty() {
+        if !self.flavor.params.defaults.is_empty() {
             self.apply_parameters(autopilot, payload);
         }
     }

@@ -1,6 +1,6 @@
 //! A read-only snapshot of the vehicle at one instant, used to build messages.
 
-use super::flavour::{Flavour, ModeRow};
+use super::flavor::{Flavor, ModeRow};
 use super::flight_times::FlightTimes;
 use super::manual::AUX_COUNT;
 use super::mission::PlanSummary;
@@ -59,7 +59,7 @@ pub struct VehicleSnapshot<'a> {
     /// Plan summary.
     pub plans: PlanSummary,
     /// Autopilot flavor.
-    pub flavour: &'static Flavour,
+    pub flavor: &'static Flavor,
     /// The flavor's number of the last requested mode.
     pub requested_mode: u32,
     /// Whether the geofence is enabled.
@@ -74,7 +74,7 @@ impl VehicleSnapshot<'_> {
     /// Returns the mode as shown to clients.
     #[must_use]
     pub fn mode_row(&self) -> &'static ModeRow {
-        self.flavour.row_of(self.status.mode, self.requested_mode)
+        self.flavor.row_of(self.status.mode, self.requested_mode)
     }
 
     /// Returns the estimated geographic position.

@@ -13,7 +13,7 @@ impl VehicleLink {
     pub(crate) fn send_texts(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         for (severity, text) in self.texts.take() {
             self.send_notice(&text, view.clock.boot_ms(), links);
-            let marked = self.flavour.events && covers_whole_text(&text);
+            let marked = self.flavor.events && covers_whole_text(&text);
             let plain = chunks(&text);
             let tabbed = if marked { chunks(&format!("{text}\t")) } else { Vec::new() };
             let whole = plain.len() == 1 && tabbed.len() <= 1;

@@ -22,7 +22,7 @@ const STEPS: u32 = 5;
 /// zero cancels the calibration.
 pub(super) fn command(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> MavResult {
     use MavResult as R;
-    let texts = v.flavour.calibration;
+    let texts = v.flavor.calibration;
     let param = |k: usize| c.finite_param(k).unwrap_or(0.0);
     if (0..7).all(|k| param(k) == 0.0) {
         if v.calibration.take().is_some() && texts == CalibrationTexts::Px4 {
@@ -31,7 +31,7 @@ pub(super) fn command(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessag
         return R::MAV_RESULT_ACCEPTED;
     }
     if a.autopilot.status().armed || v.calibration.is_some() {
-        return v.flavour.refusals.temporarily;
+        return v.flavor.refusals.temporarily;
     }
     // The radio is calibrated by the ground station; the vehicle only reads its channels.
     if param(3) != 0.0 {
@@ -63,7 +63,7 @@ impl VehicleLink {
     /// Updates the running calibration and finishes it when it is complete.
     pub(super) fn step_calibration(&mut self, view: &VehicleSnapshot) {
         let Some(mut running) = self.calibration.take() else { return };
-        let texts = self.flavour.calibration;
+        let texts = self.flavor.calibration;
         let done = running.measure(view.readings, view.clock.now);
         let steps = ((view.clock.now - running.since).s() / MEASUREMENT_S * f64::from(STEPS)) as u32;
         if steps > running.steps && steps <= STEPS {

@@ -1,6 +1,6 @@
 //! Commands for arming, modes, takeoff, go-to and landing.
 
-use super::super::flavour::ModeRow;
+use super::super::flavor::ModeRow;
 use super::super::host_requests::FailureInjection;
 use super::super::inbound::InboundMessage;
 use super::super::{VehicleLink, calibration};
@@ -36,7 +36,7 @@ pub(super) fn handle(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMes
         Request(request) => request,
     };
     let outcome = a.autopilot.request(request, a.now());
-    if matches!(request, AutopilotRequest::SetHome(_)) && outcome == RequestOutcome::Accepted && v.flavour.home_item {
+    if matches!(request, AutopilotRequest::SetHome(_)) && outcome == RequestOutcome::Accepted && v.flavor.home_item {
         v.announce(GPS_GLOBAL_ORIGIN_DATA::ID);
         v.announce(HOME_POSITION_DATA::ID);
     }
@@ -54,7 +54,7 @@ fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Opt
         },
         n if n == M::MAV_CMD_DO_SET_MODE as u16 => Answer(set_mode(c, v, a)),
         n if n == M::MAV_CMD_DO_SET_STANDARD_MODE as u16 => {
-            let row = c.finite_param(0).and_then(|number| v.flavour.standard(number as u32));
+            let row = c.finite_param(0).and_then(|number| v.flavor.standard(number as u32));
             Answer(match row {
                 Some(row) => enter(row, v, a),
                 None => v.deny(&format!("No such standard mode {}", c.p[0])),
@@ -62,11 +62,9 @@ fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Opt
         }
         n if n == M::MAV_CMD_NAV_RETURN_TO_LAUNCH as u16 => Request(AutopilotRequest::SetMode(FlightMode::Return)),
         n if n == M::MAV_CMD_NAV_LOITER_UNLIM as u16 => {
-            let flavour = v.flavour;
-            let row = flavour
-                .loiter_mode
-                .and_then(|number| flavour.row(number))
-                .unwrap_or_else(|| flavour.default_mode(FlightMode::Hold));
+            let flavor = v.flavor;
+            let row =
+                flavor.loiter_mode.and_then(|number| flavor.row(number)).unwrap_or_else(|| flavor.default_mode(FlightMode::Hold));
             Answer(enter(row, v, a))
         }
         n if n == M::MAV_CMD_DO_FLIGHTTERMINATION as u16 => match c.p[0] {
@@ -87,7 +85,7 @@ fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -
             Err(refusal) => Answer(refusal),
         },
         n if n == M::MAV_CMD_NAV_LAND as u16 => Request(AutopilotRequest::Land),
-        n if n == M::MAV_CMD_NAV_VTOL_LAND as u16 && v.flavour.home_item => Request(AutopilotRequest::Land),
+        n if n == M::MAV_CMD_NAV_VTOL_LAND as u16 && v.flavor.home_item => Request(AutopilotRequest::Land),
         n if n == M::MAV_CMD_DO_REPOSITION as u16 => Answer(go_to(c, v, a)),
         n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, a) {
             Some(orbit) => Request(AutopilotRequest::Orbit(orbit)),
@@ -110,15 +108,15 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
     use MavCmd as M;
     Some(match c.number {
         // Missions never contain tags, so a lookup always fails.
-        DO_JUMP_TAG if v.flavour.home_item => {
+        DO_JUMP_TAG if v.flavor.home_item => {
             let is_tag = c.finite_param(0).is_some_and(|tag| (0.0..=f64::from(u16::MAX)).contains(&tag));
             Answer(if is_tag { MavResult::MAV_RESULT_FAILED } else { MavResult::MAV_RESULT_DENIED })
         }
         n if n == M::MAV_CMD_DO_LAND_START as u16 => {
-            let row = v.flavour.modes.iter().find(|row| row.request == AutopilotRequest::LandingSequence)?;
+            let row = v.flavor.modes.iter().find(|row| row.request == AutopilotRequest::LandingSequence)?;
             Answer(enter(row, v, a))
         }
-        n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 && v.flavour.pauses => Answer(pause(c, v, a)),
+        n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 && v.flavor.pauses => Answer(pause(c, v, a)),
         n if n == M::MAV_CMD_DO_PAUSE_CONTINUE as u16 => Request(if c.is_one(0) {
             AutopilotRequest::StartMission { first: None }
         } else {
@@ -126,7 +124,7 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         }),
         n if n == M::MAV_CMD_MISSION_START as u16 => {
             // ArduPilot always starts a mission from its first item.
-            if v.flavour.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
+            if v.flavor.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
                 return Some(Answer(v.deny("Mission start: an item range is not supported")));
             }
             Request(AutopilotRequest::StartMission { first: c.finite_param(0).filter(|f| *f > 0.0).map(|f| index(f, v)) })
@@ -204,7 +202,7 @@ fn reboot(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
         1.0 | 3.0 if a.autopilot.status().armed => {
             v.warn("Reboot denied: armed");
-            v.flavour.refusals.temporarily
+            v.flavor.refusals.temporarily
         }
         1.0 | 3.0 => {
             v.restart_requested = true;
@@ -215,7 +213,7 @@ fn reboot(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
 }
 
 fn arm(c: &VehicleCommand, v: &VehicleLink) -> Option<AutopilotRequest> {
-    let force = v.flavour.force.iter().any(|number| (c.p[1] - number).abs() < 0.5);
+    let force = v.flavor.force.iter().any(|number| (c.p[1] - number).abs() < 0.5);
     match c.p[0] {
         p if (p - 1.0).abs() < 1e-6 => Some(AutopilotRequest::Arm { force }),
         0.0 => Some(AutopilotRequest::Disarm { force }),
@@ -226,11 +224,11 @@ fn arm(c: &VehicleCommand, v: &VehicleLink) -> Option<AutopilotRequest> {
 /// Arms the motors. If the flavor reports them, each failed check is sent as a separate text. In the mode that accepts
 /// go-to commands (GUIDED), arming by a transmitter switch must be allowed (`GUID_OPTIONS`).
 fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
-    let (flavour, now) = (v.flavour, a.now());
-    if let Some(words) = flavour.arming_check_prefix
+    let (flavor, now) = (v.flavor, a.now());
+    if let Some(words) = flavor.arming_check_prefix
         && !a.autopilot.status().armed
     {
-        let row = flavour.row_of(a.autopilot.status().mode, v.requested_mode);
+        let row = flavor.row_of(a.autopilot.status().mode, v.requested_mode);
         let mut reasons = if force { Vec::new() } else { a.autopilot.arming_reasons(now) };
         let allowed = row.armable || row.mode == FlightMode::Mission && v.params.can_arm_in_auto();
         let by_transmitter = c.own && v.is_guided(a.autopilot);
@@ -240,7 +238,7 @@ fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut Inbo
         }
         if !reasons.is_empty() {
             reasons.iter().for_each(|reason| v.warn(&format!("{words}{reason}")));
-            return flavour.refusals.temporarily;
+            return flavor.refusals.temporarily;
         }
     }
     let outcome = a.autopilot.request(AutopilotRequest::Arm { force }, now);
@@ -249,7 +247,7 @@ fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut Inbo
 
 fn enter(row: &ModeRow, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let now = a.now();
-    let outcome = v.flavour.enter(row, &mut v.requested_mode, a.autopilot, now);
+    let outcome = v.flavor.enter(row, &mut v.requested_mode, a.autopilot, now);
     v.result_of(outcome)
 }
 
@@ -260,12 +258,12 @@ fn set_mode(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         v.warn("No custom mode specified");
         return MavResult::MAV_RESULT_DENIED;
     };
-    let number = (v.flavour.custom_mode)(main, c.finite_param(2).unwrap_or(0.0));
-    match v.flavour.row(number) {
+    let number = (v.flavor.custom_mode)(main, c.finite_param(2).unwrap_or(0.0));
+    match v.flavor.row(number) {
         Some(row) => enter(row, v, a),
         None => {
             v.warn(&format!("No such mode {main}"));
-            v.flavour.refusals.unknown_mode
+            v.flavor.refusals.unknown_mode
         }
     }
 }
@@ -279,7 +277,7 @@ fn index(seq: f64, v: &VehicleLink) -> usize {
 /// Broadcasts MISSION_CURRENT, as MISSION_SET_CURRENT does.
 fn set_current(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> bool {
     let item = match c.finite_param(0) {
-        Some(-1.0) if !v.flavour.home_item => a.autopilot.status().mission_current,
+        Some(-1.0) if !v.flavor.home_item => a.autopilot.status().mission_current,
         Some(seq) if seq >= 0.0 => index(seq, v),
         _ => return false,
     };
@@ -294,7 +292,7 @@ fn set_current(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) 
 /// (MAV_DO_REPOSITION_FLAGS_CHANGE_MODE).
 fn go_to(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let changes = c.finite_param(1).is_some_and(|flags| (flags as i64) & 1 == 1);
-    let errands = v.flavour.goto_mode;
+    let errands = v.flavor.goto_mode;
     if !(errands.is_none() || changes || v.is_guided(a.autopilot)) {
         return v.deny("Go-to: not allowed in this mode");
     }
@@ -369,7 +367,7 @@ fn condition_yaw(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequ
 }
 
 fn home(c: &VehicleCommand, v: &VehicleLink, a: &InboundMessage) -> Option<AutopilotRequest> {
-    let unnamed = v.flavour.zero_means_current_position && c.p[4] == 0.0 && c.p[5] == 0.0;
+    let unnamed = v.flavor.zero_means_current_position && c.p[4] == 0.0 && c.p[5] == 0.0;
     if c.is_one(0) || unnamed {
         let estimate = a.autopilot.estimate();
         return estimate.position_valid.then_some(AutopilotRequest::SetHome(estimate.position_m));
@@ -386,7 +384,7 @@ fn prearm_checks(v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     v.events.requested = true;
     let reasons = a.autopilot.status().arming_reasons.clone();
     for reason in &reasons {
-        v.warn(&format!("{}{reason}", v.flavour.prearm_reason_prefix));
+        v.warn(&format!("{}{reason}", v.flavor.prearm_reason_prefix));
     }
     MavResult::MAV_RESULT_ACCEPTED
 }

@@ -1,7 +1,7 @@
 //! NAV_TAKEOFF, interpreted by the flavor's rule.
 
 use super::super::VehicleLink;
-use super::super::flavour::TakeOffRule;
+use super::super::flavor::TakeOffRule;
 use super::super::inbound::InboundMessage;
 use crate::autopilot::LandedState;
 use crate::endpoint::vehicle_command::VehicleCommand;
@@ -15,7 +15,7 @@ const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 /// Returns the height above home at which the takeoff ends, m (`None`: the parameter's value), or the result that
 /// rejects the command.
 pub(super) fn height_m(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> Result<Option<f64>, MavResult> {
-    match v.flavour.take_off {
+    match v.flavor.take_off {
         TakeOffRule::AboveSeaLevel => above_sea_level(c, v, a),
         TakeOffRule::AboveHomeInGuided => above_home_in_guided(c, v, a),
     }

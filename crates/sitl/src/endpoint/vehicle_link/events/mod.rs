@@ -33,7 +33,7 @@ const ERROR: u8 = 0x33;
 impl VehicleLink {
     /// Reports the arming checks when they change, and repeats the latest sequence number.
     pub(super) fn report_events(&mut self, view: &VehicleSnapshot, links: &mut Links) {
-        if !self.flavour.events {
+        if !self.flavor.events {
             return;
         }
         let (reasons, masks) = (view.status.arming_reasons.clone(), masks(view));
@@ -82,7 +82,7 @@ impl VehicleLink {
 impl VehicleLink {
     /// Sends the event that corresponds to a status text, if there is one.
     pub(super) fn send_notice(&mut self, text: &str, now_ms: u32, links: &mut Links) {
-        let Some(notice) = notices::of(text).filter(|_| self.flavour.events) else { return };
+        let Some(notice) = notices::of(text).filter(|_| self.flavor.events) else { return };
         self.events.add(notice.name, notice.levels, &[], now_ms);
         let Some(event) = self.events.history.back().cloned().map(MavMessage::EVENT) else { return };
         event_links(links).for_each(|link| link.stream(AUTOPILOT, &event));
@@ -97,7 +97,7 @@ fn event_links(links: &mut Links) -> impl Iterator<Item = &mut PeerLink> {
 /// Resends events. If the first one is no longer kept, reports the oldest available, and the client requests again from
 /// there.
 pub(super) fn request(v: &mut VehicleLink, r: &REQUEST_EVENT_DATA, a: &mut InboundMessage) {
-    if !v.flavour.events {
+    if !v.flavor.events {
         return;
     }
     let count = r.last_sequence.wrapping_sub(r.first_sequence).min(MAX_EVENTS_PER_REQUEST - 1);

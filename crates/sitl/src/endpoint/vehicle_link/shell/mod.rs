@@ -37,7 +37,7 @@ const MODES: [(&str, f64, f64); 11] = [
 
 /// Handles bytes for the shell. A message without the RESPOND flag closes it.
 pub(super) fn bytes(v: &mut VehicleLink, m: &SERIAL_CONTROL_DATA, a: &mut InboundMessage) {
-    let ours = m.device == SerialControlDev::SERIAL_CONTROL_DEV_SHELL && v.flavour.shell;
+    let ours = m.device == SerialControlDev::SERIAL_CONTROL_DEV_SHELL && v.flavor.shell;
     if !ours || m.flags.contains(SerialControlFlag::SERIAL_CONTROL_FLAG_REPLY) {
         return;
     }
@@ -91,11 +91,11 @@ fn help() -> String {
 }
 
 fn version(v: &VehicleLink, rest: &[&str]) -> String {
-    let version = v.flavour.software_version.to_be_bytes();
+    let version = v.flavor.software_version.to_be_bytes();
     let number = format!("{}.{}.{}", version[0], version[1], version[2]);
     let lines = [
         ("hw", "HW arch: SPANDREL_SITL\n".to_owned()),
-        ("git", format!("FW version: {number} dev ({})\n", v.flavour.software_version)),
+        ("git", format!("FW version: {number} dev ({})\n", v.flavor.software_version)),
         ("os", format!("OS: Spandrel {}\n", env!("CARGO_PKG_VERSION"))),
         ("uid", format!("UID: system {}\n", v.system_id)),
     ];
@@ -182,7 +182,7 @@ fn status(v: &VehicleLink, a: &InboundMessage) -> String {
     let s = a.autopilot.status();
     let armed = if s.armed { "Armed" } else { "Disarmed" };
     let failsafe = s.failsafe.as_deref().unwrap_or("none");
-    format!("Arm state: {armed}\nNavigation mode: {}\nFailsafe: {failsafe}\n", v.flavour.row_of(s.mode, v.requested_mode).name)
+    format!("Arm state: {armed}\nNavigation mode: {}\nFailsafe: {failsafe}\n", v.flavor.row_of(s.mode, v.requested_mode).name)
 }
 
 impl VehicleLink {

@@ -9,7 +9,7 @@ const NO_TRANSMITTER_US: [u16; 4] = [1500, 1500, 1000, 1500];
 /// Builds the sender's pulses, or their equivalent on a transmitter, where forward is below center. ArduPilot sends all
 /// 16 channels, with or without stick input.
 pub(crate) fn pulses(v: &VehicleSnapshot) -> Option<MavMessage> {
-    if v.flavour.ardupilot_dialect {
+    if v.flavor.ardupilot_dialect {
         return Some(all_channels(v));
     }
     let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us?;

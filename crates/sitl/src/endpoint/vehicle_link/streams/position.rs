@@ -71,7 +71,7 @@ const UNUSED_BITS: PositionTargetTypemask = PositionTargetTypemask::from_bits_re
 /// POSITION_TARGET_LOCAL_NED as in PX4: the target position. ArduCopter sends it only in GUIDED, with the fields of the
 /// last setpoint.
 pub(crate) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
-    if v.flavour.goto_mode.is_some() {
+    if v.flavor.goto_mode.is_some() {
         return guided_target(v);
     }
     let mask = IGNORE_VELOCITY | IGNORE_ACCELERATION | PositionTargetTypemask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE;
@@ -82,7 +82,7 @@ pub(crate) fn local_target(v: &VehicleSnapshot) -> Option<MavMessage> {
 /// Selects position, velocity and acceleration by ArduCopter's rules: position alone, all three, velocity and
 /// acceleration, or acceleration alone; `None` for attitude setpoints.
 fn guided_target(v: &VehicleSnapshot) -> Option<MavMessage> {
-    if v.flavour.goto_mode != Some(v.flavour.row_of(v.status.mode, v.requested_mode).number) {
+    if v.flavor.goto_mode != Some(v.flavor.row_of(v.status.mode, v.requested_mode).number) {
         return None;
     }
     let place = || Some(v.local_from_site(v.status.target_m?).array());

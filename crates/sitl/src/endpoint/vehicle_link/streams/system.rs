@@ -22,9 +22,9 @@ pub(crate) fn heartbeat(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::HEARTBEAT(HEARTBEAT_DATA {
         custom_mode: row.number,
         mavtype: MavType::MAV_TYPE_QUADROTOR,
-        autopilot: v.flavour.autopilot,
+        autopilot: v.flavor.autopilot,
         base_mode: base,
-        system_status: (v.flavour.state)(v.estimate, v.status),
+        system_status: (v.flavor.state)(v.estimate, v.status),
         mavlink_version: 3,
     }))
 }
@@ -51,7 +51,7 @@ pub(crate) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
         present |= S::MAV_SYS_STATUS_GEOFENCE;
     }
     let enabled = present;
-    if v.flavour.home_item {
+    if v.flavor.home_item {
         present |= S::MAV_SYS_STATUS_GEOFENCE;
     }
     // Healthy even without a fence: MAVProxy would interpret its absence as a breach.
@@ -132,7 +132,7 @@ pub(crate) fn extended_state(v: &VehicleSnapshot) -> Option<MavMessage> {
         LandedState::InAir => MavLandedState::MAV_LANDED_STATE_IN_AIR,
         LandedState::Landing => MavLandedState::MAV_LANDED_STATE_LANDING,
     };
-    let vtol_state = v.flavour.vtol_state;
+    let vtol_state = v.flavor.vtol_state;
     Some(MavMessage::EXTENDED_SYS_STATE(EXTENDED_SYS_STATE_DATA { vtol_state, landed_state }))
 }
 
@@ -226,7 +226,7 @@ pub(crate) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
 
 pub(crate) fn fence(v: &VehicleSnapshot) -> Option<MavMessage> {
     // ArduPilot does not report a disabled fence.
-    if v.flavour.home_item && !v.fence_enabled {
+    if v.flavor.home_item && !v.fence_enabled {
         return None;
     }
     let fence = &v.status.fence;
@@ -248,7 +248,7 @@ pub(crate) fn fence(v: &VehicleSnapshot) -> Option<MavMessage> {
 pub(crate) fn current_mode(v: &VehicleSnapshot) -> Option<MavMessage> {
     let row = v.mode_row();
     let acts = v.status.failsafe.is_some();
-    let intended = if acts { v.flavour.row_of(v.status.intended, v.requested_mode) } else { row };
+    let intended = if acts { v.flavor.row_of(v.status.intended, v.requested_mode) } else { row };
     Some(MavMessage::CURRENT_MODE(CURRENT_MODE_DATA {
         custom_mode: row.number,
         intended_custom_mode: intended.number,
@@ -264,27 +264,27 @@ const BOARD: u32 = 1 << 8;
 
 pub(crate) fn version(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::AUTOPILOT_VERSION(AUTOPILOT_VERSION_DATA {
-        capabilities: v.flavour.capabilities,
+        capabilities: v.flavor.capabilities,
         uid: 0x5350_414e_4452_454c + u64::from(v.scoring.seed.unsigned_abs()) + (u64::from(v.system_id) << 32),
         vendor_id: VENDOR,
         product_id: PRODUCT,
         board_version: BOARD,
-        flight_sw_version: v.flavour.software_version,
-        middleware_sw_version: v.flavour.software_version,
+        flight_sw_version: v.flavor.software_version,
+        middleware_sw_version: v.flavor.software_version,
         ..Default::default()
     }))
 }
 
 /// Sends the location of the parameter metadata.
 pub(crate) fn metadata(v: &VehicleSnapshot) -> Option<MavMessage> {
-    let general = &metadata::files(v.flavour.params).general;
+    let general = &metadata::files(v.flavor.params).general;
     let uri = general.uri.as_str().into();
     Some(MavMessage::COMPONENT_METADATA(COMPONENT_METADATA_DATA { time_boot_ms: v.clock.boot_ms(), file_crc: general.crc, uri }))
 }
 
 /// The same for older clients.
 pub(crate) fn information(v: &VehicleSnapshot) -> Option<MavMessage> {
-    let general = &metadata::files(v.flavour.params).general;
+    let general = &metadata::files(v.flavor.params).general;
     Some(MavMessage::COMPONENT_INFORMATION(COMPONENT_INFORMATION_DATA {
         time_boot_ms: v.clock.boot_ms(),
         general_metadata_file_crc: general.crc,

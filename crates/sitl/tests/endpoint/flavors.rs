@@ -4,7 +4,7 @@
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_heartbeat};
 use spandrel_mavlink::dialect::*;
 use spandrel_mavlink::ftp::{ACK, FtpPacket, Opcode};
-use spandrel_sitl::endpoint::flavour::{ardupilot, generic, px4};
+use spandrel_sitl::endpoint::flavor::{ardupilot, generic, px4};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_testkit::station::{GCS, Station, one};
 
@@ -15,49 +15,49 @@ const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 #[test]
 fn wire_each_flavor_identifies_as_its_autopilot() {
     let c_cast = MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT;
-    for (flavour, autopilot, number) in [
-        (&px4::FLAVOUR, MavAutopilot::MAV_AUTOPILOT_PX4, 3 << 16),
-        (&ardupilot::FLAVOUR, MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA, 5),
-        (&generic::FLAVOUR, MavAutopilot::MAV_AUTOPILOT_GENERIC, 3 << 16),
+    for (flavor, autopilot, number) in [
+        (&px4::FLAVOR, MavAutopilot::MAV_AUTOPILOT_PX4, 3 << 16),
+        (&ardupilot::FLAVOR, MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA, 5),
+        (&generic::FLAVOR, MavAutopilot::MAV_AUTOPILOT_GENERIC, 3 << 16),
     ] {
-        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavor, "drill-hover", 7);
         station.run_ms(5);
-        let first = if flavour.name == "ardupilot" { MavState::MAV_STATE_BOOT } else { MavState::MAV_STATE_STANDBY };
-        assert_eq!(beat(&station).system_status, first, "{}: first heartbeat", flavour.name);
+        let first = if flavor.name == "ardupilot" { MavState::MAV_STATE_BOOT } else { MavState::MAV_STATE_STANDBY };
+        assert_eq!(beat(&station).system_status, first, "{}: first heartbeat", flavor.name);
         station.run_ms(2_500);
         let heard = beat(&station);
-        assert_eq!((heard.autopilot, heard.custom_mode), (autopilot, number), "{}", flavour.name);
+        assert_eq!((heard.autopilot, heard.custom_mode), (autopilot, number), "{}", flavor.name);
         assert_eq!(heard.system_status, MavState::MAV_STATE_STANDBY);
         station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(148.0));
         let version =
             station.last_message(|m| if let MavMessage::AUTOPILOT_VERSION(v) = m { Some(v.clone()) } else { None }).unwrap();
-        assert_eq!(version.flight_sw_version, flavour.software_version);
-        assert_eq!(version.capabilities.contains(c_cast), flavour.name == "ardupilot");
+        assert_eq!(version.flight_sw_version, flavor.software_version);
+        assert_eq!(version.capabilities.contains(c_cast), flavor.name == "ardupilot");
         let own =
             PARAM_REQUEST_READ_DATA { target_system: 1, target_component: 1, param_index: -1, param_id: "SPAN_FLAVOUR".into() };
         let value = station.ask(&MavMessage::PARAM_REQUEST_READ(own), |m| match m {
             MavMessage::PARAM_VALUE(v) => Some(v.param_value),
             _ => None,
         });
-        let number = flavour.params.number;
-        let expected = if flavour.params.cast { number as f32 } else { f32::from_bits(number.cast_unsigned()) };
+        let number = flavor.params.number;
+        let expected = if flavor.params.cast { number as f32 } else { f32::from_bits(number.cast_unsigned()) };
         assert_eq!(value, Some(expected), "the version must match the emulated autopilot");
     }
 }
 
 #[test]
 fn wire_every_available_mode_can_be_entered_by_each_message() {
-    for flavour in [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR] {
-        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
+    for flavor in [&px4::FLAVOR, &ardupilot::FLAVOR, &generic::FLAVOR] {
+        let mut station = Station::with_flavor(flavor, "drill-hover", 7);
         station.run_ms(2_500);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(435.0)), ACCEPTED);
         let modes = station.all(|m| if let MavMessage::AVAILABLE_MODES(mode) = m { Some(mode.clone()) } else { None });
-        assert_eq!(modes.len(), flavour.modes.len());
+        assert_eq!(modes.len(), flavor.modes.len());
         let offered = |m: &AVAILABLE_MODES_DATA| !m.properties.contains(MavModeProperty::MAV_MODE_PROPERTY_NOT_USER_SELECTABLE);
         // Mission mode requires a mission.
         let needs_mission = |m: &AVAILABLE_MODES_DATA| m.standard_mode == MavStandardMode::MAV_STANDARD_MODE_MISSION;
         // Copter's AUTO and AUTO RTL also require a mission, and FOLLOW requires its parameter.
-        let needs_more = |m: &AVAILABLE_MODES_DATA| flavour.name == "ardupilot" && [3, 23, 27].contains(&m.custom_mode);
+        let needs_more = |m: &AVAILABLE_MODES_DATA| flavor.name == "ardupilot" && [3, 23, 27].contains(&m.custom_mode);
         for mode in modes.iter().filter(|mode| offered(mode) && !needs_mission(mode) && !needs_more(mode)) {
             let target_system = 1;
             let base_mode = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED;
@@ -66,7 +66,7 @@ fn wire_every_available_mode_can_be_entered_by_each_message() {
                 next_heartbeat(&mut station).custom_mode,
                 mode.custom_mode,
                 "{}: SET_MODE {:?}",
-                flavour.name,
+                flavor.name,
                 mode.mode_name
             );
             if mode.standard_mode != MavStandardMode::MAV_STANDARD_MODE_NON_STANDARD {
@@ -79,7 +79,7 @@ fn wire_every_available_mode_can_be_entered_by_each_message() {
                 assert_eq!((now.standard_mode, now.custom_mode), (mode.standard_mode, mode.custom_mode));
             }
         }
-        if flavour.name == "generic" {
+        if flavor.name == "generic" {
             let standard = |m: &AVAILABLE_MODES_DATA| m.standard_mode != MavStandardMode::MAV_STANDARD_MODE_NON_STANDARD;
             assert!(modes.iter().filter(|mode| offered(mode)).all(standard), "only standard modes must be offered");
             assert_eq!(station.command(1, SET_MODE, mode(f32::from(4u8) * 65_536.0 + 5.0 * 16_777_216.0)), ACCEPTED);
@@ -166,11 +166,11 @@ fn flight_copter_climb_rate_follows_its_parameter() {
 
 #[test]
 fn wire_only_ardupilot_serves_packed_parameters_over_ftp() {
-    for (flavour, there) in [(&ardupilot::FLAVOUR, true), (&px4::FLAVOUR, false), (&generic::FLAVOUR, false)] {
-        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
+    for (flavor, there) in [(&ardupilot::FLAVOR, true), (&px4::FLAVOR, false), (&generic::FLAVOR, false)] {
+        let mut station = Station::with_flavor(flavor, "drill-hover", 7);
         station.run_ms(100);
         let open = file(&mut station, Opcode::OpenFileRo, 0, 0, b"@PARAM/param.pck?withdefaults=1", 1);
-        assert_eq!(open.opcode == ACK, there, "{}", flavour.name);
+        assert_eq!(open.opcode == ACK, there, "{}", flavor.name);
         if !there {
             continue;
         }
@@ -205,7 +205,7 @@ fn file(station: &mut Station, opcode: Opcode, session: u8, offset: u32, data: &
 
 #[test]
 fn wire_copter_sends_only_heartbeats_until_requested_except_to_the_sidecar() {
-    let mut station = Station::with_flavor(&ardupilot::FLAVOUR, "drill-hover", 7);
+    let mut station = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 7);
     station.run_ms(3_000);
     let unasked: std::collections::BTreeSet<u32> = station.received.iter().map(|f| f.message_id).collect();
     assert_eq!(unasked.into_iter().collect::<Vec<_>>(), [0], "only heartbeats must be sent");
@@ -257,13 +257,13 @@ fn wire_copter_sends_only_heartbeats_until_requested_except_to_the_sidecar() {
 
 #[test]
 fn wire_requests_for_unsupported_messages_are_answered_like_each_autopilot() {
-    for (flavour, message, interval) in
-        [(&px4::FLAVOUR, DENIED, FAILED), (&ardupilot::FLAVOUR, FAILED, DENIED), (&generic::FLAVOUR, DENIED, FAILED)]
+    for (flavor, message, interval) in
+        [(&px4::FLAVOR, DENIED, FAILED), (&ardupilot::FLAVOR, FAILED, DENIED), (&generic::FLAVOR, DENIED, FAILED)]
     {
-        let mut station = Station::with_flavor(flavour, "drill-hover", 7);
+        let mut station = Station::with_flavor(flavor, "drill-hover", 7);
         station.run_ms(100);
-        assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(9_999.0)), message, "{}", flavour.name);
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(9_999.0)), message, "{}", flavor.name);
         let often = [9_999.0, 20_000.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, often), interval, "{}", flavour.name);
+        assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, often), interval, "{}", flavor.name);
     }
 }

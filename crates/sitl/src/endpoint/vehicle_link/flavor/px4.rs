@@ -1,7 +1,7 @@
 //! PX4's interface: custom_mode contains the main mode in bits 16 to 23 and the sub mode in bits 24 to 31
 //! (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real PX4).
 
-use super::definition::{COMMON, Flavour, ModeRow, RefusalResults, TakeOffRule, named_mode};
+use super::definition::{COMMON, Flavor, ModeRow, RefusalResults, TakeOffRule, named_mode};
 use crate::autopilot::sensor_health::{MonitoredSensor, SensorChange, SensorFault};
 use crate::autopilot::{AutopilotRequest, AutopilotStatus, Estimate, FlightMode};
 use crate::endpoint::vehicle_link::calibration::CalibrationTexts;
@@ -59,7 +59,7 @@ pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
 
 /// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"). Reports a development version, so that no
 /// ground station offers an update.
-pub static FLAVOUR: Flavour = Flavour {
+pub static FLAVOR: Flavor = Flavor {
     name: "px4",
     autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
     software_version: 1 << 24 | 16 << 16,

@@ -2,7 +2,7 @@
 //! from a real ArduCopter 4.7-dev, parameter names as in 4.6).
 #![allow(deprecated, reason = "ArduPilot reports its encoding with the older capability flag")]
 
-use super::definition::{COMMON, Flavour, ModeRow, RefusalResults, TakeOffRule};
+use super::definition::{COMMON, Flavor, ModeRow, RefusalResults, TakeOffRule};
 use super::px4::FORCE;
 use crate::autopilot::sensor_health::{MonitoredSensor, SensorChange, SensorFault};
 use crate::autopilot::{AutopilotRequest, AutopilotStatus, Estimate, FlightMode, LandedState};
@@ -89,7 +89,7 @@ const MODES: &[ModeRow] = &[
 ];
 
 /// ArduPilot's interface. Reports a development version of the series that the parameter names come from.
-pub static FLAVOUR: Flavour = Flavour {
+pub static FLAVOR: Flavor = Flavor {
     name: "ardupilot",
     autopilot: MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA,
     software_version: 4 << 24 | 6 << 16,

@@ -79,7 +79,7 @@ pub enum TakeOffRule {
 
 /// An autopilot interface.
 #[derive(Debug)]
-pub struct Flavour {
+pub struct Flavor {
     /// Name on the command line.
     pub name: &'static str,
     /// HEARTBEAT.autopilot.
@@ -158,7 +158,7 @@ pub struct Flavour {
     pub tune: fn(&mut Tuning),
 }
 
-impl Flavour {
+impl Flavor {
     /// Returns the row shown while `mode` is active; `requested` is the number of the last requested row.
     #[must_use]
     pub fn row_of(&self, mode: FlightMode, requested: u32) -> &'static ModeRow {

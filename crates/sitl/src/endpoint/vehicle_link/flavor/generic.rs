@@ -1,7 +1,7 @@
 //! A generic MAVLink interface without an autopilot's dialect. It offers MAVLink's standard modes where they exist. The
 //! standard does not define custom mode numbers; PX4's are used because many SDKs and recorders assume them.
 
-use super::definition::{COMMON, Flavour, ModeRow, TakeOffRule, named_mode};
+use super::definition::{COMMON, Flavor, ModeRow, TakeOffRule, named_mode};
 use super::px4::{self, row};
 use crate::autopilot::FlightMode;
 use crate::endpoint::vehicle_link::calibration::CalibrationTexts;
@@ -24,7 +24,7 @@ const MODES: &[ModeRow] = &[
 ];
 
 /// The generic interface.
-pub static FLAVOUR: Flavour = Flavour {
+pub static FLAVOR: Flavor = Flavor {
     name: "generic",
     autopilot: MavAutopilot::MAV_AUTOPILOT_GENERIC,
     software_version: VERSION,

@@ -6,12 +6,12 @@ mod definition;
 pub mod generic;
 pub mod px4;
 
-pub use definition::{Flavour, ModeRow, RefusalResults, TakeOffRule};
+pub use definition::{Flavor, ModeRow, RefusalResults, TakeOffRule};
 
 /// Returns the flavor with this name.
 #[must_use]
-pub fn named(name: &str) -> Option<&'static Flavour> {
-    [&px4::FLAVOUR, &ardupilot::FLAVOUR, &generic::FLAVOUR].into_iter().find(|flavour| flavour.name == name)
+pub fn named(name: &str) -> Option<&'static Flavor> {
+    [&px4::FLAVOR, &ardupilot::FLAVOR, &generic::FLAVOR].into_iter().find(|flavor| flavor.name == name)
 }
 
 #[cfg(test)]
@@ -37,22 +37,22 @@ mod tests {
 
     #[test]
     fn exact_every_flavor_shows_every_mode_and_mode_numbers_are_unique() {
-        for flavour in ["px4", "ardupilot", "generic"].map(|name| named(name).unwrap()) {
+        for flavor in ["px4", "ardupilot", "generic"].map(|name| named(name).unwrap()) {
             for mode in ALL {
-                assert!(flavour.default_mode(mode).shows(mode), "{}: {mode:?}", flavour.name);
+                assert!(flavor.default_mode(mode).shows(mode), "{}: {mode:?}", flavor.name);
             }
-            for row in flavour.modes {
-                assert_eq!(flavour.row(row.number).unwrap().name, row.name);
-                assert_eq!(flavour.row_of(row.mode, row.number).name, row.name, "requested mode");
+            for row in flavor.modes {
+                assert_eq!(flavor.row(row.number).unwrap().name, row.name);
+                assert_eq!(flavor.row_of(row.mode, row.number).name, row.name, "requested mode");
             }
-            assert!(flavour.standard(0).is_none() && flavour.standard(99).is_none());
+            assert!(flavor.standard(0).is_none() && flavor.standard(99).is_none());
         }
         assert!(named("PX4").is_none());
     }
 
     #[test]
     fn exact_guided_persists_through_takeoff_and_goto_until_the_pilot_takes_over() {
-        let copter = &ardupilot::FLAVOUR;
+        let copter = &ardupilot::FLAVOR;
         for mode in [FlightMode::Hold, FlightMode::Takeoff, FlightMode::Offboard] {
             assert_eq!(copter.row_of(mode, 4).number, 4);
         }
