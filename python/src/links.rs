@@ -38,7 +38,7 @@ impl Log {
     fn write(&mut self, timestamp_us: u64, datagram: &[u8]) {
         for frame in self.decoder.datagram(datagram) {
             if self.failure.is_none() {
-                self.failure = self.file.write_all(&tlog::record(stamp_us, &frame.bytes)).err();
+                self.failure = self.file.write_all(&tlog::record(timestamp_us, &frame.bytes)).err();
             }
         }
     }
@@ -130,7 +130,7 @@ impl Links {
                 }
                 mail.push_back(bytes);
             }
-            Some(Transport::Log(log)) => log.write(stamp_us, &bytes),
+            Some(Transport::Log(log)) => log.write(timestamp_us, &bytes),
             None => {}
         }
     }

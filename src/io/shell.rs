@@ -196,7 +196,7 @@ impl VehicleShell {
         }
         while let Some(piece) = self.core.poll_log() {
             if let Some(Err(error)) = self.store.as_mut().map(|store| store.log(&piece)) {
-                tracing::warn!("cannot write the flight log: {error}");
+                tracing::warn!("flight log: {error}");
             }
         }
     }

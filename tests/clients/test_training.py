@@ -42,7 +42,7 @@ def test_session_leads_to_a_record_and_a_plan(sessions):
     code, output, _ = run_with("2\n" * 10 + "q\n", "questionnaire", str(session))
     assert code == 0 and "10 of 24 answered" in output
     code, output, _ = run_with("9\n" + "3\n" * 14, "questionnaire", str(session))
-    assert code == 0 and "24 of 24 answered" in output and "[1/14]" in output and "Please a whole number" in output
+    assert code == 0 and "24 of 24 answered" in output and "[1/14]" in output and "Please enter a whole number" in output
     answers = json.loads((session / "answers.json").read_text(encoding="utf-8"))["answers"]
     assert sorted(answers.values()) == [2] * 10 + [3] * 14
 

@@ -355,7 +355,7 @@ pub fn check_scenario(scenario: &Scenario, received: u32) -> Result<(), AssessEr
     if received == scenario.crc {
         return Ok(());
     }
-    Err(AssessError::OtherScenario { name: scenario.name.clone(), received: received, expected: scenario.crc })
+    Err(AssessError::OtherScenario { name: scenario.name.clone(), received, expected: scenario.crc })
 }
 
 /// Checks the seed received from the simulator.
@@ -364,7 +364,7 @@ pub fn check_scenario(scenario: &Scenario, received: u32) -> Result<(), AssessEr
 /// Fails if the session has a different seed.
 pub fn check_seed(expected: Option<u64>, received: u64) -> Result<(), AssessError> {
     match expected {
-        Some(ours) if ours != received => Err(AssessError::OtherSeed { received: received, expected: ours }),
+        Some(ours) if ours != received => Err(AssessError::OtherSeed { received, expected: ours }),
         Some(_) | None => Ok(()),
     }
 }

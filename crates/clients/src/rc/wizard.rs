@@ -497,7 +497,7 @@ mod tests {
         person.hold(2, 0.9);
         assert!(person.wizard.prompt().contains("axis is already assigned"), "{}", person.wizard.prompt());
         person.wizard.handle(DeviceEvent::Lost, person.now);
-        assert!(person.wizard.prompt().contains("Plug it in again"));
+        assert!(person.wizard.prompt().contains("Reconnect it"));
     }
 
     /// Gamepad events as Linux reports them: no readings before something moves; triggers start at -1. Sticks 0, 1 and

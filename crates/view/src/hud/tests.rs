@@ -59,10 +59,10 @@ fn snapshot(hud: &Hud) -> String {
 
 #[test]
 fn regress_hud_in_normal_flight() {
-    let expected = "  2   6 White: 3.2 m/s\n  2  11 Grey: 7 mph, limit 10\n 98   6 Green: 76 %\n 50   5 White: Position   GNSS 14   link ok\n \
-                    87  13 Grey: height\n 98  13 White: 21.4 m\n 87  17 Grey: home\n 98  17 White: 118 m\n 87  21 Grey: gimbal\n \
-                    98  21 White: +20°\n 87  25 Grey: time left\n 98  25 White: 20:34\n 87  28 Grey: lamp\n 98  28 White: off\n \
-                    87  32 Grey: pictures\n 98  32 White: 3\n 89  88 Grey: 1\n 91  72 Grey: N\n";
+    let expected = "  2   6 White: 3.2 m/s\n  2  11 Gray: 7 mph, limit 10\n 98   6 Green: 76 %\n 50   5 White: Position   GNSS 14   link ok\n \
+                    87  13 Gray: height\n 98  13 White: 21.4 m\n 87  17 Gray: home\n 98  17 White: 118 m\n 87  21 Gray: gimbal\n \
+                    98  21 White: +20°\n 87  25 Gray: time left\n 98  25 White: 20:34\n 87  28 Gray: lamp\n 98  28 White: off\n \
+                    87  32 Gray: pictures\n 98  32 White: 3\n 89  88 Gray: 1\n 91  72 Gray: N\n";
     assert_eq!(snapshot(&hud()), expected, "\n{}", snapshot(&hud()));
 }
 
@@ -148,7 +148,7 @@ fn exact_texts_in_every_abnormal_state() {
         (hud(), &[]),
         (Hud { battery_pct: Some(52.4), ..hud() }, &["Yellow: 52 %"]),
         (Hud { battery_pct: Some(17.0), ..hud() }, &["Red: 17 %"]),
-        (Hud { battery_pct: None, ..hud() }, &["Grey: no battery data"]),
+        (Hud { battery_pct: None, ..hud() }, &["Gray: no battery data"]),
         (warned(cue::SPEEDING), &["Yellow: 3.2 m/s", "Yellow: TOO FAST: limit 10 mph"]),
         (warned(cue::OFF_PATH), &["Blue: OFF THE PATH"]),
         (warned(cue::TOO_CLOSE), &["Orange: TOO CLOSE"]),
@@ -165,7 +165,7 @@ fn exact_texts_in_every_abnormal_state() {
         (Hud { gnss: None, ..hud() }, &["White: Position   GNSS ?   link ok"]),
         (Hud { telemetry_age_s: 12.3, ..hud() }, &["Orange: Position   GNSS 14   LINK LOST 12 s"]),
         (Hud { telemetry_age_s: 12.3, ..gnss(false, 4) }, &["Orange: Position   GNSS lost (4)   LINK LOST 12 s"]),
-        (Hud { zoom: 2.0, lamp: true, ..hud() }, &["Yellow: on", "Grey: zoom", "White: 2.0 x"]),
+        (Hud { zoom: 2.0, lamp: true, ..hud() }, &["Yellow: on", "Gray: zoom", "White: 2.0 x"]),
     ];
     for (state, words) in states {
         assert_eq!(changed_texts(&state), words, "{state:?}");

@@ -115,7 +115,7 @@ impl SceneItem {
             name,
             mesh,
             instances: vec![Instance::IDENTITY],
-            casts_shadows: casts_shadows,
+            casts_shadows,
             visible_range: VisibleRange::EVERYWHERE,
             backdrop: false,
         }

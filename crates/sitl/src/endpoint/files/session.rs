@@ -53,8 +53,7 @@ impl FileSessions {
         now: SimTime,
     ) -> Result<(), FtpError> {
         self.check_capacity(owner, request.session)?;
-        let session =
-            FileSession { path, writable: writable, last_used: now, opened: now, request: request.clone(), content: None };
+        let session = FileSession { path, writable, last_used: now, opened: now, request: request.clone(), content: None };
         self.0.insert((owner, request.session), session);
         Ok(())
     }

@@ -98,7 +98,7 @@ impl PeerLink {
             signing: None,
             stamp: 0,
             after_acknowledgment: Vec::new(),
-            must_request_streams: must_request_streams,
+            must_request_streams,
             uses_camera: false,
         }
     }

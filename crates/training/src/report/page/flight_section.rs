@@ -152,7 +152,7 @@ fn rows(review: &Review) -> Vec<TimelineRow> {
             })
             .collect();
         if !intervals.is_empty() {
-            rows.push(TimelineRow { name: about.name.to_owned(), intervals: intervals, marks: Vec::new() });
+            rows.push(TimelineRow { name: about.name.to_owned(), intervals, marks: Vec::new() });
         }
     }
     let picture = |p: &crate::report::pictures::ReviewedPicture| {
@@ -205,7 +205,7 @@ fn gaps(review: &Review) -> TimelineRow {
         }
     }
     intervals.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "no telemetry until the end".into())));
-    TimelineRow { name: "gaps".into(), intervals: intervals, marks: Vec::new() }
+    TimelineRow { name: "gaps".into(), intervals, marks: Vec::new() }
 }
 
 /// Returns the charts' data as a table with one row every few seconds.

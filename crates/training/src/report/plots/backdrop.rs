@@ -66,12 +66,12 @@ pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &B
         let along = from + (to - from) * k as f64 / count as f64;
         let at = bridge.center_m + axis * (along - middle);
         let up = site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half));
-        map.to_drawing((along, up))
+        map.drawing_from_view((along, up))
     });
     let mut corners = vec![(0.0, map.size.1)];
     corners.extend(profile.map(|(x, y)| (x, y.min(map.size.1))));
     corners.push((map.size.0, map.size.1));
-    let (_, water) = map.to_drawing((0.0, scenario.terrain.water_level_m));
+    let (_, water) = map.drawing_from_view((0.0, scenario.terrain.water_level_m));
     html! {
         rect.water x="0" y=(coord(water)) width=(coord(map.size.0)) height=(coord((map.size.1 - water).max(0.0))) {}
         path.ground d=(line(&simplified(&corners, 0.3), true)) {}

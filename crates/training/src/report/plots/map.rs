@@ -171,7 +171,7 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
     html! {
         g.structure {
             @for shape in &shapes {
-                path d=(line(&shape.corners.iter().map(|corner| map.to_drawing(*corner)).collect::<Vec<_>>(), true)) {}
+                path d=(line(&shape.corners.iter().map(|corner| map.drawing_from_view(*corner)).collect::<Vec<_>>(), true)) {}
             }
         }
     }

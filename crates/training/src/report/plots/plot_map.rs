@@ -45,10 +45,10 @@ impl PlotMap {
     /// Returns the position of a site point in the drawing.
     #[must_use]
     pub fn at(&self, point_m: Vec3<Enu>) -> (f64, f64) {
-        self.to_drawing(self.view.at(point_m))
+        self.drawing_from_view(self.view.at(point_m))
     }
 
-    pub(super) fn to_drawing(&self, (right_m, up_m): (f64, f64)) -> (f64, f64) {
+    pub(super) fn drawing_from_view(&self, (right_m, up_m): (f64, f64)) -> (f64, f64) {
         ((right_m - self.corner_m.0) * self.scale, (self.corner_m.1 - up_m) * self.scale)
     }
 

@@ -20,7 +20,7 @@ pub struct Notice {
 }
 
 const fn notice(text_prefix: &'static str, name: &'static str, levels: u8) -> Notice {
-    Notice { text_prefix: text_prefix, name, levels }
+    Notice { text_prefix, name, levels }
 }
 
 /// All notices.

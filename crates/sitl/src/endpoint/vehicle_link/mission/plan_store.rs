@@ -142,7 +142,7 @@ impl PlanUpload {
             last_received: now,
             last_request: now,
             is_lossy: false,
-            encoding: encoding,
+            encoding,
             is_retry: false,
             unanswered: 0,
             delay_s: None,
@@ -278,13 +278,13 @@ impl PlanStore {
     /// Sets whether zero coordinates mean the vehicle's position at that time.
     #[must_use]
     pub fn with_zero_as_current_position(self, zero_means_current_position: bool) -> Self {
-        Self { zero_means_current_position: zero_means_current_position, ..self }
+        Self { zero_means_current_position, ..self }
     }
 
     /// Sets the encoding that is tried first when requesting items.
     #[must_use]
     pub fn with_encoding(self, encoding: ItemEncoding) -> Self {
-        Self { encoding: encoding, ..self }
+        Self { encoding, ..self }
     }
 
     /// Returns the item for validation and conversion, with a placeholder for an open position.

@@ -117,7 +117,7 @@ mod tests {
         for (line, what) in told.iter().zip([
             "line 2: MIS_TAKEOFF_ALT = 900 is out of range (allowed: 0.5 to 500)",
             "line 3: GF_ACTION = 'much'",
-            "line 5: 2 fields",
+            "line 5: 2 tab-separated fields",
             "line 6: GF_ACTION: type '2'",
         ]) {
             assert!(line.starts_with(what), "{line}");
