@@ -48,7 +48,7 @@ fn command_long(command: MavCmd, p: [f32; 3]) -> MavMessage {
     })
 }
 
-/// Returns the median and the 99th percentile, ms.
+/// Returns the median and the 99th percentile in milliseconds.
 fn median_and_p99(mut times: Vec<f64>) -> (f64, f64) {
     times.sort_by(f64::total_cmp);
     (times[times.len() / 2], times[times.len() * 99 / 100])
@@ -100,7 +100,7 @@ fn roll_rate(client: &mut Client) -> f64 {
     client.wait(|m| if let MavMessage::ATTITUDE(a) = m { Some(f64::from(a.rollspeed)) } else { None })
 }
 
-/// Returns the roll rates while the stick is centered, rad/s.
+/// Returns the roll rates while the stick is centered in rad/s.
 fn rest_roll_rates(client: &mut Client, time: Duration) -> Vec<f64> {
     let (begin, mut sent) = (now(), None::<Instant>);
     let mut rates = Vec::new();

@@ -106,7 +106,7 @@ impl Views {
     }
 }
 
-/// Returns the CPU time of this process so far, s. Linux reports it in hundredths of a second; other systems return
+/// Returns the CPU time of this process so far in seconds. Linux reports it in hundredths of a second; other systems return
 /// `None`.
 fn cpu_s() -> Option<f64> {
     const TICKS_PER_S: f64 = 100.0;

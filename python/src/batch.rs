@@ -98,7 +98,7 @@ impl Batch {
         Ok(Self { world: Arc::new(world), threads: threads.min(count), slots: Mutex::new(slots) })
     }
 
-    /// Returns the simulation time per step, s.
+    /// Returns the simulation time per step in seconds.
     fn step_s(&self) -> f64 {
         self.world.kind.step().s()
     }
@@ -134,7 +134,7 @@ impl Batch {
         self.with_episode(index, |episode| episode.digest().iter().map(|byte| format!("{byte:02x}")).collect())
     }
 
-    /// Returns the simulation time of one environment, s.
+    /// Returns the simulation time of one environment in seconds.
     fn time_s(&self, index: usize) -> PyResult<f64> {
         self.with_episode(index, Episode::time_s)
     }

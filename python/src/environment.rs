@@ -225,7 +225,7 @@ impl Episode {
         self.sim.digest()
     }
 
-    /// Returns the simulation time, s.
+    /// Returns the simulation time in seconds.
     pub fn time_s(&self) -> f64 {
         self.sim.now().s()
     }

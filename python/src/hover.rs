@@ -21,7 +21,7 @@ impl Hover {
         Self { point_m: point_m.unwrap_or(job.ground_team.pad_m + Vec3::new(0.0, 0.0, 5.0)) }
     }
 
-    /// Returns the target point, m.
+    /// Returns the target point in meters.
     pub fn point_m(&self) -> Vec3<Enu> {
         self.point_m
     }

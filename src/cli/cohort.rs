@@ -162,7 +162,7 @@ fn words(cohort: &Cohort) -> String {
         let _ = writeln!(out, "\ndemand -> strain -> performance, {} people", model.n);
         for one in &model.indirect {
             let ends = one.interval_95.map_or(String::new(), |[low, high]| format!(" [{low:.2}, {high:.2}]"));
-            let _ = writeln!(out, "at feedback {:.1}: {:.2} % per demand step{ends}", one.feedback, one.effect);
+            let _ = writeln!(out, "at feedback {:.1}: {:.2}% per demand step{ends}", one.feedback, one.effect);
         }
     }
     for one in &cohort.learning {

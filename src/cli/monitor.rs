@@ -367,7 +367,7 @@ impl MonitorProcess {
         };
         let seconds = flown.ms() / 1000;
         let task = monitor.task().map_or("off path".to_owned(), |task| format!("on task {task}"));
-        let battery = monitor.battery_pct().map_or(String::new(), |pct| format!(", battery {pct:.0} %"));
+        let battery = monitor.battery_pct().map_or(String::new(), |pct| format!(", battery {pct:.0}%"));
         format!("{:02}:{:02} of flight, {task}{battery}", seconds / 60, seconds % 60)
     }
 }

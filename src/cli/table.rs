@@ -78,7 +78,7 @@ fn tasks(out: &mut String, assessment: &Value) {
         let state = state.map_or(String::new(), |(state, covered)| format!("{}, ", state.words(covered, done_share)));
         let _ = match (task["attempted"].as_bool(), number(&task["on_path"]), number(&task["speeding"])) {
             (Some(true), Some(on_path), Some(speeding)) => {
-                writeln!(out, "task {id}        {state}on path {:.1} % of the time, speeding loss {speeding:.3}", 100.0 * on_path)
+                writeln!(out, "task {id}        {state}on path {:.1}% of the time, speeding loss {speeding:.3}", 100.0 * on_path)
             }
             _ => writeln!(out, "task {id}        not attempted"),
         };
@@ -132,7 +132,7 @@ mod tests {
     fn exact_scores_table_rounds_numbers() {
         let assessment = json!({
             "completion": {"complete": true, "tasks_done": 2, "tasks": 2, "path_share": 0.914, "landed_at_home": true, "done_share": 0.8},
-            "certification": {"passed": false, "unmet": ["12 % battery at landing, 20 % needed"]},
+            "certification": {"passed": false, "unmet": ["12% battery at landing, 20% needed"]},
             "scores": {"conformity": {"raw": 62.126, "pct": 81.0625}, "efficiency": {"raw": 100.0, "pct": 100.0},
                 "safety": {"raw": -9.0, "pct": 91.0}, "accuracy": null, "overall": 272.0625, "overall_max": 300.0},
             "tasks": [{"id": 1, "attempted": true, "state": "done", "covered": 0.93, "on_path": 0.875, "speeding": 0.25}],
@@ -141,15 +141,15 @@ mod tests {
             "end": {"reason": "landed", "frames": 22500, "seconds": 750.0}, "telemetry": {"missing_frames": 0}
         });
         let expected = "\
-Complete: 2 of 2 tasks, 91 % of the path
+Complete: 2 of 2 tasks, 91% of the path
 score              raw     of 100
 conformity       62.13      81.06
 efficiency      100.00     100.00
 safety           -9.00      91.00
 accuracy           not applicable
 overall                    272.06  of 300
-Not certified: 12 % battery at landing, 20 % needed
-task 1        done (93 % of path), on path 87.5 % of the time, speeding loss 0.250
+Not certified: 12% battery at landing, 20% needed
+task 1        done (93% of path), on path 87.5% of the time, speeding loss 0.250
 crashes       3 with structures or ground, 0 with people, 0 with vehicles (task 1: 2, outside: 1)
 snapshots     5 taken, 3 with defects; 4 of 10 defects found
 end           landed after 12 min 30 s of flight, 0 frames missing
@@ -162,16 +162,16 @@ end           landed after 12 min 30 s of flight, 0 frames missing
         let score = |pct: f64| json!({"raw": pct, "pct": pct});
         let assessment = json!({
             "completion": {"complete": false, "tasks_done": 0, "tasks": 2, "path_share": 0.31, "landed_at_home": true, "done_share": 0.8},
-            "certification": {"passed": false, "unmet": ["task 1 not done: 64 % of its path, 80 % needed", "task 2 not attempted"]},
+            "certification": {"passed": false, "unmet": ["task 1 not done: 64% of its path, 80% needed", "task 2 not attempted"]},
             "scores": {"conformity": score(50.0), "efficiency": score(100.0), "safety": score(100.0), "accuracy": null,
                 "overall": 250.0, "overall_max": 300.0},
             "tasks": [{"id": 1, "attempted": true, "state": "part", "covered": 0.64, "on_path": 0.5, "speeding": 0.0},
                 {"id": 2, "attempted": false, "state": "not_attempted", "covered": 0.0}],
         });
         let text = scores_text(&assessment);
-        let start = "Incomplete: 0 of 2 tasks, 31 % of the path\n\
-            Not certified: task 1 not done: 64 % of its path, 80 % needed (and 1 more)\n\nfor the part that was flown:\n";
+        let start = "Incomplete: 0 of 2 tasks, 31% of the path\n\
+            Not certified: task 1 not done: 64% of its path, 80% needed (and 1 more)\n\nfor the part that was flown:\n";
         assert!(text.starts_with(start), "{text}");
-        assert!(!text.contains("overall") && !text.contains("of 300") && text.contains("partly flown (64 % of path)"), "{text}");
+        assert!(!text.contains("overall") && !text.contains("of 300") && text.contains("partly flown (64% of path)"), "{text}");
     }
 }

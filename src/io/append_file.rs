@@ -83,7 +83,7 @@ impl AppendFile {
         }
     }
 
-    /// Returns the length on disk, bytes.
+    /// Returns the length on disk in bytes.
     pub fn len(&self) -> u64 {
         self.len
     }
@@ -114,7 +114,7 @@ impl AppendFile {
         self.dropped
     }
 
-    /// Returns the size of the data that has not been written yet, bytes.
+    /// Returns the size of the data that has not been written yet in bytes.
     pub fn pending(&self) -> usize {
         self.pending.len()
     }

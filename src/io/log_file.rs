@@ -32,12 +32,12 @@ impl LogFile {
         Ok(Self { path: path.to_path_buf(), len })
     }
 
-    /// Returns the length, bytes.
+    /// Returns the length in bytes.
     pub fn len(&self) -> u64 {
         self.len
     }
 
-    /// Returns the length of all complete records, bytes.
+    /// Returns the length of all complete records in bytes.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
@@ -50,7 +50,7 @@ impl LogFile {
         Ok(splitter.complete_bytes())
     }
 
-    /// Returns the Unix time of simulation time zero, µs; `None` for an empty log.
+    /// Returns the Unix time of simulation time zero in µs; `None` for an empty log.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.

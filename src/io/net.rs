@@ -136,7 +136,7 @@ impl SocketHub {
         }
     }
 
-    /// Binds a UDP port (0 for any free one). If the port is in use, the error message mentions the option `flag`.
+    /// Binds a UDP port (0 for any free one). If the port is in use, the error message mentions the `flag` option.
     ///
     /// # Errors
     /// Returns an error if the port cannot be bound.

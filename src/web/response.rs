@@ -108,7 +108,7 @@ impl WebResponse {
         self
     }
 
-    /// Sets the time after which the client may retry, s.
+    /// Sets the time after which the client may retry in seconds.
     pub fn retry_after(mut self, seconds: Option<u64>) -> Self {
         self.retry_after_s = seconds;
         self

@@ -67,7 +67,7 @@ impl<'a> UploadSpool<'a> {
         Self { folder, max_bytes: most, size: 0, head: Vec::new(), disk: None }
     }
 
-    /// Returns the maximum size, bytes.
+    /// Returns the maximum size in bytes.
     pub fn max_bytes(&self) -> usize {
         self.max_bytes
     }

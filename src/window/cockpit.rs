@@ -226,7 +226,7 @@ impl Cockpit {
         self.mouse = Some((x, y));
     }
 
-    /// Returns the height of the inspector's view on the screen, px.
+    /// Returns the height of the inspector's view on the screen in pixels.
     fn inspector_view_height_px(&self) -> f64 {
         let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
         let eyes = self.flow.arrangement.view_rects().into_iter().find(|view_rect| view_rect.which == ViewKind::Inspector);

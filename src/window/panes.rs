@@ -92,7 +92,7 @@ impl ViewPanes {
         Self { renderer, secondary: aside, job, panes: BTreeMap::new(), last_image: None, meters: Default::default() }
     }
 
-    /// Returns the vector from the inspector to the aircraft, m.
+    /// Returns the vector from the inspector to the aircraft in meters.
     pub fn inspector_to_aircraft(&self, now: &LiveMoment) -> spandrel_model::frames::Vec3<spandrel_model::frames::Enu> {
         now.moment.drone.pose.position_m - self.job.scenario.ground_team.inspector_m
     }

@@ -27,10 +27,10 @@ class Link:
 
 
 CLEAN = Link("clean")
-LOSS_10 = Link("10 % loss", loss=0.10)
-LOSS_30 = Link("30 % loss", loss=0.30)
-LOSS_15 = Link("15 % loss", loss=0.15)
-ROUGH = Link("15 % loss, duplicates, reordering", loss=0.15, duplicates=0.10, reordered=0.10)
+LOSS_10 = Link("10% loss", loss=0.10)
+LOSS_30 = Link("30% loss", loss=0.30)
+LOSS_15 = Link("15% loss", loss=0.15)
+ROUGH = Link("15% loss, duplicates, reordering", loss=0.15, duplicates=0.10, reordered=0.10)
 LINKS = (CLEAN, LOSS_10, LOSS_30, ROUGH)
 
 

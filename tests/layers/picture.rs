@@ -64,7 +64,7 @@ pub fn svg(imports: &Imports) -> String {
     out + "</svg>\n"
 }
 
-/// Returns the start and end of an arrow, px. Arrows at the same box are side by side, in the order of their other
+/// Returns the start and end of an arrow in pixels. Arrows at the same box are side by side, in the order of their other
 /// ends.
 fn arrow((from, to): (&'static str, &'static str), direct: &Imports, centers: &BTreeMap<&str, (usize, usize)>) -> Arrow {
     let spread = |center: usize, mut others: Vec<&str>, other: &str| {
@@ -91,7 +91,7 @@ fn rows(imports: &Imports) -> Vec<Vec<&'static str>> {
     (0..=highest).rev().map(|level| layers().filter(|layer| levels[layer] == level).collect()).collect()
 }
 
-/// Returns the centers of the boxes, px. Starting with the lowest row, sorts the layers of each row by the mean
+/// Returns the centers of the boxes in pixels. Starting with the lowest row, sorts the layers of each row by the mean
 /// position of the layers that they import from.
 fn centers(rows: &[Vec<&'static str>], imports: &Imports) -> BTreeMap<&'static str, (usize, usize)> {
     let mut out: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();

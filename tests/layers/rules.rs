@@ -185,7 +185,7 @@ fn clock_violations(folder: &str, file: &str, code: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns the crate and module of a file: `crates/sitl/src/autopilot/core.rs` is the module `autopilot::core` of the
+/// Returns the crate and module of a file: `crates/sitl/src/autopilot/core.rs` is the `autopilot::core` module of the
 /// crate `sitl`.
 fn module_of(file: &str) -> Option<(&'static str, Vec<String>)> {
     let parts: Vec<&str> = file.trim_end_matches(".rs").split(['/', '\\']).collect();

@@ -48,7 +48,7 @@ impl LocalPlane {
         self.origin
     }
 
-    /// Converts a geographic position to local coordinates, m.
+    /// Converts a geographic position to local coordinates in meters.
     #[must_use]
     pub fn enu_from_geo(&self, geo: Geo) -> Vec3<Enu> {
         let p = ecef_from_geo(geo);

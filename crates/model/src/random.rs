@@ -12,7 +12,7 @@ pub struct RandomStream {
 }
 
 impl RandomStream {
-    /// Creates the stream `name` for `seed`: the SHA-256 of both seeds xoshiro256++.
+    /// Creates the `name` stream for `seed`: the SHA-256 of both seeds xoshiro256++.
     #[must_use]
     pub fn new(seed: u64, name: &str) -> Self {
         let mut hasher = Sha256::new();

@@ -158,7 +158,7 @@ pub struct CrashCounts {
     pub person: usize,
     /// 1 if a vehicle was hit, otherwise 0 (X_v).
     pub vehicle: usize,
-    /// Crash counts by task number; the key `outside` counts crashes outside all windows.
+    /// Crash counts by task number; the `outside` key counts crashes outside all windows.
     pub by_task: serde_json::Map<String, serde_json::Value>,
 }
 

@@ -184,7 +184,7 @@ impl EndRule {
     }
 }
 
-/// Returns the height of the aircraft's center above the pad that counts as lift-off, m.
+/// Returns the height of the aircraft's center above the pad that counts as lift-off in meters.
 #[must_use]
 pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     let stand = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);

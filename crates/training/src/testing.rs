@@ -59,7 +59,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
     }
 }
 
-/// Returns the record of a session that ended early, with only 60 % of the first task's path flown.
+/// Returns the record of a session that ended early, with only 60% of the first task's path flown.
 pub fn aborted_record(trainee: &str, number: usize) -> SessionRecord {
     let mut record = perfect_record(trainee, number);
     record.completion =
@@ -70,7 +70,7 @@ pub fn aborted_record(trainee: &str, number: usize) -> SessionRecord {
     }
     record.end_reason = "abort".into();
     record.certified = false;
-    record.unmet = vec!["task 1 not done: 60 % of its path, 80 % needed".into(), "not landed at home".into()];
+    record.unmet = vec!["task 1 not done: 60% of its path, 80% needed".into(), "not landed at home".into()];
     record
 }
 

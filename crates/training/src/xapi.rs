@@ -149,7 +149,7 @@ mod tests {
         assert!(flight["verb"]["id"].as_str().is_some_and(|verb| verb.ends_with("/attempted")), "{flight}");
         assert_eq!((&flight["result"]["completion"], &flight["result"]["success"]), (&json!(false), &json!(false)));
         assert_eq!(flight["result"]["score"], Value::Null);
-        assert_eq!(flight["result"]["response"], "Incomplete: 0 of 4 tasks, 15 % of the path");
+        assert_eq!(flight["result"]["response"], "Incomplete: 0 of 4 tasks, 15% of the path");
         assert_eq!(flight["result"]["extensions"][COMPLETION]["path_share"], 0.15);
         let task = all.iter().find(|one| one["object"]["id"].as_str().is_some_and(|id| id.ends_with("/tasks/1"))).unwrap();
         assert_eq!((&task["result"]["completion"], &task["result"]["extensions"][COVERED]), (&json!(false), &json!(0.6)));

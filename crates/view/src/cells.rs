@@ -42,7 +42,7 @@ impl BoundingSphere {
         Self { center_m, radius_m }
     }
 
-    /// Returns the distance from a point to the sphere's surface, m; negative within the sphere.
+    /// Returns the distance from a point to the sphere's surface in meters; negative within the sphere.
     #[must_use]
     pub fn distance_to_m(&self, point_m: Vec3<Enu>) -> f64 {
         (point_m - self.center_m).norm() - self.radius_m
@@ -119,7 +119,7 @@ pub fn split_into_cells(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     cells.into_values().map(|(part, _)| part).collect()
 }
 
-/// Returns the distance from the mesh's origin to its farthest vertex, m.
+/// Returns the distance from the mesh's origin to its farthest vertex in meters.
 #[must_use]
 pub fn max_vertex_distance_m(mesh: &Mesh) -> f64 {
     mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max)

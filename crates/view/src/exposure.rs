@@ -90,7 +90,7 @@ impl ExposureMeter {
     }
 }
 
-/// Returns the metered illuminance for exposing the picture, lx.
+/// Returns the metered illuminance for exposing the picture in lx.
 #[must_use]
 pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) -> f64 {
     let mut seen: Vec<f64> = Vec::new();
@@ -116,7 +116,7 @@ fn metered(mut seen: Vec<f64>) -> f64 {
     mean / METERING_TARGET
 }
 
-/// Returns π times the luminance along a ray, lx.
+/// Returns π times the luminance along a ray in lx.
 fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f64 {
     let Some(hit) = site.ray(from, ray, METERING_RANGE_M, light.ambient_at) else {
         return light.sky.visible_lux(Vec3::new(ray.east(), ray.north(), ray.up().max(0.0)));
@@ -177,7 +177,7 @@ mod tests {
         // least as much as 27 middle points: the 17 (whose mean is no less than their geometric mean) and the 10 above.
         // The changed point weighs at most as much as five.
         let leap = math::pow(RANGE, 1.0 / 17.0) * (1.0 + MAX_HIGHLIGHT_WEIGHT / 27.0);
-        // Changing a point by 1 % changes the result by less than 1 % of the point's shares of the geometric mean and
+        // Changing a point by 1% changes the result by less than 1% of the point's shares of the geometric mean and
         // the cap.
         let nudge = 1.0 + 0.01 * (1.0 / 17.0 + MAX_HIGHLIGHT_WEIGHT / 27.0);
         let mut stream = RandomStream::new(7, "view.exposure");

@@ -61,7 +61,7 @@ impl InspectorCamera {
         }
     }
 
-    /// Returns the vertical field of view for an aircraft at a distance, rad.
+    /// Returns the vertical field of view for an aircraft at a distance in radians.
     fn vfov_rad(&self, distance_m: f64) -> f64 {
         let narrowed = if self.follows { AUTO_ZOOM_START_M / distance_m.max(AUTO_ZOOM_START_M) } else { 1.0 };
         let half = math::tan(0.5 * (INSPECTOR_FOV_RAD * narrowed).max(MIN_AUTO_FOV_RAD)) / self.zoom;

@@ -261,7 +261,7 @@ mod tests {
         assert!((volume(&block) - 12.0).abs() < 1e-6, "{}", volume(&block));
         let mut cone = Mesh::default();
         cone.round((Vec3::zero(), 1.0), (Vec3::new(0.0, 0.0, 3.0), 0.0), 64, FINISH);
-        // The volume of a cone with 64 sides is 0.2 % smaller than π.
+        // The volume of a cone with 64 sides is 0.2% smaller than π.
         assert!((volume(&cone) / math::PI - 1.0).abs() < 0.003, "{}", volume(&cone));
         let mut ball = Mesh::default();
         ball.ball(Vec3::new(5.0, 0.0, 0.0), [1.0; 3], 0.0, FINISH);

@@ -94,7 +94,7 @@ impl Sky {
         }
     }
 
-    /// Returns π times the luminance in a direction, lx.
+    /// Returns π times the luminance in a direction in lx.
     #[must_use]
     pub fn visible_lux(&self, direction: Vec3<Enu>) -> f64 {
         self.scale * luminance(relative_radiance(direction, self.sun, self.cloud))

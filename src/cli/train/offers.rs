@@ -164,7 +164,7 @@ mod tests {
         std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
         let ended = flight_summary(folder.path(), None, None);
         assert_eq!((ended.overall, ended.complete), (None, false));
-        assert_eq!(ended.completion.as_deref(), Some("Incomplete: 0 of 4 tasks, 0 % of the path"));
+        assert_eq!(ended.completion.as_deref(), Some("Incomplete: 0 of 4 tasks, 0% of the path"));
         assert_eq!(ended.verdict.as_deref(), Some("Not certified: task 1 not attempted (and 1 more)"));
     }
 }

@@ -188,7 +188,7 @@ fn concurrent_imports_lose_nothing(target: &str) {
 #[test]
 fn exact_sqlite_database() {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("a place with 100 % odd #names?").join("records.sqlite");
+    let file = folder.path().join("a place with 100% odd #names?").join("records.sqlite");
     run_all_tests(&file.display().to_string());
     assert!(file.is_file());
 }

@@ -122,7 +122,7 @@ impl Station {
         self.texts().iter().any(|text| text.contains(what))
     }
 
-    /// Returns the ground speed, m/s.
+    /// Returns the ground speed in m/s.
     pub fn speed(&self) -> f32 {
         self.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None }).unwrap()
     }
@@ -198,7 +198,7 @@ impl Station {
         self.sim.site().plane().enu_from_geo(place.unwrap()).ned().array()
     }
 
-    /// Returns the position after a time, ms.
+    /// Returns the position after a time in milliseconds.
     pub fn local_position_after(&mut self, ms: i64) -> [f32; 3] {
         self.run_ms(ms.max(25));
         self.place()

@@ -97,7 +97,7 @@ impl SearchSpace<'_> {
         self.site.traffic().min_distance_over_time_m(p, still).unwrap_or(still)
     }
 
-    /// Returns the required clearance at a point, m.
+    /// Returns the required clearance at a point in meters.
     fn required_clearance_at_m(&self, p: Vec3<Enu>) -> f64 {
         let Some(keep) = &self.rule else { return self.clearance_m };
         let near = [self.origin, self.to].map(|end| (p - end).norm() < ENDPOINT_RADIUS_M);

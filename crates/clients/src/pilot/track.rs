@@ -119,7 +119,7 @@ impl TrackLeg {
         *progress = best.1;
     }
 
-    /// Returns the speed that the bends within the preview allow, m/s.
+    /// Returns the speed that the bends within the preview allow in m/s.
     fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64) -> f64 {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut ahead_m = start - progress.along_m;

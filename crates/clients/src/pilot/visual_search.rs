@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 /// Interval between fixations, s (estimate from eye movements).
 const GLIMPSE_INTERVAL_S: f64 = 0.25;
-/// Spread of the lognormal detection curve (Campbell et al. 2020: 50 % at 26 mm, 90 % at 113 mm).
+/// Spread of the lognormal detection curve (Campbell et al. 2020: 50% at 26 mm, 90% at 113 mm).
 const POD_SIGMA_LN: f64 = 1.147;
 /// Minimum extent of a clearly visible object, px (estimate).
 const CLEAR_PX: f64 = 40.0;

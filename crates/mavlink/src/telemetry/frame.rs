@@ -31,7 +31,7 @@ pub struct Frame {
     pub position_m: Vec3<Enu>,
     /// Velocity in the scenario frame, m/s.
     pub velocity_m_s: Vec3<Enu>,
-    /// Remaining battery charge, 0 to 100 %.
+    /// Remaining battery charge, 0 to 100%.
     pub battery_pct: f64,
     /// Most severe contact since the previous frame.
     pub contact: ContactKind,
@@ -48,7 +48,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Returns the magnitude of the velocity, m/s.
+    /// Returns the magnitude of the velocity in m/s.
     #[must_use]
     pub fn speed_m_s(&self) -> f64 {
         self.velocity_m_s.norm()

@@ -57,7 +57,7 @@ impl RecordSplitter {
         self.split(1, take)
     }
 
-    /// Returns the length of the log up to the end of the last complete record read so far, bytes.
+    /// Returns the length of the log up to the end of the last complete record read so far in bytes.
     #[must_use]
     pub fn complete_bytes(&self) -> u64 {
         self.complete_bytes

@@ -44,7 +44,7 @@ impl Navigation {
         Some(before_m.lerp(*after_m, (time - *from).ns() as f64 / span.ns() as f64))
     }
 
-    /// Returns the last reported wind velocity, m/s; `None` if the last report is older than 2.5 s.
+    /// Returns the last reported wind velocity in m/s; `None` if the last report is older than 2.5 s.
     #[must_use]
     pub fn wind_m_s(&self, time: SimTime) -> Option<Vec3<Enu>> {
         self.wind_m_s.between(time - MAX_WIND_AGE, time).last().map(|report| report.2)

@@ -34,7 +34,7 @@ pub enum SampleValue {
     Sticks(Sticks),
     /// Lamp state: true if the lamp is on.
     Light(bool),
-    /// Remaining battery charge, 0 to 100 %.
+    /// Remaining battery charge, 0 to 100%.
     Battery(f64),
     /// Kind of the current contact.
     Contact(ContactKind),

@@ -357,7 +357,7 @@ pub struct Flight {
     pub sticks: Signal<[f64; 4]>,
     /// Lamp state: true if the lamp is on.
     pub light: Signal<bool>,
-    /// Remaining battery charge, 0 to 100 %.
+    /// Remaining battery charge, 0 to 100%.
     pub battery: Signal<f64>,
     /// Kind of the current contact.
     pub contact: Signal<ContactKind>,

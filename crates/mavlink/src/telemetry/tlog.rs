@@ -43,7 +43,7 @@ impl<'a> TlogReader<'a> {
         Self { bytes, at: 0, complete_bytes: 0, skipped: 0 }
     }
 
-    /// Returns the length of the log up to the end of the last complete record read so far, bytes. A restarted monitor truncates
+    /// Returns the length of the log up to the end of the last complete record read so far in bytes. A restarted monitor truncates
     /// the file to this length and continues.
     #[must_use]
     pub fn complete_bytes(&self) -> usize {
@@ -101,7 +101,7 @@ impl<'a> Iterator for TlogReader<'a> {
     }
 }
 
-/// Returns the length of a log up to the end of its last complete record, bytes. Truncate the file to this length before
+/// Returns the length of a log up to the end of its last complete record in bytes. Truncate the file to this length before
 /// appending to it.
 #[must_use]
 pub fn complete_len(bytes: &[u8]) -> usize {
@@ -110,7 +110,7 @@ pub fn complete_len(bytes: &[u8]) -> usize {
     reader.complete_bytes()
 }
 
-/// Returns the Unix time of the first record of a log, µs; `None` for an empty log.
+/// Returns the Unix time of the first record of a log in µs; `None` for an empty log.
 #[must_use]
 pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
     TlogReader::new(bytes).next().map(|first| first.timestamp_us)

@@ -286,7 +286,7 @@ pub enum AfterCrash {
 /// Battery model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BatteryModel {
-    /// Discharges linearly from 100 % at lift-off to 0 % over the aircraft's `paper_endurance_s`.
+    /// Discharges linearly from 100% at lift-off to 0% over the aircraft's `paper_endurance_s`.
     Paper,
     /// Computed from open-circuit voltage, internal resistance and power consumption.
     Physical,
@@ -322,7 +322,7 @@ pub struct ScoringParams {
     pub speed_limit_m_s: f64,
     /// Maximum speed of the scoring scale, m/s (30 mph in the TASBID paper).
     pub max_speed_m_s: f64,
-    /// Maximum flight time with an efficiency score of 100 %, s.
+    /// Maximum flight time with an efficiency score of 100%, s.
     pub time_best_s: f64,
     /// Flight time limit, s.
     pub time_max_s: f64,

@@ -22,7 +22,7 @@ const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 const MIN_AXIS_LENGTH_M: f64 = 1e-6;
 
 impl OrientedBox {
-    /// Returns the radius of the bounding sphere about the center, m.
+    /// Returns the radius of the bounding sphere about the center in meters.
     #[must_use]
     pub fn radius_m(&self) -> f64 {
         self.half_m.iter().map(|h| h * h).sum::<f64>().sqrt()

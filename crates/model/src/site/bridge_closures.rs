@@ -44,7 +44,7 @@ impl BridgeClosures {
         [last.next().unwrap_or(0), newest]
     }
 
-    /// Returns true if the bridges are open to traffic that arrives at time `t_s`, s.
+    /// Returns true if the bridges are open to traffic that arrives at time `t_s` in seconds.
     #[must_use]
     pub fn is_open_at(&self, t_s: f64) -> bool {
         self.0.iter().rev().find(|(since, _)| since.s() <= t_s).is_none_or(|(_, open)| *open)

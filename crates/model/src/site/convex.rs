@@ -79,7 +79,7 @@ impl Convex {
         Self { shape, low_m, high_m }
     }
 
-    /// Returns the corners of the axis-aligned bounding box, m.
+    /// Returns the corners of the axis-aligned bounding box in meters.
     #[must_use]
     pub fn bounds(&self) -> (Vec3<Enu>, Vec3<Enu>) {
         (self.low_m, self.high_m)

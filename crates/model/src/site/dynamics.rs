@@ -262,7 +262,7 @@ mod tests {
         assert_eq!(Site::build(&scenario, 8).defects(), &once.defects()[..3]);
     }
 
-    /// Returns the illuminance of the slab's soffit between the stringers at five positions along the arch, lx.
+    /// Returns the illuminance of the slab's soffit between the stringers at five positions along the arch in lx.
     fn soffit_lux(scenario: &Scenario) -> Vec<f64> {
         let site = Site::build(scenario, 1);
         let placement = scenario.bridges[0].placement();

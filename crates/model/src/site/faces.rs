@@ -38,7 +38,7 @@ fn polygon_normal(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
 }
 
 impl MemberFace {
-    /// Returns the distance from a point in the plane of the face to the nearest edge, m; negative outside the face.
+    /// Returns the distance from a point in the plane of the face to the nearest edge in meters; negative outside the face.
     pub(super) fn edge_distance_m(&self, point_m: Vec3<Enu>) -> f64 {
         let count = self.corners_m.len();
         (0..count)

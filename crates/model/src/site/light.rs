@@ -134,7 +134,7 @@ impl LightModel {
         open as f64 / self.upper.len() as f64
     }
 
-    /// Returns the illuminance of a surface with an outward normal, lx. If the normal is `None`, returns the mean over all
+    /// Returns the illuminance of a surface with an outward normal in lx. If the normal is `None`, returns the mean over all
     /// orientations. The lamp is excluded.
     #[must_use]
     pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: SimTime, cast: RayCast) -> f64 {
@@ -359,7 +359,7 @@ mod tests {
         assert!((5e3..=20.5e3).contains(&open(&model(1.0))), "{}", open(&model(1.0)));
         let soffit = |cloud| model(cloud).ambient_lux(Vec3::new(0.0, 0.0, 20.0), Some(DOWN), at, &deck(12.0));
         assert!((200.0..=2000.0).contains(&soffit(1.0)), "{}", soffit(1.0));
-        // In full sun the lake reflects 8 % of 100 klx. The published range assumes no sun on the water.
+        // In full sun the lake reflects 8% of 100 klx. The published range assumes no sun on the water.
         assert!((2000.0..=10_000.0).contains(&soffit(0.0)), "{}", soffit(0.0));
     }
 
@@ -403,7 +403,7 @@ mod tests {
 
     #[test]
     fn val_twilight_matches_the_published_illuminance() {
-        // At the end of civil twilight (-6 deg) the published value is 3.4 lx. The exponential model is accurate to 10 % there.
+        // At the end of civil twilight (-6 deg) the published value is 3.4 lx. The exponential model is accurate to 10% there.
         let (s, c) = math::sin_cos((-6.0_f64).to_radians());
         let dusk = Daylight::at(Vec3::new(c, 0.0, s), 0.0);
         assert!((dusk.sky_lux / 3.4 - 1.0).abs() < 0.1, "{}", dusk.sky_lux);

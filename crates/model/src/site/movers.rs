@@ -47,7 +47,7 @@ impl MoverKind {
         }
     }
 
-    /// Returns half the object's length, m.
+    /// Returns half the object's length in meters.
     #[must_use]
     pub fn half_length_m(self) -> f64 {
         match self {
@@ -57,7 +57,7 @@ impl MoverKind {
         }
     }
 
-    /// Returns the radius of the bounding sphere about the object's position on the road, m.
+    /// Returns the radius of the bounding sphere about the object's position on the road in meters.
     pub(super) fn reach_m(self) -> f64 {
         match self {
             Self::Car => 2.9,

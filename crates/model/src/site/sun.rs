@@ -53,7 +53,7 @@ pub fn direction(unix_s: f64, location: Geo) -> Vec3<Enu> {
     Vec3::new(-cd * sh, sd * cl - cd * ch * sl, sd * sl + cd * ch * cl).unit()
 }
 
-/// Returns the elevation of a direction above the horizon, rad.
+/// Returns the elevation of a direction above the horizon in radians.
 #[must_use]
 pub fn elevation_rad(direction: Vec3<Enu>) -> f64 {
     math::asin(direction.up())

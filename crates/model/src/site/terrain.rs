@@ -128,7 +128,7 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     })
 }
 
-/// Returns the depth of the underside of a bridge below the deck at the ends of its opening, m.
+/// Returns the depth of the underside of a bridge below the deck at the ends of its opening in meters.
 fn underside_depth_m(bridge: &Bridge) -> f64 {
     match &bridge.kind {
         crate::scenario::BridgeKind::Arch(arch) => -arch.intrados_z_m(0.5 * arch.span_m),

@@ -1,5 +1,5 @@
 //! Decides whether a photo captures a defect, by the rule in docs/src/reference/assessment.md, "Photographs". The defect must be
-//! inside the central 80 % of the image, unoccluded, viewed at most 60 degrees from its normal, at least 10 px long in its
+//! inside the central 80% of the image, unoccluded, viewed at most 60 degrees from its normal, at least 10 px long in its
 //! longest visible dimension, at least 0.5 px wide if it is a line, and lit well enough for an exposure within the camera's
 //! limits. The camera is an ideal pinhole; the lamp is at the lens and points along the optical axis.
 
@@ -35,7 +35,7 @@ const OCCLUSION_MARGIN_M: f64 = 0.01;
 pub struct DefectView {
     /// Defect ID ([`PlacedDefect::id`]).
     pub defect_id: u32,
-    /// True if the defect is inside the central 80 % of the image.
+    /// True if the defect is inside the central 80% of the image.
     pub in_frame: bool,
     /// True if most sample points of the defect are in the line of sight.
     pub unoccluded: bool,
@@ -154,7 +154,7 @@ impl DefectView {
         let whole = self.needed_lux.round();
         let needed_lux = if self.illuminance_lux < whole { whole } else { self.needed_lux };
         let words = [
-            "not in the central 80 % of the image".to_owned(),
+            "not in the central 80% of the image".to_owned(),
             "hidden behind something".to_owned(),
             format!(
                 "too oblique: {} deg, limit {} deg",
@@ -195,7 +195,7 @@ fn is_in_frame(px: (f64, f64), camera: &Camera, share: f64) -> bool {
     px.0.abs() <= 0.5 * share * f64::from(camera.width_px) && px.1.abs() <= 0.5 * share * f64::from(camera.height_px)
 }
 
-/// Returns the visible length of a defect, px. Each counted sample point inside the image represents an equal part of the length.
+/// Returns the visible length of a defect in pixels. Each counted sample point inside the image represents an equal part of the length.
 fn visible_px<'a>(
     pose: &CameraPose,
     camera: &Camera,

@@ -113,7 +113,7 @@ impl WindField {
         self.previous_m_s.lerp(self.current_m_s, (since / SAMPLE_PERIOD.s()).clamp(0.0, 1.0))
     }
 
-    /// Returns the constant force of the `paper` model at the center of mass, N; zero in the `physical` model. The force points
+    /// Returns the constant force of the `paper` model at the center of mass in N; zero in the `physical` model. The force points
     /// downwind, including the vertical wind component.
     #[must_use]
     pub fn paper_force_n(&self) -> Vec3<Ned> {
@@ -126,7 +126,7 @@ impl WindField {
         direction * self.wind.paper_force_n
     }
 
-    /// Returns the air velocity including gusts and changes of the mean wind but without turbulence, m/s.
+    /// Returns the air velocity including gusts and changes of the mean wind but without turbulence in m/s.
     #[must_use]
     pub fn mean_velocity(&self, at: SimTime, height_m: f64) -> Vec3<Ned> {
         let mean = mean_at(&self.wind, at);
@@ -247,7 +247,7 @@ mod tests {
     fn exact_turbulence_has_the_specified_variance_and_length_scales() {
         const HEIGHT_M: f64 = 10.0;
         const AIRSPEED_M_S: f64 = 25.0;
-        // Relative tolerance. 30 000 s contain 11 000 time scales of the slowest component, so one standard error is 1.4 %.
+        // Relative tolerance. 30 000 s contain 11 000 time scales of the slowest component, so one standard error is 1.4%.
         const VARIANCE_TOLERANCE: f64 = 0.05;
         // Tolerance on the correlation coefficient at a lag of one time scale: five standard errors.
         const CORRELATION_TOLERANCE: f64 = 0.05;

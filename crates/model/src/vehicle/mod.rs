@@ -114,7 +114,7 @@ pub struct BatterySpec {
     pub avionics_w: f64,
     /// Lamp load when on, W.
     pub lamp_w: f64,
-    /// Endurance of the `paper` battery model, which discharges linearly from 100 % to 0 %, s.
+    /// Endurance of the `paper` battery model, which discharges linearly from 100% to 0%, s.
     pub paper_endurance_s: f64,
 }
 
@@ -216,7 +216,7 @@ pub struct Camera {
 pub const SENSOR_WIDTH_MM: f64 = 6.17;
 
 impl Camera {
-    /// Returns the focal length for a sensor of width [`SENSOR_WIDTH_MM`], mm.
+    /// Returns the focal length for a sensor of width [`SENSOR_WIDTH_MM`] in mm.
     #[must_use]
     pub fn focal_mm(&self) -> f64 {
         0.5 * SENSOR_WIDTH_MM / math::tan(0.5 * self.hfov_rad)
@@ -228,13 +228,13 @@ impl Camera {
         f64::from(self.width_px) / f64::from(self.height_px)
     }
 
-    /// Returns the focal length of the ideal pinhole, px.
+    /// Returns the focal length of the ideal pinhole in pixels.
     #[must_use]
     pub fn focal_px(&self) -> f64 {
         0.5 * f64::from(self.width_px) / math::tan(0.5 * self.hfov_rad)
     }
 
-    /// Returns the vertical field of view, rad.
+    /// Returns the vertical field of view in radians.
     #[must_use]
     pub fn vfov_rad(&self) -> f64 {
         2.0 * math::atan2(0.5 * f64::from(self.height_px), self.focal_px())

@@ -80,7 +80,7 @@ pub const FIELDS: &[JsonField] = &[
     field("certification.gates.all_tasks_attempted", "", "Whether every path was entered."),
     field("certification.gates.no_person_or_vehicle_hit", "", "Whether no person or vehicle was hit."),
     field("certification.gates.landed_at_home", "", "Whether the session ended with a landing at home."),
-    field("certification.gates.battery_reserve", "", "Whether the drone landed with at least 20 % battery."),
+    field("certification.gates.battery_reserve", "", "Whether the drone landed with at least 20% battery."),
     field("certification.unmet[]", "", "Unmet requirements, each with its actual and required value."),
     field(
         "certification.scores.conformity",

@@ -17,7 +17,7 @@ pub enum BatteryColor {
     Red,
 }
 
-/// Returns the display color for a battery charge, %.
+/// Returns the display color for a battery charge in %.
 #[must_use]
 pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     if battery_pct >= limits.battery_green_pct {
@@ -46,8 +46,7 @@ impl BatteryCue {
             BatteryColor::Yellow => cue::BATTERY_YELLOW,
             BatteryColor::Red => cue::BATTERY_RED,
         };
-        let text =
-            worse.then(|| PilotText { cue: bit, text: format!("Battery {:.0} %", moment.battery_pct.unwrap_or_default()) });
+        let text = worse.then(|| PilotText { cue: bit, text: format!("Battery {:.0}%", moment.battery_pct.unwrap_or_default()) });
         (bit, text)
     }
 }

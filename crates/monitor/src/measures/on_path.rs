@@ -59,7 +59,7 @@ impl ReferencePath {
         Self { points_m: points_m.to_vec(), closed, blocks: (0..count).step_by(BLOCK_POINTS).map(block).collect() }
     }
 
-    /// Returns the reference points, m.
+    /// Returns the reference points in meters.
     #[must_use]
     pub fn points_m(&self) -> &[Vec3<Enu>] {
         &self.points_m
@@ -78,7 +78,7 @@ impl ReferencePath {
         Some(NearestOnPath { point, distance_m: squared.sqrt() })
     }
 
-    /// Returns the exact distance to the polyline, m.
+    /// Returns the exact distance to the polyline in meters.
     #[must_use]
     pub fn exact(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let to_segment = |k: usize| {
@@ -89,7 +89,7 @@ impl ReferencePath {
         Some(NearestOnPath { point, distance_m: to_segment(point).sqrt() })
     }
 
-    /// Returns the nearest position anywhere on the polyline, m.
+    /// Returns the nearest position anywhere on the polyline in meters.
     #[must_use]
     pub fn closest_position(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
         let point = self.exact(position_m)?.point;
@@ -104,7 +104,7 @@ impl ReferencePath {
         self.blocks.iter().all(|block| block.distance_squared(position_m.array()) > limit)
     }
 
-    /// Returns each point's distance along the path from the first point, m.
+    /// Returns each point's distance along the path from the first point in meters.
     #[must_use]
     pub fn along_m(&self) -> Vec<f64> {
         let steps = self.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm());
@@ -203,7 +203,7 @@ impl ReferencePaths {
         &self.paths[task]
     }
 
-    /// Returns the on-path threshold of a task, m.
+    /// Returns the on-path threshold of a task in meters.
     #[must_use]
     pub fn threshold_m(&self, task: usize) -> f64 {
         self.thresholds_m[task]

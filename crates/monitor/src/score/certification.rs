@@ -71,7 +71,7 @@ pub struct Requirements {
     pub no_person_or_vehicle_hit: bool,
     /// Whether the drone landed near the ground team.
     pub landed_at_home: bool,
-    /// Whether the drone landed with at least 20 % battery.
+    /// Whether the drone landed with at least 20% battery.
     pub battery_reserve: bool,
 }
 
@@ -229,7 +229,7 @@ fn unmet(evidence: &CertificationInputs<'_>, gates: &Requirements, battery_pct: 
         unmet.push("not landed at home".to_owned());
     } else if !gates.battery_reserve {
         let reached = format_with_limit(battery_pct, MIN_LANDING_BATTERY_PCT, 0);
-        unmet.push(format!("{reached} % battery at landing, {} % needed", format_limit(MIN_LANDING_BATTERY_PCT)));
+        unmet.push(format!("{reached}% battery at landing, {}% needed", format_limit(MIN_LANDING_BATTERY_PCT)));
     }
     unmet
 }
@@ -312,7 +312,7 @@ fn merge_crashes(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
         .collect()
 }
 
-/// Returns the time spent below the minimum clearance, s. The limit is the scenario's or, if lower, the limit of the
+/// Returns the time spent below the minimum clearance in seconds. The limit is the scenario's or, if lower, the limit of the
 /// last task entered, as in the too-close cue.
 fn exposure_s(evidence: &CertificationInputs<'_>) -> f64 {
     let scenario = evidence.scenario;

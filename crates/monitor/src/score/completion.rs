@@ -31,8 +31,8 @@ impl TaskState {
     #[must_use]
     pub fn words(self, covered: f64, done_share: f64) -> String {
         match self {
-            Self::Done => format!("done ({} % of path)", percent(covered, done_share)),
-            Self::Part => format!("partly flown ({} % of path)", percent(covered, done_share)),
+            Self::Done => format!("done ({}% of path)", percent(covered, done_share)),
+            Self::Part => format!("partly flown ({}% of path)", percent(covered, done_share)),
             Self::NotAttempted => "not attempted".to_owned(),
         }
     }
@@ -75,7 +75,7 @@ impl Completion {
         }
     }
 
-    /// Returns the completion as text, such as "Incomplete: 1 of 4 tasks, 31 % of the path".
+    /// Returns the completion as text, such as "Incomplete: 1 of 4 tasks, 31% of the path".
     #[must_use]
     pub fn summary(&self) -> String {
         let word = if self.complete { "Complete" } else { "Incomplete" };
@@ -84,7 +84,7 @@ impl Completion {
         let share =
             if self.tasks == 1 { percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) };
         let tasks = if self.tasks == 1 { "task" } else { "tasks" };
-        format!("{word}: {} of {} {tasks}, {share} % of the path", self.tasks_done, self.tasks)
+        format!("{word}: {} of {} {tasks}, {share}% of the path", self.tasks_done, self.tasks)
     }
 
     /// Returns [`Self::summary`]. Mentions a missing landing only if all tasks are done.
@@ -107,7 +107,7 @@ pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Opti
     match state {
         TaskState::Done => None,
         TaskState::Part => Some(format!(
-            "task {id} not done: {} % of its path, {} % needed",
+            "task {id} not done: {}% of its path, {}% needed",
             percent(covered, done_share),
             format_limit(100.0 * done_share)
         )),

@@ -309,7 +309,7 @@ impl Monitor {
         self.live.current_task.map(|task| self.config.scenario.tasks[task].id)
     }
 
-    /// Returns the remaining battery, %; `None` if not received yet.
+    /// Returns the remaining battery in %; `None` if not received yet.
     #[must_use]
     pub fn battery_pct(&self) -> Option<f64> {
         self.live.battery_pct

@@ -221,9 +221,9 @@ fn exact_battery_cue_turns_yellow_then_red() {
         watch.tape.battery(pct);
         watch.tape.hold(2.0);
         watch.run();
-        assert_eq!(watch.monitor.cues(), bits, "{pct} %");
+        assert_eq!(watch.monitor.cues(), bits, "{pct}%");
     }
-    assert_eq!(watch.texts, ["Battery 69 %", "Battery 29 %"]);
+    assert_eq!(watch.texts, ["Battery 69%", "Battery 29%"]);
 }
 
 #[test]
@@ -283,5 +283,5 @@ fn exact_texts_continue_after_simulator_restart_on_ground() {
         watch.run();
         watch.tape = Tape::new();
     }
-    assert_eq!(watch.texts, ["Battery 60 %", "Battery 60 %"]);
+    assert_eq!(watch.texts, ["Battery 60%", "Battery 60%"]);
 }

@@ -82,7 +82,7 @@ impl StreamSpec {
         flavor.ardupilot_dialect || !self.ardupilot_only
     }
 
-    /// Returns the rate for a kind of link, Hz.
+    /// Returns the rate for a kind of link in Hz.
     #[must_use]
     pub fn rate_hz(&self, kind: LinkKind) -> f64 {
         match kind {

@@ -27,7 +27,7 @@ impl BodyProbe {
         Self { a_m, b_m, radius_m, rotor: None }
     }
 
-    /// Returns the largest distance from the center of mass, m.
+    /// Returns the largest distance from the center of mass in meters.
     #[must_use]
     pub fn reach_m(&self) -> f64 {
         self.a_m.norm().max(self.b_m.norm()) + self.radius_m

@@ -107,7 +107,7 @@ impl BatteryState {
         cells.saturating_sub(self.failed_cells.count_ones())
     }
 
-    /// Returns the remaining charge, %.
+    /// Returns the remaining charge in %.
     #[must_use]
     pub fn remaining_pct(&self) -> f64 {
         self.charge * 100.0
@@ -169,7 +169,7 @@ pub(super) struct ClearSphere {
 }
 
 impl ClearSphere {
-    /// Returns the radius around `position_m` that is guaranteed to be free now, m.
+    /// Returns the radius around `position_m` that is guaranteed to be free now in meters.
     pub(super) fn remaining_radius_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
         self.radius_m - (position_m - self.center_m).norm() - MAX_OBJECT_SPEED_M_S * (now - self.since).s()
     }

@@ -12,7 +12,7 @@ use spandrel_model::vehicle;
 /// First-degree IGRF-13 coefficients g10, g11, h11 for 2020, gauss.
 const DIPOLE_GAUSS: [f64; 3] = [-0.294_048, -0.014_509, 0.046_525];
 
-/// Returns the Earth's magnetic field as a tilted centered dipole, gauss. Its direction is accurate to a few degrees.
+/// Returns the Earth's magnetic field as a tilted centered dipole in gauss. Its direction is accurate to a few degrees.
 #[must_use]
 pub fn earth_field_gauss(place: Geo) -> Vec3<Ned> {
     let [g10, g11, h11] = DIPOLE_GAUSS;
@@ -80,7 +80,7 @@ mod tests {
             assert!((first - later).norm() < 1e-12, "{first:?} {later:?}");
             squares += first.norm_squared() / 1200.0;
         }
-        // With 1,200 samples, three standard errors of the standard deviation are 6 %.
+        // With 1,200 samples, three standard errors of the standard deviation are 6%.
         assert!((squares.sqrt() / 0.01 - 1.0).abs() < 0.06, "{}", squares.sqrt());
     }
 

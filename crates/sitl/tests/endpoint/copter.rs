@@ -55,7 +55,7 @@ pub(super) fn copter() -> Station {
     station
 }
 
-/// Returns a Copter in GUIDED at a height above home, m.
+/// Returns a Copter in GUIDED at a height above home in meters.
 pub(super) fn copter_at(height_m: f32) -> Station {
     let mut station = copter();
     assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);

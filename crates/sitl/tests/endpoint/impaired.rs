@@ -1,4 +1,4 @@
-//! Plans and parameters over a link that loses 30 % of the datagrams, delays them by 200 ms, and reorders and
+//! Plans and parameters over a link that loses 30% of the datagrams, delays them by 200 ms, and reorders and
 //! duplicates them, in both directions, with a client that retries indefinitely. All tests run in simulation time from
 //! a seed. Files: `impaired_files.rs`.
 

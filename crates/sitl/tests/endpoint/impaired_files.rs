@@ -1,4 +1,4 @@
-//! Files over a link that loses 30 % of the datagrams, delays them by 200 ms, and reorders and duplicates them, in both
+//! Files over a link that loses 30% of the datagrams, delays them by 200 ms, and reorders and duplicates them, in both
 //! directions: reading, reading in bursts, and writing.
 
 use super::impaired::{Client, LIMIT_S, TIMEOUT_MS};

@@ -44,7 +44,7 @@ fn offboard(station: &mut Station, setpoint: &MavMessage) {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, mode), MavResult::MAV_RESULT_ACCEPTED);
 }
 
-/// Returns the velocity that the vehicle reports, m/s.
+/// Returns the velocity that the vehicle reports in m/s.
 fn velocity(station: &Station) -> [f32; 3] {
     station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy, p.vz]) } else { None }).unwrap()
 }

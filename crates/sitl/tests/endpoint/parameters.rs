@@ -87,7 +87,7 @@ fn regress_90_percent_of_setup_page_and_test_suite_parameters_exist() {
         all.dedup();
         let missing: Vec<&&str> = all.iter().filter(|name| own.find(name).is_none()).collect();
         let share = 1.0 - missing.len() as f64 / all.len() as f64;
-        println!("flavor {}: {} of {} names, {:.1} %", face.number, all.len() - missing.len(), all.len(), 100.0 * share);
+        println!("flavor {}: {} of {} names, {:.1}%", face.number, all.len() - missing.len(), all.len(), 100.0 * share);
         assert!(share >= MIN_FRACTION, "flavor {}: {share}, missing {missing:?}", face.number);
         let suite = names(lists[1]);
         let known = suite.iter().filter(|(name, _)| own.find(name).is_some()).count();

@@ -227,10 +227,10 @@ fn wire_battery_state_follows_its_parameters() {
     };
     let full =
         station.last_message(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.battery_remaining) } else { None }).unwrap();
-    assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK, "{full} %");
+    assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK, "{full}%");
     set(&mut station, 0.5);
     assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK);
-    // A failed battery has 5 % left.
+    // A failed battery has 5% left.
     station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {
         param_value: f32::from_bits(1),
         target_system: 1,
@@ -248,11 +248,7 @@ fn wire_battery_state_follows_its_parameters() {
     }));
     station.run_ms(5);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, p(&[100.0, 1.0])), OK);
-    assert_eq!(
-        state(&mut station),
-        MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
-        "5 % is above the critical level of 3 %"
-    );
+    assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW, "5% is above the critical level of 3%");
 }
 
 #[test]

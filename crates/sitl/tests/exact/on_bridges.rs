@@ -73,7 +73,7 @@ fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> V
     from + down * distance
 }
 
-/// Returns the distance of the lowest part of a level aircraft below its center, m.
+/// Returns the distance of the lowest part of a level aircraft below its center in meters.
 fn lowest_m(vehicle: &Vehicle) -> f64 {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + FOOT_M;
     if vehicle.hull.caged { feet.max(0.5 * vehicle.hull.tip_to_tip_m) } else { feet }

@@ -79,7 +79,7 @@ impl Run {
         Self::with(seed, Shadow { from: SimTime::NEVER, until: SimTime::NEVER, ground_up_m }, &vehicle)
     }
 
-    /// Returns the error of the estimated height, m.
+    /// Returns the error of the estimated height in meters.
     pub(super) fn height_error_m(&self) -> f64 {
         self.error()[P + 2]
     }
@@ -161,7 +161,7 @@ impl Run {
     }
 }
 
-/// Returns the 95 % band of the mean over `SEEDS` of a chi-squared variable with `n` degrees of freedom
+/// Returns the 95% band of the mean over `SEEDS` of a chi-squared variable with `n` degrees of freedom
 /// (Wilson-Hilferty).
 fn band(n: usize) -> (f64, f64) {
     let k = n as f64 * SEEDS as f64;

@@ -113,7 +113,7 @@ fn flight_battery_actions_follow_their_settings() {
         away(&mut bench, 15.0);
         bench.state.battery.charge = 0.01 * charge_pct;
         bench.run(1.0, |_| ());
-        assert_eq!(mode(&bench), expected, "{battery:?} at {charge_pct} %");
+        assert_eq!(mode(&bench), expected, "{battery:?} at {charge_pct}%");
     }
     // The voltage must be low for the specified time before the failsafe acts.
     let mut bench = airborne(|_| ());

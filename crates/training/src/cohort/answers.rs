@@ -133,9 +133,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
             let words = if own >= MIN_GOOD_SELF_RATING && measured < low {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the bottom quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0}%, in the bottom quarter")
             } else if own < MIN_GOOD_SELF_RATING && measured > high {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0} %, in the top quarter")
+                format!("rated their own performance {own:.1} of 5, but scored {measured:.0}%, in the top quarter")
             } else {
                 continue;
             };

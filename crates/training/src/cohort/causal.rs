@@ -49,7 +49,7 @@ pub struct IndirectEffect {
     pub feedback: f64,
     /// Estimated value.
     pub effect: f64,
-    /// 95 % bootstrap confidence interval; `None` if too few samples could be estimated.
+    /// 95% bootstrap confidence interval; `None` if too few samples could be estimated.
     pub interval_95: Option<[f64; 2]>,
 }
 

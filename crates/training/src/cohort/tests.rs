@@ -89,7 +89,7 @@ fn exact_causal_model_recovers_generating_effects() {
     };
     assert_eq!(model.n, 22);
     assert!((of(&model.strain, "demand") - 0.7).abs() < 0.25, "{:?}", model.strain.coefficients);
-    // 12 points per unit of strain are 3 % of 400.
+    // 12 points per unit of strain are 3% of 400.
     assert!((of(&model.performance, "strain") + 3.0).abs() < 1.5, "{:?}", model.performance.coefficients);
     let middle = model.indirect[1];
     let interval = middle.interval_95.unwrap();

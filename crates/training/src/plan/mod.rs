@@ -331,7 +331,7 @@ fn axis(task: &TaskRecord) -> &'static str {
 fn displayed_value(measure: RuleMeasure, value: f64, limit: f64) -> String {
     match measure {
         RuleMeasure::OffPath | RuleMeasure::Speeding | RuleMeasure::Missed | RuleMeasure::FalseSnapshots => {
-            format!("{} %", format_with_limit(100.0 * value, 100.0 * limit, 0))
+            format!("{}%", format_with_limit(100.0 * value, 100.0 * limit, 0))
         }
         RuleMeasure::OffHeight => format!("{} m", format_with_limit(value, limit, 1)),
         RuleMeasure::Overtime => format!("{} min", format_with_limit(value, limit, 1)),

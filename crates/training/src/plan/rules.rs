@@ -37,7 +37,7 @@ pub enum RuleMeasure {
     Overtime,
     /// 1 if the flight did not end on the pad.
     NotLanded,
-    /// 1 if the battery was below 20 % at the end.
+    /// 1 if the battery was below 20% at the end.
     BatteryLow,
 }
 

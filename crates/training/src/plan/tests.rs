@@ -77,7 +77,7 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
     let plan = plan(&[record], &rules(), NOW).unwrap();
     assert_eq!(plan.steps[0].scenario, "drill-gap");
     let words = &plan.steps[0].reasons[0].words;
-    assert_eq!(words, "The interlayer: off the path for 70 % of the time, mainly vertically. Practice flying in tight spaces.");
+    assert_eq!(words, "The interlayer: off the path for 70% of the time, mainly vertically. Practice flying in tight spaces.");
     assert_eq!(plan.steps[1].scenario, "drill-straight-line");
 }
 
@@ -136,7 +136,7 @@ fn exact_braces_in_task_names_are_not_expanded() {
     record.tasks[2].name = "{value} {axis}".into();
     record.tasks[2].on_path = 0.5;
     let plan = plan(&[record], &rules(), NOW).unwrap();
-    assert!(plan.steps[0].reasons[0].words.starts_with("{value} {axis}: off the path for 50 %"));
+    assert!(plan.steps[0].reasons[0].words.starts_with("{value} {axis}: off the path for 50%"));
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn regress_plan_excludes_and_counts_incomplete_sessions() {
     assert_eq!((with.session.as_str(), with.left_out), ("session-anna-002", 0));
     let none = of(&records[1..], IncompletePolicy::Exclude);
     assert_eq!((none.steps[0].scenario.as_str(), none.left_out), (rules().job.as_str(), 1));
-    assert!(none.steps[0].reasons[0].words.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{:?}", none.steps);
+    assert!(none.steps[0].reasons[0].words.contains("Incomplete: 0 of 4 tasks, 15% of the path"), "{:?}", none.steps);
 }
 
 #[test]

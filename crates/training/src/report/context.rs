@@ -22,7 +22,7 @@ pub struct ReviewContext<'a> {
 }
 
 impl ReviewContext<'_> {
-    /// Converts a simulation time to the time since lift-off, s.
+    /// Converts a simulation time to the time since lift-off in seconds.
     #[must_use]
     pub fn time_since_lift_off_s(&self, time: SimTime) -> f64 {
         self.frames.first().map_or(0.0, |first| (time - first.time).s())

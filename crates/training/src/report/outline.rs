@@ -109,7 +109,7 @@ pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelVi
     found
 }
 
-/// Returns the longer side of the vertices' bounding box, m.
+/// Returns the longer side of the vertices' bounding box in meters.
 fn extent(corners: &[(f64, f64)]) -> f64 {
     let span = |f: fn(&(f64, f64)) -> f64| {
         let (low, high) = corners.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));

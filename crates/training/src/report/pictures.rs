@@ -204,7 +204,7 @@ fn member(scene: &ReviewContext<'_>, object: ObjectId) -> String {
     scene.site.members().get(object.0 as usize).map_or_else(|| scene.site.object_name(object), |member| member.name.clone())
 }
 
-/// Returns the shortest exposure for an illuminance of `lux` at the camera's maximum sensitivity, s. Limited to the
+/// Returns the shortest exposure for an illuminance of `lux` at the camera's maximum sensitivity in seconds. Limited to the
 /// camera's maximum exposure.
 #[must_use]
 pub fn exposure_s(camera: &Camera, lux: f64) -> f64 {

@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn exact_t_with_one_degree_of_freedom_is_cauchy() {
-        // Closed form for one degree of freedom: P(T > 1) = 1/4; the 97.5 % quantile is tan(0.475 pi).
+        // Closed form for one degree of freedom: P(T > 1) = 1/4; the 97.5% quantile is tan(0.475 pi).
         let tails = t_tail_probabilities(1.0, 1.0).unwrap();
         assert!(
             (tails.upper - 0.25).abs() < TOLERANCE

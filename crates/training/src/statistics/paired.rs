@@ -4,7 +4,7 @@ use super::distribution::{TailProbabilities, t_quantile, t_tail_probabilities};
 use super::{StatisticsError, mean, sd};
 use serde::Serialize;
 
-/// Cumulative probability at the upper bound of a 95 % interval.
+/// Cumulative probability at the upper bound of a 95% interval.
 pub(super) const UPPER_PROBABILITY_95: f64 = 0.975;
 
 /// Result of a paired t test of later minus earlier values.
@@ -25,7 +25,7 @@ pub struct PairedTest {
     /// Cohen's d for pairs: mean difference divided by the standard deviation of the differences; `None` if `t` is
     /// `None`.
     pub effect_size_dz: Option<f64>,
-    /// 95 % confidence interval of the mean difference.
+    /// 95% confidence interval of the mean difference.
     pub interval_95: [f64; 2],
 }
 
@@ -85,7 +85,7 @@ mod tests {
         assert!((test.t.unwrap() - t).abs() < EXACT);
         assert!((test.p.unwrap().upper - (0.5 - t / (2.0 * (2.0 + t * t).sqrt()))).abs() < EXACT);
         assert_eq!(test.effect_size_dz, Some(2.0));
-        // The 97.5 % quantile with two degrees of freedom is 0.95 sqrt (2 / (1 - 0.95^2)).
+        // The 97.5% quantile with two degrees of freedom is 0.95 sqrt (2 / (1 - 0.95^2)).
         let reach = 0.95 * (2.0f64 / (1.0 - 0.95 * 0.95)).sqrt() / 3.0f64.sqrt();
         assert!((test.interval_95[0] - (2.0 - reach)).abs() < 1e-9 && (test.interval_95[1] - (2.0 + reach)).abs() < 1e-9);
     }

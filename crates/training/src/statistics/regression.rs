@@ -22,7 +22,7 @@ pub struct Coefficient {
     pub t: Option<f64>,
     /// Two-tailed p value; `None` if `t` is `None`.
     pub p: Option<f64>,
-    /// 95 % confidence interval of the estimate.
+    /// 95% confidence interval of the estimate.
     pub interval_95: [f64; 2],
 }
 

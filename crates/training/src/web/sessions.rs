@@ -290,8 +290,8 @@ mod tests {
     fn regress_incomplete_session_shows_completion_without_overall_score() {
         let record = aborted_record("anna", 1);
         let text = session(&administrator(), &record, &SessionPageData { folder: true, others: &[] }).into_string();
-        assert!(text.contains("Incomplete: 0 of 4 tasks, 15 % of the path"), "{text}");
-        assert!(text.contains("Not certified: task 1 not done: 60 % of its path, 80 % needed (and 1 more)"), "{text}");
+        assert!(text.contains("Incomplete: 0 of 4 tasks, 15% of the path"), "{text}");
+        assert!(text.contains("Not certified: task 1 not done: 60% of its path, 80% needed (and 1 more)"), "{text}");
         assert!(text.contains("cover only the part that was flown") && !text.contains("<h3>Overall</h3>"), "{text}");
         assert!(
             session(&administrator(), &perfect_record("anna", 1), &SessionPageData { folder: true, others: &[] })

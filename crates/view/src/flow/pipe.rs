@@ -211,7 +211,7 @@ mod tests {
         let ended = FlightSummary {
             scores: [score, None, score, None],
             overall: Some((182.5, 200.0)),
-            completion: Some("Complete: 1 of 1 task, 92 % of the path".into()),
+            completion: Some("Complete: 1 of 1 task, 92% of the path".into()),
             complete: true,
             verdict: Some("Certified".into()),
             why: "landed".into(),

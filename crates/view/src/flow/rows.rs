@@ -57,7 +57,7 @@ impl WindowFlow {
             rows.push(MenuRow::button(MenuAction::FindController, "Search for controller"));
         }
         if controls.is_connected() && controls.calibrated {
-            rows.push(MenuRow::choice(MenuAction::DeadBand, "Dead band", format!("{:.0} %", 100.0 * controls.dead_band)));
+            rows.push(MenuRow::choice(MenuAction::DeadBand, "Dead band", format!("{:.0}%", 100.0 * controls.dead_band)));
             rows.push(MenuRow::choice(MenuAction::Expo, "Expo", format!("{:.1}", controls.expo)));
         }
         rows.push(MenuRow::button(MenuAction::Back, "Back (Esc)"));

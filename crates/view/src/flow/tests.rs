@@ -37,9 +37,9 @@ fn ended() -> FlightSummary {
     FlightSummary {
         scores: [score(81.25), score(100.0), score(91.0), None],
         overall: Some((272.25, 300.0)),
-        completion: Some("Complete: 4 of 4 tasks, 98 % of the path".into()),
+        completion: Some("Complete: 4 of 4 tasks, 98% of the path".into()),
         complete: true,
-        verdict: Some("Not certified: 12 % battery at landing, 20 % needed".into()),
+        verdict: Some("Not certified: 12% battery at landing, 20% needed".into()),
         why: "landed after 12 min 30 s".into(),
         report: Some("file:///sessions/a/report.html".into()),
         questionnaire: "http://127.0.0.1:8080/sessions/a/questions".into(),

@@ -52,7 +52,7 @@ pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     }
     let filled = (!dark).then_some((pct / 100.0).clamp(0.0, 1.0));
     items.extend(battery_symbol(pane, (from + 0.062, y), filled, color));
-    items.push(pane.text(words_at, TextAlign::Right, MIDDLE, color, format!("{pct:.0} %")));
+    items.push(pane.text(words_at, TextAlign::Right, MIDDLE, color, format!("{pct:.0}%")));
     items
 }
 

@@ -27,7 +27,7 @@ const PADDING: f64 = 0.4;
 const ICON_COLUMN_WIDTH: f64 = 1.3;
 const ICON_HEIGHT: f64 = 0.8;
 
-/// Returns the HUD items for a picture of this size, px.
+/// Returns the HUD items for a picture of this size in pixels.
 pub fn essential_items(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<DrawItem> {
     let wanted_px = (FONT_SHARE * Pane::unit((width_px, height_px))).max(LEGIBLE_PX);
     let type_px = wanted_px.min(width_px / MIN_WIDTH).min(height_px / MIN_HEIGHT);
@@ -54,7 +54,7 @@ fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
         return block(pane, (pane.width - EDGE - width(words, false), EDGE), None, HudColor::Gray, words);
     };
     let ChargeStyle { color, shape, blinked_off: dark } = charge_style(hud, pct);
-    let words = format!("{pct:.0} %");
+    let words = format!("{pct:.0}%");
     block(pane, (pane.width - EDGE - width(&words, true), EDGE), Some((shape, !dark)), color, &words)
 }
 

@@ -59,7 +59,7 @@ fn snapshot(hud: &Hud) -> String {
 
 #[test]
 fn regress_hud_in_normal_flight() {
-    let expected = "  2   6 White: 3.2 m/s\n  2  11 Gray: 7 mph, limit 10\n 98   6 Green: 76 %\n 50   5 White: Position   GNSS 14   link ok\n \
+    let expected = "  2   6 White: 3.2 m/s\n  2  11 Gray: 7 mph, limit 10\n 98   6 Green: 76%\n 50   5 White: Position   GNSS 14   link ok\n \
                     87  13 Gray: height\n 98  13 White: 21.4 m\n 87  17 Gray: home\n 98  17 White: 118 m\n 87  21 Gray: gimbal\n \
                     98  21 White: +20°\n 87  25 Gray: time left\n 98  25 White: 20:34\n 87  28 Gray: lamp\n 98  28 White: off\n \
                     87  32 Gray: pictures\n 98  32 White: 3\n 89  88 Gray: 1\n 91  72 Gray: N\n";
@@ -71,7 +71,7 @@ fn exact_item_positions_match_the_assessment_rules() {
     let all = Hud { cues: ALL_CUES, hit: Some("bridge".into()), ..hud() };
     let speed = find(&all, "3.2 m/s").unwrap().0;
     assert!(speed.x < 0.3 && speed.y < 0.2, "the speed must be at the upper left");
-    let battery = find(&all, "76 %").unwrap().0;
+    let battery = find(&all, "76%").unwrap().0;
     assert!(battery.x > 0.7 && battery.y < 0.2, "the battery must be at the upper right");
     for words in ["CRASH: bridge", "TOO CLOSE", "TOO FAST", "OFF THE PATH"] {
         let place = find(&all, words).unwrap().0;
@@ -83,10 +83,10 @@ fn exact_item_positions_match_the_assessment_rules() {
 #[test]
 fn exact_battery_color_changes_at_70_and_30_and_red_blinks() {
     let at = |pct: f64, time_s: f64| Hud { battery_pct: Some(pct), time_s, ..hud() };
-    assert_eq!(find(&at(70.0, 0.0), "70 %").unwrap().1, HudColor::Green);
-    assert_eq!(find(&at(69.9, 0.0), "70 %").unwrap().1, HudColor::Yellow);
-    assert_eq!(find(&at(30.0, 0.0), "30 %").unwrap().1, HudColor::Yellow);
-    assert_eq!(find(&at(29.0, 0.0), "29 %").unwrap().1, HudColor::Red);
+    assert_eq!(find(&at(70.0, 0.0), "70%").unwrap().1, HudColor::Green);
+    assert_eq!(find(&at(69.9, 0.0), "70%").unwrap().1, HudColor::Yellow);
+    assert_eq!(find(&at(30.0, 0.0), "30%").unwrap().1, HudColor::Yellow);
+    assert_eq!(find(&at(29.0, 0.0), "29%").unwrap().1, HudColor::Red);
     let fills = |hud: &Hud| layout(hud, WIDE).iter().filter(|i| matches!(i, DrawItem::Fill { .. })).count();
     assert!(fills(&at(29.0, 0.1)) > fills(&at(29.0, 0.3)), "red must blink");
     assert_eq!(fills(&at(50.0, 0.1)), fills(&at(50.0, 0.3)), "yellow must not blink");
@@ -146,8 +146,8 @@ fn exact_texts_in_every_abnormal_state() {
     let hit = Some("bridge member arch/rib-left/07".to_owned());
     let states: [(Hud, &[&str]); 18] = [
         (hud(), &[]),
-        (Hud { battery_pct: Some(52.4), ..hud() }, &["Yellow: 52 %"]),
-        (Hud { battery_pct: Some(17.0), ..hud() }, &["Red: 17 %"]),
+        (Hud { battery_pct: Some(52.4), ..hud() }, &["Yellow: 52%"]),
+        (Hud { battery_pct: Some(17.0), ..hud() }, &["Red: 17%"]),
         (Hud { battery_pct: None, ..hud() }, &["Gray: no battery data"]),
         (warned(cue::SPEEDING), &["Yellow: 3.2 m/s", "Yellow: TOO FAST: limit 10 mph"]),
         (warned(cue::OFF_PATH), &["Blue: OFF THE PATH"]),
@@ -188,11 +188,11 @@ fn exact_small_picture_shows_speed_battery_and_warnings() {
     let wrong = Hud { cues: ALL_CUES, telemetry_age_s: 4.0, battery_pct: Some(17.0), ..hud() };
     for size_px in [(432.0, 324.0), (288.0, 216.0), (192.0, 144.0)] {
         let calm = words(&hud(), size_px);
-        assert_eq!(calm.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>(), ["3.2 m/s", "76 %"]);
+        assert_eq!(calm.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>(), ["3.2 m/s", "76%"]);
         let all = words(&wrong, size_px);
         assert_eq!(
             all.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>(),
-            ["3.2 m/s", "17 %", "LINK LOST 4 s", "CRASH", "TOO CLOSE", "TOO FAST", "OFF THE PATH"]
+            ["3.2 m/s", "17%", "LINK LOST 4 s", "CRASH", "TOO CLOSE", "TOO FAST", "OFF THE PATH"]
         );
         assert!(all.iter().all(|(height, _)| height * size_px.1 > 11.99), "{size_px:?}: {all:?}");
     }

@@ -349,7 +349,7 @@ impl LiveFlight {
         self.next_rotors.get_or_insert(SimTime::ZERO);
     }
 
-    /// Returns the rotor speeds from the autopilot's outputs, rad/s; empty if the rotors are stopped or their speed is
+    /// Returns the rotor speeds from the autopilot's outputs in rad/s; empty if the rotors are stopped or their speed is
     /// unknown.
     #[must_use]
     pub fn rotors_rad_s(&self, vehicle: &Vehicle) -> Vec<f64> {
@@ -395,7 +395,7 @@ impl LiveFlight {
     }
 }
 
-/// Returns a request to send a message at a rate, Hz.
+/// Returns a request to send a message at a rate in Hz.
 fn message_interval_request(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
     let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))

@@ -68,7 +68,7 @@ impl MotionHistory {
         Some(before.motion.lerp(&next.motion, t))
     }
 
-    /// Returns the gimbal's pitch at a time, rad; zero without samples.
+    /// Returns the gimbal's pitch at a time in radians; zero without samples.
     #[must_use]
     pub fn gimbal_at(&self, time: SimTime) -> f64 {
         self.gimbal.at(time).unwrap_or(0.0)
@@ -81,7 +81,7 @@ impl MotionHistory {
         self.lens.at(time.saturating_sub(LENS_DELAY))
     }
 
-    /// Returns the horizontal field of view at a time of a fully recorded flight, rad; `None` without samples.
+    /// Returns the horizontal field of view at a time of a fully recorded flight in radians; `None` without samples.
     #[must_use]
     pub fn reported_lens_at(&self, time: SimTime) -> Option<f64> {
         self.lens.at(time)

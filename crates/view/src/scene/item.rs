@@ -88,13 +88,13 @@ impl VisibleRange {
     /// Visible only in the lake's reflection, for simplified substitutes.
     pub const LAKE_ONLY: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
 
-    /// Returns the range of distances up to this one, m.
+    /// Returns the range of distances up to this one in meters.
     #[must_use]
     pub const fn within(most_m: f64) -> [f64; 2] {
         [f64::NEG_INFINITY, most_m]
     }
 
-    /// Returns the range of distances beyond this one, m.
+    /// Returns the range of distances beyond this one in meters.
     #[must_use]
     pub const fn beyond(least_m: f64) -> [f64; 2] {
         [least_m, f64::INFINITY]

@@ -126,7 +126,7 @@ impl Scene {
         }
     }
 
-    /// Returns the height of the water surface, m.
+    /// Returns the height of the water surface in meters.
     #[must_use]
     pub fn water_m(&self) -> f64 {
         self.water_m

@@ -19,7 +19,7 @@ impl PictureRate {
         }
     }
 
-    /// Returns the picture rate, Hz, or `None` before the second picture.
+    /// Returns the picture rate in Hz, or `None` before the second picture.
     #[must_use]
     pub fn hz(&self) -> Option<f64> {
         let (first, last) = (self.0.front()?, self.0.back()?);

@@ -53,12 +53,12 @@ impl Wall {
         Self { studio, crack, patches }
     }
 
-    /// Returns the size of a pixel on the wall at a distance, m.
+    /// Returns the size of a pixel on the wall at a distance in meters.
     fn gsd_m(&self, distance_m: f64) -> f64 {
         distance_m / self.studio.vehicle.camera.focal_px()
     }
 
-    /// Returns pictures of the wall with and without the crack at a ground sampling distance, m.
+    /// Returns pictures of the wall with and without the crack at a ground sampling distance in meters.
     fn pair(&mut self, gsd_m: f64) -> [Picture; 2] {
         let focal_px = self.studio.vehicle.camera.focal_px();
         let hfov_deg = (2.0 * math::atan(0.5 * f64::from(CROP_PX.0) / focal_px)).to_degrees();
@@ -136,13 +136,13 @@ fn val_crack_visibility_depends_on_its_width_in_pixels() {
     );
 }
 
-/// As the camera moves away from a crack in steps of 6 %, the contrast must decrease without jumps.
+/// As the camera moves away from a crack in steps of 6%, the contrast must decrease without jumps.
 #[test]
 fn prop_contrast_decreases_smoothly() {
     const STEP: f64 = 0.94;
     // Rounding to 8 bits, and different rows of the wall in the picture.
     const MAX_RISE: f64 = 0.01;
-    // The contrast is inversely proportional to the distance, so a step changes it by 6 %, or by up to twice that where
+    // The contrast is inversely proportional to the distance, so a step changes it by 6%, or by up to twice that where
     // the edge of the line leaves the adjacent pixel.
     const MAX_FALL: f64 = 0.08;
     let mut wall = Wall::new();

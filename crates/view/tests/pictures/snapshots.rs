@@ -31,7 +31,7 @@ struct Snapshot {
 }
 
 /// Returns a photo of a defect from a position that an aircraft can reach, with the defect somewhere within the central
-/// 80 %.
+/// 80%.
 fn snapshot(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect, stream: &mut RandomStream) -> Option<Snapshot> {
     let level = if defect.normal.up().abs() > 0.9 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 0.0, 1.0) };
     let across = level.cross(defect.normal).unit();
@@ -175,10 +175,10 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
     assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
 }
 
-/// Returns the minimum, the 10 % quantile, the median and the maximum as text.
+/// Returns the minimum, the 10% quantile, the median and the maximum as text.
 fn summary(all: &[DefectVisibility]) -> String {
     let mut values: Vec<f64> = all.iter().map(|shows| shows.signal_to_noise).collect();
     values.sort_by(f64::total_cmp);
     let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share) as usize).copied().unwrap_or(f64::NAN);
-    format!("least {:.1}, 10 % {:.1}, median {:.1}, most {:.1}", at(0.0), at(0.1), at(0.5), at(1.0))
+    format!("least {:.1}, 10% {:.1}, median {:.1}, most {:.1}", at(0.0), at(0.1), at(0.5), at(1.0))
 }

@@ -40,7 +40,7 @@ bridge_dimensions! {
 }
 
 impl Arch {
-    /// Returns the length of the deck, m.
+    /// Returns the length of the deck in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         self.span_m + 2.0 * self.approach_m
@@ -60,13 +60,13 @@ impl Arch {
         self.crown_depth_m + (self.springing_depth_m - self.crown_depth_m) * u * u
     }
 
-    /// Returns the height of the top of the rib at x, m.
+    /// Returns the height of the top of the rib at x in meters.
     #[must_use]
     pub fn extrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) + 0.5 * self.rib_depth_m(x)
     }
 
-    /// Returns the height of the underside of the rib at x, m.
+    /// Returns the height of the underside of the rib at x in meters.
     #[must_use]
     pub fn intrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) - 0.5 * self.rib_depth_m(x)
@@ -93,7 +93,7 @@ impl Arch {
         math::lerp(self.extrados_z_m(from), self.extrados_z_m(from + step), (x - from) / step)
     }
 
-    /// Returns the height of the underside of the floorbeams, m.
+    /// Returns the height of the underside of the floorbeams in meters.
     #[must_use]
     pub fn floorbeam_z_m(&self) -> f64 {
         -self.slab_m - self.floorbeam_depth_m
@@ -238,7 +238,7 @@ impl Arch {
         add_railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::RcRailing);
     }
 
-    /// Returns the height of the underside of abutments and skewbacks, m.
+    /// Returns the height of the underside of abutments and skewbacks in meters.
     #[must_use]
     pub fn foundation_z_m(&self) -> f64 {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_DEPTH_M

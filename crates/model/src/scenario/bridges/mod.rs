@@ -53,7 +53,7 @@ pub struct Lane {
 /// A bridge type in the format of scenario files.
 #[derive(Debug, Clone, Copy)]
 pub struct BridgeType {
-    /// Value of the key `type`, and name of the table with the dimensions.
+    /// Value of the `type` key, and name of the table with the dimensions.
     pub name: &'static str,
     /// Keys in the table with the dimensions.
     pub fields: &'static [BridgeField],
@@ -100,7 +100,7 @@ impl Bridge {
         builder.finish()
     }
 
-    /// Returns the length of the deck, m.
+    /// Returns the length of the deck in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         match &self.kind {
@@ -109,7 +109,7 @@ impl Bridge {
         }
     }
 
-    /// Returns the width of the deck, m.
+    /// Returns the width of the deck in meters.
     #[must_use]
     pub fn deck_width_m(&self) -> f64 {
         match &self.kind {
@@ -118,7 +118,7 @@ impl Bridge {
         }
     }
 
-    /// Returns half the length of the opening under the bridge that must stay free of terrain, m.
+    /// Returns half the length of the opening under the bridge that must stay free of terrain in meters.
     #[must_use]
     pub fn opening_half_m(&self) -> f64 {
         match &self.kind {
@@ -150,7 +150,7 @@ impl Bridge {
         vec![lane(-0.19 * width, false), lane(0.19 * width, false), lane(-0.43 * width, true), lane(0.43 * width, true)]
     }
 
-    /// Returns the reference path of a task kind at a stand-off distance, m.
+    /// Returns the reference path of a task kind at a stand-off distance in meters.
     ///
     /// # Errors
     /// Returns the supported path kinds as text if the bridge type has no such path.

@@ -52,13 +52,13 @@ bridge_dimensions! {
 }
 
 impl Suspension {
-    /// Returns the length of the deck between the anchorages' far ends, m.
+    /// Returns the length of the deck between the anchorages' far ends in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         self.main_span_m + 2.0 * (self.side_span_m + self.anchorage_m)
     }
 
-    /// Returns the height of the cable at x, m. The cable is a parabola in the main span and straight in the side spans.
+    /// Returns the height of the cable at x in meters. The cable is a parabola in the main span and straight in the side spans.
     #[must_use]
     pub fn cable_z_m(&self, x: f64) -> f64 {
         let half = 0.5 * self.main_span_m;
@@ -78,13 +78,13 @@ impl Suspension {
         0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M + LEG_GAP_M + 0.5 * self.leg_y_m
     }
 
-    /// Returns the height of the underside of the girders, m.
+    /// Returns the height of the underside of the girders in meters.
     #[must_use]
     pub fn girder_z_m(&self) -> f64 {
         -self.slab_m - self.girder_depth_m
     }
 
-    /// Returns the distance from midspan to the point where the cables enter the anchorages, m.
+    /// Returns the distance from midspan to the point where the cables enter the anchorages in meters.
     #[must_use]
     pub fn anchor_x_m(&self) -> f64 {
         0.5 * self.main_span_m + self.side_span_m
@@ -256,7 +256,7 @@ impl Suspension {
         }
     }
 
-    /// Returns half the width of an anchorage, m.
+    /// Returns half the width of an anchorage in meters.
     fn anchorage_half_m(&self) -> f64 {
         self.cable_y_m() + self.cable_radius_m + 0.45
     }

@@ -393,7 +393,7 @@ impl Estimator {
         }
     }
 
-    /// Returns the accumulated position reset to GNSS since the last call, m.
+    /// Returns the accumulated position reset to GNSS since the last call in meters.
     pub fn take_position_reset(&mut self) -> Option<Vec3<Ned>> {
         let step_m = self.position_step_m.take();
         self.position_resets += u32::from(step_m.is_some());

@@ -27,11 +27,11 @@ impl BatteryMonitor {
         let (low, critical) = (input.tuning.battery_low_pct, input.tuning.battery_critical_pct);
         if left_pct < low && !self.low_warned {
             self.low_warned = true;
-            events.push(Severity::Warning, format!("Low battery: {left_pct:.0} %"));
+            events.push(Severity::Warning, format!("Low battery: {left_pct:.0}%"));
         }
         if left_pct < critical && !self.critical_warned {
             self.critical_warned = true;
-            events.push(Severity::Critical, format!("Critical battery: {left_pct:.0} %"));
+            events.push(Severity::Critical, format!("Critical battery: {left_pct:.0}%"));
         }
         // Changing the battery on the ground re-enables the warnings.
         if left_pct > low + 5.0 {

@@ -118,7 +118,7 @@ impl Follower {
         (age_s <= TARGET_TIMEOUT_S * client_speed_factor && !far).then_some(FollowTarget { position_m, ..target })
     }
 
-    /// Returns the desired vehicle position for a target, m.
+    /// Returns the desired vehicle position for a target in meters.
     pub fn position_near(
         &mut self,
         target: &FollowTarget,

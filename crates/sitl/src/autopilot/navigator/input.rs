@@ -42,7 +42,7 @@ pub struct NavigatorInput<'a> {
 }
 
 impl NavigatorInput<'_> {
-    /// Returns the estimated position, m.
+    /// Returns the estimated position in meters.
     #[must_use]
     pub fn here(&self) -> Vec3<Ned> {
         self.estimate.position_m

@@ -62,7 +62,7 @@ pub struct AccelerationLimits {
 }
 
 impl AccelerationLimits {
-    /// Creates limits for an aircraft with this acceleration. Reserves 50 % of the horizontal and 30 % of the vertical
+    /// Creates limits for an aircraft with this acceleration. Reserves 50% of the horizontal and 30% of the vertical
     /// acceleration for wind and control errors.
     #[must_use]
     pub fn within(horizontal_m_s2: f64, vertical_m_s2: f64) -> Self {

@@ -331,7 +331,7 @@ fn exact_long_listing_can_be_read_entry_by_entry() {
     assert_eq!((seen[40].as_str(), seen[41].as_str()), ("S", "Fy\t0"));
 }
 
-/// Loses 30 % and duplicates 10 % of the packets, in both directions.
+/// Loses 30% and duplicates 10% of the packets, in both directions.
 fn impair(packets: Vec<FtpPacket>, random: &mut RandomStream) -> Vec<FtpPacket> {
     let mut out: Vec<FtpPacket> = Vec::new();
     for packet in packets {

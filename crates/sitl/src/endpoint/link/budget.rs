@@ -78,7 +78,7 @@ impl LinkBudget {
         waiting as f64 > self.bytes_s * SATURATED_BACKLOG_S
     }
 
-    /// Returns the maximum backlog, bytes.
+    /// Returns the maximum backlog in bytes.
     #[must_use]
     pub fn max_backlog(&self) -> usize {
         (self.bytes_s * MAX_BACKLOG_S) as usize

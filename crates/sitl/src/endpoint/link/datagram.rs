@@ -16,7 +16,7 @@ impl ReceivedDatagram {
         Self { bytes: bytes.to_vec(), decoded: None }
     }
 
-    /// Returns the length, bytes.
+    /// Returns the length in bytes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.bytes.len()

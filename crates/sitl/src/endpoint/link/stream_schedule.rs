@@ -49,7 +49,7 @@ impl StreamSchedule {
         Self { streams, next_due: now }
     }
 
-    /// Returns the sum of all rates, Hz.
+    /// Returns the sum of all rates in Hz.
     #[must_use]
     pub fn total_hz(&self) -> f64 {
         self.streams.iter().filter_map(|stream| stream.interval).map(|interval| 1.0 / interval.s()).sum()

@@ -50,13 +50,13 @@ impl PayloadInput<'_> {
         self.plane.geo_from_enu(self.truth.position_m.enu())
     }
 
-    /// Returns the height of home above the site's origin, m; 0 before home is set.
+    /// Returns the height of home above the site's origin in meters; 0 before home is set.
     #[must_use]
     pub fn home_up_m(&self) -> f64 {
         self.home_m.map_or(0.0, |home| -home.down())
     }
 
-    /// Returns the height above home, m.
+    /// Returns the height above home in meters.
     #[must_use]
     pub fn height_above_home_m(&self) -> f64 {
         self.home_m.map_or(0.0, |home| home.down()) - self.position_m.down()

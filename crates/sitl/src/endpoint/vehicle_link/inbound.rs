@@ -34,7 +34,7 @@ impl InboundMessage<'_, '_> {
         self.aircraft.clock.now
     }
 
-    /// Returns the height of home above the site's origin, m; 0 before home is set.
+    /// Returns the height of home above the site's origin in meters; 0 before home is set.
     pub fn home_up_m(&self) -> f64 {
         self.autopilot.status().home_m.map_or(0.0, |home| -home.down())
     }

@@ -128,7 +128,7 @@ impl VehicleSnapshot<'_> {
         self.camera.lens(&self.vehicle.camera)
     }
 
-    /// Returns the height above home, m.
+    /// Returns the height above home in meters.
     #[must_use]
     pub fn height_above_home_m(&self) -> f64 {
         let home = self.status.home_m.map_or(0.0, |h| h.down());

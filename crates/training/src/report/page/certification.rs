@@ -16,7 +16,7 @@ pub fn section(review: &Review) -> Markup {
         ("every task attempted", c.gates.all_tasks_attempted),
         ("no person or vehicle hit", c.gates.no_person_or_vehicle_hit),
         ("landed near the ground team", c.gates.landed_at_home),
-        ("at least 20 % battery at landing", c.gates.battery_reserve),
+        ("at least 20% battery at landing", c.gates.battery_reserve),
     ];
     html! {
         p { "This second profile adds pass/fail requirements that close loopholes in the four TASBID scores. "
@@ -29,7 +29,7 @@ pub fn section(review: &Review) -> Markup {
         @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
         p { "Closer than " (formatting::number(review.scenario.scoring.clearance_m, 1)) " m to a surface for " (formatting::number(c.exposure_s, 1))
             " s; " (c.crash_onsets) " contacts, or " (c.crashes.len()) " after merging contacts less than a second apart; "
-            (formatting::number(c.battery_at_end_pct, 0)) " % battery remaining at the end." }
+            (formatting::number(c.battery_at_end_pct, 0)) "% battery remaining at the end." }
         (visits_table(review).folded())
         (detection_table(review).folded())
     }

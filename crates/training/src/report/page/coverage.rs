@@ -24,7 +24,7 @@ pub fn section(review: &Review) -> Markup {
     let share = |area: f64| formatting::number(100.0 * area / total.inspectable_m2, 0);
     let key: Vec<(&str, String)> = SurfaceOutcome::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
     html! {
-        p { "The pictures capture " b { (share(total.area_m2(SurfaceOutcome::Shown))) " %" } " of the inspectable bridge surface well ("
+        p { "The pictures capture " b { (share(total.area_m2(SurfaceOutcome::Shown))) "%" } " of the inspectable bridge surface well ("
             (formatting::number(total.inspectable_m2, 0)) " m² can be inspected from the reference paths)." @if let Some(why) = reasons_not_captured(&total) { " The rest: " (why) "." } }
         p.note { "A surface is inspectable if it is visible from at least one point of a reference path at " (formatting::number(1000.0 * REQUIRED_GSD_M, 2))
             " mm per pixel or finer (a 1.27 mm crack, the limit between condition states 2 and 3, then covers half a pixel; with this camera, this corresponds to a distance of "
@@ -53,7 +53,7 @@ fn reasons_not_captured(total: &ElementSurface) -> Option<String> {
         .filter(|fate| *fate != SurfaceOutcome::Shown && share(fate) >= MIN_REASON_SHARE)
         .collect();
     rest.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    let words = |outcome: &SurfaceOutcome| format!("{} % {}", formatting::number(100.0 * share(outcome), 0), outcome.name());
+    let words = |outcome: &SurfaceOutcome| format!("{}% {}", formatting::number(100.0 * share(outcome), 0), outcome.name());
     let words: Vec<String> = rest.iter().take(MAX_REASONS).map(words).collect();
     (!words.is_empty()).then(|| words.join("; "))
 }
@@ -123,7 +123,7 @@ mod tests {
         ] {
             element.area_by_outcome_m2.insert(fate, area_m2);
         }
-        assert_eq!(reasons_not_captured(&element).unwrap(), "35 % too dark, lamp off; 20 % blurred; 5 % too far");
+        assert_eq!(reasons_not_captured(&element).unwrap(), "35% too dark, lamp off; 20% blurred; 5% too far");
         let table = table(&SurfaceCoverage { elements: [(Element::RcBoxGirder, element)].into() });
         for (k, fate) in SurfaceOutcome::ALL.iter().enumerate() {
             assert_eq!(table.columns[3 + k], format!("{}, m²", fate.name()));

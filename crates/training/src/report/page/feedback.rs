@@ -29,7 +29,7 @@ pub fn section(review: &Review) -> Markup {
             @if reactions_by_kind(review).next().is_some() {
                 (figure("Time from the cue to the first stick movement; each dot is one cue; the bar marks the median", &scrolling("Reaction times", &reactions(review))))
             }
-            p.note { "A reaction is a stick movement of at least 10 % of full travel within 5 s of the cue. If a stick was already moving, it may count as a reaction by coincidence." }
+            p.note { "A reaction is a stick movement of at least 10% of full travel within 5 s of the cue. If a stick was already moving, it may count as a reaction by coincidence." }
         }
         @if !review.feedback.notes.is_empty() { (notes(review).shown()) }
         (episodes(review).folded())

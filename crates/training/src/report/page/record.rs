@@ -25,7 +25,7 @@ fn gaps(review: &Review) -> String {
         return "The telemetry has no gaps longer than 0.2 s.".into();
     }
     format!(
-        "The telemetry has {} gaps longer than 0.2 s: {} frames were interpolated, {} are missing; {} % of the session is covered.",
+        "The telemetry has {} gaps longer than 0.2 s: {} frames were interpolated, {} are missing; {}% of the session is covered.",
         t.gaps,
         t.interpolated_frames,
         t.missing_frames,

@@ -50,7 +50,7 @@ fn telemetry_summary(review: &Review) -> String {
     if telemetry.missing_frames == 0 {
         "The telemetry is complete.".into()
     } else {
-        format!("The telemetry covers {} % of the session.", formatting::number(100.0 * telemetry.covered, 1))
+        format!("The telemetry covers {}% of the session.", formatting::number(100.0 * telemetry.covered, 1))
     }
 }
 
@@ -133,7 +133,7 @@ fn conformity(review: &Review) -> String {
     }
     let speeding: f64 = review.tasks.iter().map(|task| task.speeding_s).sum();
     let lowest = formatting::number(100.0 * worst.on_path, 0);
-    format!("lowest on-path share: {lowest} % (task {}); speeding for {} s", worst.id, formatting::number(speeding, 0))
+    format!("lowest on-path share: {lowest}% (task {}); speeding for {} s", worst.id, formatting::number(speeding, 0))
 }
 
 fn table(review: &Review) -> Table {

@@ -49,7 +49,7 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
                         @let at = top + 22.0 + (BAR + 4.0) * k as f64;
                         rect.track x=(coord(LEFT)) y=(coord(at)) width=(coord(RIGHT - LEFT)) height=(coord(BAR)) rx="3" {}
                         rect class=(class) x=(coord(LEFT)) y=(coord(at)) width=(coord(length(*share, 1.0))) height=(coord(BAR)) rx="3" {}
-                        text.tick x=(coord(WIDTH - 2.0)) y=(coord(at + 11.5)) text-anchor="end" { (formatting::number(100.0 * share, 0)) " %" }
+                        text.tick x=(coord(WIDTH - 2.0)) y=(coord(at + 11.5)) text-anchor="end" { (formatting::number(100.0 * share, 0)) "%" }
                     }
                 }
             }
@@ -117,7 +117,7 @@ pub fn stacked_bars(rows: &[StackedBar], title: &str) -> Markup {
                     rect class=(class) x=(coord(LEFT + length(from, 1.0))) y=(coord(top + 21.0)) width=(coord(length(share, 1.0))) height=(coord(BAR)) {}
                 }
                 @let first = row.parts.first().map_or(0.0, |part| part.1);
-                text.tick x=(coord(WIDTH - 2.0)) y=(coord(top + 32.5)) text-anchor="end" { (formatting::number(100.0 * first, 0)) " %" }
+                text.tick x=(coord(WIDTH - 2.0)) y=(coord(top + 32.5)) text-anchor="end" { (formatting::number(100.0 * first, 0)) "%" }
             }
         },
     )
@@ -147,7 +147,7 @@ mod tests {
         let row = ShareRow { name: "task <1>".into(), bars: vec![("on", 0.5)], placeholder: None };
         let figure = shares(&[row], "t").into_string();
         assert!(figure.contains("class=\"on\" x=\"4\" y=\"26\" width=\"184\""), "{figure}");
-        assert!(figure.contains("task &lt;1&gt;") && figure.contains("50 %"), "{figure}");
+        assert!(figure.contains("task &lt;1&gt;") && figure.contains("50%"), "{figure}");
     }
 
     #[test]
@@ -164,6 +164,6 @@ mod tests {
         let figure = stacked_bars(&[row], "t").into_string();
         assert!(figure.contains("class=\"good\" x=\"4\" y=\"21\" width=\"92\""), "{figure}");
         assert!(figure.contains("class=\"bad\" x=\"96\" y=\"21\" width=\"184\"") && !figure.contains("none"), "{figure}");
-        assert!(figure.contains("25 %"), "{figure}");
+        assert!(figure.contains("25%"), "{figure}");
     }
 }

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 const WIDTH: f64 = 640.0;
 const MIDDLE: f64 = 320.0;
-/// Width of 100 %, in drawing units. A row with full agreement fits in the left half.
+/// Width of 100%, in drawing units. A row with full agreement fits in the left half.
 const FULL_WIDTH: f64 = 300.0;
 /// Height of a question and its bar, in drawing units; extra lines of text add to it.
 const ROW: f64 = 42.0;

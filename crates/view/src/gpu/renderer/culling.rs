@@ -20,7 +20,7 @@ pub struct ShotView {
 }
 
 impl ShotView {
-    /// Returns the view parameters of a shot for a water level, m.
+    /// Returns the view parameters of a shot for a water level in meters.
     pub fn of(shot: &Shot, water_m: f64) -> Self {
         Self {
             projection: shot.eye.view_projection(shot.aspect()),

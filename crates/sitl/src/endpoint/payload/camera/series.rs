@@ -25,7 +25,7 @@ pub struct CaptureSeries {
 }
 
 impl CaptureSeries {
-    /// Returns the interval of a running time-lapse series, s.
+    /// Returns the interval of a running time-lapse series in seconds.
     #[must_use]
     pub fn interval_s(&self) -> Option<f64> {
         self.interval_s

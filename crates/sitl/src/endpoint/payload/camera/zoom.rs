@@ -41,7 +41,7 @@ pub struct ZoomLens {
     drive: ZoomDrive,
 }
 
-/// Returns the focal length at the wide end, mm.
+/// Returns the focal length at the wide end in mm.
 #[must_use]
 pub fn wide_mm(camera: &Camera) -> f64 {
     camera.focal_mm()

@@ -97,6 +97,6 @@ mod tests {
             assert!(others.clone().all(|(_, other)| notice.name != other.name), "{}", notice.name);
         }
         assert_eq!(of("Mission finished").map(|n| n.name), Some("mission_finished"));
-        assert!(covers_whole_text("Mission finished") && !covers_whole_text("Low battery: 29 %") && of("Armed").is_none());
+        assert!(covers_whole_text("Mission finished") && !covers_whole_text("Low battery: 29%") && of("Armed").is_none());
     }
 }

@@ -182,7 +182,7 @@ impl PlanUpload {
         }
     }
 
-    /// Returns the timeout of a request, s.
+    /// Returns the timeout of a request in seconds.
     fn retry_interval_s(&self, pace: f64) -> f64 {
         let usual_s = self.delay_s.map_or(RETRY_INTERVAL_S * pace, |delay_s| RETRY_DELAY_FACTOR * delay_s);
         usual_s.clamp(MIN_RETRY_INTERVAL_S * pace, RETRY_INTERVAL_S * pace)

@@ -19,7 +19,7 @@ pub(super) fn relative(frame: MavFrame) -> Option<bool> {
     }
 }
 
-/// Returns an item's position, m; `None` if it is not usable.
+/// Returns an item's position in meters; `None` if it is not usable.
 pub(super) fn place(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> Option<Vec3<Ned>> {
     let relative = relative(item.frame)?;
     let altitude = f64::from(item.z);

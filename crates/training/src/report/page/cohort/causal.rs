@@ -25,9 +25,9 @@ fn model_section(model_: &MediationModel) -> Markup {
         @if model_.n < RECOMMENDED_TRAINEES {
             p.caution { b { (model_.n) " trainees with complete answers." } " With fewer than " (RECOMMENDED_TRAINEES) ", the model can miss medium effects. It describes these trainees only and does not generalize." }
         }
-        (figure("Path diagram; dashed arrows mark effects whose 95 % confidence interval includes zero", &scrolling("Causal model", &model(&effects(model_), "Demand, strain, performance and feedback"))))
+        (figure("Path diagram; dashed arrows mark effects whose 95% confidence interval includes zero", &scrolling("Causal model", &model(&effects(model_), "Demand, strain, performance and feedback"))))
         p.note { "Demand, strain and feedback are rated from 1 to 5; performance is the overall score as a percentage of the maximum." }
-        (figure("Indirect effect of one unit of demand on performance via strain, by feedback helpfulness, with 95 % confidence intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of overall score per unit of demand", "Indirect effect of demand by feedback helpfulness"))))
+        (figure("Indirect effect of one unit of demand on performance via strain, by feedback helpfulness, with 95% confidence intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of overall score per unit of demand", "Indirect effect of demand by feedback helpfulness"))))
         (effects_table(model_).shown())
         (coefficients(model_).folded())
     }
@@ -78,7 +78,7 @@ fn effects_table(model: &MediationModel) -> Table {
     Table {
         name: "indirect_effects",
         caption: "indirect effect of demand on performance via strain, with bootstrap confidence intervals",
-        columns: vec!["feedback level", "feedback", "effect, %", "95 % CI, lower", "upper"],
+        columns: vec!["feedback level", "feedback", "effect, %", "95% CI, lower", "upper"],
         rows,
     }
 }
@@ -103,7 +103,7 @@ fn coefficients(model: &MediationModel) -> Table {
     Table {
         name: "causal_model",
         caption: "coefficients of the two regressions",
-        columns: vec!["outcome", "term", "estimate", "standard error", "t", "p", "95 % CI, lower", "upper"],
+        columns: vec!["outcome", "term", "estimate", "standard error", "t", "p", "95% CI, lower", "upper"],
         rows: [of("strain", &model.strain), of("performance", &model.performance)].concat(),
     }
 }

@@ -49,7 +49,7 @@ fn t_tests(tests: &[Comparison]) -> Table {
         "repetitions",
         "pairs",
         "change",
-        "95 % CI, lower",
+        "95% CI, lower",
         "upper",
         "t",
         "p upper",

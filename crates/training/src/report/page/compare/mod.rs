@@ -102,7 +102,7 @@ fn table(first: &Review, second: &Review) -> Table {
     Table { name: "comparison", caption: "results of both sessions", columns: vec!["measure", "first", "second", "change"], rows }
 }
 
-/// Returns the total duration of the "too close" and "off path" cues, s.
+/// Returns the total duration of the "too close" and "off path" cues in seconds.
 fn warning_duration_s(review: &Review) -> f64 {
     let wanted = |kind: usize| matches!(crate::report::feedback::KINDS[kind].name, "too close" | "off path");
     review.feedback.episodes.iter().filter(|e| wanted(e.kind)).map(|e| e.to_s - e.from_s).sum()
