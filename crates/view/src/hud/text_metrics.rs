@@ -72,7 +72,7 @@ mod tests {
             ("no battery data", 6.86),
             ("Position   GNSS lost (4)   LINK LOST 12 s", 17.31),
             ("12.3 m/s", 3.82),
-            ("100%", 2.75),
+            ("100%", 2.52),
             ("time left", 3.83),
         ] {
             let found = text_width(words, 1.0);
