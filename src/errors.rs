@@ -30,7 +30,7 @@ impl AppError {
         Self::Failed(message.into())
     }
 
-    /// Prints the error on standard error and returns the exit code.
+    /// Prints the error to standard error and returns the exit code.
     pub(super) fn report(&self) -> ExitCode {
         let (code, message) = match self {
             Self::Wrong(message) => (2, message),

@@ -12,15 +12,16 @@ use spandrel_model::vehicle::{self, Vehicle};
 /// Minimum clearance between the path and obstacles, in addition to half the aircraft's width, m (issue 2, section 2).
 const MIN_CLEARANCE_M: f64 = 0.5;
 
-/// Seeds tried for a scenario without its own seed. One seed is enough to find a task out of reach of the bridges;
-/// three also show whether the defects fit (estimate).
+/// Seeds to try for a scenario without its own seed. One seed is enough to find a task that is too far from the
+/// bridges; three also show whether the defects fit (estimate).
 const TRIAL_SEEDS: [u64; 3] = [1, 2, 3];
 
 /// Check scenario and vehicle files
 ///
 /// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the
-/// site and reports every task whose reference path has less clearance than half the aircraft's tip-to-tip width plus
-/// 0.5 m, with the location. It warns if it cannot place as many defects as the scenario requests.
+/// site and reports every task with a reference path that is too close to an obstacle, with the location. The minimum
+/// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It warns if it cannot place as many defects as the
+/// scenario requests.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -69,7 +70,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     } else {
         notes.iter().for_each(|note| println!("note: {note}"));
         warnings.iter().for_each(|warning| println!("warning: {warning}"));
-        // An unreadable file has no line number.
+        // Errors in unreadable files have no line number.
         first.iter().for_each(|problem| if problem.line == 0 { println!("{}", problem.message) } else { println!("{problem}") });
         if more > 0 {
             println!("and {more} more problems");
@@ -118,8 +119,8 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
     }
 }
 
-/// Top-level keys that occur only in vehicle files or only in scenarios. They identify the file type even if some keys
-/// are missing.
+/// Top-level keys that appear in only one of the two file types. They identify the file type even if some keys are
+/// missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
 const SCENARIO_KEYS: [&str; 13] = [
@@ -177,7 +178,7 @@ fn clearance_problems(source: &SourceFile, scenario: &Scenario, aircraft: &Vehic
     scenario.tasks.iter().enumerate().filter_map(tight).collect()
 }
 
-/// Returns a warning if not all requested defects can be placed. Tries the scenario's own seed, or the first few seeds.
+/// Returns a warning if some requested defects cannot be placed. Tries the scenario's own seed, or the first few seeds.
 fn missing_defects_warning(source: &SourceFile, scenario: &Scenario) -> Option<String> {
     let wanted = scenario.defects.count;
     if wanted == 0 || scenario.defects.placed.is_some() {
@@ -286,7 +287,7 @@ mod tests {
 
     #[test]
     fn exact_clearance_limit_matches_the_aircraft_size() {
-        // Tolerance, m: the search along the path stops within 1 mm of the tightest point.
+        // Tolerance, m: the search along the path stops within 1 mm of the narrowest point.
         const TOLERANCE_M: f64 = 2e-3;
         let source = files::any_source("drill-gap").unwrap();
         let scenario = scenario::read(&source.file, &source.text, &|name| source.read_referenced_file(name)).unwrap();

@@ -19,7 +19,7 @@ impl FromStr for Destination {
     }
 }
 
-/// Parses and resolves HOST:PORT; prefers IPv4 to IPv6.
+/// Parses and resolves HOST:PORT. Prefers IPv4 addresses to IPv6 addresses.
 pub fn address(text: &str) -> Result<SocketAddr, String> {
     let mut found: Vec<SocketAddr> = text
         .to_socket_addrs()

@@ -1,5 +1,5 @@
-//! Links of the vehicle: configured destinations that it sends to from the start, peers that connect to its UDP ports,
-//! TCP clients and serial ports.
+//! The vehicle's links: configured destinations that it sends to from startup, peers that connect to its UDP ports, TCP
+//! clients and serial ports.
 
 use super::clock::Stopwatch;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
@@ -14,7 +14,7 @@ use std::time::Duration;
 /// Time after which a silent learned peer is removed.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
 /// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor
-/// blocks the peers of another port.
+/// blocks another port's peers.
 const MAX_LEARNED_PEERS: usize = 64;
 
 /// A change in the links, or received data.
@@ -54,7 +54,7 @@ enum LinkRoute {
     Stream { stream: StreamId, decoder: Decoder },
 }
 
-/// All links of one vehicle.
+/// All of a vehicle's links.
 #[derive(Debug)]
 pub struct Links {
     hub: SocketHub,
@@ -73,7 +73,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Opens all ports and the links to the configured destinations. The link numbers are the same in every run.
+    /// Opens all ports and the links to the configured destinations. Link numbers are the same in every run.
     ///
     /// # Errors
     /// Returns an error if a port cannot be opened, or a lockstep peer is not a configured destination.
@@ -174,7 +174,7 @@ impl Links {
         }
     }
 
-    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts those of
+    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts such bytes in
     /// datagrams.
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
@@ -309,7 +309,7 @@ mod tests {
         let mut links = Links::open(&ephemeral(&[]), &[]).unwrap();
         let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
         let sidecar = UdpSocket::bind(local(0)).unwrap();
-        // Data other than MAVLink does not add a peer.
+        // Non-MAVLink data does not add a peer.
         sidecar.send_to(b"h", local(port)).unwrap();
         sidecar.send_to(&hello_frame(), local(port)).unwrap();
         let (watch, limit) = (Stopwatch::start(), Duration::from_secs(60));
@@ -343,7 +343,7 @@ mod tests {
         (links, socket)
     }
 
-    /// Simulates a datagram from a port. Returns its link, and whether the link is new.
+    /// Simulates a datagram from a port. Returns the link and whether it is new.
     fn note_received(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
         links.handle_event(NetEvent::Datagram { socket, from: local(port), bytes: hello_frame() }, Duration::from_secs(at_s));
         let new = matches!(links.changes.front(), Some(LinkEvent::Opened { .. }));

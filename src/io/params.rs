@@ -31,7 +31,7 @@ impl ParamFile {
         }
     }
 
-    /// Combines all problems in the file into one error.
+    /// Combine all problems in the file into one error.
     pub fn parse_error(&self, problems: &[ParamFileProblem]) -> AppError {
         let lines: Vec<String> =
             problems.iter().map(|problem| format!("{}:{}: {}", self.path.display(), problem.line, problem.what)).collect();

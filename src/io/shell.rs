@@ -17,12 +17,12 @@ use spandrel_sitl::endpoint::{LinkId, LinkKind, StorageRequest};
 use spandrel_sitl::sim::{Sim, SimEvent};
 use std::time::Duration;
 
-/// Maximum wait for the sockets, so that stop requests and silent peers are noticed.
+/// Maximum time to wait for socket data, so that the loop notices stop requests and silent peers.
 const MAX_WAIT: Duration = Duration::from_millis(100);
-/// Minimum sleep. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
+/// Minimum sleep time. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
 const MIN_SLEEP: Duration = Duration::from_millis(2);
-/// Wall-clock interval of heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3 to 5
-/// s without one.
+/// Wall-clock interval between heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3
+/// to 5 s without one.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Files that belong to one vehicle.
@@ -41,7 +41,7 @@ pub struct VehicleFiles {
 pub struct SigningConfig {
     /// Key with which messages on all other links must be signed.
     pub key: SigningKey,
-    /// Kinds of links whose unsigned frames are accepted.
+    /// Link types on which unsigned frames are accepted.
     pub unsigned: Vec<LinkKind>,
 }
 
@@ -177,7 +177,7 @@ impl VehicleShell {
         self.wait_for_next_tick()
     }
 
-    /// Runs the ticks up to `target`, and serves the clients' file requests between them.
+    /// Runs the ticks up to `target` and serves the clients' file requests between ticks.
     fn advance_to(&mut self, target: SimTime) {
         loop {
             self.core.handle_timeout(target);
@@ -201,7 +201,7 @@ impl VehicleShell {
         }
     }
 
-    /// Saves changed parameters, and rereads the file at a client's request.
+    /// Saves changed parameters. Rereads the file if a client requests it.
     fn save_parameters(&mut self) {
         let Some(file) = &mut self.params else { return };
         let wish = self.core.take_storage_request();
@@ -271,8 +271,8 @@ impl VehicleShell {
         Ok(())
     }
 
-    /// Waits for a peer's first TIMESYNC answer. The vehicle announces itself meanwhile, because a peer must find it
-    /// before it can answer.
+    /// Waits for a peer's first TIMESYNC response. Meanwhile, the vehicle announces itself, because a peer must find it
+    /// before responding.
     fn await_first_answer(&mut self, heard: bool, wall: Duration) {
         self.pacer.resync(wall, self.core.now());
         match self.first_answer.next_action(heard, wall, HEARTBEAT_INTERVAL) {
@@ -301,12 +301,12 @@ impl VehicleShell {
         }
     }
 
-    /// Returns the delay of the simulation relative to the wall clock.
+    /// Returns the simulation's delay relative to the wall clock.
     pub fn lateness(&self) -> Lateness {
         self.pacer.lateness()
     }
 
-    /// Closes the flight log, saves the signing state and logs how much data was lost.
+    /// Closes the flight log, saves the signing state and logs the amount of lost data.
     pub fn finish(&mut self) {
         self.core.close_flight_log();
         self.serve_file_jobs();
@@ -324,7 +324,7 @@ impl VehicleShell {
         }
         let dropped = self.core.dropped() + self.links.take_dropped();
         if dropped > 0 {
-            tracing::warn!("dropped {dropped} datagrams that exceeded the rate limit or the capacity of their link");
+            tracing::warn!("dropped {dropped} datagrams that exceeded the rate limit or their link's capacity");
         }
     }
 }

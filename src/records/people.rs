@@ -90,7 +90,7 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
         match trainee_and_start(&path) {
             Ok((trainee, started_unix_us)) if is(&trainee, started_unix_us) => found.push(path),
             Ok(_) => {}
-            Err(error) => tracing::warn!("cannot determine the trainee of a session folder: {error}"),
+            Err(error) => tracing::warn!("cannot tell which trainee a session folder belongs to: {error}"),
         }
     }
     Ok(found)

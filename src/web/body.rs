@@ -21,7 +21,7 @@ const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 /// # Errors
 /// Returns an error if the body is too large, too slow, not a form, or its token is wrong.
 pub async fn read(web_request: &mut WebRequest, kind: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
-    let late = |_| WebError::BadRequest("the upload of the form timed out".into());
+    let late = |_| WebError::BadRequest("the form upload timed out".into());
     match kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
         RouteKind::Change => {
@@ -76,7 +76,7 @@ async fn read_file(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<S
 }
 
 fn not_a_form() -> WebError {
-    WebError::BadRequest("the request is not a form with a file".into())
+    WebError::BadRequest("the request does not contain a form with a file".into())
 }
 
 fn unreadable(error: &MultipartError, most: usize) -> WebError {

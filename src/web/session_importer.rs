@@ -99,7 +99,7 @@ impl ImportProgress {
     fn skip(&mut self, folder: PathBuf) {
         if !self.erased.contains(&folder) {
             tracing::warn!(
-                "{}: not imported because it or its trainee was erased; spandrel records erase also removes the folder",
+                "{}: not imported because it or its trainee was erased; to remove the folder too, use `spandrel records erase`",
                 folder.display()
             );
             self.erased.insert(folder);

@@ -20,7 +20,7 @@ pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
         for path in entries.map(|entry| entry.path()).filter(|path| is_stale(path)) {
             match std::fs::remove_file(&path) {
-                Ok(()) => tracing::info!("{}: removed a temporary file of a killed process", path.display()),
+                Ok(()) => tracing::info!("{}: removed a temporary file left by a killed process", path.display()),
                 Err(error) => tracing::warn!("{}: cannot remove: {error}", path.display()),
             }
         }

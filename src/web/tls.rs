@@ -17,14 +17,14 @@ pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), A
     let beyond = !args.listen.ip().is_loopback();
     if (beyond || args.behind_proxy) && !somebody_has_a_password {
         return Err(AppError::wrong(format!(
-            "--listen {}: other machines could reach the server, and no password is set: set one first with --set-password USER --role \
+            "--listen {}: other machines could reach the server, but no password is set; first set one with --set-password USER --role \
              administrator",
             args.listen
         )));
     }
     if beyond && args.tls_cert.is_none() && !args.behind_proxy {
         return Err(AppError::wrong(format!(
-            "--listen {}: passwords would be sent unencrypted: use --tls-cert and --tls-key, or --behind-proxy if a proxy \
+            "--listen {}: passwords would be sent unencrypted; use --tls-cert and --tls-key, or --behind-proxy if a proxy \
              terminates TLS",
             args.listen
         )));

@@ -16,10 +16,10 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
         Ok(Ok(events)) => return Ok(events),
         Ok(Err(EventLoopError::Os(_))) => unreachable_display(),
         Ok(Err(error)) => error.to_string(),
-        Err(_) => "a library is missing; Debian and Ubuntu: apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2"
+        Err(_) => "a library is missing; on Debian and Ubuntu, run apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2"
             .to_owned(),
     };
-    Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without one")))
+    Err(AppError::failed(format!("cannot open a window without a display ({why}); all other features work without one")))
 }
 
 /// Describes the configured display, because the library's own message refers to its source code.

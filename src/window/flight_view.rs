@@ -135,7 +135,7 @@ impl FlightView {
     /// session.
     fn follow_seed(&mut self, said: Option<u64>) {
         if let Some((given, said)) = self.session.requested_seed_mismatch(said) {
-            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the simulator's");
+            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; using the simulator's seed");
         }
         if let Some((built, said)) = self.session.built_seed_mismatch(said) {
             tracing::info!("the simulator now uses seed {said} instead of {built}; rebuilding defects and traffic");

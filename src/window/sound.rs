@@ -85,7 +85,7 @@ fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
         }
     }
     tracing::warn!(
-        "no sound ({}); Debian and Ubuntu: apt-get install pulseaudio-utils or alsa-utils; everything else works",
+        "no sound ({}); on Debian and Ubuntu, install pulseaudio-utils or alsa-utils; everything else works",
         tried.join("; ")
     );
     speak(heard, settings);
@@ -162,7 +162,7 @@ impl SpeechVoice {
         if started.is_none() {
             self.on = false;
             tracing::warn!(
-                "no spoken warnings: none of {} is installed (Debian and Ubuntu: apt-get install espeak-ng)",
+                "no spoken warnings: none of {} is installed (on Debian and Ubuntu, run apt-get install espeak-ng)",
                 SPEECH_PROGRAMS.join(", ")
             );
         }

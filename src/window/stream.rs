@@ -132,7 +132,7 @@ impl StreamDestination {
                 && error.kind() != std::io::ErrorKind::ConnectionRefused
                 && !std::mem::replace(&mut self.told, true)
             {
-                tracing::warn!("lost packets of the stream to {}: {error}", self.to);
+                tracing::warn!("lost stream packets to {}: {error}", self.to);
             }
         }
     }
@@ -178,7 +178,7 @@ fn send(wanted: &Receiver<Picture>, mut line: StreamDestination, encoding_fails:
         let encoded = encoder.encode(&picture);
         encoding_fails.store(encoded.is_err(), Ordering::Relaxed);
         if let Some(error) = complaint.new_error(encoded.as_ref().err().cloned()) {
-            tracing::warn!("frames are missing in the stream: {error}");
+            tracing::warn!("the stream is missing frames: {error}");
         }
         if let Ok(encoded) = encoded {
             sent.encoding += began.elapsed();

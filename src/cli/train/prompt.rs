@@ -38,7 +38,7 @@ impl TerminalPrompt {
         }
     }
 
-    /// Returns the next answer, if one was typed. The end of the input quits.
+    /// Returns the next answer, if one was typed. The end of the input counts as quitting.
     pub fn answer(&mut self) -> Option<PromptAnswer> {
         if !self.is_open() {
             return None;

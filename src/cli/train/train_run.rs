@@ -1,4 +1,4 @@
-//! Sequence of flights in one run of `train`: those chosen in the window, or the one given on the command line.
+//! The flights in one run of `train`: those chosen in the window, or the one specified on the command line.
 
 use super::args::{Args, DEFAULT_SCENARIO, camera_file};
 use super::flight_processes::{FlightOutcome, FlightProcesses};
@@ -20,10 +20,10 @@ use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
 
-/// Interval between checks of the window.
+/// Interval at which the window is checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Web server with the vehicle that its live page shows.
+/// Web server and the vehicle that its live page shows.
 struct ServedPages {
     server: WebServer,
     vehicle: Option<SocketAddr>,
@@ -41,7 +41,7 @@ pub struct TrainRun<'a> {
     web: Option<ServedPages>,
     web_announced: bool,
     photographs: PhotographJobs,
-    /// Vehicle of the last flight. It stays connected until the next flight or the end of the run, so that ground
+    /// Processes of the last flight. Its vehicle stays connected until the next flight or the end of the run, so ground
     /// stations can download its logs.
     vehicle: Option<FlightProcesses>,
     prompt: TerminalPrompt,
@@ -50,9 +50,9 @@ pub struct TrainRun<'a> {
 /// Decision after a flight.
 enum NextFlight {
     Fly(FlightChoice),
-    /// The user is done flying.
+    /// The user has finished flying.
     Leave,
-    /// There is no window in which to choose.
+    /// No window is available for choosing the next flight.
     NoChoice,
 }
 
@@ -94,7 +94,8 @@ impl<'a> TrainRun<'a> {
         while let NextFlight::Fly(choice) = next {
             let (flown, session) = match self.fly(&choice) {
                 Ok(done) => done,
-                // An error in the first flight ends the run, as without a window; later errors are shown in the window.
+                // An error in the first flight ends the run, as it does without a window; later errors are shown in the
+                // window.
                 Err(error) if last.is_none() && !self.is_window_in_use() => return Err(error),
                 Err(error) => {
                     tracing::warn!("cannot start the flight: {error}");
@@ -108,7 +109,7 @@ impl<'a> TrainRun<'a> {
             last = Some(session);
             next = self.next_choice(&choice);
         }
-        // A user who quits in the window has seen the results; unanswered questions can be answered on the web pages.
+        // A user who quits in the window has seen the results, and can still answer questions on the web pages.
         let seen = matches!(next, NextFlight::Leave) && !last.as_deref().is_some_and(questionnaire_state::has_unanswered);
         self.end_vehicle();
         if let Some(window) = self.window.take() {
@@ -132,7 +133,7 @@ impl<'a> TrainRun<'a> {
         open
     }
 
-    /// Waits until the window is shown. Returns false if that fails.
+    /// Waits until the window appears. Returns false if it fails to open.
     fn wait_for_window(&mut self) -> bool {
         let ready = self.window.as_mut().is_some_and(|window| window.is_ready(&self.stop));
         self.is_open() && ready
@@ -154,14 +155,14 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Returns the command line's choice once the window is shown or known to be missing, so that no flight starts
+    /// Returns the command line's choice once the window is shown or has failed to open, so that no flight starts
     /// without its views.
     fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
         self.wait_for_window();
         if self.stop.is_requested() { NextFlight::Leave } else { NextFlight::Fly(usual.clone()) }
     }
 
-    /// Returns the first choice: the window's or, without a window, the command line's.
+    /// Returns the first choice: from the window or, without a window, from the command line.
     fn first_choice(&mut self, usual: &FlightChoice) -> NextFlight {
         if self.wait_for_window() {
             self.serve(None);
@@ -179,7 +180,7 @@ impl<'a> TrainRun<'a> {
             return NextFlight::Leave;
         }
         tracing::info!(
-            "using the command line: {} flies {}; use --trainee, --scenario and --purpose to change this",
+            "using the command line: {} flies {}; to change this, use --trainee, --scenario and --purpose",
             usual.trainee,
             usual.scenario
         );
@@ -219,7 +220,7 @@ impl<'a> TrainRun<'a> {
         self.prompt_at_terminal(last)
     }
 
-    /// Keeps the vehicle connected if there is no window, until the user answers at the terminal or a stop is
+    /// If there is no window, keeps the vehicle connected until the user answers at the terminal or a stop is
     /// requested.
     fn prompt_at_terminal(&mut self, last: &FlightChoice) -> NextFlight {
         if self.args.once || self.closed || self.vehicle.is_none() {
@@ -289,7 +290,7 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Shows the result at the terminal and in the window.
+    /// Shows the result in the terminal and in the window.
     fn end(&mut self, choice: &FlightChoice, session: &Path, outcome: FlightOutcome) -> Result<(), AppError> {
         let told = report_outcome(session);
         if told.is_ok() {
@@ -315,8 +316,8 @@ impl<'a> TrainRun<'a> {
         result
     }
 
-    /// Serves the web pages of the sessions and of this vehicle's flight, at the same address throughout. A failure
-    /// does not prevent the flight.
+    /// Serves the web pages for the sessions and for this vehicle's flight. The address stays the same throughout the
+    /// run. A failure does not prevent the flight.
     fn serve(&mut self, vehicle: Option<SocketAddr>) {
         let addresses::PortChoice::Number(mut port) = self.args.web else { return };
         match self.web.take() {
@@ -342,13 +343,13 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Keeps the web pages available until the user answers at the terminal, because the questionnaire follows the
-    /// flight.
+    /// Keeps the web pages available until the user answers at the terminal, because the user fills in the
+    /// questionnaire after the flight.
     fn keep_serving(&mut self, session: &Path) {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
         let address = offers::flight_summary(session, Some(web.server.address()), None).questionnaire;
         println!("questionnaire {address}   (available until you press Enter)");
-        // Enter only ends the web pages; the run still waits for the photographs.
+        // Enter only stops the web pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {
             std::thread::sleep(CHECK_INTERVAL);
         }

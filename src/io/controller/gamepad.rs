@@ -1,4 +1,4 @@
-//! Gamepads and RC transmitters, through gilrs. Axes are raw; the calibration assigns their functions.
+//! Gamepads and RC transmitters, accessed through gilrs. Axes are raw; the calibration assigns their functions.
 
 use crate::errors::AppError;
 use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
@@ -16,7 +16,8 @@ pub struct Gamepad {
 }
 
 fn system() -> Result<Gilrs, AppError> {
-    // gilrs' filters are off because the profile defines dead bands, and its mappings are off to get raw axes.
+    // gilrs filters are off because the profile defines dead bands, and gilrs mappings are off because raw axes are
+    // needed.
     let built = GilrsBuilder::new().with_default_filters(false).add_included_mappings(false).add_env_mappings(false).build();
     built.map_err(|error| AppError::failed(format!("cannot access gamepads and transmitters on this machine: {error}")))
 }

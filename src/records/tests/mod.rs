@@ -100,7 +100,7 @@ fn logins_are_stored_and_erased(target: &str) {
     assert_eq!((account.person, account.hash.as_deref()), (ada, Some("second")));
     assert_eq!(again.remove_password("ada"), Ok(true));
     assert_eq!(again.remove_password("ada"), Ok(false));
-    assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "still known, but can no longer log in");
+    assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "the person still exists but can no longer log in");
     // An erased person can no longer log in, even if the same name is added again.
     assert_eq!(database.erase("o'brien", &[]), Ok((true, 1)));
     assert_eq!((database.names_with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));

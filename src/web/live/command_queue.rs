@@ -133,7 +133,7 @@ impl CommandQueue {
                 break;
             }
             if task.tries >= MAX_TRIES {
-                words.push(format!("{}: no answer", task.description));
+                words.push(format!("{}: no response", task.description));
                 self.0.pop_front();
                 continue;
             }
@@ -194,8 +194,8 @@ fn result(result: MavResult) -> Option<Result<(), &'static str>> {
         MavResult::MAV_RESULT_ACCEPTED => Some(Ok(())),
         MavResult::MAV_RESULT_IN_PROGRESS => None,
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err("not now")),
-        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("the vehicle does not support it")),
-        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denied it")),
+        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("the vehicle does not support this command")),
+        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denied this command")),
         _ => Some(Err("the vehicle reported a failure")),
     }
 }
@@ -292,13 +292,13 @@ mod tests {
         sent(&mut commands, 1);
         assert_eq!(
             commands.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
-            Some("instructor: satellite navigation fails: rejected, the vehicle denied it".into())
+            Some("instructor: satellite navigation fails: rejected, the vehicle denied this command".into())
         );
         let (frames, words) = sent(&mut commands, 2);
         assert_eq!((instructor_note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
         commands.push(InstructorCommand::Wind { speed_m_s: 1.0, from_deg: 0.0 });
         let told: Vec<String> = (0..30).flat_map(|k| sent(&mut commands, 1_000 + 500 * k).1).collect();
-        assert_eq!(told, ["instructor: wind 1 m/s from 0°: no answer"]);
+        assert_eq!(told, ["instructor: wind 1 m/s from 0°: no response"]);
     }
 
     #[test]
