@@ -22,7 +22,7 @@ pub enum GeneratorCommand {
     },
     /// Print completions for a shell
     Completions {
-        /// Shell
+        /// Shell to generate completions for
         shell: Shell,
     },
 }

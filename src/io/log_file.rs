@@ -44,7 +44,7 @@ impl LogFile {
         let mut splitter = RecordSplitter::default();
         let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
         self.for_each_chunk(&mut |piece| splitter.feed(piece, &mut skip)).map_err(|error| unreadable(&self.path, &error))?;
-        // The last record may be incomplete before the end of the file is reached.
+        // Only the end of the file shows that the last record is complete.
         let _ = splitter.end(&mut skip);
         Ok(splitter.complete_bytes())
     }

@@ -1,5 +1,5 @@
-//! Database addresses: a file, or a PostgreSQL URL. The TLS options of a URL are checked here, because the driver's
-//! error messages are unclear and some options do less than their names suggest.
+//! Database addresses: a file, or a PostgreSQL URL. TLS options in the URL are checked here, because the driver's error
+//! messages are unclear and some options do less than their names suggest.
 
 use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};
@@ -16,16 +16,16 @@ pub fn is_url(target: &str) -> bool {
     target.starts_with("postgres://") || target.starts_with("postgresql://")
 }
 
-/// Checks the TLS options of a URL.
+/// Checks a URL's TLS options.
 ///
 /// # Errors
-/// Returns an error if an option is invalid. The error contains its name, its value and the allowed values.
+/// Returns an error if an option is invalid. The error contains the option's name, its value and the allowed values.
 pub fn check_tls_options(target: &str) -> Result<(), String> {
     let Some((_, query)) = target.split_once('?').filter(|_| is_url(target)) else { return Ok(()) };
     let said: Vec<(String, String)> = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
     let value = |key: &str| said.iter().rev().find(|(name, _)| name == key).map(|(_, value)| value.as_str());
     let known = ["sslmode", "sslrootcert", "sslcert", "sslkey"];
-    // The driver ignores unknown options; a misspelled security option must not be ignored.
+    // The driver ignores unknown options, but misspelled security options must not go unnoticed.
     if let Some((name, _)) = said.iter().find(|(name, _)| is_tls_option(name) && !known.contains(&name.as_str())) {
         return Err(format!("{name}: unknown (allowed: {})", known.join(", ")));
     }
@@ -50,7 +50,7 @@ pub fn check_tls_options(target: &str) -> Result<(), String> {
     }
 }
 
-/// Returns true if an option concerns TLS, in upper or lower case, because the driver ignores `SSLMODE`.
+/// Returns true if an option is a TLS option. Case is ignored here, because the driver would silently ignore `SSLMODE`.
 fn is_tls_option(key: &str) -> bool {
     key.to_ascii_lowercase().starts_with("ssl")
 }
@@ -65,7 +65,7 @@ fn check_certificate_file(key: &str, file: &str) -> Result<(), String> {
     }
 }
 
-/// Describes a connection error, and adds advice where the driver's message is unclear.
+/// Describes a connection error, and adds advice if the driver's message is unclear.
 pub fn connection_error(error: &sqlx::Error) -> String {
     let said = error.to_string();
     let advice = [
@@ -84,7 +84,7 @@ pub fn connection_error(error: &sqlx::Error) -> String {
     }
 }
 
-/// Returns the URL of an SQLite file; SQLite creates a missing file.
+/// Returns the URL of an SQLite file. SQLite creates the file if it is missing.
 pub fn sqlite_url(file: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/._-~".contains(&byte);
     let encoded: String =

@@ -1,6 +1,6 @@
-//! Removes session folders in a crash-safe way. The transaction that erases the records also marks their folders; each
-//! folder is then renamed, so that nothing reads it anymore, and deleted. At the next start, interrupted removals are
-//! completed.
+//! Removes session folders in a crash-safe way. The transaction that erases the records also marks their folders. Each
+//! folder is then renamed, so that no program reads it anymore, and deleted. The next start completes interrupted
+//! removals.
 
 use super::database::Database;
 use super::erasure_marks::{self, ErasedKind, folder_name};
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Prefix of the name of a folder that is being deleted.
+/// Name prefix of folders that are being deleted.
 const ERASING_PREFIX: &str = ".erasing-";
 
 impl Database {
@@ -116,7 +116,7 @@ mod tests {
         let here = [temp_dir.path().to_path_buf()];
         let database = Database::open(&temp_dir.path().join("records.sqlite").display().to_string()).unwrap();
         session(temp_dir.path(), "b-ben");
-        // Interrupted after the transaction, after the rename, and during the deletion.
+        // The erasure is interrupted after the transaction, after the rename, and during the deletion.
         let [marked, renamed, half] = ["a-anna", "c-anna", "d-anna"].map(|name| session(temp_dir.path(), name));
         database.erase("anna", &[marked, renamed.clone(), half.clone()]).unwrap();
         for folder in [&renamed, &half] {
@@ -126,7 +126,7 @@ mod tests {
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(temp_dir.path()), ["b-ben"]);
         assert_eq!(database.erasing(), Ok(BTreeSet::new()));
-        // A folder that is copied back later is not deleted automatically.
+        // A folder that someone copies back later is not deleted automatically.
         session(temp_dir.path(), "a-anna");
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(temp_dir.path()), ["a-anna", "b-ben"]);

@@ -1,4 +1,4 @@
-//! Listening settings of the server.
+//! The server's listening settings.
 
 use ipnet::IpNet;
 use std::net::{Ipv4Addr, SocketAddr};

@@ -7,11 +7,11 @@ use spandrel_training::web::live_state::JobIdentity;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// A session whose telemetry has not grown for this long is not the current flight.
+/// Time after which a session whose telemetry has stopped growing is no longer the current flight.
 const MAX_AGE: Duration = Duration::from_secs(10);
 
-/// Returns the trainee of the only matching ongoing session. `None` if there is none or more than one, so that no
-/// trainee sees another trainee's camera view.
+/// Returns the trainee of the only matching ongoing session. Returns `None` if there is no such session or more than
+/// one, so that no trainee sees another trainee's camera view.
 pub fn current_trainee(sessions: &[PathBuf], key: JobIdentity) -> Option<String> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let folders = session_folders(&here).ok()?;
