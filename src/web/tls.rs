@@ -35,7 +35,7 @@ pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), A
 /// Returns the TLS configuration, or `None` without certificate files.
 ///
 /// # Errors
-/// Returns an error if a file cannot be read, or is not a certificate or key.
+/// Returns an error if a file cannot be read or does not contain a certificate or key.
 pub fn config(args: &ListenConfig) -> Result<Option<RustlsConfig>, AppError> {
     let (Some(chain), Some(key)) = (&args.tls_cert, &args.tls_key) else { return Ok(None) };
     let wrong =

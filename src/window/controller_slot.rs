@@ -129,7 +129,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Returns the reason why the vehicle can be flown only with the keyboard; `None` if a controller can be used.
+    /// Returns the reason why only the keyboard can fly the vehicle, or `None` if a controller can be used.
     pub fn keyboard_reason(&self) -> Option<String> {
         match self.name() {
             Some(name) if self.lost() => Some(format!("'{name}' is not connected.")),
@@ -142,7 +142,7 @@ impl ControllerSlot {
         &self.note
     }
 
-    /// Starts the calibration wizard. Searches for a disconnected device first.
+    /// Starts the calibration wizard. If the device is disconnected, searches for it first.
     pub fn calibrate(&mut self) {
         if self.lost() {
             self.find_device();
@@ -163,15 +163,15 @@ impl ControllerSlot {
         DeviceState::Calibrating(source, Box::new(wizard))
     }
 
-    /// Handles Enter in the wizard.
+    /// Handles the Enter key in the wizard.
     pub fn confirm(&mut self, now: SimTime) {
         if let DeviceState::Calibrating(_, wizard) = &mut self.held {
             wizard.confirm(now);
         }
     }
 
-    /// Leaves the wizard without changes. Searches again for a device that was disconnected meanwhile, so that it does
-    /// not appear connected with its sticks at rest.
+    /// Leaves the wizard without changes. If the device has since been disconnected, searches for it again, so that it
+    /// does not appear connected with its sticks at rest.
     pub fn cancel(&mut self) {
         let lost = self.lost();
         match self.take_device() {
@@ -199,7 +199,7 @@ impl ControllerSlot {
         };
     }
 
-    /// Returns the current stick positions of a calibrated device. Its buttons trigger actions on the link.
+    /// Returns a calibrated device's current stick positions. The device's buttons trigger actions on the link.
     ///
     /// # Errors
     /// Returns an error if the device can no longer be used.
@@ -225,7 +225,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Disables the controller and notes the reason.
+    /// Disables the controller and stores the reason.
     pub fn disable(&mut self, why: &AppError) {
         self.held = DeviceState::NoDevice(DeviceWatcher::start());
         self.note = format!("Controller disabled: {why}.");
@@ -266,7 +266,7 @@ impl ControllerSlot {
     }
 }
 
-/// Returns a profile with one setting changed. All other values of each axis keep their measured or edited values.
+/// Returns a profile with one setting changed. All other settings of each axis keep their measured or edited values.
 fn adjusted_profile(profile: &ControllerProfile, tune: ProfileChange) -> ControllerProfile {
     let mut profile = profile.clone();
     match tune {
@@ -294,7 +294,7 @@ mod tests {
         let source = EventSource::Record(input_recording::InputRecording::read("pad.jsonl", &text.join("\n")).unwrap());
         let profile = ControllerProfile { device, mode: StickMode::Two, axes: ways, buttons: [].into() };
         ControllerSlot {
-            // A name that matches no device of the computer.
+            // A name that matches no device on this computer.
             requested_device: Some("no device is called so".into()),
             profiles: ProfileFolder::at(None),
             held: DeviceState::Calibrated(Box::new(CalibratedController::new(source, profile))),

@@ -4,10 +4,10 @@ use crate::errors::AppError;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-/// Returns the display's event loop.
+/// Returns an event loop for the display.
 pub fn open() -> Result<EventLoop<()>, AppError> {
-    // The keyboard library is loaded on first use, and the loader panics if it is missing. The panic is converted to an
-    // error here.
+    // The keyboard library is loaded on first use, and the loader panics if it is missing. Convert the panic to an
+    // error.
     let told = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let opened = std::panic::catch_unwind(EventLoop::new);

@@ -1,4 +1,4 @@
-//! A flight in the window: its telemetry, and the loading of its scene.
+//! A flight in the window: receives its telemetry and loads its scene.
 
 use super::listener::TelemetryListener;
 use super::panes::{PaneContent, RenderJob, ViewPanes};
@@ -14,7 +14,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
-/// Scene state of a flight.
+/// State of a flight's scene.
 pub enum SceneLoading {
     /// Waiting for the session's seed.
     Waiting,
@@ -24,20 +24,20 @@ pub enum SceneLoading {
     Ready(Box<ViewPanes>),
 }
 
-/// Seed of the defects and traffic in the scene.
+/// Seed for the defects and traffic in the scene.
 #[derive(Debug, Default)]
 struct SceneKey {
     /// Seed that was passed to the window.
     requested_seed: Option<u64>,
     /// Seed of the current scene.
     built_seed: Option<u64>,
-    /// True once a different seed of the simulator has been logged.
+    /// True once a mismatch with the simulator's seed has been logged.
     mismatch_reported: bool,
 }
 
 impl SceneKey {
-    /// Returns the seed to build with: the simulator's seed, the requested seed, or `otherwise`, in this order of
-    /// preference.
+    /// Returns the seed to build the scene with: the simulator's seed, the requested seed, or `otherwise`, in that
+    /// order of preference.
     fn seed(&self, said: Option<u64>, otherwise: Option<u64>) -> Option<u64> {
         said.or(self.requested_seed).or(otherwise)
     }
@@ -47,7 +47,7 @@ impl SceneKey {
         self.built_seed.zip(said).filter(|(built, said)| built != said)
     }
 
-    /// Returns the requested seed and the simulator's seed the first time that they differ.
+    /// Returns the requested seed and the simulator's seed the first time they differ.
     fn requested_seed_mismatch(&mut self, said: Option<u64>) -> Option<(u64, u64)> {
         let differ = self.requested_seed.zip(said).filter(|(given, said)| !self.mismatch_reported && given != said);
         self.mismatch_reported |= differ.is_some();
@@ -88,7 +88,7 @@ impl FlightView {
         self.listener.live().moment(self.listener.wall(), &self.job.1)
     }
 
-    /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts
+    /// Advances from waiting to building to rendering as data arrives, and returns to waiting if the simulator starts
     /// another session.
     ///
     /// # Errors
@@ -113,7 +113,7 @@ impl FlightView {
                 tracing::info!("rendering with {}, {}, seed {seed}", screen.gpu.name, quality.name);
                 let (sender, receiver) = channel();
                 std::thread::spawn(move || {
-                    // Fails only if the window has been closed meanwhile.
+                    // Fails only if the window has since been closed.
                     let _ = sender.send(RenderJob::build(scenario, vehicle, seed, &quality, at));
                 });
                 self.session.built_seed = Some(seed);

@@ -1,4 +1,4 @@
-//! Renders the two views to textures of the window.
+//! Renders the two views to the window's textures.
 
 use super::screen::WindowSurface;
 use crate::errors::AppError;
@@ -22,8 +22,8 @@ use spandrel_view::stage::{self, Stage};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Number of pixels of a view without a graphics card, regardless of its size on the screen (issue: 640 x 360 each on
-/// two cores).
+/// Number of pixels in a view without a graphics card, regardless of the view's size on the screen (issue: 640 x 360
+/// each on two cores).
 const SOFTWARE_VIEW_PX: f64 = 640.0 * 360.0;
 
 /// A flight whose scene has been built.
@@ -66,7 +66,7 @@ pub struct ViewPanes {
     panes: BTreeMap<u8, ViewPane>,
     /// Last image of the second device.
     last_image: Option<Picture>,
-    /// Exposure meters of the inspector's view and the camera's.
+    /// Exposure meters for the inspector's view and the camera's view.
     meters: [ExposureMeter; 2],
 }
 
@@ -118,7 +118,7 @@ impl ViewPanes {
         if self.job.site.traffic().closures() != &now.closures {
             self.job.site = self.job.site.with_closures(now.closures.clone());
         }
-        // The camera's view starts first, because the second device renders it while this one renders the other view.
+        // Start the camera's view first, because the second device renders it while this device renders the other view.
         let mut order: Vec<&ViewRect> = places.iter().collect();
         order.sort_by_key(|view_rect| view_rect.which != ViewKind::Camera);
         let (mut shown, mut begun) = (Vec::new(), false);
@@ -153,7 +153,7 @@ impl ViewPanes {
         Ok(())
     }
 
-    /// Returns the last image of the camera, without the head-up display.
+    /// Returns the camera's last image, without the head-up display.
     pub fn camera(&self, screen: &WindowSurface) -> Result<Option<Picture>, AppError> {
         if self.secondary.is_some() {
             return Ok(self.last_image.clone());
@@ -161,7 +161,7 @@ impl ViewPanes {
         Ok(self.panes.get(&(ViewKind::Camera as u8)).map(|pane| read(&screen.gpu, &pane.whole)).transpose()?)
     }
 
-    /// Returns the rectangle of a view; the camera's has the aspect ratio of its sensor.
+    /// Returns a view's rectangle. The camera's view has its sensor's aspect ratio.
     fn fit_view(&self, screen: &WindowSurface, view_rect: ViewRect) -> ViewRect {
         let window = screen.window.inner_size();
         match view_rect.which {
@@ -173,7 +173,7 @@ impl ViewPanes {
         }
     }
 
-    /// Returns the shot and the overlay of a view.
+    /// Returns a view's shot and overlay.
     fn render(
         &mut self,
         screen: &WindowSurface,
@@ -204,7 +204,7 @@ impl ViewPanes {
     }
 }
 
-/// Returns the texture of a view, and recreates it if the size has changed.
+/// Returns a view's texture, and recreates it if the size has changed.
 fn pane<'a>(
     panes: &'a mut BTreeMap<u8, ViewPane>,
     screen: &mut WindowSurface,

@@ -1,5 +1,5 @@
-//! Streams the camera's view as H.264 over RTP. A separate thread encodes and sends, so that a slow network or encoder
-//! drops frames of the stream, but not of the window.
+//! Streams the camera's view as H.264 over RTP. A separate thread encodes and sends frames, so a slow network or
+//! encoder drops frames in the stream, but not in the window.
 
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -18,13 +18,13 @@ use std::time::Duration;
 
 /// Bits per pixel (estimate: 2 Mbit/s at 720p25, which wireless networks can handle).
 const BITS_PER_PIXEL: f64 = 0.1;
-/// Number of frames between key frames, which is the maximum wait of a receiver that joins the stream.
+/// Number of frames between key frames. A receiver that joins the stream waits for the next key frame.
 const KEY_FRAME_INTERVAL: u32 = 25;
-/// Minimum interval between frames: 30 per second, as from drone cameras (estimate; docs/src/reference/wire.md,
-/// "Camera, gimbal and lamp"). The window may have a higher frame rate.
+/// Minimum interval between frames: 30 frames per second, typical of drone cameras (estimate;
+/// docs/src/reference/wire.md, "Camera, gimbal and lamp"). The window may have a higher frame rate.
 const MIN_FRAME_INTERVAL: Duration = Duration::from_nanos(33_000_000);
 
-/// A video stream to a receiver.
+/// A video stream to one receiver.
 pub struct StreamSender {
     /// Set to `None` to end the stream.
     pictures: Option<SyncSender<Picture>>,
@@ -36,11 +36,11 @@ pub struct StreamSender {
     last: Option<Stopwatch>,
 }
 
-/// Stream statistics.
+/// Statistics about the stream.
 #[derive(Debug, Clone, Copy, Default)]
 struct StreamStatistics {
     pictures: u64,
-    /// Total encoding time (wall time).
+    /// Total encoding time, measured as wall time.
     encoding: Duration,
 }
 
@@ -72,8 +72,8 @@ impl StreamSender {
         self.last.is_none_or(|last| last.elapsed() >= MIN_FRAME_INTERVAL)
     }
 
-    /// Passes a frame to the encoder if it is ready. Returns the status of the stream once the frame rate is known, if
-    /// encoding works.
+    /// Passes a frame to the encoder if it is ready. If encoding works, returns the stream's status once the frame rate
+    /// is known.
     pub fn push(&mut self, picture: Picture) -> Option<VideoStatus> {
         let (width_px, height_px) = (picture.width, picture.height);
         self.last = Some(Stopwatch::start());
@@ -138,7 +138,7 @@ impl StreamDestination {
     }
 }
 
-/// Encoder for frames of varying size.
+/// An encoder for frames of varying size.
 #[derive(Default)]
 struct ResizingEncoder(Option<(H264Encoder, (u32, u32))>);
 
@@ -155,12 +155,12 @@ impl ResizingEncoder {
     }
 }
 
-/// The last error that was reported.
+/// The last reported error.
 #[derive(Debug, Default)]
 struct LastError(Option<VideoError>);
 
 impl LastError {
-    /// Returns an error only if it differs from the last one. After a success, the same error is returned again.
+    /// Returns an error only if it differs from the last one. After a success, returns the same error again.
     fn new_error(&mut self, wrong: Option<VideoError>) -> Option<&VideoError> {
         if self.0 == wrong {
             return None;
@@ -170,7 +170,7 @@ impl LastError {
     }
 }
 
-/// Encodes and sends until the window is closed.
+/// Encodes and sends frames until the window is closed.
 fn send(wanted: &Receiver<Picture>, mut line: StreamDestination, encoding_fails: &AtomicBool) -> StreamStatistics {
     let (mut encoder, mut complaint, mut sent) = (ResizingEncoder::default(), LastError::default(), StreamStatistics::default());
     while let Ok(picture) = wanted.recv() {

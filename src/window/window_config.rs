@@ -1,4 +1,4 @@
-//! Settings of the window from the command line.
+//! Window settings from the command line.
 
 use spandrel_clients::rc::keyboard::KeyBindings;
 use spandrel_model::scenario::Scenario;
@@ -8,12 +8,12 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Settings of the window from the command line.
+/// Window settings from the command line.
 #[derive(Debug, Clone)]
 pub struct WindowConfig {
     /// Local address to bind.
     pub listen: IpAddr,
-    /// Quality preset; `None` to choose one that suits the device.
+    /// Quality preset; `None` to choose a preset that suits the device.
     pub quality: Option<Quality>,
     /// Window size, px: width, height.
     pub size_px: (u32, u32),
@@ -39,7 +39,7 @@ pub struct CaptureRequest {
 /// Startup configuration of the window.
 #[derive(Debug)]
 pub struct WindowSetup {
-    /// Settings of the window itself.
+    /// Settings for the window itself.
     pub config: WindowConfig,
     /// The job to show.
     pub scenario: Scenario,
