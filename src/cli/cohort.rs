@@ -181,8 +181,11 @@ fn words(cohort: &Cohort) -> String {
         let _ = writeln!(out, "{}: {}", one.trainee, one.words);
     }
     if contradictions.len() > MAX_CONTRADICTIONS {
-        let _ =
-            writeln!(out, "and {} more contradictions (to list all, use --json or --csv)", contradictions.len() - MAX_CONTRADICTIONS);
+        let _ = writeln!(
+            out,
+            "and {} more contradictions (use --json or --csv to list all)",
+            contradictions.len() - MAX_CONTRADICTIONS
+        );
     }
     for warning in &cohort.warnings {
         let _ = writeln!(out, "note: {warning}");

@@ -70,8 +70,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 
 fn words(plan: &TrainingPlan) -> String {
     let day = |unix_us: u64| clock::utc(unix_us).0.chars().take(10).collect::<String>();
-    let mut out =
-        format!("Recommended exercises after {}, to fly between {} and {}:\n", plan.session, day(plan.from_unix_us), day(plan.until_unix_us));
+    let mut out = format!(
+        "Recommended exercises after {}, to fly between {} and {}:\n",
+        plan.session,
+        day(plan.from_unix_us),
+        day(plan.until_unix_us)
+    );
     for (k, step) in plan.steps.iter().enumerate() {
         let _ = writeln!(out, "{}. {}", k + 1, step.scenario);
         for reason in &step.reasons {

@@ -212,7 +212,10 @@ fn erasure_note(erased: usize) -> String {
     if erased == 0 {
         return String::new();
     }
-    format!(", {erased} not imported because they or their trainees were erased (to remove their folders too, use `spandrel records erase`)")
+    format!(
+        ", {erased} not imported because they or their trainees were erased (to remove their folders too, use \
+         `spandrel records erase`)"
+    )
 }
 
 fn rebuild(records_location: &RecordsLocation, yes: bool) -> Result<(), AppError> {

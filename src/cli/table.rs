@@ -170,7 +170,8 @@ end           landed after 12 min 30 s of flight, 0 frames missing
         });
         let text = scores_text(&assessment);
         let start = "Incomplete: 0 of 2 tasks, 31% of the path\n\
-            Not certified: task 1 not done: 64% of its path, 80% needed (and 1 more)\n\nscores for the completed part of the flight:\n";
+            Not certified: task 1 not done: 64% of its path, 80% needed (and 1 more)\n\n\
+            scores for the completed part of the flight:\n";
         assert!(text.starts_with(start), "{text}");
         assert!(!text.contains("overall") && !text.contains("of 300") && text.contains("partly flown (64% of path)"), "{text}");
     }

@@ -77,7 +77,8 @@ impl Child {
             }
             None => AppError::failed(format!("the {name} has not started after {} s", START_TIMEOUT.as_secs())),
         })?;
-        serde_json::from_str(&line).map_err(|error| AppError::failed(format!("the {name} printed an invalid startup line '{line}': {error}")))
+        serde_json::from_str(&line)
+            .map_err(|error| AppError::failed(format!("the {name} printed an invalid startup line '{line}': {error}")))
     }
 
     /// Returns the exit status of a child that exited before announcing its ports.

@@ -65,7 +65,8 @@ impl SigningStore {
             Err(error) if !self.error_reported => {
                 self.error_reported = true;
                 tracing::warn!(
-                    "cannot save signing timestamps, so attackers could replay messages from the last minute after a restart: {error}"
+                    "cannot save signing timestamps, so attackers could replay messages from the last minute after a restart: \
+                     {error}"
                 );
             }
             Err(_) => {}

@@ -104,7 +104,8 @@ pub fn set_login(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let password = request.required_field("password")?;
     login::check(password, name).map_err(WebError::BadRequest)?;
     if request.visitor.open && role != Role::Administrator {
-        let words = "the first user with a password must be an administrator: from then on, everyone must log in, and only administrators can add users";
+        let words = "the first user with a password must be an administrator: from then on, everyone must log in, and \
+                     only administrators can add users";
         return Err(WebError::BadRequest(words.into()));
     }
     let own = request.visitor.name.as_deref() == Some(name);

@@ -17,8 +17,8 @@ pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), A
     let beyond = !args.listen.ip().is_loopback();
     if (beyond || args.behind_proxy) && !somebody_has_a_password {
         return Err(AppError::wrong(format!(
-            "--listen {}: other machines could reach the server, but no password is set; first set one with --set-password USER --role \
-             administrator",
+            "--listen {}: other machines could reach the server, but no password is set; first set one with \
+             --set-password USER --role administrator",
             args.listen
         )));
     }

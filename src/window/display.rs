@@ -16,8 +16,11 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
         Ok(Ok(events)) => return Ok(events),
         Ok(Err(EventLoopError::Os(_))) => unreachable_display(),
         Ok(Err(error)) => error.to_string(),
-        Err(_) => "a library is missing; on Debian and Ubuntu, run apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2"
-            .to_owned(),
+        Err(_) => {
+            "a library is missing; on Debian and Ubuntu, run apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 \
+                   libxrandr2"
+                .to_owned()
+        }
     };
     Err(AppError::failed(format!("cannot open a window without a display ({why}); all other features work without one")))
 }

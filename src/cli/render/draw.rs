@@ -49,10 +49,9 @@ fn reject_scenario_options(args: &Args) -> Result<(), AppError> {
     ];
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
-        Some((name, _)) => Err(AppError::wrong(format!(
-            "{name}: '{}' is a session, but {name} applies only to scenarios",
-            args.what
-        ))),
+        Some((name, _)) => {
+            Err(AppError::wrong(format!("{name}: '{}' is a session, but {name} applies only to scenarios", args.what)))
+        }
     }
 }
 
