@@ -8,7 +8,7 @@ use spandrel_view::flow::pipe;
 /// Maximum seed: MAVLink messages encode the seed as a signed 32-bit integer.
 const MAX_SEED: u64 = i32::MAX as u64;
 
-/// Scenario, aircraft and seed of a flight.
+/// A flight's scenario, aircraft and seed.
 #[derive(Debug, Clone, clap::Args)]
 pub struct JobArgs {
     /// Scenario file, or the name of a shipped scenario
@@ -40,7 +40,7 @@ pub fn random_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & MAX_SEED
 }
 
-/// Autopilot protocol of the vehicle's MAVLink interface.
+/// Autopilot protocol that the vehicle's MAVLink interface uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Flavor {
     /// PX4; best supported by ground stations and SDKs
@@ -67,7 +67,7 @@ impl Flavor {
     }
 }
 
-/// Purpose of a flight.
+/// The purpose of a flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Purpose {
     /// You can pause or restart

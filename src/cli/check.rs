@@ -9,7 +9,8 @@ use spandrel_model::site::{NearestPoint, Site, defects};
 use spandrel_model::toml::{Problem, split_displayed};
 use spandrel_model::vehicle::{self, Vehicle};
 
-/// Minimum clearance between the path and obstacles, in addition to half the aircraft's width, m (issue 2, section 2).
+/// Minimum clearance between the path and obstacles, in addition to half the aircraft's tip-to-tip width, m (issue 2,
+/// section 2).
 const MIN_CLEARANCE_M: f64 = 0.5;
 
 /// Seeds to try for a scenario without its own seed. One seed is enough to find a task that is too far from the
@@ -53,7 +54,7 @@ struct Findings {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// Returns an error if any file is invalid.
+/// Returns an error if a file is invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let aircraft = files::vehicle(&args.vehicle)?.vehicle;
     let mut findings = Findings::default();
@@ -306,7 +307,7 @@ mod tests {
         let refused = problems(fits_m + 2.0 * TOLERANCE_M);
         assert_eq!(refused.len(), 1);
         assert_eq!(task_lines(&source.text), [refused[0].line]);
-        // The reported point has the reported clearance.
+        // The clearance at the reported point matches the reported clearance.
         let number = |after: &str| {
             let rest = refused[0].message.split(after).nth(1).unwrap();
             rest.trim_start().split(' ').next().unwrap().parse::<f64>().unwrap()

@@ -48,7 +48,7 @@ pub struct Args {
     /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
     flavor: args::Flavor,
-    /// Folder in which to create session folders
+    /// Folder where the session folder is created
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
     /// Ground station to send telemetry to, or none; may be repeated

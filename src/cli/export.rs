@@ -80,7 +80,7 @@ pub struct Args {
     /// Write the result as a SCORM 1.2 package for a learning management system; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scorm: Option<String>,
-    /// Seed for placing the defects of a scenario without its own seed
+    /// Seed for placing the defects if the scenario has no seed of its own
     #[arg(long, value_name = "N", value_parser = args::parse_seed)]
     seed: Option<u64>,
 }
@@ -171,7 +171,7 @@ fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> R
     Ok(())
 }
 
-/// Packs files into a ZIP archive; identical files produce identical bytes.
+/// Packs files into a ZIP archive; identical files produce identical archives.
 fn zip_files(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
     let write = || {
         let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));

@@ -72,7 +72,7 @@ fn page(command: Command) -> std::io::Result<(String, Vec<u8>)> {
     let man = Man::new(plain).manual("Spandrel manual").source(concat!("Spandrel ", env!("CARGO_PKG_VERSION")));
     let mut text = Vec::new();
     man.render(&mut text)?;
-    // Each section consists of a heading and lines, which are not reflowed.
+    // Each section consists of a heading and lines that are not reflowed.
     let mut sections = Roff::new();
     for part in after.split("\n\n").filter(|part| !part.is_empty()) {
         let (heading, body) = part.split_once(':').unwrap_or(("Notes", part));

@@ -53,7 +53,7 @@ Examples:
 pub struct Args {
     #[command(flatten)]
     job: JobArgs,
-    /// Folder in which to create session folders
+    /// Folder where the session folder is created
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
     /// Trainee ID: letters, digits, '-' and '_', at most 32 characters
@@ -65,7 +65,7 @@ pub struct Args {
     /// Ignored, because the monitor takes the time from the telemetry; accepted for compatibility with train and demo
     #[arg(long, value_name = "X|max")]
     speed: Option<SimulationSpeed>,
-    /// Resume this session after its monitor was killed (scenario, vehicle and trainee come from the folder)
+    /// Resume this session after its monitor was killed (uses the folder's scenario, vehicle and trainee)
     #[arg(long, value_name = "DIR")]
     session: Option<PathBuf>,
     /// Vehicle instance: sets the default port
@@ -80,7 +80,7 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Print one line of JSON {"port", "session"} on standard output at startup, and omit the table at the end
+    /// Print one line of JSON {"port", "session"} on standard output at startup, and do not print the table at the end
     #[arg(long)]
     announce: bool,
     /// Stop when standard input closes (for a parent process)

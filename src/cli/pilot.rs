@@ -21,10 +21,10 @@ const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Skill level of the synthetic trainee.
+/// The synthetic trainee's skill level.
 #[derive(Debug, Clone, clap::Args)]
 pub struct SkillArgs {
-    /// Skill level of the synthetic trainee: novice, trained or expert
+    /// The synthetic trainee's skill level: novice, trained or expert
     #[arg(long, value_name = "SKILL", default_value = "trained", value_parser = ["novice", "trained", "expert"])]
     pub skill: String,
     /// Parameters to take from the expert instead, to measure their individual effects: delay, gain, noise, preview,
@@ -34,7 +34,7 @@ pub struct SkillArgs {
 }
 
 impl SkillArgs {
-    /// Returns the parameters of the synthetic trainee.
+    /// Returns the synthetic trainee's parameters.
     ///
     /// # Errors
     /// Returns an error if there is no such skill level.

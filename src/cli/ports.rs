@@ -16,7 +16,7 @@ const TCP_PORT: u16 = 5760;
 #[derive(Debug, Clone, clap::Args)]
 #[command(next_help_heading = "Ports")]
 pub struct PortArgs {
-    /// Vehicle instance, 0 to 200: sets the system ID to 1 + N and shifts every default port
+    /// Vehicle instance (0 to 200): sets the system ID to 1 + N and increases default ports
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
     pub instance: u8,
     /// Ground station to send telemetry to from startup, or none; may be repeated [default: 127.0.0.1:14550]
@@ -116,7 +116,7 @@ impl PortArgs {
         }
     }
 
-    /// Returns the monitor's UDP port on this machine, 0 for none.
+    /// Returns the monitor's UDP port on this machine, or 0 if there is none.
     pub fn monitor_port(&self) -> u16 {
         match self.monitor_port {
             Some(PortChoice::Number(port)) => port,

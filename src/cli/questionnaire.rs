@@ -83,8 +83,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Selects the wording by the requested language, the custom wording file, the language of the saved answers, or the
-/// terminal's language.
+/// Selects the wording, in order of preference: the requested language, the custom wording file, the language of the
+/// saved answers, the terminal's language.
 fn select_wording<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
     if let Some(tag) = &args.language {
         let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();

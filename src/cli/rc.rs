@@ -119,7 +119,7 @@ fn list(profiles: &ProfileFolder) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Source of the stick input.
+/// Where the stick input comes from.
 enum StickSource {
     Device(Box<CalibratedController>),
     Keyboard { terminal: RawTerminal, board: KeyboardState },
@@ -279,7 +279,7 @@ fn run_wizard(
     Err(AppError::failed("stopped: nothing was saved"))
 }
 
-/// Returns a channel that receives a message for every line on standard input (Enter).
+/// Returns a channel that receives a message each time the user presses Enter.
 fn enter_key_events() -> Receiver<()> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {

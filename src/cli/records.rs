@@ -1,4 +1,4 @@
-//! `spandrel records`: the database of sessions, trainees and answers.
+//! `spandrel records`: manages the database of sessions, trainees and answers.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::progress::ProgressLog;
@@ -66,7 +66,7 @@ pub struct RecordsArgs {
 }
 
 impl RecordsArgs {
-    /// Returns the locations.
+    /// Returns the locations that the options specify.
     pub fn location(&self) -> RecordsLocation {
         RecordsLocation { sessions: self.sessions.clone(), database: self.database.clone() }
     }
@@ -80,10 +80,10 @@ enum RecordsCommand {
         #[arg(value_name = "SESSION")]
         folders: Vec<PathBuf>,
     },
-    /// Rebuild the sessions whose folders are on this machine; trainee details are kept, and erased sessions stay
-    /// erased
+    /// Rebuild the database records of all sessions with folders on this machine; trainee details are kept, and erased
+    /// sessions stay erased
     Rebuild {
-        /// Also delete sessions whose folders are not on this machine (they may be on other stations)
+        /// Also delete sessions without a folder on this machine (their folders may be on other stations)
         #[arg(long)]
         yes: bool,
     },
@@ -132,7 +132,7 @@ enum RecordsCommand {
     Trainee(PersonArgs),
 }
 
-/// Details to set for a person.
+/// A person's details to set.
 #[derive(Debug, clap::Args)]
 pub struct PersonArgs {
     /// Pseudonym
@@ -152,7 +152,7 @@ pub struct PersonArgs {
     gaming_experience: Option<String>,
 }
 
-/// Destination of the xAPI statements.
+/// Destination for the xAPI statements.
 #[derive(Debug, clap::Args)]
 pub struct PushArgs {
     /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; the user name and password come from the

@@ -1,4 +1,4 @@
-//! `spandrel serve`: records, reports, questionnaires and live flights in a browser.
+//! `spandrel serve`: shows records, reports, questionnaires and live flights in a browser.
 
 use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
@@ -73,13 +73,13 @@ pub struct Args {
 /// Listening address, TLS files, and proxy settings.
 #[derive(Debug, Clone, clap::Args)]
 struct ListenArgs {
-    /// Address and port to listen on; port 0 for any free port
+    /// Address and port to listen on; use port 0 for any free port
     #[arg(long, value_name = "ADDR:PORT", default_value = "127.0.0.1:8080", value_parser = listen)]
     listen: SocketAddr,
     /// TLS certificate chain, PEM
     #[arg(long, value_name = "FILE", requires = "tls_key")]
     tls_cert: Option<PathBuf>,
-    /// Private key of the certificate, PEM
+    /// The certificate's private key, PEM
     #[arg(long, value_name = "FILE", requires = "tls_cert")]
     tls_key: Option<PathBuf>,
     /// A reverse proxy terminates TLS, sets X-Forwarded-For and forwards the Host header; the server must be reachable

@@ -293,7 +293,7 @@ fn with_system_id(path: &Path, system_id: u8) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Runs every vehicle in its own thread until the end. An error in one vehicle stops all of them.
+/// Runs every vehicle in its own thread until the end. If one vehicle fails, all vehicles stop.
 fn fly(
     shells: Vec<VehicleShell>,
     end: SimTime,

@@ -1,4 +1,4 @@
-//! `spandrel view`: opens a window with the inspector's view and the camera's view, live from telemetry.
+//! `spandrel view`: opens a window that shows the inspector's view and the camera's view live, based on telemetry.
 
 use super::args::JobArgs;
 #[cfg(feature = "view")]
@@ -12,7 +12,7 @@ use crate::window::{self, CaptureRequest, WindowConfig, WindowSetup};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
-/// Maximum delay of a screenshot, s.
+/// Maximum screenshot delay, s.
 #[cfg(feature = "view")]
 const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 

@@ -51,7 +51,7 @@ impl FromStr for PortChoice {
     }
 }
 
-/// Parses the local address to bind.
+/// Parses the local address to bind to.
 pub fn listen(text: &str) -> Result<IpAddr, String> {
     text.parse().map_err(|_| format!("'{text}' is not an IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
 }

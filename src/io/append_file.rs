@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 /// 50 kB/s (estimate).
 const MAX_PENDING_BYTES: usize = 64 * 1024 * 1024;
 
-/// Error of a failed write.
+/// A write error.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot write: {error}", path.display())]
 pub struct WriteError {
     /// File path.
     pub path: PathBuf,
-    /// Error from the operating system.
+    /// The operating system's error.
     pub error: std::io::Error,
 }
 
@@ -99,8 +99,8 @@ impl AppendFile {
         Ok(())
     }
 
-    /// Adds complete records, which the next [`Self::flush`] writes. Records beyond a memory limit are dropped and
-    /// counted.
+    /// Adds complete records; the next [`Self::flush`] writes them. Records that exceed the memory limit are dropped
+    /// and counted.
     pub fn push(&mut self, records: &[u8]) {
         if self.pending.len() > MAX_PENDING_BYTES {
             self.dropped += 1;
@@ -119,7 +119,7 @@ impl AppendFile {
         self.pending.len()
     }
 
-    /// Writes the pending data. After an error, the file contains complete records only, and the rest stays pending.
+    /// Writes the pending data. After an error, the file contains only complete records, and the rest remains pending.
     ///
     /// # Errors
     /// Returns an error if the disk cannot be written.
@@ -181,7 +181,7 @@ pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteError> {
         Ok(()) | Err(_) => Ok(()),
     };
     names.iter().try_for_each(|name| sync(folder.join(name)))?;
-    // Only Unix can open folders as files.
+    // Folders can be opened as files only on Unix.
     if cfg!(unix) { sync(folder.to_path_buf()) } else { Ok(()) }
 }
 

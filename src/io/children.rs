@@ -14,7 +14,7 @@ use std::time::Duration;
 const START_TIMEOUT: Duration = Duration::from_secs(60);
 /// Time limit for a child to shut down cleanly.
 const FINISH_TIMEOUT: Duration = Duration::from_secs(10);
-/// Interval at which a child that is shutting down is checked.
+/// Interval between checks of a child that is shutting down.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 
 /// A running child process.

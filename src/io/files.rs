@@ -1,4 +1,4 @@
-//! Scenario and vehicle files: from a path, from a session folder, or built in.
+//! Loads scenario and vehicle files from a path, from a session folder, or from the program itself.
 
 use crate::errors::AppError;
 use spandrel_model::scenario::{self, Scenario};
@@ -77,7 +77,7 @@ pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     Ok(VehicleFile { text, vehicle })
 }
 
-/// Validates a scenario's text; files that the scenario refers to are read from its folder.
+/// Validates a scenario's text; reads the files that the scenario refers to from its folder.
 ///
 /// # Errors
 /// Returns an error if it is invalid; all problems are listed.

@@ -1,4 +1,4 @@
-//! Deletes old flight logs so that new ones fit.
+//! Deletes old flight logs to make room for new ones.
 
 use cap_std::fs::Dir;
 use std::collections::BTreeMap;

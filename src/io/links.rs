@@ -17,7 +17,7 @@ const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
 /// blocks another port's peers.
 const MAX_LEARNED_PEERS: usize = 64;
 
-/// A change in the links, or received data.
+/// A link change or received data.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinkEvent {
     /// A link was opened.
@@ -190,7 +190,7 @@ impl Links {
         self.opened
     }
 
-    /// Adds a configured peer, or a learned one if `heard` is the time of its first datagram.
+    /// Adds a configured peer, or a learned peer if `heard` contains the time of its first datagram.
     fn add(&mut self, socket: SocketId, peer: SocketAddr, heard: Option<Duration>) -> u32 {
         let link = self.next_number();
         let route = heard.map_or(LinkRoute::Fixed { socket, peer }, |heard| LinkRoute::Learned { socket, peer, heard });
@@ -240,7 +240,7 @@ impl Links {
         self.changes.push_back(LinkEvent::Opened { link, kind, lockstep: false, learned: false, limit });
     }
 
-    /// Adds a new peer if it sends MAVLink and its port has not reached the maximum number of peers.
+    /// Adds a new peer if it sends MAVLink and its port has fewer than the maximum number of peers.
     fn add_peer(&mut self, socket: SocketId, from: SocketAddr, bytes: &[u8], wall: Duration) -> Option<u32> {
         if !is_mavlink(bytes) {
             tracing::debug!("ignored a datagram without a MAVLink message from unknown address {from}");
@@ -288,7 +288,7 @@ mod tests {
         Encoder::new(255, 190).encode(&station::heartbeat())
     }
 
-    /// Returns settings with any free ports and these ground stations.
+    /// Returns settings that use any free ports and these ground stations.
     fn ephemeral(stations: &[SocketAddr]) -> VehiclePorts {
         VehiclePorts {
             system_id: 1,

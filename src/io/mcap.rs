@@ -21,7 +21,7 @@ fn options() -> WriteOptions {
     WriteOptions::new().compression(None).library("spandrel").chunk_size(Some(CHUNK_BYTES)).disable_seeking(true)
 }
 
-/// A recording in progress.
+/// An unfinished recording.
 pub struct McapRecording<W: Write + Seek> {
     writer: Writer<W>,
     channels: Vec<u16>,

@@ -34,7 +34,7 @@ pub struct StreamId(u32);
 pub enum StreamOrigin {
     /// A client that connected over TCP.
     Tcp(SocketAddr),
-    /// A device at a serial port.
+    /// A device on a serial port.
     Serial(SerialDevice),
 }
 
@@ -218,7 +218,7 @@ impl SocketHub {
         }
     }
 
-    /// Sends to a stream. A client that does not read loses frames, but never blocks the sender.
+    /// Sends to a stream. A client that does not read its data loses frames, but never blocks the sender.
     pub fn send_stream(&self, stream: StreamId, bytes: Vec<u8>) {
         let Some(writer) = self.streams.get(&stream) else { return };
         if let Err(TrySendError::Full(_)) = writer.queue.try_send(bytes) {

@@ -5,8 +5,8 @@ use spandrel_model::time::SimTime;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// Maximum step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md,
-/// "One simulation step").
+/// Maximum simulation time between two socket polls, which is the lockstep interval (docs/src/reference/wire.md, "One
+/// simulation step").
 pub const LOCKSTEP_STEP: SimTime = SimTime::from_ms(20);
 /// Wall time without a response from a lockstep peer after which the run ends.
 pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
@@ -68,7 +68,7 @@ pub struct Lateness {
     pub slipped: Duration,
 }
 
-/// Computes the simulation time to reach at a given wall time.
+/// Computes the target simulation time for a given wall time.
 #[derive(Debug, Clone)]
 pub struct WallPacer {
     speed: SimulationSpeed,
@@ -99,7 +99,7 @@ impl WallPacer {
         due.min(reached + LOCKSTEP_STEP)
     }
 
-    /// Changes the speed, starting now.
+    /// Changes the speed from now on.
     pub fn set_speed(&mut self, speed: SimulationSpeed, wall: Duration, reached: SimTime) {
         if self.speed != speed {
             self.speed = speed;
@@ -119,7 +119,7 @@ impl WallPacer {
         (self.wall + Duration::from_secs_f64(due_s)).saturating_sub(wall)
     }
 
-    /// Returns the delay of the simulation so far.
+    /// Returns the simulation's delay so far.
     pub fn lateness(&self) -> Lateness {
         self.late
     }
@@ -175,8 +175,8 @@ impl FirstAnswerWait {
     }
 }
 
-/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts, because at `max`
-/// speed every step waits.
+/// Limits how long the simulation waits for lockstep peers. Only time without progress counts, because every step
+/// involves waiting at `max` speed.
 #[derive(Debug, Clone, Default)]
 pub struct LockstepTimeout {
     stalled_since: Option<(SimTime, Duration)>,

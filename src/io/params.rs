@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct ParamFile {
     path: PathBuf,
-    /// Parameter change counter at the time of the last save.
+    /// Value of the parameter change counter at the last save.
     pub saved_changes: u64,
 }
 

@@ -17,7 +17,7 @@ pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &
     assess_log(log, scenario, vehicle, build_site).map_err(|error| scoring_error(&error))
 }
 
-/// Returns the scored frames of a stored session, for exports.
+/// Returns a stored session's scored frames, for exports.
 ///
 /// # Errors
 /// Returns an error if there is nothing to score.

@@ -16,7 +16,7 @@ const REOPEN_INTERVAL: Duration = Duration::from_secs(1);
 /// support.
 const BAUD_RANGE: std::ops::RangeInclusive<u32> = 1_200..=4_000_000;
 
-/// A serial port and its speed.
+/// A serial port and its baud rate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SerialDevice {
     path: String,

@@ -39,9 +39,9 @@ pub struct StoredSession {
     pub trainee: String,
     /// Purpose of the flight, if one was chosen.
     pub purpose: Option<String>,
-    /// Wall time of simulation time zero, µs since the Unix epoch.
+    /// Wall time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Number of times that a monitor has been started for this session.
+    /// Number of monitor starts for this session.
     pub starts: u32,
     /// Version of the program that recorded the session; empty if unknown.
     pub spandrel_version: String,
@@ -124,7 +124,7 @@ impl SessionFolder {
     /// Writes pending records.
     ///
     /// # Errors
-    /// Returns an error if the disk cannot be written. The files then contain complete records only, and the next call
+    /// Returns an error if the disk cannot be written. The files then contain only complete records, and the next call
     /// retries.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         let telemetry = self.telemetry.flush();
@@ -136,7 +136,7 @@ impl SessionFolder {
         self.telemetry.pending() + self.events.pending()
     }
 
-    /// Returns the number of records dropped because the disk could not be written for too long.
+    /// Returns the number of records dropped because the disk was unwritable for too long.
     pub fn dropped(&self) -> u64 {
         self.telemetry.dropped() + self.events.dropped()
     }
@@ -262,7 +262,7 @@ pub struct OngoingSession {
 /// Returns the session if it has not ended and its telemetry has grown within this period; `None` otherwise.
 pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> {
     let grown = path.join(TELEMETRY).metadata().and_then(|about| about.modified()).ok()?;
-    // If the clock was set back, the file counts as recent.
+    // If the clock has been set back, the file counts as recent.
     if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
         return None;
     }

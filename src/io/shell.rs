@@ -39,7 +39,7 @@ pub struct VehicleFiles {
 /// MAVLink signing key, and the links that need no signature.
 #[derive(Debug, Clone)]
 pub struct SigningConfig {
-    /// Key with which messages on all other links must be signed.
+    /// Key that must sign the messages on all other links.
     pub key: SigningKey,
     /// Link types on which unsigned frames are accepted.
     pub unsigned: Vec<LinkKind>,
@@ -138,8 +138,8 @@ impl VehicleShell {
         self.links.wait(MAX_WAIT);
     }
 
-    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data
-    /// and waits for the next tick.
+    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing
+    /// data, and waits for the next tick.
     ///
     /// # Errors
     /// Returns an error if a lockstep peer has disappeared.
@@ -188,7 +188,7 @@ impl VehicleShell {
         }
     }
 
-    /// Executes the clients' file requests and appends to the flight log.
+    /// Carries out the clients' file requests and appends to the flight log.
     fn serve_file_jobs(&mut self) {
         while let Some(job) = self.core.poll_file_job() {
             let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.run_action(&job.action));
@@ -220,7 +220,7 @@ impl VehicleShell {
         }
     }
 
-    /// Saves the signing state if it is due or `at_once` is true.
+    /// Saves the signing state if a save is due or `at_once` is true.
     fn save_signing_state(&mut self, at_once: bool) {
         let wall = self.stopwatch.elapsed();
         if let Some(file) = self.signing_store.as_mut().filter(|file| at_once || file.is_due(wall))
@@ -246,7 +246,7 @@ impl VehicleShell {
         }
     }
 
-    /// Waits for the next tick, or for the lockstep peers.
+    /// Waits for the next tick or for the lockstep peers.
     fn wait_for_next_tick(&mut self) -> Result<(), AppError> {
         let wall = self.stopwatch.elapsed();
         if let Some(heard) = self.core.awaits_first_response() {

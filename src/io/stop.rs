@@ -37,8 +37,7 @@ impl StopRequest {
         Ok(stop)
     }
 
-    /// Returns the lines that the parent process writes to standard input. When standard input closes, requests that
-    /// the process stop.
+    /// Returns the lines that the parent process writes to standard input. When standard input closes, requests a stop.
     pub fn lines(&self) -> Receiver<String> {
         let (sender, lines) = channel();
         let on_end = self.clone();
@@ -69,7 +68,7 @@ impl StopRequest {
     }
 
     async fn signals(self) {
-        // The first signal requests a stop, the second exits immediately.
+        // The first signal requests a stop; the second signal exits immediately.
         if next_signal().await.is_ok() {
             self.request();
             if next_signal().await.is_ok() {

@@ -31,7 +31,7 @@ pub struct FileStore {
     max_log_bytes: u64,
     /// Site geometry as base64-encoded binary glTF, written at the start of every recording.
     site: Option<String>,
-    /// Space used by the clients' files.
+    /// Space that the clients' files use.
     used: StorageUsage,
     log: Option<FlightLog>,
     recording: Option<McapRecording<std::fs::File>>,
@@ -77,7 +77,7 @@ impl FileStore {
         self.site = Some(base64(glb));
     }
 
-    /// Executes a client's file request.
+    /// Carries out a client's file request.
     ///
     /// # Errors
     /// Returns the reason as a MAVLink FTP error.
@@ -279,7 +279,7 @@ fn check_client_path(path: &FilePath) -> std::io::Result<()> {
     if is_log(path) { Err(ErrorKind::PermissionDenied.into()) } else { Ok(()) }
 }
 
-/// Space used by the clients' files.
+/// Space that the clients' files use.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct StorageUsage {
     bytes: u64,

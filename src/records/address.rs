@@ -5,8 +5,9 @@ use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 
-/// Allowed values of `sslmode`. `allow` is excluded because the driver would treat it as `disable`, and `verify-ca`
-/// because the driver (sqlx 0.8.6 with rustls) verifies the host name anyway, with a misleading error message.
+/// Allowed values of `sslmode`. `allow` is excluded because the driver (sqlx 0.8.6 with rustls) would treat it as
+/// `disable`. `verify-ca` is excluded because the driver verifies the host name anyway, with a misleading error
+/// message.
 const SSL_MODES: [&str; 4] = ["disable", "prefer", "require", "verify-full"];
 /// The only mode that verifies PostgreSQL's certificate.
 const VERIFYING_MODE: &str = "verify-full";

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 const ERASING_PREFIX: &str = ".erasing-";
 
 impl Database {
-    /// Returns the hashes of the folders that are marked for removal.
+    /// Returns the name hashes of the folders that are marked for removal.
     fn erasing(&self) -> Result<BTreeSet<String>, AppError> {
         self.run(async {
             let query = sqlx::query("SELECT sha256 FROM erased WHERE what = $1").bind(ErasedKind::Folder.word().to_owned());
@@ -22,7 +22,7 @@ impl Database {
         })
     }
 
-    /// Removes the mark of a deleted folder.
+    /// Removes a deleted folder's mark.
     fn remove_mark(&self, name: &str) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;

@@ -76,7 +76,7 @@ impl Database {
     }
 }
 
-/// Marks a name as erased now, within the transaction that erases it.
+/// Marks a name as erased at the current time, within the transaction that erases it.
 pub(super) async fn mark(change: &mut Transaction<'static, Any>, what: ErasedKind, name: &str) -> Result<(), sqlx::Error> {
     let query = sqlx::query(MARK).bind(what.word().to_owned()).bind(hash(name)).bind(signed(clock::unix_us()));
     query.execute(&mut **change).await.map(|_| ())

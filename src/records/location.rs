@@ -1,4 +1,4 @@
-//! Locations of the database and the session folders.
+//! Where the database and the session folders are.
 
 use super::database::Database;
 use super::erasure;

@@ -13,7 +13,7 @@ const MIGRATIONS: &[&str] = &[
 ];
 
 impl Database {
-    /// Runs the missing migrations in one transaction under the write lock.
+    /// Runs the missing migrations in one transaction while holding the write lock.
     pub(super) async fn migrate(&self) -> Result<(), sqlx::Error> {
         // If the tables are up to date, this takes no lock, so readers do not wait for writers.
         let version = sqlx::query("SELECT version FROM schema_version").fetch_optional(&self.pool).await;

@@ -25,7 +25,7 @@ const RETRY_DELAYS: [Duration; 5] = [
 ];
 /// Timeout for a request.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(60);
-/// Environment variables with the user name and password, so that process lists do not show them.
+/// Environment variables for the user name and password, which must not appear in process lists.
 const USER: &str = "SPANDREL_LRS_USER";
 const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
 

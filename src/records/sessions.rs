@@ -105,7 +105,7 @@ impl Database {
         rows.into_iter().map(read).collect()
     }
 
-    /// Returns the record of one session.
+    /// Returns a session's record.
     ///
     /// # Errors
     /// Returns an error if the database fails or contains an invalid record.
@@ -215,7 +215,7 @@ async fn upsert_all(change: &mut Transaction<'static, Any>, records: &[SessionRe
     Ok(changed)
 }
 
-/// Deletes one session. Returns the number of rows deleted.
+/// Deletes a session. Returns the number of deleted rows.
 async fn delete(change: &mut Transaction<'static, Any>, id: &str) -> Result<u64, sqlx::Error> {
     sqlx::query("DELETE FROM answers WHERE session = $1").bind(id.to_owned()).execute(&mut **change).await?;
     let done = sqlx::query("DELETE FROM sessions WHERE id = $1").bind(id.to_owned()).execute(&mut **change).await?;

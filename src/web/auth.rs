@@ -31,7 +31,7 @@ pub struct Authenticator {
     browser_sessions: Mutex<BrowserSessions>,
     throttle: Mutex<LoginThrottle>,
     devices: Mutex<KnownBrowsers>,
-    /// Queue of password hash requests.
+    /// Queue for password hash requests.
     pub hashing: HashingQueue,
     login_required: AtomicBool,
     secure: bool,
@@ -47,7 +47,7 @@ pub struct LoginClient<'a> {
     pub device: Option<&'a str>,
 }
 
-/// A visitor with their session cookie.
+/// A visitor and their session cookie.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identified {
     /// The visitor's name and role.

@@ -16,7 +16,7 @@ pub struct UploadedFile {
     pub file: SpooledUpload,
 }
 
-/// A parsed request with its visitor.
+/// A parsed request and its visitor.
 #[derive(Debug)]
 pub struct WebRequest {
     /// Visitor who sent the request.

@@ -27,12 +27,12 @@ pub struct WebResponse {
 /// A handler's error, which determines the HTTP status.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum WebError {
-    /// The resource does not exist, or this visitor may not see it. The response is the same in both cases, so that
+    /// The resource does not exist, or this visitor may not see it. The response is the same in both cases so that
     /// guessing reveals nothing.
     NotFound,
     /// The visitor must log in first.
     LoginRequired,
-    /// The visitor has no permission; contains a message.
+    /// The visitor lacks permission; contains a message.
     Forbidden(String),
     /// The request is invalid; contains a message.
     BadRequest(String),
@@ -46,7 +46,7 @@ pub enum WebError {
     Failed(String),
 }
 
-/// The result of a handler.
+/// A handler's result.
 pub type HandlerResult = Result<WebResponse, WebError>;
 
 impl WebResponse {

@@ -16,7 +16,7 @@ pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
 /// Maximum size of an uploaded recording, bytes; an hour of telemetry is about one-third of this.
 pub const MAX_RECORDING_BYTES: usize = 96 * 1024 * 1024;
 
-/// Kind of route.
+/// What a route does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RouteKind {
     /// A static asset, the same for every visitor.
@@ -43,7 +43,7 @@ impl RouteKind {
 pub struct Route {
     /// Path, with parameters in braces.
     pub path: &'static str,
-    /// Route kind.
+    /// What the route does.
     pub kind: RouteKind,
     /// Access level required for the route.
     pub required_access: AccessLevel,

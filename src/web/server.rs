@@ -1,4 +1,4 @@
-//! The web server with its port, threads and axum router.
+//! The web server: its port, threads and axum router.
 
 use super::auth::AllowedOrigins;
 use super::listening::ListenConfig;

@@ -56,7 +56,7 @@ impl SessionImporter {
     }
 }
 
-/// State of the importer thread.
+/// The importer thread's state.
 #[derive(Debug, Default)]
 struct ImportProgress {
     /// True once the first scan has checked for answers that changed before startup.

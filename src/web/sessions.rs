@@ -14,7 +14,7 @@ use spandrel_training::report::assets;
 use spandrel_training::web::sessions as pages;
 use std::path::{Path, PathBuf};
 
-/// Number of sessions on each page of the list.
+/// Number of sessions on each list page.
 const SESSIONS_PER_PAGE: u32 = 50;
 /// Maximum number of other sessions offered for comparison.
 const MAX_COMPARISONS: u32 = 50;

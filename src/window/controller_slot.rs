@@ -1,4 +1,4 @@
-//! The controller in the window: detection, test, calibration and flying.
+//! The window's controller: detects, tests and calibrates it, and flies with it.
 
 use crate::errors::AppError;
 use crate::io::controller::{CalibratedController, DeviceWatcher, EventSource, ProfileFolder};

@@ -1,4 +1,4 @@
-//! Opens the display, or reports why there is none.
+//! Opens the display, or reports why no display is available.
 
 use crate::errors::AppError;
 use winit::error::EventLoopError;

@@ -42,7 +42,7 @@ impl SceneKey {
         said.or(self.requested_seed).or(otherwise)
     }
 
-    /// Returns the seeds of the scene and of the simulator if they differ.
+    /// Returns the scene's seed and the simulator's seed if they differ.
     fn built_seed_mismatch(&self, said: Option<u64>) -> Option<(u64, u64)> {
         self.built_seed.zip(said).filter(|(built, said)| built != said)
     }
@@ -106,7 +106,7 @@ impl FlightView {
         self.follow_seed(said);
         match &self.scene {
             SceneLoading::Waiting => {
-                // The seed reported by the simulator takes precedence over the scenario's. A real vehicle reports none.
+                // The simulator's seed takes precedence over the scenario's seed. Real vehicles do not report a seed.
                 let seed = self.session.seed(said, real.then_some(self.job.0.seed.unwrap_or(0)));
                 let (Some(seed), Some(now)) = (seed, now) else { return Ok(()) };
                 let ((scenario, vehicle), at) = (self.job.clone(), now.moment.at);

@@ -20,7 +20,7 @@ use spandrel_view::sound::SoundInputs;
 /// on a laptop).
 const TURN_RAD_S: f64 = 1.0;
 const ZOOM_PER_S: f64 = 2.0;
-/// Display time of messages and of the initial key help, s.
+/// Display time for messages and for the initial key help, s.
 const MESSAGE_S: f64 = 7.0;
 const KEY_HELP_S: f64 = 25.0;
 

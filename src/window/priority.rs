@@ -1,4 +1,4 @@
-//! Scheduling priority of rendering, below that of the simulator and the monitor.
+//! Scheduling priority for rendering, which is lower than the priority of the simulator and the monitor.
 
 /// Lowers the priority of this thread and all threads that it starts, so that rendering does not delay the simulator.
 pub fn lower_priority() {

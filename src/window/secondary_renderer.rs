@@ -44,7 +44,7 @@ impl SecondaryRenderer {
         self.shots.as_ref().and_then(|shots| shots.send(shot).ok()).ok_or_else(ended)
     }
 
-    /// Waits for the oldest image that has not been returned yet, and returns it.
+    /// Waits for the oldest pending image and returns it.
     ///
     /// # Errors
     /// Returns an error if the device fails.

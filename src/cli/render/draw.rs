@@ -98,7 +98,7 @@ fn render_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pi
     draw(&drawing, args, &[(shot, Vec::new())])
 }
 
-/// Renders a moment of a session.
+/// Renders a session at one moment.
 fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());

@@ -20,7 +20,7 @@ pub fn check(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Writes the label masks of a shot next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and
+/// Writes a shot's label masks next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and
 /// NAME.masks.json.
 pub fn write(scene_renderer: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
     let masks = scene_renderer.labels(shot)?;

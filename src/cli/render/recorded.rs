@@ -28,7 +28,7 @@ pub struct RecordedFlight {
     pub folder: PathBuf,
     /// Contents of the session folder.
     pub stored: StoredSession,
-    /// Wall time of simulation time zero, µs since the Unix epoch.
+    /// Wall time at simulation time zero, µs since the Unix epoch.
     zero_unix_us: u64,
     /// Complete telemetry log, kept in memory because images may need its records in any order.
     log: Vec<u8>,
@@ -104,7 +104,7 @@ impl RecordedFlight {
         attention::bridge_closures(&self.flight)
     }
 
-    /// Returns the poses at a given time of the flight.
+    /// Returns the poses at this time in the flight.
     ///
     /// # Errors
     /// Returns an error if there is no telemetry for this time.

@@ -9,7 +9,7 @@ use crate::io::trainee_id::TraineeId;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-/// Default scenario, from the TASBID paper.
+/// Default scenario, which comes from the TASBID paper.
 pub const DEFAULT_SCENARIO: &str = "two-bridges";
 
 /// Fly a session yourself
@@ -49,7 +49,7 @@ pub struct Args {
     /// Choose in the window even if a scenario is specified
     #[arg(long, conflicts_with = "no_view")]
     pub choose: bool,
-    /// Folder in which to create session folders
+    /// Folder where session folders are created
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     pub sessions: PathBuf,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max; use 1 to fly by hand

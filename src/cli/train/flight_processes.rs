@@ -46,7 +46,7 @@ pub enum FlightOutcome {
     Over,
     /// The flight must be restarted.
     Restart,
-    /// A process exited too early.
+    /// A process exited unexpectedly.
     Lost(AppError),
 }
 
@@ -104,7 +104,7 @@ impl FlightProcesses {
         Some(SocketAddr::new(self.host, port))
     }
 
-    /// Returns the message that makes the window show the flight.
+    /// Returns the message that tells the window to show the flight.
     pub fn started_message(&self, args: &Args) -> Option<ToWindow> {
         Some(ToWindow::Flying(FlightStarted {
             choice: self.choice.clone(),
@@ -120,8 +120,8 @@ impl FlightProcesses {
         connection_instructions(&self.title, &args.ports, &self.ports, &self.session, (web, window))
     }
 
-    /// Waits until the session ends, a stop is requested, or a process exits too early. Handles the window's requests
-    /// meanwhile.
+    /// Waits until the session ends, a stop is requested, or a process exits unexpectedly. Meanwhile, handles the
+    /// window's requests.
     pub fn wait(&mut self, window: &mut Option<WindowProcess>, stop: &StopRequest) -> FlightOutcome {
         loop {
             if let Some(window) = window {

@@ -29,7 +29,7 @@ impl PhotographJobs {
         }
     }
 
-    /// Waits until all photographs are rendered; a stop request cancels the rest.
+    /// Waits until all photographs are rendered; a stop request cancels the remaining ones.
     pub fn finish(&mut self, stop: &StopRequest) {
         self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         if !self.0.is_empty() && !stop.is_requested() {

@@ -3,7 +3,7 @@
 use std::io::{BufRead, IsTerminal};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Input that requests another flight.
+/// Input that starts another flight.
 const AGAIN_INPUT: &str = "again";
 
 /// A line typed at the terminal.

@@ -47,7 +47,7 @@ pub struct TrainRun<'a> {
     prompt: TerminalPrompt,
 }
 
-/// Decision after a flight.
+/// What to do after a flight.
 enum NextFlight {
     Fly(FlightChoice),
     /// The user has finished flying.
@@ -144,7 +144,7 @@ impl<'a> TrainRun<'a> {
         self.is_open() && self.window.as_ref().is_some_and(|window| window.ready)
     }
 
-    /// Returns true if flights are chosen in the window, not only on the command line.
+    /// Returns true if the user can choose flights in the window.
     fn is_window_in_use(&mut self) -> bool {
         self.web_announced && self.is_open()
     }
@@ -171,7 +171,7 @@ impl<'a> TrainRun<'a> {
                 NextFlight::NoChoice => {}
                 next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
             }
-            // If the user closes the window, no flight follows; if the window crashes, the run continues without it.
+            // If the user closes the window, the run ends; if the window crashes, the run continues without it.
             if self.closed {
                 return NextFlight::Leave;
             }
@@ -205,7 +205,7 @@ impl<'a> TrainRun<'a> {
                         Ok(()) => return NextFlight::Fly(choice),
                         Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
                     },
-                    // Ignores late messages about a flight that has just ended.
+                    // Ignore late messages about a flight that has just ended.
                     FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
                 }
             }
@@ -273,7 +273,7 @@ impl<'a> TrainRun<'a> {
             print!("{}", flight.connection_info(self.args, web, shown));
             let outcome = flight.wait(&mut self.window, &self.stop);
             if matches!(outcome, FlightOutcome::Over) && self.stop.is_requested() {
-                // After a stop request, no further flight can be chosen.
+                // After a stop request, the user cannot choose another flight.
                 self.window.take().into_iter().for_each(WindowProcess::close);
             }
             flight.end_session();
@@ -301,8 +301,8 @@ impl<'a> TrainRun<'a> {
             FlightOutcome::Over | FlightOutcome::Restart => told,
         };
         let open = self.is_open();
-        // If the window has crashed, rendering is impossible; after a stop request, the user does not wait for
-        // photographs.
+        // If the window has crashed, rendering does not work; after a stop request, the user should not have to wait
+        // for photographs.
         if (open || self.closed) && result.is_ok() && !self.stop.is_requested() {
             self.photographs.draw(session);
         }
@@ -356,7 +356,7 @@ impl<'a> TrainRun<'a> {
     }
 }
 
-/// Validates a choice from the window like one from the command line.
+/// Validates a choice made in the window in the same way as a choice on the command line.
 fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
     choice.trainee.parse::<TraineeId>().map_err(AppError::wrong)?;
     files::scenario(&choice.scenario).map(|_| ())

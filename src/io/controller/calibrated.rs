@@ -1,4 +1,4 @@
-//! A calibrated controller: converts its events to stick positions and actions.
+//! Converts a calibrated controller's events to stick positions and actions.
 
 use super::{EventSource, ProfileFolder, read_profile};
 use crate::errors::AppError;
@@ -61,7 +61,7 @@ pub struct ControllerReading {
 }
 
 impl CalibratedController {
-    /// Opens a calibrated controller with the given profile, or with the saved profile of its device.
+    /// Opens a calibrated controller with the specified profile, or with its device's saved profile.
     ///
     /// # Errors
     /// Returns an error if the device is not calibrated, or a file is invalid.
@@ -142,7 +142,7 @@ impl CalibratedController {
         &self.raw
     }
 
-    /// Returns only the event source, without the profile.
+    /// Discards the profile and returns the event source.
     pub fn release(self) -> EventSource {
         self.source
     }

@@ -4,7 +4,8 @@ use crate::errors::AppError;
 use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
 use spandrel_clients::rc::{Device, DeviceEvent};
 
-/// Event type of an absolute axis, which Linux stores above the event code (linux/input-event-codes.h, EV_ABS).
+/// Event type of an absolute axis (linux/input-event-codes.h, EV_ABS). Linux stores it in the bits above the event
+/// code.
 const EV_ABS: u32 = 3;
 
 /// A connected gamepad or transmitter.

@@ -1,5 +1,5 @@
 //! The terminal's keyboard as a controller. Terminals that report key releases (kitty keyboard protocol) work best; in
-//! others, keys are released after a delay.
+//! other terminals, keys count as released after a delay.
 
 use crate::errors::AppError;
 use crossterm::event::{

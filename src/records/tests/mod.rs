@@ -17,7 +17,7 @@ const STATION_COUNT: usize = 20;
 /// Number of sessions that each station writes.
 const SESSIONS_PER_STATION: usize = 8;
 
-/// Returns a fictitious session record.
+/// Returns a made-up session record.
 fn record(trainee: &str, number: usize) -> SessionRecord {
     let mut record = perfect_record(trainee, number);
     record.started_unix_us = 1_700_000_000_000_000 + 1_000_000 * number as u64;

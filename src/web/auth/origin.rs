@@ -8,8 +8,8 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 /// Trusted proxies and the server's host names.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct AllowedOrigins {
-    /// Proxies that terminate TLS; empty without a proxy. With proxies, all requests must come from them, and only
-    /// their X-Forwarded-For is trusted.
+    /// Proxies that terminate TLS; empty without a proxy. If there are proxies, all requests must come from them, and
+    /// only their X-Forwarded-For header is trusted.
     pub proxies: Vec<IpNet>,
     /// This server's host names, in addition to localhost and IP addresses.
     pub hosts: Vec<String>,

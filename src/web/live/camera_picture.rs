@@ -23,7 +23,7 @@ pub fn show(state: &ServerState, request: &WebRequest) -> HandlerResult {
 pub fn of(live: &LiveVehicle) -> HandlerResult {
     let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(WebError::NotFound)?;
     let bytes = std::fs::read(path).map_err(|_| WebError::NotFound)?;
-    // Only JPEG images are served, whatever else the file may contain.
+    // Serve only JPEG images, because the file could contain anything.
     if !bytes.starts_with(&JPEG) {
         return Err(WebError::NotFound);
     }

@@ -1,5 +1,4 @@
-//! Finds the trainee of a vehicle's current flight, based on the session that a monitor is recording with the same
-//! scenario and seed.
+//! Finds out who is flying a vehicle, based on the session that a monitor is recording with the same scenario and seed.
 
 use crate::io::session_folder::ongoing_session;
 use crate::records::session_folders;

@@ -12,7 +12,7 @@ const MAX_BYTES: u64 = 4 * 1024 * 1024;
 pub fn version(path: &Path) -> Option<u64> {
     let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MAX_BYTES)?;
     let kept = about.modified().ok()?;
-    // If the clock was set back, the image counts as current.
+    // If the clock has been set back, the image counts as current.
     let age = kept.elapsed().unwrap_or_default();
     let since = kept.duration_since(UNIX_EPOCH).ok()?;
     (age < MAX_AGE).then(|| u64::try_from(since.as_millis()).ok()).flatten()

@@ -66,7 +66,7 @@ pub struct LiveListener {
 pub struct SharedFlightInfo {
     /// The scenario's drawings.
     pub drawings: Arc<Mutex<Option<JobDrawings>>>,
-    /// Trainee of the current flight.
+    /// The current flight's trainee.
     pub trainee: Arc<Mutex<Option<String>>>,
 }
 
