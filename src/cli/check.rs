@@ -83,7 +83,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             let files = count(args.files.len(), "file");
             match warnings.len() {
                 0 => println!("{files} valid"),
-                many => println!("{files} valid, with {}", count(many, "warning")),
+                many => println!("{files} valid ({})", count(many, "warning")),
             }
             Ok(())
         }

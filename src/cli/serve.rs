@@ -153,7 +153,7 @@ fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<Watched
     if pictures.len() > addresses.len() {
         let (many, few) = (pictures.len(), addresses.len());
         return Err(AppError::wrong(format!(
-            "--picture: {many} files for {few} vehicles (allowed: at most one for each --vehicle)"
+            "--picture: {many} files for {few} vehicles (allowed: at most one file for each vehicle)"
         )));
     }
     let mut pictures = pictures.iter().cloned();

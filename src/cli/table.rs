@@ -96,8 +96,10 @@ fn crashes(out: &mut String, crashes: &Value) {
     }
     let places = if places.is_empty() { String::new() } else { format!(" ({})", places.join(", ")) };
     let (other, person, vehicle) = (count("other"), count("person"), count("vehicle"));
-    let _ =
-        writeln!(out, "crashes       {other} with structures or ground, {person} with people, {vehicle} with vehicles{places}");
+    let _ = writeln!(
+        out,
+        "crashes       {other} with structures or the ground, {person} with people, {vehicle} with vehicles{places}"
+    );
 }
 
 fn picture_table(out: &mut String, snapshots: &Value) {
@@ -150,7 +152,7 @@ accuracy           not applicable
 overall                    272.06  of 300
 Not certified: 12% battery at landing, 20% needed
 task 1        done (93% of path), on path 87.5% of the time, speeding loss 0.250
-crashes       3 with structures or ground, 0 with people, 0 with vehicles (task 1: 2, outside: 1)
+crashes       3 with structures or the ground, 0 with people, 0 with vehicles (task 1: 2, outside: 1)
 snapshots     5 taken, 3 with defects; 4 of 10 defects found
 end           landed after 12 min 30 s of flight, 0 frames missing
 ";

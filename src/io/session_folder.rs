@@ -86,7 +86,7 @@ impl SessionFolder {
         let mut folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
         // Another monitor may have finished between reading and locking.
         if folder.telemetry.len() != stored.log.len() {
-            return Err(AppError::failed(format!("{}: the session grew while it was being read; try again", path.display())));
+            return Err(AppError::failed(format!("{}: the session changed while it was being read; try again", path.display())));
         }
         folder.telemetry.truncate(stored.log.complete_len()?)?;
         let events_path = path.join(EVENTS);

@@ -313,7 +313,7 @@ impl VehicleShell {
         self.save_signing_state(true);
         let slipped = self.lateness().slipped;
         if slipped >= Duration::from_secs(1) {
-            tracing::warn!("the computer could not keep up: {:.1} s of wall time lost", slipped.as_secs_f64());
+            tracing::warn!("the computer could not keep up: lost {:.1} s of wall time", slipped.as_secs_f64());
         }
         let bad = self.core.bad_bytes() + self.links.bad_bytes();
         if bad > 0 {

@@ -266,7 +266,7 @@ impl FileStore {
 }
 
 fn io_error(root: &Path, name: &str, error: &dyn std::fmt::Display) -> AppError {
-    AppError::failed(format!("{}: cannot write: {error}; the file ends here", root.join(name).display()))
+    AppError::failed(format!("{}: cannot write: {error}; the log ends at this point", root.join(name).display()))
 }
 
 /// Returns true for a path in the vehicle's log folder.

@@ -177,7 +177,7 @@ pub async fn handle_unknown_path(shared: PipelineState, request: Request) -> Res
     let status = if request.method() == Method::GET || request.method() == Method::HEAD {
         WebError::NotFound
     } else {
-        WebError::Forbidden("This address does not accept changes.".into())
+        WebError::Forbidden("This page does not accept changes.".into())
     };
     error_response(&shared, None, &status)
 }

@@ -94,7 +94,7 @@ fn has_current_policy(page: &[u8], policy: &str) -> bool {
 pub fn compare(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let folder = |word: &str| {
         let id =
-            request.query_param(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (allowed: a session ID)")))?;
+            request.query_param(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (required: a session ID)")))?;
         folder(state, request, id)
     };
     let page = report::comparison_page(&folder("first")?, &folder("second")?)?;

@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Maximum size of a file that stays in memory, bytes.
+/// Maximum size of a file kept in memory, bytes.
 const MAX_IN_MEMORY: usize = 512 * 1024;
-/// Time after which the minimum rate applies to an upload.
+/// Time after which the minimum upload rate applies.
 const GRACE_PERIOD: Duration = Duration::from_secs(30);
 /// Minimum upload rate after that time, bytes/s. Estimate: one-sixteenth of a 1 Mbit/s line.
 const MIN_RATE: u64 = 8 * 1024;
@@ -75,7 +75,7 @@ impl<'a> UploadSpool<'a> {
     /// Appends a chunk that arrived `elapsed` after the start of the upload.
     ///
     /// # Errors
-    /// Returns an error if the file is too large, the client is too slow, or the disk cannot be written.
+    /// Returns an error if the file is too large, the client is too slow, or writing to the disk fails.
     pub fn append(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), WebError> {
         self.size += bytes.len();
         if self.size > self.max_bytes {

@@ -37,7 +37,7 @@ pub struct ServerState {
     pub records_location: RecordsLocation,
     /// Folder for uploaded scenarios.
     pub scenarios: PathBuf,
-    /// Logins, browser sessions and cookies.
+    /// Manages logins, browser sessions and cookies.
     pub auth: Authenticator,
     /// Questionnaire languages.
     pub languages: Languages,

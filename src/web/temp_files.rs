@@ -5,7 +5,7 @@ use crate::records::session_folders;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Folder of sessions that are being imported; no session can have this name.
+/// Folder for sessions that are being imported; no session can have this name.
 pub const IMPORT_FOLDER: &str = ".taking-in";
 /// Age beyond which a temporary file counts as abandoned. A process on another computer that shares the disk may have
 /// any process ID, so this age must exceed the duration of any write.

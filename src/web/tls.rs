@@ -9,7 +9,7 @@ use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Checks that the server has a password and TLS if other machines can reach it.
+/// If other machines can reach the server, checks that it has a password and TLS.
 ///
 /// # Errors
 /// Returns an error if either is missing.

@@ -55,7 +55,7 @@ pub fn export(state: &ServerState, request: &WebRequest) -> HandlerResult {
 const DETAILS: [(&str, &[&str]); 3] =
     [("age_band", AGE_BANDS), ("drone_experience", EXPERIENCE), ("gaming_experience", EXPERIENCE)];
 
-/// Saves a person's details, unless they were changed elsewhere since the page was loaded.
+/// Saves a person's details, unless they have been changed elsewhere since the page was loaded.
 pub fn details(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let person = person(state, request)?;
     let (mut before, mut after) = ([""; 3], [""; 3]);
@@ -70,7 +70,9 @@ pub fn details(state: &ServerState, request: &WebRequest) -> HandlerResult {
         after[k] = given;
     }
     if !state.database.set_details(&person.pseudonym, before, after)? {
-        return Err(WebError::BadRequest("these details have been changed elsewhere: reload the page and check them".into()));
+        return Err(WebError::BadRequest(
+            "these details have been changed elsewhere: reload the page and check the current details".into(),
+        ));
     }
     Ok(WebResponse::redirect(&format!("/trainees/{}", request.path_param("name"))))
 }
@@ -126,7 +128,7 @@ pub fn cohort_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(cohort_page::cohort_page(&request.visitor, &chosen, counted)))
 }
 
-/// Responds with one of the cohort tables as CSV.
+/// Responds with a cohort table as CSV.
 pub fn cohort_table(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let name = TABLES.into_iter().find(|name| *name == request.path_param("name")).ok_or(WebError::NotFound)?;
     let figured = state.figures.get(&selection_from_query(request)?)?;

@@ -70,7 +70,7 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
     }
     let vehicle = files::vehicle(vehicle)?;
     let log = &*request.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?.file.bytes()?;
-    // The telemetry is stored unmodified, up to its last complete record.
+    // The telemetry is stored unmodified up to the last complete record.
     let kept = &log[..tlog::complete_len(log)];
     if let Some((id, trainee)) = state.database.find_by_telemetry(&sha256_hex(kept))? {
         return Ok(UploadOutcome::AlreadyImported(id, trainee));

@@ -75,7 +75,7 @@ pub struct Cockpit {
 }
 
 impl Cockpit {
-    /// Creates the state; the window is opened later.
+    /// Creates the state. The window opens later.
     pub fn new(
         plan: WindowConfig,
         keys: KeyBindings,
@@ -132,7 +132,7 @@ impl Cockpit {
         }
     }
 
-    /// Returns true while the views are shown and the keys control the vehicle.
+    /// Returns true while the window shows the views and the keys control the vehicle.
     fn flies(&self) -> bool {
         self.flow.page() == Page::Flight
     }

@@ -16,7 +16,7 @@ enum DeviceState {
     Uncalibrated(EventSource, RawInput),
     /// Calibrated and used for flying.
     Calibrated(Box<CalibratedController>),
-    /// In the calibration wizard.
+    /// Being calibrated in the wizard.
     Calibrating(EventSource, Box<CalibrationWizard>),
 }
 
@@ -52,7 +52,7 @@ impl ControllerSlot {
             Ok(source) => self.open_controller(source),
             Err(error) => {
                 self.held = DeviceState::NoDevice(DeviceWatcher::start());
-                // The rest of the message applies to the command line only.
+                // The rest of the message applies only to the command line.
                 let why = error.to_string();
                 let why = why.rsplit_once(';').map_or(why.as_str(), |(why, _)| why);
                 let mut signs = why.chars();
@@ -61,7 +61,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Opens a newly connected device. Returns true if there is a new device, calibrated or not.
+    /// Opens a newly connected device. Returns true if there is a new device, even if it is not calibrated.
     pub fn open_new_device(&mut self) -> bool {
         let DeviceState::NoDevice(watch) = &mut self.held else { return self.replace_disconnected() };
         if !watch.is_available() {
@@ -71,8 +71,7 @@ impl ControllerSlot {
         !matches!(self.held, DeviceState::NoDevice(_))
     }
 
-    /// Opens a device that was connected while the current one is disconnected, unless only the current one is
-    /// calibrated.
+    /// Opens another device if the current device is disconnected, unless only the current device is calibrated.
     fn replace_disconnected(&mut self) -> bool {
         if !self.lost() || matches!(self.held, DeviceState::Calibrating(..)) {
             self.replacement_watcher = None;

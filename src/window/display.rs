@@ -25,7 +25,7 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
     Err(AppError::failed(format!("cannot open a window without a display ({why}); all other features work without one")))
 }
 
-/// Describes the configured display, because the library's own message refers to its source code.
+/// Describes the configured display. The library's own message is not helpful because it refers to its source code.
 fn unreachable_display() -> String {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let asked: Vec<String> =

@@ -20,7 +20,7 @@ pub enum SceneLoading {
     Waiting,
     /// Building the site and its lighting.
     Building(Receiver<RenderJob>),
-    /// Ready to be rendered.
+    /// Ready to render.
     Ready(Box<ViewPanes>),
 }
 
@@ -64,7 +64,7 @@ pub struct FlightView {
     /// Scene state.
     pub scene: SceneLoading,
     session: SceneKey,
-    /// Views of an earlier session, kept until their textures can be freed.
+    /// An earlier session's views, kept until their textures can be freed.
     previous_panes: Option<Box<ViewPanes>>,
     /// Time of the first rendered frame.
     pub first_frame_at: Option<Duration>,
@@ -131,8 +131,7 @@ impl FlightView {
         Ok(())
     }
 
-    /// Switches to the simulator's seed, which takes precedence over the requested seed and the seed of an earlier
-    /// session.
+    /// Switches to the simulator's seed, which takes precedence over the requested seed and any earlier session's seed.
     fn follow_seed(&mut self, said: Option<u64>) {
         if let Some((given, said)) = self.session.requested_seed_mismatch(said) {
             tracing::warn!("requested seed {given}, but the simulator uses seed {said}; using the simulator's seed");
@@ -179,7 +178,7 @@ impl FlightView {
         if let Some(first) = self.first_frame_at {
             let seconds = lasted_since(first).as_secs_f64();
             tracing::info!(
-                "rendered {} frames of both views, {:.1} per second",
+                "rendered {} frames of both views ({:.1} frames per second)",
                 self.drawn,
                 f64::from(self.drawn) / seconds.max(1e-3)
             );

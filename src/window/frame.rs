@@ -123,7 +123,7 @@ impl Cockpit {
         self.threads.flight = Some(FlightView::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
         self.image_writer = self.plan.camera_file.clone().map(super::picture_writer::PictureWriter::start);
         (self.map, self.inspector_camera) = (self.plan.map, spandrel_view::inspector_camera::InspectorCamera::default());
-        // Discard messages from before the flight.
+        // Discard messages that arrived before the flight.
         while self.threads.pilot.as_ref().and_then(PilotThread::poll_message).is_some() {}
         self.notices.clear();
         self.send_to_pilot(PilotCommand::ReleaseKeys);

@@ -34,7 +34,7 @@ fn key_name(event: &KeyEvent) -> Option<KeyPress> {
 pub enum KeyChange {
     /// Pressed; not reported again while the key is held.
     Down(String),
-    /// Released, with the name under which it was pressed.
+    /// Released; contains the name that the key had when it was pressed.
     Up(String),
 }
 

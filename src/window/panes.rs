@@ -28,9 +28,9 @@ const SOFTWARE_VIEW_PX: f64 = 640.0 * 360.0;
 
 /// A flight whose scene has been built.
 pub struct RenderJob {
-    /// Scenario of the flight.
+    /// The flight's scenario.
     pub scenario: Scenario,
-    /// Aircraft of the flight.
+    /// The flight's aircraft.
     pub vehicle: Vehicle,
     site: Site,
     scene: Arc<Scene>,
@@ -49,7 +49,7 @@ impl RenderJob {
     }
 }
 
-/// Texture of a view.
+/// A view's texture.
 struct ViewPane {
     whole: wgpu::Texture,
     texture: wgpu::TextureView,
@@ -57,14 +57,14 @@ struct ViewPane {
     size_px: (u32, u32),
 }
 
-/// Both views of a flight.
+/// A flight's two views.
 pub struct ViewPanes {
     job: RenderJob,
     renderer: Renderer,
     /// Second device for the camera's view, if the window's own device is a software renderer.
     secondary: Option<SecondaryRenderer>,
     panes: BTreeMap<u8, ViewPane>,
-    /// Last image of the second device.
+    /// The second device's last image.
     last_image: Option<Picture>,
     /// Exposure meters for the inspector's view and the camera's view.
     meters: [ExposureMeter; 2],
@@ -76,7 +76,7 @@ pub struct PaneContent {
     pub view_rect: ViewRect,
     /// egui texture with the rendered image.
     pub picture: egui::TextureId,
-    /// Overlay of the view.
+    /// The view's overlay.
     pub items: Vec<DrawItem>,
 }
 
@@ -196,7 +196,8 @@ impl ViewPanes {
             }
             ViewKind::Camera => {
                 let display = stage::display(&stage, moment, &now.hud, (feed, false), map);
-                // Text keeps its normal size on the screen; displays with a larger scale factor use more pixels for it.
+                // Text keeps its normal size on the screen, so displays with a larger scale factor use more pixels for
+                // it.
                 let scale = screen.window.scale_factor();
                 (stage.camera_frame(moment, size_px, film), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
             }

@@ -23,9 +23,9 @@ pub struct PictureWriter {
 }
 
 impl PictureWriter {
-    /// Starts the thread that saves images to `path`.
+    /// Starts a thread that saves images to `path`.
     pub fn start(path: PathBuf) -> Self {
-        // At most one image waits; further images are dropped.
+        // The queue holds at most one image; further images are dropped.
         let (sender, receiver) = sync_channel(1);
         let thread = std::thread::spawn(move || save_images(&path, &receiver));
         Self { sender: Some(sender), thread: Some(thread), due: Duration::ZERO }

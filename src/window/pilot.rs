@@ -100,7 +100,7 @@ impl PilotThread {
 
     /// Sends a command to the pilot thread.
     pub fn send_command(&self, ask: PilotCommand) {
-        // The thread lives as long as the window.
+        // The thread runs as long as the window is open.
         let _ = self.commands.send(ask);
     }
 

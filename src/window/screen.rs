@@ -14,7 +14,7 @@ pub struct WindowSurface {
     pub window: Arc<Window>,
     /// Graphics device that renders to the window.
     pub gpu: Gpu,
-    /// egui's painter, with which the views' textures are registered.
+    /// egui's painter. The views' textures are registered with it.
     pub painter: egui_wgpu::Renderer,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,

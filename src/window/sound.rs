@@ -57,7 +57,7 @@ impl AudioOutput {
         locked(&self.inputs).silent = true;
     }
 
-    /// Updates the inputs of the sound synthesis.
+    /// Updates the inputs for sound synthesis.
     pub fn set(&mut self, heard: SoundInputs) {
         if !self.on {
             return;

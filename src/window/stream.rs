@@ -55,7 +55,7 @@ impl StreamSender {
         if to.port() != PORT {
             tracing::warn!("--stream {to}: the vehicle still announces port {PORT}; configure the other port in the receiver");
         }
-        // At most one frame waits while another is being encoded; further frames are dropped.
+        // The queue holds at most one frame while another frame is being encoded; further frames are dropped.
         let (pictures, wanted) = sync_channel(1);
         let encoding_fails = Arc::new(AtomicBool::new(false));
         let line = StreamDestination { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
@@ -100,7 +100,7 @@ impl Drop for StreamSender {
     }
 }
 
-/// Opens a socket that only sends to this address.
+/// Opens a socket that sends only to this address.
 fn socket(to: SocketAddr) -> std::io::Result<UdpSocket> {
     let any =
         if to.is_ipv4() { SocketAddr::from((Ipv4Addr::UNSPECIFIED, 0)) } else { SocketAddr::from((Ipv6Addr::UNSPECIFIED, 0)) };
@@ -113,7 +113,7 @@ fn bits_s((width, height): (u32, u32)) -> u32 {
     (BITS_PER_PIXEL * f64::from(width) * f64::from(height) * f64::from(KEY_FRAME_INTERVAL)) as u32
 }
 
-/// Destination of the packets.
+/// Where the packets are sent.
 struct StreamDestination {
     socket: UdpSocket,
     to: SocketAddr,

@@ -112,7 +112,7 @@ impl RecordedFlight {
         let (first, last) = self.span();
         moment(&self.flight, at, self.vehicle()).ok_or_else(|| {
             let (at, first, last) = (at.s(), first.s(), last.s());
-            AppError::failed(format!("the session has no data at {at:.1} s, only from {first:.1} to {last:.1} s"))
+            AppError::failed(format!("the session has no data at {at:.1} s (available: {first:.1} to {last:.1} s)"))
         })
     }
 

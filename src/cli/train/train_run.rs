@@ -279,7 +279,7 @@ impl<'a> TrainRun<'a> {
             flight.end_session();
             let session = flight.session().to_path_buf();
             if matches!(outcome, FlightOutcome::Restart) {
-                tracing::info!("attempt ended; the recorded data is in {}", session.display());
+                tracing::info!("the attempt has ended; the recorded data is in {}", session.display());
                 flight.finish();
                 continue;
             }

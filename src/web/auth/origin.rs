@@ -63,7 +63,7 @@ impl AllowedOrigins {
         if site && origin {
             return Ok(());
         }
-        Err(WebError::Forbidden("This request comes from another site.".into()))
+        Err(WebError::Forbidden("This request came from another site.".into()))
     }
 
     /// Returns the client's address: the socket's peer address or, behind a proxy, the last address in X-Forwarded-For
