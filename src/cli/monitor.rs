@@ -224,7 +224,7 @@ impl MonitorProcess {
                 return;
             }
             if !self.monitor.is_from_vehicle(bytes) {
-                tracing::debug!("ignored a datagram from {from}: not from the vehicle");
+                tracing::debug!("ignored a datagram from {from}: the sender is not the vehicle");
                 return;
             }
             tracing::info!("receiving from {from}");

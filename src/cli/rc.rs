@@ -210,7 +210,7 @@ fn fly(
             link.receive(&bytes);
         }
         if last_received_at.is_none() && !told && watch.elapsed() > WAITING_MESSAGE_DELAY {
-            print_line(&format!("no vehicle at {vehicle} yet; waiting"));
+            print_line(&format!("waiting for a vehicle at {vehicle}"));
             told = true;
         }
         let now = SimTime::from_s(watch.elapsed().as_secs_f64());

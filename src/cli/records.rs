@@ -117,7 +117,7 @@ enum RecordsCommand {
         #[arg(long)]
         yes: bool,
     },
-    /// Erase everything older than this many days from the database and the session folders
+    /// Erase all sessions older than this many days from the database and the session folders
     Retention {
         /// Age in days (1 to 36525)
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(1..=MAX_RETENTION_DAYS))]

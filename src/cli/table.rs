@@ -116,7 +116,7 @@ fn end(out: &mut String, assessment: &Value) {
     let minutes = (seconds / 60.0).floor();
     let _ = writeln!(
         out,
-        "end           {reason} after {minutes:.0} min {:.0} s of flight, {missing} frames missing",
+        "end           {reason} after {minutes:.0} min {:.0} s of flight, {missing} missing frames",
         seconds - 60.0 * minutes
     );
 }
@@ -154,7 +154,7 @@ Not certified: 12% battery at landing, 20% needed
 task 1        done (93% of path), on path 87.5% of the time, speeding loss 0.250
 crashes       3 with structures or the ground, 0 with people, 0 with vehicles (task 1: 2, outside: 1)
 snapshots     5 taken, 3 with defects; 4 of 10 defects found
-end           landed after 12 min 30 s of flight, 0 frames missing
+end           landed after 12 min 30 s of flight, 0 missing frames
 ";
         assert_eq!(scores_text(&assessment), expected);
     }

@@ -76,7 +76,7 @@ pub fn connection_error(error: &sqlx::Error) -> String {
         ),
         ("not valid for name", "the server's certificate is for another host name: use that name in the URL"),
         ("CaUsedAsEndEntity", "the server uses a CA certificate as its own: issue a server certificate for its host name"),
-        ("certificate expired", "the server's certificate has expired, or a clock is wrong"),
+        ("certificate expired", "the server's certificate has expired, or one of the clocks is wrong"),
         ("server does not support TLS", "enable TLS on the server (ssl = on), or use sslmode=disable on a trusted network"),
     ];
     match advice.iter().find(|(sign, _)| said.contains(sign)) {

@@ -95,7 +95,7 @@ impl Drop for StreamSender {
         // A panic in the thread has already been reported.
         if let Some(Ok(sent)) = self.sender.take().map(JoinHandle::join) {
             let each_ms = 1e3 * sent.encoding.as_secs_f64() / (sent.pictures.max(1) as f64);
-            tracing::info!("{} frames streamed, encoded in {each_ms:.1} ms each", sent.pictures);
+            tracing::info!("streamed {} frames, average encoding time {each_ms:.1} ms", sent.pictures);
         }
     }
 }

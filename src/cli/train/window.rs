@@ -127,7 +127,7 @@ fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
 
 fn exit_message(closed: bool, is_flying: bool) -> &'static str {
     match (closed, is_flying) {
-        (true, false) => "window closed",
+        (true, false) => "the window was closed",
         (true, true) => "the window was closed: the session continues without it",
         (false, _) => "the window failed (see its message in the terminal): the session continues without it",
     }
