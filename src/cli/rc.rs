@@ -317,6 +317,6 @@ mod tests {
         let told = run_wizard(&mut EventSource::Record(record), StickMode::Two, &enters, &StopRequest::default())
             .unwrap_err()
             .to_string();
-        assert!(told.starts_with("nothing was saved") && told.contains("standard input has ended"), "{told}");
+        assert!(told.starts_with("nothing was saved") && told.contains("standard input is closed"), "{told}");
     }
 }

@@ -441,7 +441,7 @@ mod tests {
         let name = "log/2026-09-21/14_13_20.ulg";
         store.log.as_mut().unwrap().file = store.root.open(name).unwrap();
         let refused = store.log(&LogOutput::Bytes("two".into())).unwrap_err().to_string();
-        assert!(refused.contains(name) && refused.contains("the file ends here"), "{refused}");
+        assert!(refused.contains(name) && refused.contains("the log ends at this point"), "{refused}");
         store.log(&LogOutput::Bytes("three".into())).unwrap();
         assert_eq!(std::fs::read(base.join("root").join(name)).unwrap(), b"one");
         store.log(&LogOutput::End).unwrap();

@@ -22,7 +22,7 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
                 .to_owned()
         }
     };
-    Err(AppError::failed(format!("cannot open a window without a display ({why}); all other features work without one")))
+    Err(AppError::failed(format!("no display is available for the window ({why}); all other features work without one")))
 }
 
 /// Describes the configured display. The library's own message is not helpful because it refers to its source code.
