@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// Name of the hidden subcommand.
 pub const NAME: &str = "generate";
 
-/// Kind of output: manual pages or shell completions.
+/// What to generate: manual pages or shell completions.
 #[derive(Debug, Subcommand)]
 pub enum GeneratorCommand {
     /// Write the manual pages for the program and its subcommands

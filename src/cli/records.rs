@@ -89,7 +89,7 @@ enum RecordsCommand {
     },
     /// List sessions
     List {
-        /// Only this trainee's sessions
+        /// List only this trainee's sessions
         #[arg(long, value_name = "ID")]
         trainee: Option<TraineeId>,
         /// Maximum number of sessions to list, newest first
@@ -159,7 +159,7 @@ pub struct PushArgs {
     /// environment variables SPANDREL_LRS_USER and SPANDREL_LRS_PASSWORD
     #[arg(value_name = "URL", value_parser = push::endpoint)]
     url: String,
-    /// Only this trainee's sessions
+    /// Send only this trainee's sessions
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
     /// Account home page (xAPI homePage) for the pseudonyms in the statements

@@ -13,8 +13,8 @@ use std::time::Duration;
 
 /// Time after which a silent learned peer is removed.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
-/// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor
-/// blocks another port's peers.
+/// Maximum number of learned peers per port, so that a flood of source addresses cannot exhaust memory or block another
+/// port's peers.
 const MAX_LEARNED_PEERS: usize = 64;
 
 /// A link change or received data.

@@ -57,7 +57,7 @@ impl SceneKey {
 
 /// A flight in the window.
 pub struct FlightView {
-    /// Scenario and aircraft of the flight.
+    /// The flight's scenario and aircraft.
     pub job: (Scenario, Vehicle),
     /// Telemetry listener.
     pub listener: TelemetryListener,

@@ -22,7 +22,7 @@ use spandrel_view::scene::DronePose;
 use spandrel_view::stage::SceneMoment;
 use std::path::{Path, PathBuf};
 
-/// A recorded flight with its session folder.
+/// A recorded flight and its session folder.
 pub struct RecordedFlight {
     /// Session folder.
     pub folder: PathBuf,

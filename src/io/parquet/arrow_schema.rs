@@ -16,7 +16,7 @@ pub enum Kind {
     Utf8,
 }
 
-/// A field of the schema.
+/// A schema field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field<'a> {
     /// Column name.

@@ -1,4 +1,4 @@
-//! TLS connections to a real PostgreSQL server, with certificates created by OpenSSL.
+//! Tests TLS connections to a real PostgreSQL server, with certificates created by OpenSSL.
 
 use super::server::{PostgresServer, give_to_postgres};
 use crate::records::database::Database;
