@@ -5,16 +5,16 @@ use spandrel_model::toml::Problems;
 use spandrel_view::{gpu::GpuError, photo::PhotoError, video::VideoError};
 use std::process::ExitCode;
 
-/// Exit codes, shown at the end of every help text.
+/// Exit codes, listed at the end of every help text.
 pub const EXIT_CODES: &str = "Exit codes: 0 success; 1 failure; 2 invalid arguments or files.";
 
-/// Error of a subcommand.
+/// A subcommand's error.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum AppError {
     /// Invalid arguments or files (exit code 2).
     #[error("{0}")]
     Wrong(String),
-    /// Failure of the operation (exit code 1).
+    /// The operation failed (exit code 1).
     #[error("{0}")]
     Failed(String),
 }
@@ -30,7 +30,7 @@ impl AppError {
         Self::Failed(message.into())
     }
 
-    /// Prints the error on standard error and returns the exit code.
+    /// Prints the error to standard error and returns the exit code.
     pub(super) fn report(&self) -> ExitCode {
         let (code, message) = match self {
             Self::Wrong(message) => (2, message),

@@ -1,5 +1,5 @@
-//! The `spandrel` program as a library, for its tests and benchmarks. This is the only package with sockets, files,
-//! clocks, threads and processes. Results go to standard output, everything else to standard error.
+//! The `spandrel` program as a library, for its tests and benchmarks. No other package uses sockets, files, clocks,
+//! threads or processes. Results go to standard output, everything else to standard error.
 
 mod cli;
 mod errors;

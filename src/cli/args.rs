@@ -1,14 +1,14 @@
-//! Arguments that several subcommands share, with their allowed ranges.
+//! Arguments shared by several subcommands, with their allowed ranges.
 
 use crate::io::clock;
 use spandrel_model::scenario::Scenario;
 use spandrel_sitl::endpoint::flavor as endpoint;
 use spandrel_view::flow::pipe;
 
-/// Maximum seed, because MAVLink messages encode the seed as a signed 32-bit integer.
+/// Maximum seed: MAVLink messages encode the seed as a signed 32-bit integer.
 const MAX_SEED: u64 = i32::MAX as u64;
 
-/// Scenario, aircraft and seed of a flight.
+/// A flight's scenario, aircraft and seed.
 #[derive(Debug, Clone, clap::Args)]
 pub struct JobArgs {
     /// Scenario file, or the name of a shipped scenario
@@ -17,30 +17,30 @@ pub struct JobArgs {
     /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
-    /// Random seed for defects, traffic, gusts and sensor noise, 0 to 2147483647 [default: the scenario's seed, or a
+    /// Random seed (0 to 2147483647) for defects, traffic, gusts and sensor noise [default: the scenario's seed, or a
     /// new one]
     #[arg(long, value_name = "N", value_parser = parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
 }
 
 impl JobArgs {
-    /// Returns the requested seed if there is one, otherwise the scenario's seed or a new one.
+    /// Returns the requested seed, or else the scenario's seed, or else a new one.
     pub fn seed_for(&self, scenario: &Scenario) -> u64 {
         self.seed.or(scenario.seed).unwrap_or_else(random_seed)
     }
 }
 
-/// Parses a seed for `--seed`, 0 to 2147483647.
+/// Parses a value of `--seed` (0 to 2147483647).
 pub fn parse_seed(text: &str) -> Result<u64, String> {
     text.parse().ok().filter(|seed| *seed <= MAX_SEED).ok_or_else(|| format!("'{text}' is not a seed (allowed: 0 to {MAX_SEED})"))
 }
 
-/// Returns a new seed from the wall clock.
+/// Creates a new seed from the wall clock.
 pub fn random_seed() -> u64 {
     spandrel_model::random::RandomStream::new(clock::unix_us(), "session seed").bits() & MAX_SEED
 }
 
-/// Autopilot protocol of the vehicle's MAVLink interface.
+/// Autopilot protocol that the vehicle's MAVLink interface uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Flavor {
     /// PX4; best supported by ground stations and SDKs
@@ -61,13 +61,13 @@ impl Flavor {
         }
     }
 
-    /// Returns the option as command-line arguments for a child process.
+    /// Formats the option as command-line arguments for a child process.
     pub fn to_args(self) -> Vec<String> {
         vec!["--flavor".to_owned(), self.display_name().name.to_owned()]
     }
 }
 
-/// Purpose of a flight.
+/// The purpose of a flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Purpose {
     /// You can pause or restart
@@ -77,7 +77,7 @@ pub enum Purpose {
 }
 
 impl Purpose {
-    /// Converts to the type that the window and the session files use.
+    /// Converts the purpose to the type that the window and the session files use.
     pub fn display_name(self) -> pipe::Purpose {
         match self {
             Self::Practice => pipe::Purpose::Practice,
@@ -91,7 +91,7 @@ impl Purpose {
     }
 }
 
-/// Returns the command-line arguments that all child processes share.
+/// Returns the command-line arguments shared by all child processes.
 pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
     let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
     args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));

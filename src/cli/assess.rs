@@ -15,12 +15,12 @@ use std::path::PathBuf;
 /// Score a recorded flight again
 ///
 /// Scores a session folder, or a telemetry log with its scenario and vehicle, using only the telemetry. The result is
-/// byte-identical to that of the live session.
+/// byte-identical to the live result.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel assess sessions/20260801T...                       print the scores as a table
-  spandrel assess sessions/20260801T... --json -              print the scores as JSON, as in assessment.json
+  spandrel assess sessions/20260801T... --json -              print the scores in the format of assessment.json
   spandrel assess flight.tlog --scenario two-bridges --vehicle phantom2 --json scores.json
 
 {EXIT_CODES}"))]
@@ -28,10 +28,10 @@ pub struct Args {
     /// Session folder, or a telemetry log (.tlog)
     #[arg(value_name = "SESSION|TLOG")]
     flight: PathBuf,
-    /// Scenario of a telemetry log: a file, or the name of a shipped scenario
+    /// Scenario for a telemetry log: a file, or the name of a shipped scenario
     #[arg(long, value_name = "FILE|NAME")]
     scenario: Option<String>,
-    /// Aircraft of a telemetry log: a file, or the name of a shipped aircraft
+    /// Aircraft for a telemetry log: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<String>,
     /// Write the assessment as JSON to this file; '-' for standard output [default: print a table]

@@ -9,18 +9,20 @@ use spandrel_model::site::{NearestPoint, Site, defects};
 use spandrel_model::toml::{Problem, split_displayed};
 use spandrel_model::vehicle::{self, Vehicle};
 
-/// Minimum clearance between the path and obstacles, in addition to half the aircraft's width, m (issue 2, section 2).
+/// Minimum clearance between the path and obstacles, in addition to half the aircraft's tip-to-tip width, m (issue 2,
+/// section 2).
 const MIN_CLEARANCE_M: f64 = 0.5;
 
-/// Seeds tried for a scenario without its own seed. One seed is enough to find a task out of reach of the bridges;
-/// three also show whether the defects fit (estimate).
+/// Seeds to try for a scenario without its own seed. One seed is enough to find a task that is too far from the
+/// bridges; three also show whether the defects fit (estimate).
 const TRIAL_SEEDS: [u64; 3] = [1, 2, 3];
 
 /// Check scenario and vehicle files
 ///
 /// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the
-/// site and reports every task whose reference path has less clearance than half the aircraft's tip-to-tip width plus
-/// 0.5 m, with the location. It warns if it cannot place as many defects as the scenario requests.
+/// site and reports every task with a reference path that is too close to an obstacle, with the location. The minimum
+/// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It warns if it cannot place as many defects as the
+/// scenario requests.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -52,7 +54,7 @@ struct Findings {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// Returns an error if any file is invalid.
+/// Returns an error if a file is invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let aircraft = files::vehicle(&args.vehicle)?.vehicle;
     let mut findings = Findings::default();
@@ -69,7 +71,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     } else {
         notes.iter().for_each(|note| println!("note: {note}"));
         warnings.iter().for_each(|warning| println!("warning: {warning}"));
-        // An unreadable file has no line number.
+        // Errors in unreadable files have no line number.
         first.iter().for_each(|problem| if problem.line == 0 { println!("{}", problem.message) } else { println!("{problem}") });
         if more > 0 {
             println!("and {more} more problems");
@@ -81,7 +83,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             let files = count(args.files.len(), "file");
             match warnings.len() {
                 0 => println!("{files} valid"),
-                many => println!("{files} valid, with {}", count(many, "warning")),
+                many => println!("{files} valid ({})", count(many, "warning")),
             }
             Ok(())
         }
@@ -118,8 +120,8 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
     }
 }
 
-/// Top-level keys that occur only in vehicle files or only in scenarios. They identify the file type even if some keys
-/// are missing.
+/// Top-level keys that appear in only one of the two file types. They identify the file type even if some keys are
+/// missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
 const SCENARIO_KEYS: [&str; 13] = [
@@ -177,7 +179,7 @@ fn clearance_problems(source: &SourceFile, scenario: &Scenario, aircraft: &Vehic
     scenario.tasks.iter().enumerate().filter_map(tight).collect()
 }
 
-/// Returns a warning if not all requested defects can be placed. Tries the scenario's own seed, or the first few seeds.
+/// Returns a warning if some requested defects cannot be placed. Tries the scenario's own seed, or the first few seeds.
 fn missing_defects_warning(source: &SourceFile, scenario: &Scenario) -> Option<String> {
     let wanted = scenario.defects.count;
     if wanted == 0 || scenario.defects.placed.is_some() {
@@ -286,7 +288,7 @@ mod tests {
 
     #[test]
     fn exact_clearance_limit_matches_the_aircraft_size() {
-        // Tolerance, m: the search along the path stops within 1 mm of the tightest point.
+        // Tolerance, m: the search along the path stops within 1 mm of the narrowest point.
         const TOLERANCE_M: f64 = 2e-3;
         let source = files::any_source("drill-gap").unwrap();
         let scenario = scenario::read(&source.file, &source.text, &|name| source.read_referenced_file(name)).unwrap();
@@ -305,7 +307,7 @@ mod tests {
         let refused = problems(fits_m + 2.0 * TOLERANCE_M);
         assert_eq!(refused.len(), 1);
         assert_eq!(task_lines(&source.text), [refused[0].line]);
-        // The reported point has the reported clearance.
+        // The clearance at the reported point matches the reported clearance.
         let number = |after: &str| {
             let rest = refused[0].message.split(after).nth(1).unwrap();
             rest.trim_start().split(' ').next().unwrap().parse::<f64>().unwrap()

@@ -16,10 +16,10 @@ const MAX_CONTRADICTIONS: usize = 12;
 
 /// Summarize the results of a group of trainees
 ///
-/// Reports distributions of scores, trainees and tasks, box plots by repetition, crashes, answer counts, self-ratings
-/// versus measurements, paired t tests with effect sizes, confidence intervals and Holm correction, homogeneity, a
-/// causal model of demand, strain and performance, and each trainee's progress. Writes text, JSON, CSV tables or an
-/// HTML page.
+/// Reports distributions of scores, trainees and tasks, box plots by repetition, crashes, and answer counts. Compares
+/// self-ratings with measurements. Runs paired t-tests (effect sizes, confidence intervals, Holm correction) and
+/// homogeneity tests, fits a causal model of demand, strain and performance, and shows each trainee's progress. Writes
+/// text, JSON, CSV tables or an HTML page.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -39,7 +39,7 @@ pub struct Args {
     /// Scenario to include; may be repeated [default: the scenario flown most often]
     #[arg(long, value_name = "NAME")]
     scenario: Vec<String>,
-    /// Number of repetitions to compare, among trainees who flew at least that many (1 to 100)
+    /// Number of repetitions to compare (1 to 100); includes only trainees who flew at least that many
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     repetitions: u8,
     /// Include incomplete sessions
@@ -75,12 +75,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         && let Some(words) = omitted_summary(cohort.left_out)
     {
         return Err(AppError::wrong(format!(
-            "this scenario has no complete sessions: {words} (use --include-incomplete to count them)"
+            "this scenario has no complete sessions: {words} (to count them, use --include-incomplete)"
         )));
     }
     if cohort.sessions == 0 {
         return Err(AppError::wrong(
-            "the records contain no sessions of this scenario; use spandrel records import to add sessions",
+            "the records contain no sessions of this scenario; to add sessions, use `spandrel records import`",
         ));
     }
     if let Some(folder) = &args.csv {
@@ -99,7 +99,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
 }
 
-/// Formats the number of sessions and the main statistics of the first sessions as text.
+/// Formats the session count and the main statistics for first sessions as text.
 fn first_session_summary(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
     if let Some(words) = omitted_summary(cohort.left_out) {
@@ -181,8 +181,11 @@ fn words(cohort: &Cohort) -> String {
         let _ = writeln!(out, "{}: {}", one.trainee, one.words);
     }
     if contradictions.len() > MAX_CONTRADICTIONS {
-        let _ =
-            writeln!(out, "and {} more contradictions (listed by --json and --csv)", contradictions.len() - MAX_CONTRADICTIONS);
+        let _ = writeln!(
+            out,
+            "and {} more contradictions (use --json or --csv to list all)",
+            contradictions.len() - MAX_CONTRADICTIONS
+        );
     }
     for warning in &cohort.warnings {
         let _ = writeln!(out, "note: {warning}");

@@ -15,21 +15,21 @@ use crate::io::trainee_id::TraineeId;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Interval between checks of the child processes.
+/// Interval at which the child processes are checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
-/// Wall time allowed for the monitor to detect the end of the session after the pilot has finished. Detection takes 3 s
-/// of simulation time with the aircraft at rest.
+/// Wall time within which the monitor must detect the end of the session after the pilot has finished. Detection takes
+/// 3 s of simulation time with the aircraft at rest.
 const MONITOR_GRACE_PERIOD: Duration = Duration::from_secs(15);
 
 /// Fly a complete session automatically
 ///
-/// Runs the simulator, the monitor and a synthetic trainee as three processes that communicate over UDP on free ports,
-/// in lockstep: no data is lost at any speed, and the same seed produces the same frames. At the end, prints the four
-/// scores, their sum, crashes, snapshots and the session folder. Several demos can run at the same time.
+/// Runs the simulator, the monitor and a synthetic trainee as three processes that communicate over UDP on free ports.
+/// They run in lockstep: no data is lost at any speed, and the same seed produces the same frames. At the end, prints
+/// the four scores, their sum, crashes, snapshots and the session folder. Several demos can run at the same time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel demo                                         five times real time
+  spandrel demo                                         at five times real time
   spandrel demo --skill novice --seed 7 --speed max     as fast as possible
   spandrel demo --speed 1 --gcs 127.0.0.1:14550         watch it in QGroundControl
 
@@ -39,8 +39,7 @@ pub struct Args {
     job: JobArgs,
     #[command(flatten)]
     skill: SkillArgs,
-    /// ID of the trainee for the session: letters, digits, '-' and '_', at most 32 characters [default:
-    /// synthetic-SKILL]
+    /// Trainee ID for the session: letters, digits, '-' and '_', at most 32 characters [default: synthetic-SKILL]
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max
@@ -49,7 +48,7 @@ pub struct Args {
     /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
     flavor: args::Flavor,
-    /// Folder in which to create session folders
+    /// Folder where the session folder is created
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
     /// Ground station to send telemetry to, or none; may be repeated
@@ -110,8 +109,8 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     out
 }
 
-/// Waits for the end of the session. Returns early if the monitor does not detect an end after the pilot has finished,
-/// or with an error if a process exits too soon.
+/// Waits for the end of the session. Stops waiting if the monitor does not detect the end after the pilot has finished.
+/// Returns an error if a process exits too soon.
 fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
     let mut pilot_done: Option<Stopwatch> = None;
     loop {
@@ -126,7 +125,7 @@ fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &
             return None;
         }
         for (name, child) in [("simulator", &mut *sim), ("pilot", &mut *pilot)] {
-            // The monitor exits slightly before the other processes do.
+            // The monitor exits slightly before the other processes.
             if let Some(status) = child.ended()
                 && monitor.ended().is_none()
             {

@@ -27,16 +27,16 @@ use std::path::Path;
 
 /// Export frames, scenario, flight plan, geometry or a recording for other programs
 ///
-/// Frames (CSV, one line per scored frame) require a session. The scored part of the scenario (JSON: paths, defects,
-/// limits) and the collision geometry (binary glTF, each member named with its element number) are available for a
-/// session or a scenario. A recording (MCAP, for Foxglove) requires a session, or a truncated recording to recover up
-/// to its last complete chunk.
+/// To export frames (CSV, one line per scored frame), specify a session. To export the scored part of the scenario
+/// (JSON: paths, defects, limits) or the collision geometry (binary glTF, each member named with its element number),
+/// specify a session or a scenario. To export a recording (MCAP, for Foxglove), specify a session, or a truncated
+/// recording to recover up to its last complete chunk.
 #[derive(Debug, clap::Args)]
 #[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["frames", "scenario", "glb", "plan", "mcap", "parquet", "xapi", "scorm"])))]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel export sessions/20260801T... --frames frames.csv
-  spandrel export two-bridges --seed 7 --scenario -          reference paths, and the defects of seed 7
+  spandrel export two-bridges --seed 7 --scenario -          reference paths, and the defects for seed 7
   spandrel export two-bridges --plan tasks.plan              a plan to open, upload and fly in QGroundControl
   spandrel export two-bridges --glb bridges.glb              for 3D viewers
   spandrel export sessions/20260801T... --mcap flight.mcap   for Foxglove
@@ -48,39 +48,39 @@ pub struct Args {
     /// Session folder, scenario file, or the name of a shipped scenario; with --mcap also a recording
     #[arg(value_name = "SESSION|SCENARIO|MCAP")]
     from: String,
-    /// Frames as CSV; '-' for standard output
+    /// Write frames as CSV; '-' for standard output
     #[arg(long, value_name = "FILE")]
     frames: Option<String>,
-    /// The scored part of the scenario as JSON; '-' for standard output
+    /// Write the scored part of the scenario as JSON; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scenario: Option<String>,
-    /// The tasks' reference paths as a QGroundControl plan with takeoff, transits clear of the bridges, the gimbal,
-    /// lamp and camera commands of each task, and the return flight; '-' for standard output
+    /// Write the tasks' reference paths as a QGroundControl plan with takeoff, transits clear of the bridges, each
+    /// task's gimbal, lamp and camera commands, and the return flight; '-' for standard output
     #[arg(long, value_name = "FILE")]
     plan: Option<String>,
-    /// Aircraft that sets the plan's clearance: a file, or the name of a shipped aircraft; ignored for a session
+    /// Aircraft that determines the plan's clearance: a file, or the name of a shipped aircraft; ignored for a session
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2", requires = "plan")]
     vehicle: String,
-    /// Autopilot for the plan's firmwareType, which ground stations compare with the vehicle's
+    /// Autopilot for the plan's firmwareType field, which ground stations compare with the vehicle's autopilot
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4", requires = "plan")]
     flavor: args::Flavor,
-    /// Geometry as binary glTF 2.0, in m, y up; '-' for standard output
+    /// Write the geometry as binary glTF 2.0, in m, y up; '-' for standard output
     #[arg(long, value_name = "FILE")]
     glb: Option<String>,
-    /// The flight as MCAP with the drone, camera, site, battery, clearance and contacts; '-' for standard output
+    /// Write the flight as MCAP with the drone, camera, site, battery, clearance and contacts; '-' for standard output
     #[arg(long, value_name = "FILE")]
     mcap: Option<String>,
-    /// Frames as Parquet, with the same columns as --frames and with their units, reference frames and definitions as
+    /// Write frames as Parquet, with the same columns as --frames; units, reference frames and definitions are in the
     /// metadata; '-' for standard output
     #[arg(long, value_name = "FILE")]
     parquet: Option<String>,
-    /// The session as xAPI statements, one JSON object per line; '-' for standard output
+    /// Write the session as xAPI statements, one JSON object per line; '-' for standard output
     #[arg(long, value_name = "FILE")]
     xapi: Option<String>,
-    /// The result as a SCORM 1.2 package for a learning management system; '-' for standard output
+    /// Write the result as a SCORM 1.2 package for a learning management system; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scorm: Option<String>,
-    /// Seed for placing the defects of a scenario without its own seed
+    /// Seed for placing the defects if the scenario has no seed of its own
     #[arg(long, value_name = "N", value_parser = args::parse_seed)]
     seed: Option<u64>,
 }
@@ -123,12 +123,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let seed = args.seed.or(scenario.seed);
     if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
         return Err(AppError::wrong(format!(
-            "the defects of '{}' differ in every session: choose a seed with --seed N",
+            "'{}' has different defects in every session: choose a seed with --seed N",
             args.from
         )));
     }
     let progress = ProgressLog::start("building the site");
-    // Without a seed, only the geometry is exported, which is the same for every seed.
+    // Without a seed, only the geometry is exported; it is the same for every seed.
     let site = Site::build(&scenario, seed.unwrap_or_default());
     progress.finish();
     if let Some(target) = &args.scenario {
@@ -171,7 +171,7 @@ fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> R
     Ok(())
 }
 
-/// Packs files into a ZIP archive; identical files produce identical bytes.
+/// Packs files into a ZIP archive; identical files produce identical archives.
 fn zip_files(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
     let write = || {
         let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
@@ -187,7 +187,7 @@ fn zip_files(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
     write().map_err(|error: zip::result::ZipError| AppError::failed(format!("cannot create the package: {error}")))
 }
 
-/// Exports the flight of a session as an MCAP recording.
+/// Exports a session's flight as an MCAP recording.
 fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
     let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
@@ -195,7 +195,7 @@ fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
     let flight = scored_flight(&timeline, scenario, vehicle);
     let messages = recording::messages(&flight, scenario, vehicle);
     let Some(first) = messages.first() else {
-        return Err(AppError::failed("the session contains no flight to record"));
+        return Err(AppError::failed("the session contains no flight to export"));
     };
     // The geometry is the same for every seed.
     let glb = gltf::glb(&Site::build(scenario, 0));

@@ -1,5 +1,5 @@
-//! `spandrel generate`: writes manual pages and shell completions for packaging. Hidden from help, manual and
-//! completions.
+//! `spandrel generate`: writes manual pages and shell completions for packaging. The help, the manual and the
+//! completions do not list it.
 
 use crate::errors::AppError;
 use crate::io::files;
@@ -8,21 +8,21 @@ use clap_complete::Shell;
 use clap_mangen::{Man, roff::Roff};
 use std::path::PathBuf;
 
-/// Subcommand name.
+/// Name of the hidden subcommand.
 pub const NAME: &str = "generate";
 
-/// Kind of output: manual pages or shell completions.
+/// What to generate: manual pages or shell completions.
 #[derive(Debug, Subcommand)]
 pub enum GeneratorCommand {
-    /// Write the manual pages of the program and its subcommands
+    /// Write the manual pages for the program and its subcommands
     Man {
-        /// Folder for the pages; must exist
+        /// Existing folder for the pages
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },
     /// Print completions for a shell
     Completions {
-        /// Shell
+        /// Shell to generate completions for
         shell: Shell,
     },
 }
@@ -53,7 +53,7 @@ pub fn run(what: &GeneratorCommand, mut documented: Command) -> Result<(), AppEr
     }
 }
 
-/// Returns the file name and text of each manual page.
+/// Returns each manual page's file name and text.
 fn pages(documented: Command) -> Result<Vec<(String, Vec<u8>)>, AppError> {
     let mut command = documented.disable_help_subcommand(true);
     command.build();
@@ -72,7 +72,7 @@ fn page(command: Command) -> std::io::Result<(String, Vec<u8>)> {
     let man = Man::new(plain).manual("Spandrel manual").source(concat!("Spandrel ", env!("CARGO_PKG_VERSION")));
     let mut text = Vec::new();
     man.render(&mut text)?;
-    // Each section consists of a heading and lines, which are not reflowed.
+    // Each section consists of a heading and lines that are not reflowed.
     let mut sections = Roff::new();
     for part in after.split("\n\n").filter(|part| !part.is_empty()) {
         let (heading, body) = part.split_once(':').unwrap_or(("Notes", part));

@@ -1,5 +1,5 @@
-//! The command line: one file per subcommand, each of which parses its arguments and runs a sans-IO core. Results go to
-//! standard output, everything else to standard error.
+//! The command line, with one file per subcommand. Each subcommand parses its arguments and runs a sans-IO core.
+//! Results go to standard output, everything else to standard error.
 
 mod args;
 mod assess;
@@ -33,8 +33,8 @@ use std::process::ExitCode;
 /// Open-source trainer for bridge inspectors who fly drones: a simulated MAVLink vehicle, a monitor that scores the
 /// flight from its telemetry, and a synthetic trainee.
 ///
-/// First steps: `spandrel demo` flies a complete session automatically; `spandrel train` waits for your ground station
-/// (QGroundControl connects automatically) and scores your flight.
+/// First steps: run `spandrel demo` to fly a complete session automatically, or `spandrel train` to fly with your own
+/// ground station (QGroundControl connects automatically) and get your scores.
 #[derive(Debug, Parser)]
 #[command(name = "spandrel", version, max_term_width = 110, after_help = errors::EXIT_CODES)]
 pub struct Cli {

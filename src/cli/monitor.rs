@@ -24,13 +24,13 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Maximum wait for a datagram, because the core must be updated every 100 ms.
+/// Maximum time to wait for a datagram, because the core must be updated every 100 ms.
 const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Interval at which received data is written to disk.
 const FLUSH_INTERVAL: Duration = Duration::from_millis(250);
 /// Time without data after which the vehicle may use another address.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(3);
-/// Interval at which the pilot is warned while the disk cannot be written.
+/// Interval between warnings to the pilot while the disk cannot be written.
 const WARNING_INTERVAL: Duration = Duration::from_secs(30);
 /// Maximum number of datagrams processed before replies are sent.
 const MAX_BATCH_LEN: usize = 256;
@@ -46,27 +46,26 @@ const MAX_BATCH_LEN: usize = 256;
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel monitor --trainee anna                      score instance 0 of the simulator (UDP 14030)
-  spandrel monitor --connect 127.0.0.1:14280 --port 0  connect as an additional monitor, to the vehicle's payload port
+  spandrel monitor --connect 127.0.0.1:14280 --port 0  connect an additional monitor to the vehicle's payload port
   spandrel monitor --session sessions/20260801T...     resume in flight after the monitor was killed
 
 {EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
     job: JobArgs,
-    /// Folder in which to create session folders
+    /// Folder where the session folder is created
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
     /// Trainee ID: letters, digits, '-' and '_', at most 32 characters
     #[arg(long, value_name = "ID", default_value = "anonymous")]
     trainee: TraineeId,
-    /// Purpose of the flight, for session.json [default: not recorded]
+    /// Purpose of the flight, saved in session.json [default: not recorded]
     #[arg(long, value_name = "PURPOSE")]
     purpose: Option<args::Purpose>,
-    /// Accepted for compatibility with train and demo; has no effect, because the monitor takes its clock from the
-    /// telemetry
+    /// Ignored, because the monitor takes the time from the telemetry; accepted for compatibility with train and demo
     #[arg(long, value_name = "X|max")]
     speed: Option<SimulationSpeed>,
-    /// Resume this session after its monitor was killed (scenario, vehicle and trainee come from the folder)
+    /// Resume this session after its monitor was killed (uses the folder's scenario, vehicle and trainee)
     #[arg(long, value_name = "DIR")]
     session: Option<PathBuf>,
     /// Vehicle instance: sets the default port
@@ -81,7 +80,7 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Print one line of JSON {"port", "session"} on standard output at startup, and omit the table at the end
+    /// Print one line of JSON {"port", "session"} on standard output at startup, and do not print the table at the end
     #[arg(long)]
     announce: bool,
     /// Stop when standard input closes (for a parent process)
@@ -95,7 +94,8 @@ pub struct Args {
 /// Returns an error if files or ports are invalid, or the session cannot be scored.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
-    // Reads the files, then opens the port, then creates the folder, so that an error leaves nothing behind.
+    // The folder is created last, after the files have been read and the port has been opened, so an error leaves
+    // nothing behind.
     let start = SessionStart::read(args)?;
     let mut hub = SocketHub::new();
     let port = args.port.unwrap_or(MONITOR_PORT + u16::from(args.instance));
@@ -134,7 +134,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     shell.end(args.announce, &stop)
 }
 
-/// A new session, or an existing one to resume.
+/// A new session, or an existing session to resume.
 enum SessionStart {
     New(Box<(ScenarioFile, VehicleFile)>),
     Resumed(PathBuf, Box<StoredSession>),
@@ -224,7 +224,7 @@ impl MonitorProcess {
                 return;
             }
             if !self.monitor.is_from_vehicle(bytes) {
-                tracing::debug!("ignored a datagram from {from}: not from the vehicle");
+                tracing::debug!("ignored a datagram from {from}: the sender is not the vehicle");
                 return;
             }
             tracing::info!("receiving from {from}");
@@ -279,7 +279,7 @@ impl MonitorProcess {
         Ok(())
     }
 
-    /// Logs disk errors, repeatedly while they last, and the recovery. Also notifies the pilot of both.
+    /// Logs disk errors (repeatedly while they last) and the recovery, and notifies the pilot of both.
     fn report_disk(&mut self, refused: Option<WriteError>) {
         let wall = self.stopwatch.elapsed();
         match refused {
@@ -298,7 +298,7 @@ impl MonitorProcess {
         }
     }
 
-    /// Writes the complete session. On disk errors, retries until a stop is requested.
+    /// Writes the complete session. If the disk fails, retries until a stop is requested.
     fn complete(&mut self, json: Option<&str>, stop: &StopRequest) -> Result<(), AppError> {
         loop {
             self.write_records();
@@ -315,7 +315,7 @@ impl MonitorProcess {
                     }
                 }
             }
-            // The vehicle keeps sending, so this drains the receive queue and sends heartbeats.
+            // The vehicle is still sending, so keep draining the receive queue and sending heartbeats.
             self.step();
         }
     }
@@ -327,7 +327,7 @@ impl MonitorProcess {
         let json = self.outcome().ok().map(|graded| export::json_text(&graded.assessment));
         self.send();
         self.complete(json.as_deref(), stop)?;
-        // The report reads the telemetry again, so keeping the flight in memory would double the memory use.
+        // The report reads the telemetry again; keeping the flight in memory as well would double memory use.
         self.monitor.free_flight_data();
         // The scores are saved; the report can be written again later.
         if json.is_some()
@@ -368,6 +368,6 @@ impl MonitorProcess {
         let seconds = flown.ms() / 1000;
         let task = monitor.task().map_or("off path".to_owned(), |task| format!("on task {task}"));
         let battery = monitor.battery_pct().map_or(String::new(), |pct| format!(", battery {pct:.0}%"));
-        format!("{:02}:{:02} of flight, {task}{battery}", seconds / 60, seconds % 60)
+        format!("flight time {:02}:{:02}, {task}{battery}", seconds / 60, seconds % 60)
     }
 }

@@ -1,4 +1,4 @@
-//! Image options that several subcommands share.
+//! Image options shared by several subcommands.
 
 use crate::errors::AppError;
 use spandrel_view::quality::{PRESETS, Quality};
@@ -13,7 +13,7 @@ pub fn quality(name: &str) -> Result<Quality, AppError> {
         .ok_or_else(|| AppError::wrong(format!("--quality {name}: unknown preset (allowed: {})", names.join(", "))))
 }
 
-/// Parses width and height, px.
+/// Parses a size: width and height in px.
 pub fn size(text: &str) -> Result<(u32, u32), AppError> {
     let wrong = || {
         AppError::wrong(format!(

@@ -16,15 +16,15 @@ use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Maximum wait for a datagram.
+/// Maximum time to wait for a datagram.
 const MAX_WAIT: Duration = Duration::from_millis(50);
 /// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Skill level of the synthetic trainee.
+/// The synthetic trainee's skill level.
 #[derive(Debug, Clone, clap::Args)]
 pub struct SkillArgs {
-    /// Skill level of the synthetic trainee: novice, trained or expert
+    /// The synthetic trainee's skill level: novice, trained or expert
     #[arg(long, value_name = "SKILL", default_value = "trained", value_parser = ["novice", "trained", "expert"])]
     pub skill: String,
     /// Parameters to take from the expert instead, to measure their individual effects: delay, gain, noise, preview,
@@ -34,7 +34,7 @@ pub struct SkillArgs {
 }
 
 impl SkillArgs {
-    /// Returns the parameters of the synthetic trainee.
+    /// Returns the synthetic trainee's parameters.
     ///
     /// # Errors
     /// Returns an error if there is no such skill level.
@@ -43,7 +43,7 @@ impl SkillArgs {
         Ok(self.expert_in.iter().fold(base, |pilot, factor| pilot.with(*factor, Skill::EXPERT)))
     }
 
-    /// Returns the options as command-line arguments for a child process.
+    /// Formats the options as command-line arguments for a child process.
     pub fn to_args(&self) -> Vec<String> {
         let mut args = vec!["--skill".to_owned(), self.skill.clone()];
         if !self.expert_in.is_empty() {
@@ -56,15 +56,15 @@ impl SkillArgs {
 
 /// Fly the job as a synthetic trainee
 ///
-/// Connects to the vehicle over UDP as a ground station does, and uses only manual control, lamp, gimbal and snapshot
-/// commands: takes off, flies the tasks in order, photographs the defects it notices, and lands. Its errors result from
-/// its reaction delay, gain, noise, preview and attention lapses.
+/// Connects to the vehicle over UDP like a ground station, and uses only manual control, lamp, gimbal and snapshot
+/// commands. It takes off, flies the tasks in order, photographs the defects it notices, and lands. Its errors result
+/// from its reaction delay, gain, noise, preview and attention lapses.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel pilot --skill novice --seed 3 --connect 127.0.0.1:18570   connect to a running simulator
   spandrel pilot --skill novice --expert-in delay,noise              use the expert's delay and noise
-  spandrel pilot --port 0 --announce                                 wait for a simulator to connect (--gcs)
+  spandrel pilot --port 0 --announce                                 wait for a simulator with --gcs to connect
 
 Prints one JSON line at the end of the flight.
 
@@ -83,7 +83,7 @@ pub struct Args {
     /// Local address to bind
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     listen: IpAddr,
-    /// Print one JSON line {"port"} on standard output at startup
+    /// Print one line of JSON {"port"} on standard output at startup
     #[arg(long)]
     announce: bool,
     /// Keep the link alive after the flight, and exit when standard input closes (for a parent process)
@@ -122,8 +122,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             last_received_at = Some(watch.elapsed());
             pilot.handle_datagram(&bytes);
         }
-        // If the vehicle is to connect first, the pilot sends nothing until then: messages timed by the wall clock
-        // would differ between runs.
+        // If the vehicle connects first, the pilot sends nothing until then: messages timed by the wall clock would
+        // differ between runs.
         if args.port.is_none() {
             pilot.handle_timeout(SimTime::from_s(watch.elapsed().as_secs_f64()));
         }

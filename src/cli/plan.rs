@@ -15,8 +15,9 @@ use std::path::PathBuf;
 
 /// Recommend a trainee's next exercises, with reasons
 ///
-/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, the places of speeding,
-/// the crashes, and the reasons why pictures missed defects. The rules come from a file; --rules selects another one.
+/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, where the trainee
+/// exceeded the speed limit, the crashes, and why pictures missed defects. The rules come from a file; --rules selects
+/// another one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -61,7 +62,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let incomplete = IncompletePolicy::included(args.include_incomplete);
     let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us()) else {
         return Err(AppError::wrong(format!(
-            "the records contain no sessions of '{trainee}'; use spandrel records import to add sessions"
+            "the records contain no sessions of '{trainee}'; to add sessions, use `spandrel records import`"
         )));
     };
     files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())
@@ -69,8 +70,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 
 fn words(plan: &TrainingPlan) -> String {
     let day = |unix_us: u64| clock::utc(unix_us).0.chars().take(10).collect::<String>();
-    let mut out =
-        format!("Exercises to fly after {}, between {} and {}:\n", plan.session, day(plan.from_unix_us), day(plan.until_unix_us));
+    let mut out = format!(
+        "Recommended exercises after {}, to fly between {} and {}:\n",
+        plan.session,
+        day(plan.from_unix_us),
+        day(plan.until_unix_us)
+    );
     for (k, step) in plan.steps.iter().enumerate() {
         let _ = writeln!(out, "{}. {}", k + 1, step.scenario);
         for reason in &step.reasons {

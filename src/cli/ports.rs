@@ -1,4 +1,4 @@
-//! Network and serial ports of a vehicle, from the command line.
+//! A vehicle's network and serial ports, from the command line.
 
 use crate::io::addresses::{self, Destination, PortChoice};
 use crate::io::serial::SerialDevice;
@@ -9,20 +9,20 @@ const GCS_TARGET: u16 = 14550;
 const SDK_TARGET: u16 = 14540;
 const GCS_PORT: u16 = 18570;
 const PAYLOAD_PORT: u16 = 14280;
-/// UDP port of the first monitor; each further instance uses the next one.
+/// UDP port of the first instance's monitor; each further instance uses the next port.
 pub const MONITOR_PORT: u16 = 14030;
 const TCP_PORT: u16 = 5760;
-/// Port options of a vehicle.
+/// A vehicle's port options.
 #[derive(Debug, Clone, clap::Args)]
 #[command(next_help_heading = "Ports")]
 pub struct PortArgs {
-    /// Vehicle instance, 0 to 200: sets the system ID to 1 + N and shifts every default port
+    /// Vehicle instance (0 to 200): sets the system ID to 1 + N and increases default ports
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
     pub instance: u8,
-    /// Ground station to send telemetry to from the start, or none; may be repeated [default: 127.0.0.1:14550]
+    /// Ground station to send telemetry to from startup, or none; may be repeated [default: 127.0.0.1:14550]
     #[arg(long, value_name = "HOST:PORT|none")]
     pub gcs: Vec<Destination>,
-    /// SDK to send telemetry to from the start, or none [default: 127.0.0.1:14540 + instance]
+    /// SDK to send telemetry to from startup, or none [default: 127.0.0.1:14540 + instance]
     #[arg(long, value_name = "HOST:PORT|none")]
     pub sdk: Option<Destination>,
     /// UDP port for incoming ground stations, or none [default: 18570 + instance]
@@ -37,18 +37,18 @@ pub struct PortArgs {
     /// TCP port for ground stations, or none [default: 5760 + 10 x instance]
     #[arg(long, value_name = "PORT|none")]
     pub tcp_port: Option<PortChoice>,
-    /// Serial port with a radio or cable, such as /dev/ttyUSB0:57600; may be repeated. Its capacity in bytes/s is a
-    /// tenth of its baud rate
+    /// Serial port with a radio or cable, such as /dev/ttyUSB0:57600; may be repeated. Its capacity in bytes/s is
+    /// one-tenth of its baud rate
     #[arg(long, value_name = "DEVICE:BAUD")]
     pub serial: Vec<SerialDevice>,
-    /// Data rate limit of each UDP or TCP link to a ground station, bytes/s; streams and parameter downloads slow down
-    /// accordingly [default: no limit]
+    /// Data rate limit in bytes/s for each UDP or TCP link to a ground station; streams and parameter downloads slow
+    /// down accordingly [default: no limit]
     #[arg(long, value_name = "BYTES_S", value_parser = clap::value_parser!(u32).range(500..=100_000_000))]
     pub gcs_limit: Option<u32>,
     /// Local address to bind: 127.0.0.1 for this machine only, 0.0.0.0 for all network interfaces
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1", value_parser = addresses::listen)]
     pub listen: IpAddr,
-    /// Default ports: the fixed numbers above, or any free ports without default values of --gcs and --sdk
+    /// Default ports: the fixed numbers above, or any free ports (then --gcs and --sdk have no default values)
     #[arg(long, value_name = "fixed|ephemeral", default_value = "fixed", value_parser = ["fixed", "ephemeral"])]
     pub ports: String,
 }
@@ -62,8 +62,8 @@ impl PortArgs {
         first + u16::from(self.instance)
     }
 
-    /// Returns the ports of the vehicle `more` places after this one in the same process. All port numbers shift,
-    /// except those chosen by the system. Only the first vehicle has serial ports.
+    /// Returns the ports of the vehicle that follows `more` positions after this one in the same process. All port
+    /// numbers shift, except those that the system chooses. Only the first vehicle has serial ports.
     pub fn for_vehicle(&self, more: u8) -> Self {
         let port = |port: PortChoice, step: u16| match port {
             PortChoice::Number(number @ 1..) => PortChoice::Number(number.saturating_add(step * u16::from(more))),
@@ -97,7 +97,7 @@ impl PortArgs {
         }
     }
 
-    /// Returns the addresses of the ground stations to send telemetry to from the start.
+    /// Returns the addresses of the ground stations to send telemetry to from startup.
     pub fn ground_stations(&self) -> Vec<SocketAddr> {
         let given = self.gcs.iter().filter_map(|target| match target {
             Destination::None => None,
@@ -106,7 +106,7 @@ impl PortArgs {
         if self.gcs.is_empty() && !self.ephemeral() { vec![local(GCS_TARGET)] } else { given.collect() }
     }
 
-    /// Returns the address of the SDK to send telemetry to from the start.
+    /// Returns the address of the SDK to send telemetry to from startup.
     pub fn sdk(&self) -> Option<SocketAddr> {
         match self.sdk {
             Some(Destination::Address(address)) => Some(address),
@@ -116,7 +116,7 @@ impl PortArgs {
         }
     }
 
-    /// Returns the monitor's UDP port on this machine, 0 for none.
+    /// Returns the monitor's UDP port on this machine, or 0 if there is none.
     pub fn monitor_port(&self) -> u16 {
         match self.monitor_port {
             Some(PortChoice::Number(port)) => port,
@@ -152,7 +152,7 @@ impl PortArgs {
         }
     }
 
-    /// Returns the options as command-line arguments for a child process, without the monitor's port.
+    /// Formats the options as command-line arguments for a child process, without the monitor's port.
     pub fn to_args(&self) -> Vec<String> {
         let mut out = vec!["--instance".to_owned(), self.instance.to_string(), "--listen".to_owned(), self.listen.to_string()];
         out.extend(["--ports".to_owned(), self.ports.clone()]);

@@ -15,15 +15,15 @@ use std::path::PathBuf;
 
 /// Answer the questionnaire after a flight
 ///
-/// Asks for your agreement with three statements about the whole session and three about each phase (24 for the default
-/// scenario). Every answer is saved immediately in the session's answers.json. You can quit at any time and continue
-/// later with the same command.
+/// Asks how strongly you agree with three statements about the whole session and three about each phase (24 statements
+/// for the default scenario). Every answer is saved immediately in the session's answers.json. You can quit at any time
+/// and continue later with the same command.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel questionnaire sessions/20260801T...             ask the unanswered questions
   spandrel questionnaire sessions/20260801T... --tlx       also ask the six NASA-TLX scales
-  spandrel questionnaire sessions/20260801T... --again     ask all questions again; Enter keeps an answer
+  spandrel questionnaire sessions/20260801T... --again     ask all questions again; Enter keeps the previous answer
   spandrel questionnaire sessions/20260801T... --language de    ask in German (available: en, de, es)
 
 {EXIT_CODES}"))]
@@ -52,7 +52,7 @@ enum PromptQuestion {
     Tlx(TlxScale),
 }
 
-/// Parsed line of terminal input.
+/// A parsed line of terminal input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TypedInput {
     Answer(u8),
@@ -83,8 +83,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Selects the wording by the requested language, the custom wording file, the language of the saved answers, or the
-/// terminal's language.
+/// Selects the wording, in order of preference: the requested language, the custom wording file, the language of the
+/// saved answers, the terminal's language.
 fn select_wording<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
     if let Some(tag) = &args.language {
         let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();
@@ -96,7 +96,7 @@ fn select_wording<'a>(args: &Args, languages: &'a Languages, answers: &Answers) 
     Ok(if args.wording.is_some() { first } else { begun().or_else(|| languages.of(&terminal_language()?)).unwrap_or(first) })
 }
 
-/// Returns the terminal's language as a language tag: `de_CH.UTF-8` becomes de-CH.
+/// Returns the terminal's language as a language tag: `de_CH.UTF-8` becomes `de-CH`.
 fn terminal_language() -> Option<String> {
     let set = |name: &&str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let value = ["LC_ALL", "LC_MESSAGES", "LANG"].iter().find_map(set)?;
@@ -198,7 +198,7 @@ mod tests {
     use crate::io::files;
     use spandrel_training::questionnaire::{InspectionPhase, OverallItem, PhaseAspect};
 
-    /// Enters lines into the questionnaire of the default scenario. Returns the output and the number of saves.
+    /// Enters lines into the default scenario's questionnaire. Returns the output and the number of saves.
     fn run_with_input(questions: &[PromptQuestion], answers: &mut Answers, lines: &str) -> (String, usize) {
         let scenario = files::scenario("two-bridges").unwrap().scenario;
         let (mut shown, mut saved) = (Vec::new(), 0);
@@ -238,7 +238,7 @@ mod tests {
         assert_eq!((answers.given.len(), saved), (2, 2));
         assert_eq!(answers.given[&QuestionnaireItem::Overall(OverallItem::Frustration)], 4);
         assert_eq!(shown.matches("Please enter a whole number from 1 to 5").count(), 3);
-        // The end of the input also ends the questionnaire.
+        // The questionnaire also ends when the input ends.
         assert_eq!(run_with_input(&all(), &mut answers, "").1, 0);
     }
 

@@ -19,30 +19,30 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// Maximum wait for a datagram: a quarter of the interval between stick samples.
+/// Maximum time to wait for a datagram: one-quarter of the interval between stick samples.
 const MAX_WAIT: Duration = Duration::from_millis(5);
 /// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
-/// Wall time without a first datagram after which a message about waiting is shown.
+/// Wall time without a first datagram after which the program logs that it is waiting.
 const WAITING_MESSAGE_DELAY: Duration = Duration::from_secs(3);
 /// Key that quits the program in the terminal.
 const QUIT_KEY: &str = "escape";
 /// Interval at which the calibration wizard polls the device.
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
-const STDIN_ENDED_MESSAGE: &str = "nothing was saved: calibration requires the Enter key, but standard input has ended (run it in a terminal, or calibrate in the window of `spandrel train`)";
+const STDIN_ENDED_MESSAGE: &str = "nothing was saved: calibration needs the Enter key, but standard input is closed (run this command in a terminal, or calibrate in the `spandrel train` window)";
 
 /// Fly with a gamepad, an RC transmitter or the keyboard
 ///
-/// Sends the sticks to the vehicle as MANUAL_CONTROL at 50 Hz, and the buttons as commands. Calibrate each device once
-/// (--calibrate); it is recognized from then on. If the device disconnects, the sticks are centered briefly and then no
-/// longer sent, which triggers the vehicle's own failsafe.
+/// Sends stick positions to the vehicle as MANUAL_CONTROL at 50 Hz, and button presses as commands. Calibrate each
+/// device once (--calibrate); it is recognized from then on. If the device disconnects, the program briefly sends
+/// centered sticks and then stops sending, which triggers the vehicle's own failsafe.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel rc --list                       list connected devices and show which are calibrated
   spandrel rc --calibrate                  calibrate a device in the terminal
   spandrel rc                              fly the simulator on this machine
-  spandrel rc --keyboard                   W S A D and arrows, B lamp, P snapshot, T take off, L land, Escape quit
+  spandrel rc --keyboard                   W S A D and arrows fly, B lamp, P snapshot, T take off, L land, Escape quit
   spandrel rc --record flight.jsonl        record the device's input; --replay replays it
 
 {EXIT_CODES}"))]
@@ -62,7 +62,7 @@ pub struct Args {
     /// Device ID or part of the device name [default: the only connected device]
     #[arg(long, value_name = "NAME")]
     device: Option<String>,
-    /// Stick mode for the calibration, 1 to 4; mode 2 has throttle and yaw on the left
+    /// Stick mode for the calibration (1 to 4); mode 2 has throttle and yaw on the left stick
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(i64).range(1..=4))]
     stick_mode: i64,
     /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
@@ -119,7 +119,7 @@ fn list(profiles: &ProfileFolder) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Source of the stick input.
+/// Where the stick input comes from.
 enum StickSource {
     Device(Box<CalibratedController>),
     Keyboard { terminal: RawTerminal, board: KeyboardState },
@@ -139,7 +139,7 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
         print_line(&format!("{words}\n{QUIT_KEY:10} quit"));
         if !terminal.reports_releases {
             print_line(
-                "this terminal does not report key releases: sticks return to center automatically, and a key repeats its action only after a pause of 0.7 s",
+                "this terminal does not report key releases: sticks return to center automatically, and you can repeat a key's action only after a 0.7 s pause",
             );
         }
         return Ok(StickSource::Keyboard { terminal, board: KeyboardState::new(keys) });
@@ -158,7 +158,7 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
     )?)))
 }
 
-/// Writes a line to standard error, with a carriage return so that it starts at the left in raw terminal mode.
+/// Writes a line to standard error, with a carriage return because the terminal may be in raw mode.
 fn print_line(text: &str) {
     eprint!("{}\r\n", text.replace('\n', "\r\n"));
 }
@@ -194,7 +194,7 @@ fn fly(
     stop: &StopRequest,
 ) -> Result<(), AppError> {
     let (watch, mut link, mut last_received_at) = (Stopwatch::start(), ControllerLink::default(), None);
-    // A recording starts with the first contact with the vehicle.
+    // A recording starts at the first contact with the vehicle.
     let (mut begin, mut told) = (None, false);
     if let StickSource::Keyboard { board, .. } = pilot {
         link.set_arm_key(&board.keys().label("arm"));
@@ -210,7 +210,7 @@ fn fly(
             link.receive(&bytes);
         }
         if last_received_at.is_none() && !told && watch.elapsed() > WAITING_MESSAGE_DELAY {
-            print_line(&format!("no vehicle at {vehicle} yet; waiting"));
+            print_line(&format!("waiting for a vehicle at {vehicle}"));
             told = true;
         }
         let now = SimTime::from_s(watch.elapsed().as_secs_f64());
@@ -238,7 +238,7 @@ fn fly(
 }
 
 fn calibrate(args: &Args, profiles: &ProfileFolder, stop: &StopRequest) -> Result<(), AppError> {
-    // Fails early if the profile could not be saved.
+    // Fail early if the profile could not be saved.
     profiles.folder()?;
     let mut source = EventSource::device(args.device.as_deref())?;
     let mode = StickMode::from_number(args.stick_mode).unwrap_or(StickMode::Two);
@@ -279,7 +279,7 @@ fn run_wizard(
     Err(AppError::failed("stopped: nothing was saved"))
 }
 
-/// Returns a channel that receives a message for every line on standard input (Enter).
+/// Returns a channel that receives a message each time the user presses Enter.
 fn enter_key_events() -> Receiver<()> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {
@@ -317,6 +317,6 @@ mod tests {
         let told = run_wizard(&mut EventSource::Record(record), StickMode::Two, &enters, &StopRequest::default())
             .unwrap_err()
             .to_string();
-        assert!(told.starts_with("nothing was saved") && told.contains("standard input has ended"), "{told}");
+        assert!(told.starts_with("nothing was saved") && told.contains("standard input is closed"), "{told}");
     }
 }

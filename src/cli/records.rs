@@ -1,4 +1,4 @@
-//! `spandrel records`: the database of sessions, trainees and answers.
+//! `spandrel records`: manages the database of sessions, trainees and answers.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::progress::ProgressLog;
@@ -17,27 +17,27 @@ use std::path::PathBuf;
 
 /// Microseconds per day.
 const DAY_US: u64 = 86_400_000_000;
-/// Maximum retention time, days (100 years).
+/// Maximum retention time, days (about 100 years).
 const MAX_RETENTION_DAYS: i64 = 36_525;
 
 /// Keep sessions, trainees and answers in a database
 ///
-/// Uses an SQLite file next to the sessions, or PostgreSQL by URL for a training center with many stations that write
-/// at the same time. The PostgreSQL password comes from PGPASSWORD or ~/.pgpass, so process lists do not show it. The
-/// session folders remain the source of truth: `rebuild` recreates the database from them.
+/// Uses an SQLite file next to the sessions, or a PostgreSQL server (specified by URL) for a training center where many
+/// stations write at the same time. The PostgreSQL password comes from PGPASSWORD or ~/.pgpass, so it does not appear
+/// in process lists. The session folders remain the source of truth: `rebuild` recreates the database from them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel records import                                   import all new or changed sessions from ./sessions
   spandrel records import --database postgres://spandrel@db/training
-  spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem'
+  spandrel records import --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=center.pem'
   spandrel records list
   spandrel records trainee anna --age-band 25-34 --drone-experience none --gaming-experience some
-  spandrel records export --trainee anna --out anna.json    write all stored data of this trainee
+  spandrel records export --trainee anna --out anna.json    write all of this trainee's data
   spandrel records export --out all.jsonl                   write all records, one per line, for spandrel cohort --records
   spandrel records push https://lrs.example/xapi            send xAPI statements to a learning record store
-  spandrel records erase --trainee anna                     list what would be erased; --yes also erases it, including folders
-  spandrel records retention --days 730                     the same for everything older than two years
+  spandrel records erase --trainee anna                     list what would be erased; add --yes to erase it, including folders
+  spandrel records retention --days 730                     the same for all sessions older than two years
   spandrel records rebuild                                  rebuild the database from the folders
 
 {EXIT_CODES}"))]
@@ -48,25 +48,25 @@ pub struct Args {
     what: RecordsCommand,
 }
 
-/// Locations of the database and the session folders.
+/// Where the database and the session folders are.
 #[derive(Debug, Clone, clap::Args)]
 pub struct RecordsArgs {
     /// Folder that contains session folders; may be repeated
     #[arg(long, global = true, value_name = "DIR", default_value = "sessions")]
     pub sessions: Vec<PathBuf>,
-    /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first folder of sessions]
+    /// Database: a file, or postgres://USER@HOST/NAME [default: records.sqlite in the first sessions folder]
     ///
     /// For PostgreSQL, sslmode in the URL's query selects the encryption: disable; prefer (the default: TLS if the
     /// server supports it, without verifying its certificate); require (TLS, without verifying the certificate); or
-    /// verify-full (a certificate for this host name from a trusted authority; recommended on a network). Trusted
-    /// authorities are those of this machine and those in sslrootcert=FILE; sslcert=FILE and sslkey=FILE set a client
-    /// certificate. All files are PEM.
+    /// verify-full (a certificate for this host name from a trusted authority; recommended on a network). This
+    /// machine's certificate authorities and those in sslrootcert=FILE are trusted; sslcert=FILE and sslkey=FILE set a
+    /// client certificate. All files are PEM.
     #[arg(long, global = true, value_name = "FILE|URL")]
     pub database: Option<String>,
 }
 
 impl RecordsArgs {
-    /// Returns the locations.
+    /// Returns the locations that the options specify.
     pub fn location(&self) -> RecordsLocation {
         RecordsLocation { sessions: self.sessions.clone(), database: self.database.clone() }
     }
@@ -74,34 +74,34 @@ impl RecordsArgs {
 
 #[derive(Debug, clap::Subcommand)]
 enum RecordsCommand {
-    /// Import new and changed sessions (reads all folders; naming the sessions is faster)
+    /// Import new and changed sessions (reads all folders; specifying sessions is faster)
     Import {
-        /// Session folders [default: all of --sessions]
+        /// Session folders to import [default: all folders in --sessions]
         #[arg(value_name = "SESSION")]
         folders: Vec<PathBuf>,
     },
-    /// Rebuild the sessions whose folders are on this machine; trainee details are kept, and erased sessions stay
-    /// erased
+    /// Rebuild the database records of all sessions with folders on this machine; trainee details are kept, and erased
+    /// sessions stay erased
     Rebuild {
-        /// Also delete sessions whose folders are not on this machine (they may be on other stations)
+        /// Also delete sessions without a folder on this machine (their folders may be on other stations)
         #[arg(long)]
         yes: bool,
     },
     /// List sessions
     List {
-        /// Only this trainee's sessions
+        /// List only this trainee's sessions
         #[arg(long, value_name = "ID")]
         trainee: Option<TraineeId>,
-        /// Maximum number of sessions, newest first
+        /// Maximum number of sessions to list, newest first
         #[arg(long, value_name = "N", default_value_t = 50, conflicts_with = "json")]
         last: u32,
-        /// Write all sessions as JSON, oldest first, with every stored field
+        /// Print all sessions as JSON, oldest first, with every stored field
         #[arg(long)]
         json: bool,
     },
     /// Write one trainee's data, or all records
     Export {
-        /// All stored data of this trainee as one JSON document [default: all records, one JSON object per line]
+        /// Write all of this trainee's data as one JSON document [default: all records, one JSON object per line]
         #[arg(long, value_name = "ID")]
         trainee: Option<TraineeId>,
         /// Output file; '-' for standard output
@@ -117,52 +117,52 @@ enum RecordsCommand {
         #[arg(long)]
         yes: bool,
     },
-    /// Erase everything older than this many days from the database and the session folders
+    /// Erase all sessions older than this many days from the database and the session folders
     Retention {
-        /// Age, days (1 to 36525)
+        /// Age in days (1 to 36525)
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(1..=MAX_RETENTION_DAYS))]
         days: i64,
         /// Erase; without this option, only list what would be erased
         #[arg(long)]
         yes: bool,
     },
-    /// Send sessions as xAPI statements to a learning record store; statements already there are not sent twice
+    /// Send sessions as xAPI statements to a learning record store; statements already stored are not sent again
     Push(PushArgs),
     /// Show or set a trainee's details
     Trainee(PersonArgs),
 }
 
-/// Details to set for a person.
+/// A person's details to set.
 #[derive(Debug, clap::Args)]
 pub struct PersonArgs {
     /// Pseudonym
     #[arg(value_name = "ID")]
     id: TraineeId,
-    /// Role, which sets the person's permissions
+    /// Role, which determines the person's permissions
     #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word))]
     role: Option<String>,
-    /// Age, years
+    /// Age range in years
     #[arg(long, value_name = "BAND", value_parser = AGE_BANDS.to_vec())]
     age_band: Option<String>,
     /// Experience with drones
     #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
     drone_experience: Option<String>,
-    /// Experience with games
+    /// Experience with video games
     #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
     gaming_experience: Option<String>,
 }
 
-/// Destination of the xAPI statements.
+/// Destination for the xAPI statements.
 #[derive(Debug, clap::Args)]
 pub struct PushArgs {
-    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; user name and password come from
-    /// SPANDREL_LRS_USER and SPANDREL_LRS_PASSWORD
+    /// URL of the store's xAPI endpoint, such as https://lrs.example/xapi; the user name and password come from the
+    /// environment variables SPANDREL_LRS_USER and SPANDREL_LRS_PASSWORD
     #[arg(value_name = "URL", value_parser = push::endpoint)]
     url: String,
-    /// Only this trainee's sessions
+    /// Send only this trainee's sessions
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
-    /// Account home page (xAPI homePage) of the pseudonyms in the statements
+    /// Account home page (xAPI homePage) for the pseudonyms in the statements
     #[arg(long, value_name = "URL", default_value = HOME)]
     home: String,
 }
@@ -212,7 +212,10 @@ fn erasure_note(erased: usize) -> String {
     if erased == 0 {
         return String::new();
     }
-    format!(", {erased} not imported because they or their trainees were erased (records erase also removes the folders)")
+    format!(
+        ", {erased} not imported because they or their trainees were erased (to remove their folders too, use \
+         `spandrel records erase`)"
+    )
 }
 
 fn rebuild(records_location: &RecordsLocation, yes: bool) -> Result<(), AppError> {
@@ -223,13 +226,13 @@ fn rebuild(records_location: &RecordsLocation, yes: bool) -> Result<(), AppError
     let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
     if !gone.is_empty() && !yes {
         return Err(AppError::wrong(format!(
-            "{}: {} sessions have no folder on this machine and would be lost (for example {}); specify all folders with --sessions, or use --yes to delete them",
+            "{}: {} sessions have no folder on this machine and would be lost (for example {}); specify all folders with --sessions, or use --yes to delete these sessions",
             database.name(),
             gone.len(),
             gone[0]
         )));
     }
-    // Without known fingerprints, all folders are read.
+    // All folders are read because no fingerprints are passed.
     let (none, erased) = (BTreeMap::new(), database.erased()?);
     let mut progress = ProgressLog::start("reading sessions");
     let mut records = Vec::new();
@@ -278,10 +281,10 @@ fn retention(records_location: &RecordsLocation, days: u64, yes: bool) -> Result
     Ok(())
 }
 
-/// Sets the given details of a person, then prints them.
+/// Sets the specified details of a person, then prints all details.
 ///
 /// # Errors
-/// Returns an error if the database fails, or the person does not exist and no details were given.
+/// Returns an error if the database fails, or the person does not exist and no details were specified.
 fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
     let name = args.id.as_str();
     let details = [&args.age_band, &args.drone_experience, &args.gaming_experience].map(|value| value.as_deref());
@@ -293,7 +296,7 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
     files::write("-", json_text(&person).as_bytes())
 }
 
-/// Writes all stored data of a trainee.
+/// Writes all of a trainee's data.
 ///
 /// # Errors
 /// Returns an error if there is no data, or the database or the output fails.
@@ -332,6 +335,6 @@ fn erase(records_location: &RecordsLocation, trainee: &str, yes: bool) -> Result
 fn push_sessions(records_location: &RecordsLocation, args: &PushArgs) -> Result<(), AppError> {
     let records = records_location.open()?.records(args.trainee.as_ref().map(TraineeId::as_str))?;
     let all = push::push(records_location, &records, &args.url, &args.home)?;
-    println!("{}: {} sessions, {} statements sent, {} already there", args.url, records.len(), all.sent, all.already_there);
+    println!("{}: {} sessions, {} statements sent, {} already stored", args.url, records.len(), all.sent, all.already_there);
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! `spandrel report`: writes the report page of a session from its folder.
+//! `spandrel report`: writes a session's report page from its folder.
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
@@ -9,16 +9,16 @@ use spandrel_monitor::folder::REPORT;
 use spandrel_training::report::page;
 use std::path::PathBuf;
 
-/// Write the report of a session
+/// Write a session's report
 ///
 /// The report is one printable page that opens offline in any browser: scores, tasks, the flight on the site, pictures
 /// and missed defects, feedback and reactions, and surface coverage. It uses the telemetry and the two TOML files in
-/// the session folder. Live sessions write it automatically at the end. With two sessions, the page compares them.
+/// the session folder. Live sessions write it automatically at the end. For two sessions, the page compares them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel report sessions/20260801T...                      write report.html into the session folder
-  spandrel report sessions/20260801T... --out anna.html      write it elsewhere; '-' for standard output
+  spandrel report sessions/20260801T... --out anna.html      write it to another file; '-' for standard output
   spandrel report sessions/first sessions/second --out c.html    compare two sessions
 
 {EXIT_CODES}"))]

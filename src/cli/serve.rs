@@ -1,4 +1,4 @@
-//! `spandrel serve`: records, reports, questionnaires and live flights in a browser.
+//! `spandrel serve`: shows records, reports, questionnaires and live flights in a browser.
 
 use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
@@ -18,21 +18,21 @@ use std::path::PathBuf;
 
 /// Show sessions, trainees, cohorts and live flights in a browser
 ///
-/// Serves everything from this machine: no page loads anything from other sites. By default only this machine can
-/// connect, without a login and with full access; once the first password is set, everybody must log in. Trainees see
+/// Serves everything from this machine: no page loads anything from other sites. By default, only this machine can
+/// connect, without a login and with full access. Once the first password is set, everyone must log in. Trainees see
 /// only their own data, instructors see all data and can intervene in flights, and administrators manage people. To
 /// accept connections from other machines, the server needs a password and TLS, either with its own certificate or
 /// through a proxy.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel serve                                             http://127.0.0.1:8080, this machine only
+  spandrel serve                                             http://127.0.0.1:8080, reachable only from this machine
   spandrel serve --set-password maria --role administrator   prompt for the password, store its argon2 hash, and exit
   spandrel serve --vehicle 127.0.0.1:14280 --vehicle 127.0.0.1:14281   two flights at once (instances 0 and 1)
   spandrel serve --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --host trainer.example
   spandrel serve --listen 127.0.0.1:8080 --behind-proxy --host trainer.example    a proxy on this machine terminates TLS
   spandrel serve --listen 10.0.0.7:8080 --behind-proxy --trusted-proxy 10.0.0.2 --host trainer.example
-  spandrel serve --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=centre.pem' --sessions /srv/sessions
+  spandrel serve --database 'postgres://spandrel@db/training?sslmode=verify-full&sslrootcert=center.pem' --sessions /srv/sessions
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -40,29 +40,29 @@ pub struct Args {
     records_location: RecordsArgs,
     #[command(flatten)]
     listen: ListenArgs,
-    /// Folder for uploaded scenarios [default: scenarios in the first folder of sessions]
+    /// Folder for uploaded scenarios [default: scenarios in the first sessions folder]
     #[arg(long, value_name = "DIR")]
     scenarios: Option<PathBuf>,
-    /// Questionnaire wording in another language, or a replacement for a shipped wording; may be repeated
+    /// Questionnaire wording file for another language, or to replace a shipped wording; may be repeated
     ///
     /// Copy a shipped wording and change its texts. English, German and Spanish are shipped. The browser's language is
-    /// the default, and users can change it; if there is no wording in that language, the first file given is used.
+    /// the default, and users can change it. If no wording matches that language, the first specified file is used.
     #[arg(long, value_name = "FILE")]
     wording: Vec<PathBuf>,
-    /// Vehicle on the live page: address of its payload port, or none; may be repeated
+    /// Address of a vehicle's payload port, for the live page, or none; may be repeated
     #[arg(long, value_name = "HOST:PORT|none", default_value = "127.0.0.1:14280")]
     vehicle: Vec<Destination>,
-    /// Picture file that `spandrel view --picture FILE` writes, for the live page; may be repeated, in the order of
+    /// File that `spandrel view --picture FILE` writes, for the live page; may be repeated, in the same order as
     /// --vehicle
     #[arg(long, value_name = "FILE")]
     picture: Vec<PathBuf>,
-    /// Set this user's password (typed, or from standard input) and exit
+    /// Set this user's password (prompt for it or read it from standard input) and exit
     #[arg(long, value_name = "USER", requires = "role")]
     set_password: Option<TraineeId>,
-    /// Role of the user given with --set-password
+    /// Role of the --set-password user
     #[arg(long, value_name = "ROLE", value_parser = Role::ALL.map(Role::word), requires = "set_password")]
     role: Option<String>,
-    /// Print one JSON line {"address"} on standard output at startup
+    /// Print one line of JSON {"address"} on standard output at startup
     #[arg(long)]
     announce: bool,
     /// Exit when standard input closes (for a parent process)
@@ -73,20 +73,20 @@ pub struct Args {
 /// Listening address, TLS files, and proxy settings.
 #[derive(Debug, Clone, clap::Args)]
 struct ListenArgs {
-    /// Address and port to listen on; port 0 for any free port
+    /// Address and port to listen on; use port 0 for any free port
     #[arg(long, value_name = "ADDR:PORT", default_value = "127.0.0.1:8080", value_parser = listen)]
     listen: SocketAddr,
     /// TLS certificate chain, PEM
     #[arg(long, value_name = "FILE", requires = "tls_key")]
     tls_cert: Option<PathBuf>,
-    /// Private key of the certificate, PEM
+    /// The certificate's private key, PEM
     #[arg(long, value_name = "FILE", requires = "tls_cert")]
     tls_key: Option<PathBuf>,
-    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be
-    /// reachable in any other way
+    /// A reverse proxy terminates TLS, sets X-Forwarded-For and forwards the Host header; the server must be reachable
+    /// only through the proxy
     #[arg(long, conflicts_with = "tls_cert")]
     behind_proxy: bool,
-    /// Address or network of the proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
+    /// The proxy's address or network, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
     #[arg(long, value_name = "ADDR[/BITS]", requires = "behind_proxy", value_parser = proxy)]
     trusted_proxy: Vec<IpNet>,
     /// Host name that browsers may use for the server; may be repeated. localhost and IP addresses are always accepted
@@ -153,7 +153,7 @@ fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<Watched
     if pictures.len() > addresses.len() {
         let (many, few) = (pictures.len(), addresses.len());
         return Err(AppError::wrong(format!(
-            "--picture: {many} files for {few} vehicles (allowed: at most one for each --vehicle)"
+            "--picture: {many} files for {few} vehicles (allowed: at most one file for each vehicle)"
         )));
     }
     let mut pictures = pictures.iter().cloned();
@@ -169,7 +169,7 @@ fn set_password(records_location: &RecordsLocation, name: &str, role: Role) -> R
     login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
     let database = records_location.open()?;
     database.set_login(name, role, &passwords::hash(&password, &mut HashingMemory::default())?)?;
-    println!("{}: '{name}' can log in as {}", database.name(), role.word());
+    println!("{}: '{name}' can now log in as {}", database.name(), role.word());
     Ok(())
 }
 

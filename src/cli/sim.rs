@@ -28,7 +28,7 @@ use std::time::Duration;
 /// Simulate the vehicle
 ///
 /// Runs a quadrotor with its autopilot at the scenario's site, as a MAVLink vehicle with the interface of PX4 or
-/// ArduPilot (it runs neither). It sends telemetry to a ground station, an SDK and the monitor, accepts other
+/// ArduPilot (it runs neither autopilot). It sends telemetry to a ground station, an SDK and the monitor, accepts other
 /// connections, and drops silent peers. It runs until interrupted.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -36,7 +36,7 @@ Examples:
   spandrel sim                                      two bridges, real time, fixed ports
   spandrel sim --instance 1 --speed 4               a second vehicle, four times real time
   spandrel sim --instances 3                        three vehicles in one process: system IDs 1 to 3, consecutive ports
-  spandrel sim --serial /dev/ttyUSB0:57600          also on a telemetry radio, within its data rate
+  spandrel sim --serial /dev/ttyUSB0:57600          also send telemetry over a radio, limited to its data rate
   spandrel sim --flavor ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
   spandrel sim --ports ephemeral --announce         free ports, printed as one line of JSON
   spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
@@ -49,16 +49,17 @@ pub struct Args {
     /// Simulation speed: a multiple of real time (0.1 to 100), or max for as fast as possible
     #[arg(long, value_name = "X|max", default_value = "1")]
     speed: SimulationSpeed,
-    /// Run in lockstep with this peer (one that the vehicle sends to, such as --gcs): every 20 ms of simulation time
-    /// the simulator sends TIMESYNC and waits for the reply. At startup the simulation waits up to 10 s for the first
-    /// reply, sending heartbeats only; after that it runs unsynchronized until the peer replies. May be repeated
+    /// Run in lockstep with this peer (one that the vehicle sends to, such as --gcs): every 20 ms of simulation time,
+    /// the simulator sends TIMESYNC and waits for the reply. At startup, the simulation waits up to 10 s for the first
+    /// reply and sends only heartbeats; after that, it runs unsynchronized until the peer replies. May be repeated
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
     lockstep: Vec<SocketAddr>,
     /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
     flavor: args::Flavor,
-    /// Heartbeats of the camera component (100). Turn them off for simple clients that attribute every heartbeat to the
-    /// vehicle (DroneKit, mavpilot); the camera still takes pictures. The parameter SPAN_CAMERA changes this in flight
+    /// Heartbeats from the camera component (100). Turn them off for simple clients that attribute every heartbeat to
+    /// the vehicle (DroneKit, mavpilot); the camera still takes pictures. The SPAN_CAMERA parameter changes this
+    /// setting in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
     camera: AnnouncedComponents,
     /// Action after a crash. Use `scenario` when a monitor scores the flight, as train and demo do
@@ -66,47 +67,49 @@ pub struct Args {
     after_crash: AfterCrashArg,
     #[command(flatten)]
     ports: PortArgs,
-    /// Number of vehicles in this process, 1 to 50, side by side at the same site; they do not collide with each other.
-    /// System IDs and ports increase by one per vehicle, starting with --instance and with each port that you specify
+    /// Number of vehicles in this process (1 to 50), side by side at the same site; they do not collide with each
+    /// other. System IDs and ports increase by one per vehicle, starting at --instance and at each port that you
+    /// specify
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
-    /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its subfolder `log`, where
+    /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its `log` subfolder, where
     /// clients can only read and delete; files that clients upload may take up to 256 MiB. With several vehicles, each
     /// has a subfolder named by its system ID [default: no files served, no logs written]
     #[arg(long, value_name = "DIR")]
     files: Option<PathBuf>,
-    /// Space for flight logs in the folder of --files, MB; the oldest logs are deleted before a flight to stay within
-    /// it
+    /// Space for flight logs in the --files folder, in MB; the oldest logs are deleted before a flight to stay within
+    /// this limit
     #[arg(long, value_name = "MB", default_value_t = 1024, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     log_space: u64,
-    /// File that stores parameters between runs: read at startup if it exists, written after every change, in
-    /// QGroundControl's .params format. With several vehicles, each has its own file, with the system ID appended
-    /// [default: parameters are not saved]
+    /// File that stores parameters between runs in QGroundControl's .params format: read at startup if it exists, and
+    /// written after every change. With several vehicles, each has its own file, with the system ID appended [default:
+    /// parameters are not saved]
     #[arg(long, value_name = "FILE")]
     params: Option<PathBuf>,
     /// File with the MAVLink signing key, readable only by its owner: 64 hexadecimal digits, or a passphrase as in
     /// MAVProxy. Messages not signed with it are ignored. Signature timestamps are stored in FILE.heard.N for system N,
-    /// so that old messages cannot be replayed even after a restart [default: no signing]
+    /// so old messages cannot be replayed even after a restart [default: no signing]
     #[arg(long, value_name = "FILE")]
     signing_key: Option<PathBuf>,
-    /// Kind of link that needs no signature; may be repeated. Use it only for links that nobody else can reach
+    /// Link type that needs no signature; may be repeated. Use it only for links that nobody else can reach
     #[arg(long, value_name = "KIND", requires = "signing_key")]
     unsigned: Vec<TrustedLink>,
-    /// Stop after this much simulation time, s
+    /// Stop after this simulation time in s
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     end_after: Option<SimTime>,
-    /// Print the digest of every tick's state at the end: the same scenario, seed and inputs give the same digest
+    /// At the end, print a digest of the state at every tick: the same scenario, seed and inputs produce the same
+    /// digest
     #[arg(long)]
     digest: bool,
-    /// Print one line of JSON {"latest_ms", "slips", "slipped_ms"} for each vehicle at the end: the longest delay of a
-    /// tick, the number of delays over 250 ms, which the simulation clock skips, and the total time skipped; all in
+    /// At the end, print one line of JSON {"latest_ms", "slips", "slipped_ms"} for each vehicle: the longest tick
+    /// delay, the number of delays over 250 ms (which the simulation clock skips), and the total time skipped, all in
     /// wall time
     #[arg(long)]
     lateness: bool,
     /// Print one line of JSON {"gcs_port", "payload_port", "tcp_port", "seed"} on standard output at startup
     #[arg(long)]
     announce: bool,
-    /// Stop when standard input closes (for a parent process). Meanwhile, the lines `pause` and `resume` on standard
+    /// Stop when standard input closes (for a parent process). Until then, the lines `pause` and `resume` on standard
     /// input pause and resume the simulation
     #[arg(long)]
     leash: bool,
@@ -121,7 +124,7 @@ fn seconds(text: &str) -> Result<SimTime, String> {
     }
 }
 
-/// Setting for the heartbeats of a component.
+/// Heartbeat setting of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum AnnouncedComponents {
     /// Send heartbeats
@@ -130,7 +133,7 @@ enum AnnouncedComponents {
     Off,
 }
 
-/// Action after a crash, as named on the command line.
+/// Action after a crash, with the names used on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum AfterCrashArg {
     /// The flight continues; the vehicle stays where it crashed
@@ -144,7 +147,7 @@ enum AfterCrashArg {
 }
 
 impl AfterCrashArg {
-    /// Returns the rule; `None` for the scenario's rule.
+    /// Returns the rule; `None` to use the scenario's rule.
     fn rule(self) -> Option<AfterCrash> {
         match self {
             Self::Continue => Some(AfterCrash::Continue),
@@ -155,14 +158,14 @@ impl AfterCrashArg {
     }
 }
 
-/// Kind of link, as named on the command line.
+/// Link type, with the names used on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum TrustedLink {
     /// Ground stations over UDP
     Gcs,
-    /// SDK set with --sdk
+    /// The --sdk address
     Sdk,
-    /// Monitor and other payload clients
+    /// The monitor and other payload clients
     Payload,
     /// Ground stations over TCP
     Tcp,
@@ -243,7 +246,7 @@ fn lateness_json(late: Lateness) -> serde_json::Value {
     serde_json::json!({ "latest_ms": ms(late.latest), "slips": late.slips, "slipped_ms": ms(late.slipped) })
 }
 
-/// Final results of a vehicle.
+/// A vehicle's final results.
 struct VehicleResult {
     digest: [u8; 32],
     late: Lateness,
@@ -262,7 +265,7 @@ fn signing(args: &Args) -> Result<Option<SigningConfig>, AppError> {
     Ok(key.map(|key| SigningConfig { key, unsigned }))
 }
 
-/// Links and files of one vehicle.
+/// One vehicle's links and files.
 struct VehicleIo {
     links: Links,
     files: VehicleFiles,
@@ -290,7 +293,7 @@ fn with_system_id(path: &Path, system_id: u8) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Runs every vehicle in its own thread until the end. An error in one vehicle stops all of them.
+/// Runs every vehicle in its own thread until the end. If one vehicle fails, all vehicles stop.
 fn fly(
     shells: Vec<VehicleShell>,
     end: SimTime,
@@ -307,7 +310,7 @@ fn fly(
             })
             .collect();
         let ended = threads.into_iter().map(|thread| {
-            thread.join().unwrap_or_else(|_| Err(AppError::failed("a vehicle's thread panicked: please report this bug")))
+            thread.join().unwrap_or_else(|_| Err(AppError::failed("a vehicle thread panicked: please report this bug")))
         });
         ended.collect::<Vec<_>>().into_iter().collect()
     })

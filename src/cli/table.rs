@@ -9,7 +9,7 @@ use spandrel_monitor::score::completion::{self, Completion, TaskState};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Prints the location of a session and the address of its report.
+/// Prints a session's location and the address of its report.
 pub fn print_locations(session: &Path) {
     println!("session       {}", session.display());
     let page = session.join(REPORT);
@@ -18,7 +18,7 @@ pub fn print_locations(session: &Path) {
     }
 }
 
-/// Prints the scores of a session and the location of its files.
+/// Prints a session's scores and the location of its files.
 ///
 /// # Errors
 /// Returns an error if the session has no assessment.
@@ -32,7 +32,7 @@ pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Formats the scores, tasks, crashes, pictures and end of a session as text.
+/// Formats a session's scores, tasks, crashes, pictures and end as text.
 pub fn scores_text(assessment: &Value) -> String {
     let mut out = String::new();
     let scores = &assessment["scores"];
@@ -43,7 +43,7 @@ pub fn scores_text(assessment: &Value) -> String {
     }
     if !complete {
         verdict(&mut out, &assessment["certification"]);
-        let _ = writeln!(out, "\nfor the part that was flown:");
+        let _ = writeln!(out, "\nscores for the completed part of the flight:");
     }
     let _ = writeln!(out, "{:<14}{:>8}{:>11}", "score", "raw", "of 100");
     for name in ["conformity", "efficiency", "safety", "accuracy"] {
@@ -96,8 +96,10 @@ fn crashes(out: &mut String, crashes: &Value) {
     }
     let places = if places.is_empty() { String::new() } else { format!(" ({})", places.join(", ")) };
     let (other, person, vehicle) = (count("other"), count("person"), count("vehicle"));
-    let _ =
-        writeln!(out, "crashes       {other} with structures or ground, {person} with people, {vehicle} with vehicles{places}");
+    let _ = writeln!(
+        out,
+        "crashes       {other} with structures or the ground, {person} with people, {vehicle} with vehicles{places}"
+    );
 }
 
 fn picture_table(out: &mut String, snapshots: &Value) {
@@ -114,7 +116,7 @@ fn end(out: &mut String, assessment: &Value) {
     let minutes = (seconds / 60.0).floor();
     let _ = writeln!(
         out,
-        "end           {reason} after {minutes:.0} min {:.0} s of flight, {missing} frames missing",
+        "end           {reason} after {minutes:.0} min {:.0} s of flight, {missing} missing frames",
         seconds - 60.0 * minutes
     );
 }
@@ -150,9 +152,9 @@ accuracy           not applicable
 overall                    272.06  of 300
 Not certified: 12% battery at landing, 20% needed
 task 1        done (93% of path), on path 87.5% of the time, speeding loss 0.250
-crashes       3 with structures or ground, 0 with people, 0 with vehicles (task 1: 2, outside: 1)
+crashes       3 with structures or the ground, 0 with people, 0 with vehicles (task 1: 2, outside: 1)
 snapshots     5 taken, 3 with defects; 4 of 10 defects found
-end           landed after 12 min 30 s of flight, 0 frames missing
+end           landed after 12 min 30 s of flight, 0 missing frames
 ";
         assert_eq!(scores_text(&assessment), expected);
     }
@@ -170,7 +172,8 @@ end           landed after 12 min 30 s of flight, 0 frames missing
         });
         let text = scores_text(&assessment);
         let start = "Incomplete: 0 of 2 tasks, 31% of the path\n\
-            Not certified: task 1 not done: 64% of its path, 80% needed (and 1 more)\n\nfor the part that was flown:\n";
+            Not certified: task 1 not done: 64% of its path, 80% needed (and 1 more)\n\n\
+            scores for the completed part of the flight:\n";
         assert!(text.starts_with(start), "{text}");
         assert!(!text.contains("overall") && !text.contains("of 300") && text.contains("partly flown (64% of path)"), "{text}");
     }

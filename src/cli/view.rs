@@ -1,4 +1,4 @@
-//! `spandrel view`: opens a window with the inspector's view and the camera's view, live from telemetry.
+//! `spandrel view`: opens a window that shows the inspector's view and the camera's view live, based on telemetry.
 
 use super::args::JobArgs;
 #[cfg(feature = "view")]
@@ -12,18 +12,18 @@ use crate::window::{self, CaptureRequest, WindowConfig, WindowSetup};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
-/// Maximum delay of a screenshot, s.
+/// Maximum screenshot delay, s.
 #[cfg(feature = "view")]
 const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
 /// The view uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another
-/// computer. Defects and traffic follow the seed that the simulator reports, also after a restart; --seed applies until
-/// then, or if the vehicle reports none. With --fly, the keyboard in the window (and a calibrated controller, if one is
-/// connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the wheel zooms, F follows
-/// the aircraft again, M hides the map. No graphics card is needed: a software Vulkan driver is enough (Debian and
-/// Ubuntu: mesa-vulkan-drivers).
+/// computer. Defects and traffic match the seed that the simulator reports, even after it restarts; --seed applies
+/// until the first report, or if the vehicle reports no seed. With --fly, the keyboard in the window (and a calibrated
+/// controller, if one is connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the
+/// wheel zooms, F follows the aircraft again, and M hides the map. It needs no graphics card: a software Vulkan driver
+/// is enough (Debian and Ubuntu: mesa-vulkan-drivers).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -60,16 +60,16 @@ pub struct Args {
     /// Rendering quality: low, medium, high, ultra, or auto (high with a graphics card, low without)
     #[arg(long, value_name = "PRESET", default_value = "auto")]
     quality: String,
-    /// Window size, px
+    /// Window size in px
     #[arg(long, value_name = "WxH", default_value = "1600x560")]
     size: String,
-    /// Disable sound; [sound] in the key bindings file sets propellers, warnings, speech and volume
+    /// Disable sound; the [sound] table in the key bindings file configures propellers, warnings, speech and volume
     #[arg(long)]
     no_sound: bool,
-    /// Disable the map of the reference paths, for an assessment; M does not show it either
+    /// Disable the map of the reference paths, for an assessment; M cannot show it
     #[arg(long)]
     no_map: bool,
-    /// Send the camera's view to this address as H.264 over RTP; the vehicle then announces the stream, and ground
+    /// Send the camera's view to this address as H.264 over RTP; the vehicle then announces the stream so that ground
     /// stations show it (QGroundControl listens on UDP port 5600). The vehicle always announces port 5600: configure
     /// any other port in the ground station
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
@@ -77,14 +77,14 @@ pub struct Args {
     /// Save a picture of the window (PNG) and exit
     #[arg(long, value_name = "FILE", requires = "after")]
     screenshot: Option<PathBuf>,
-    /// Wall time from the first rendered frame to the picture, s
+    /// Wall time in s between the first rendered frame and the picture
     #[arg(long, value_name = "S", requires = "screenshot")]
     after: Option<f64>,
     /// Save the camera's view to this file (JPEG) about once a second, for the live page of `spandrel serve --picture
     /// FILE`
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
-    /// Print one JSON line {"device", "quality", "width", "height"} on standard output when both views have been
+    /// Print one line of JSON {"device", "quality", "width", "height"} on standard output after both views have been
     /// rendered
     #[arg(long)]
     announce: bool,

@@ -19,7 +19,7 @@ impl FromStr for Destination {
     }
 }
 
-/// Parses and resolves HOST:PORT; prefers IPv4 to IPv6.
+/// Parses and resolves HOST:PORT. Prefers IPv4 addresses to IPv6 addresses.
 pub fn address(text: &str) -> Result<SocketAddr, String> {
     let mut found: Vec<SocketAddr> = text
         .to_socket_addrs()
@@ -51,7 +51,7 @@ impl FromStr for PortChoice {
     }
 }
 
-/// Parses the local address to bind.
+/// Parses the local address to bind to.
 pub fn listen(text: &str) -> Result<IpAddr, String> {
     text.parse().map_err(|_| format!("'{text}' is not an IP address (127.0.0.1 for this machine only, 0.0.0.0 for all networks)"))
 }

@@ -1,4 +1,4 @@
-//! Answers to the questionnaire in a session folder, and wordings from files.
+//! Questionnaire answers in a session folder, and wordings from files.
 
 use super::files;
 use crate::errors::AppError;
@@ -6,7 +6,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_training::questionnaire::{ANSWERS, Answers, Languages, read_answers, read_wording};
 use std::path::{Path, PathBuf};
 
-/// Returns the saved answers of a session, or `None` if there are none.
+/// Returns a session's saved answers, or `None` if there are none.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read or is invalid.
@@ -18,7 +18,7 @@ pub fn read_saved_answers(session: &Path, scenario: &Scenario) -> Result<Option<
     Ok(Some(read_answers(&path.display().to_string(), &files::read(&path)?, &task_ids(scenario))?))
 }
 
-/// Returns the task numbers as used in the questions.
+/// Returns the task numbers used in the questions.
 pub fn task_ids(scenario: &Scenario) -> Vec<u32> {
     scenario.tasks.iter().map(|task| task.id).collect()
 }

@@ -1,26 +1,26 @@
-//! Append-only files of complete records. Data that cannot be written stays in memory and is written later.
+//! Append-only files of complete records. Data that cannot be written yet stays in memory.
 
 use crate::errors::AppError;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Maximum amount of data kept in memory while the disk cannot be written, bytes: about 20 minutes of telemetry (50
-/// kB/s, estimate).
+/// Maximum amount of data to keep in memory while the disk cannot be written, bytes: about 20 minutes of telemetry at
+/// 50 kB/s (estimate).
 const MAX_PENDING_BYTES: usize = 64 * 1024 * 1024;
 
-/// Error of a failed write.
+/// A write error.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot write: {error}", path.display())]
 pub struct WriteError {
     /// File path.
     pub path: PathBuf,
-    /// Error from the operating system.
+    /// The operating system's error.
     pub error: std::io::Error,
 }
 
 impl WriteError {
-    /// Returns true if the disk is full, rather than faulty.
+    /// Returns true if the disk is full, false for any other disk error.
     pub fn is_full(&self) -> bool {
         matches!(self.error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
     }
@@ -99,8 +99,8 @@ impl AppendFile {
         Ok(())
     }
 
-    /// Adds complete records, which the next [`Self::flush`] writes. Records beyond a memory limit are dropped and
-    /// counted.
+    /// Adds complete records; the next [`Self::flush`] writes them. Records that exceed the memory limit are dropped
+    /// and counted.
     pub fn push(&mut self, records: &[u8]) {
         if self.pending.len() > MAX_PENDING_BYTES {
             self.dropped += 1;
@@ -114,12 +114,12 @@ impl AppendFile {
         self.dropped
     }
 
-    /// Returns the size of the data that has not been written yet in bytes.
+    /// Returns the size of the pending data in bytes.
     pub fn pending(&self) -> usize {
         self.pending.len()
     }
 
-    /// Writes the pending data. After an error, the file contains complete records only, and the rest stays pending.
+    /// Writes the pending data. After an error, the file contains only complete records, and the rest remains pending.
     ///
     /// # Errors
     /// Returns an error if the disk cannot be written.
@@ -132,13 +132,13 @@ impl AppendFile {
         self.len += kept as u64;
         self.pending.drain(..kept);
         if self.pending.is_empty() {
-            // Frees the memory of a large buffer after a long disk failure.
+            // After a long disk failure, free the memory of the large buffer.
             self.pending.shrink_to(MAX_PENDING_BYTES / 64);
         }
         let Err(error) = result else { return Ok(()) };
         self.has_partial_record = written > kept;
         if self.has_partial_record {
-            // If this fails too, the next flush tries again.
+            // If this also fails, the next flush tries again.
             let _ = self.truncate(self.len);
         }
         Err(self.write_error(error))
@@ -171,7 +171,7 @@ fn write_until_error(file: &mut impl Write, bytes: &[u8]) -> (usize, std::io::Re
     (written, Ok(()))
 }
 
-/// Syncs closed files and their folder.
+/// Syncs closed files and their folder to disk.
 ///
 /// # Errors
 /// Returns an error if the disk cannot be written. Missing files are skipped.
@@ -181,7 +181,7 @@ pub fn sync_folder(folder: &Path, names: &[&str]) -> Result<(), WriteError> {
         Ok(()) | Err(_) => Ok(()),
     };
     names.iter().try_for_each(|name| sync(folder.join(name)))?;
-    // Only Unix can open folders as files.
+    // Folders can be opened as files only on Unix.
     if cfg!(unix) { sync(folder.to_path_buf()) } else { Ok(()) }
 }
 

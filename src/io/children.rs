@@ -1,6 +1,6 @@
-//! Child processes of `train` and `demo`: the same program with another subcommand. The parent owns the write end of
-//! each child's standard input; when the parent exits for any reason, the pipe closes and the child shuts down
-//! (`--leash`).
+//! Child processes of `train` and `demo`. Each one runs the same program with another subcommand. The parent owns the
+//! write end of each child's standard input; when the parent exits for any reason, the pipe closes and the child shuts
+//! down (`--leash`).
 
 use super::clock::Stopwatch;
 use crate::errors::AppError;
@@ -14,7 +14,7 @@ use std::time::Duration;
 const START_TIMEOUT: Duration = Duration::from_secs(60);
 /// Time limit for a child to shut down cleanly.
 const FINISH_TIMEOUT: Duration = Duration::from_secs(10);
-/// Interval at which a child that is shutting down is checked.
+/// Interval between checks of a child that is shutting down.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 
 /// A running child process.
@@ -56,7 +56,7 @@ impl Child {
         if let Some(stdout) = process.stdout.take() {
             std::thread::spawn(move || {
                 for line in BufReader::new(stdout).lines().map_while(Result::ok) {
-                    // Drains the pipe even after the parent has stopped reading, so that the child does not block.
+                    // Keep draining the pipe after the parent has stopped reading, so that the child does not block.
                     let _ = sender.send(line);
                 }
             });
@@ -64,7 +64,7 @@ impl Child {
         Ok(Self { name, process, stdin: leash, lines })
     }
 
-    /// Waits for the JSON line in which the child announces its ports and paths.
+    /// Waits for the JSON line that announces the child's ports and paths.
     ///
     /// # Errors
     /// Returns an error if the child exits first, or prints anything else.
@@ -77,10 +77,11 @@ impl Child {
             }
             None => AppError::failed(format!("the {name} has not started after {} s", START_TIMEOUT.as_secs())),
         })?;
-        serde_json::from_str(&line).map_err(|error| AppError::failed(format!("the {name} announced '{line}': {error}")))
+        serde_json::from_str(&line)
+            .map_err(|error| AppError::failed(format!("the {name} printed an invalid startup line '{line}': {error}")))
     }
 
-    /// Returns the exit status of a child that exited without an announcement.
+    /// Returns the exit status of a child that exited before announcing its ports.
     fn exit_status_after(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
         match error {
             RecvTimeoutError::Timeout => self.ended(),
@@ -94,8 +95,8 @@ impl Child {
         self.lines.try_recv().ok()
     }
 
-    /// Sends a line to the child. A child that has exited or is shutting down ignores it; the exit is reported
-    /// elsewhere.
+    /// Sends a line to the child. If the child has exited or is shutting down, the line has no effect; the exit is
+    /// reported elsewhere.
     pub fn send_line(&mut self, line: &str) {
         let told = self.stdin.as_mut().map(|leash| writeln!(leash, "{line}").and_then(|()| leash.flush()));
         if let Some(Err(error)) = told {
@@ -113,7 +114,7 @@ impl Child {
         self.stdin = None;
     }
 
-    /// Requests that the child shut down and waits; kills it after the time limit.
+    /// Asks the child to shut down and waits for it; kills it after the time limit.
     pub fn finish(&mut self) -> Option<ExitStatus> {
         self.close_stdin();
         let watch = Stopwatch::start();

@@ -1,4 +1,4 @@
-//! Reads the system clocks; no other file does.
+//! Reads the system clocks. No other file reads them.
 
 pub use spandrel_model::calendar::utc;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -20,7 +20,7 @@ impl Stopwatch {
     }
 }
 
-/// Returns the wall time, µs since the Unix epoch.
+/// Returns the wall time in µs since the Unix epoch.
 #[expect(clippy::disallowed_methods, reason = "the only read of the wall clock")]
 pub fn unix_us() -> u64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Scenario and vehicle files: from a path, from a session folder, or built in.
+//! Loads scenario and vehicle files from a path, from a session folder, or from the program itself.
 
 use crate::errors::AppError;
 use spandrel_model::scenario::{self, Scenario};
@@ -28,7 +28,7 @@ pub struct VehicleFile {
     pub vehicle: Vehicle,
 }
 
-/// Text of a file and its location.
+/// A file's text and location.
 pub struct SourceFile {
     /// File name to use in messages.
     pub file: String,
@@ -77,7 +77,7 @@ pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
     Ok(VehicleFile { text, vehicle })
 }
 
-/// Validates a scenario's text; files that the scenario refers to are read from its folder.
+/// Validates a scenario's text; reads the files that the scenario refers to from its folder.
 ///
 /// # Errors
 /// Returns an error if it is invalid; all problems are listed.
@@ -110,7 +110,7 @@ pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'stati
     Ok(SourceFile { file: format!("{name}.toml"), text: (*text).to_owned(), folder: None })
 }
 
-/// Finds any file for `check`: a path, or the name of a shipped scenario or vehicle.
+/// Finds a file for `check`: a path, or the name of a shipped scenario or vehicle.
 ///
 /// # Errors
 /// Returns an error if there is no such file or name.
@@ -130,15 +130,15 @@ pub fn read(path: &Path) -> Result<String, AppError> {
     })
 }
 
-/// Writes a result to a file, or to standard output for `-`. The file is replaced atomically: if the disk is full or
-/// the process is killed, the old file remains.
+/// Writes a result to a file, or to standard output for `-`. Replaces the file atomically: if the disk is full or the
+/// process is killed, the old file remains.
 ///
 /// # Errors
 /// Returns an error if it cannot be written.
 pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
     use std::io::Write;
     let path = Path::new(target);
-    // Symbolic links are resolved first; pipes and devices cannot be replaced.
+    // Symbolic links are resolved first. Pipes and devices cannot be replaced.
     let real = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
     let done = match target {
         "-" => std::io::stdout().lock().write_all(bytes),

@@ -1,4 +1,4 @@
-//! Deletes old flight logs so that new ones fit.
+//! Deletes old flight logs to make room for new ones.
 
 use cap_std::fs::Dir;
 use std::collections::BTreeMap;
@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 /// File extensions of a flight's logs.
 const EXTENSIONS: [&str; 2] = [".ulg", ".mcap"];
 
-/// Deletes the logs of the oldest flights until the remaining ones take at most `most` bytes. `folder` contains one
-/// folder per day with two files per flight, named by the time of day; other files are neither counted nor deleted.
+/// Deletes the logs of the oldest flights until the remaining logs use at most `most` bytes. `folder` contains one
+/// folder per day, with two files per flight, named by time of day. Other files are neither counted nor deleted.
 /// Returns the number of flights deleted.
 ///
 /// # Errors
@@ -23,8 +23,8 @@ pub fn delete_oldest(root: &Dir, folder: &str, most: u64) -> std::io::Result<usi
         flight.files.iter().try_for_each(|file| root.remove_file(file))?;
         total -= flight.bytes;
         deleted += 1;
-        // Also removes the day's folder if it has no logs left. Removal fails if it contains other files, which is
-        // fine.
+        // Also remove the day's folder if it has no logs left. Removal fails if the folder contains other files, which
+        // is fine.
         let _ = root.remove_dir(&flight.day);
     }
     Ok(deleted)
@@ -37,7 +37,7 @@ struct LoggedFlight {
     bytes: u64,
 }
 
-/// Returns the flights ordered by day and time, oldest first. The names sort by time; a second flight in the same
+/// Returns the flights in order of day and time, oldest first. File names sort by time; a second flight in the same
 /// second has the suffix `-1`.
 fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String, u32), LoggedFlight>> {
     let mut flights: BTreeMap<(String, String, u32), LoggedFlight> = BTreeMap::new();

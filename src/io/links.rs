@@ -1,5 +1,5 @@
-//! Links of the vehicle: configured destinations that it sends to from the start, peers that connect to its UDP ports,
-//! TCP clients and serial ports.
+//! The vehicle's links: configured destinations that it sends to from startup, peers that connect to its UDP ports, TCP
+//! clients and serial ports.
 
 use super::clock::Stopwatch;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
@@ -13,11 +13,11 @@ use std::time::Duration;
 
 /// Time after which a silent learned peer is removed.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
-/// Maximum number of learned peers per port, so that a flood of source addresses neither uses unlimited memory nor
-/// blocks the peers of another port.
+/// Maximum number of learned peers per port, so that a flood of source addresses cannot exhaust memory or block another
+/// port's peers.
 const MAX_LEARNED_PEERS: usize = 64;
 
-/// A change in the links, or received data.
+/// A link change or received data.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinkEvent {
     /// A link was opened.
@@ -54,7 +54,7 @@ enum LinkRoute {
     Stream { stream: StreamId, decoder: Decoder },
 }
 
-/// All links of one vehicle.
+/// All of a vehicle's links.
 #[derive(Debug)]
 pub struct Links {
     hub: SocketHub,
@@ -73,7 +73,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Opens all ports and the links to the configured destinations. The link numbers are the same in every run.
+    /// Opens all ports and the links to the configured destinations. Link numbers are the same in every run.
     ///
     /// # Errors
     /// Returns an error if a port cannot be opened, or a lockstep peer is not a configured destination.
@@ -174,7 +174,7 @@ impl Links {
         }
     }
 
-    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts those of
+    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts such bytes in
     /// datagrams.
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
@@ -190,7 +190,7 @@ impl Links {
         self.opened
     }
 
-    /// Adds a configured peer, or a learned one if `heard` is the time of its first datagram.
+    /// Adds a configured peer, or a learned peer if `heard` contains the time of its first datagram.
     fn add(&mut self, socket: SocketId, peer: SocketAddr, heard: Option<Duration>) -> u32 {
         let link = self.next_number();
         let route = heard.map_or(LinkRoute::Fixed { socket, peer }, |heard| LinkRoute::Learned { socket, peer, heard });
@@ -240,7 +240,7 @@ impl Links {
         self.changes.push_back(LinkEvent::Opened { link, kind, lockstep: false, learned: false, limit });
     }
 
-    /// Adds a new peer if it sends MAVLink and its port has not reached the maximum number of peers.
+    /// Adds a new peer if it sends MAVLink and its port has fewer than the maximum number of peers.
     fn add_peer(&mut self, socket: SocketId, from: SocketAddr, bytes: &[u8], wall: Duration) -> Option<u32> {
         if !is_mavlink(bytes) {
             tracing::debug!("ignored a datagram without a MAVLink message from unknown address {from}");
@@ -288,7 +288,7 @@ mod tests {
         Encoder::new(255, 190).encode(&station::heartbeat())
     }
 
-    /// Returns settings with any free ports and these ground stations.
+    /// Returns settings that use any free ports and these ground stations.
     fn ephemeral(stations: &[SocketAddr]) -> VehiclePorts {
         VehiclePorts {
             system_id: 1,
@@ -309,7 +309,7 @@ mod tests {
         let mut links = Links::open(&ephemeral(&[]), &[]).unwrap();
         let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
         let sidecar = UdpSocket::bind(local(0)).unwrap();
-        // Data other than MAVLink does not add a peer.
+        // Non-MAVLink data does not add a peer.
         sidecar.send_to(b"h", local(port)).unwrap();
         sidecar.send_to(&hello_frame(), local(port)).unwrap();
         let (watch, limit) = (Stopwatch::start(), Duration::from_secs(60));
@@ -343,7 +343,7 @@ mod tests {
         (links, socket)
     }
 
-    /// Simulates a datagram from a port. Returns its link, and whether the link is new.
+    /// Simulates a datagram from a port. Returns the link and whether it is new.
     fn note_received(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
         links.handle_event(NetEvent::Datagram { socket, from: local(port), bytes: hello_frame() }, Duration::from_secs(at_s));
         let new = matches!(links.changes.front(), Some(LinkEvent::Opened { .. }));

@@ -1,4 +1,4 @@
-//! Telemetry log of a session on disk, read in chunks, so that long logs do not use more memory.
+//! A session's telemetry log on disk. It is read in chunks so that long logs do not use more memory.
 
 use crate::errors::AppError;
 use sha2::{Digest, Sha256};
@@ -11,11 +11,10 @@ use std::path::{Path, PathBuf};
 
 /// Chunk size, bytes.
 const CHUNK_BYTES: usize = 256 * 1024;
-/// Number of bytes at the start of the file that certainly contain the first record.
+/// Number of bytes at the start of the file that always include the whole first record.
 const HEAD_BYTES: u64 = 64 * 1024;
 
-/// A telemetry log. Reads stop at the length that the file had when it was opened, because the session may still be
-/// recording.
+/// A telemetry log. Reads stop at the file's length at the time of opening, because the session may still be recording.
 #[derive(Debug, Clone)]
 pub struct LogFile {
     path: PathBuf,
@@ -23,7 +22,7 @@ pub struct LogFile {
 }
 
 impl LogFile {
-    /// Opens the log and notes its length.
+    /// Opens the log and stores its current length.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
@@ -37,7 +36,7 @@ impl LogFile {
         self.len
     }
 
-    /// Returns the length of all complete records in bytes.
+    /// Returns the total length of all complete records in bytes.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
@@ -45,12 +44,12 @@ impl LogFile {
         let mut splitter = RecordSplitter::default();
         let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
         self.for_each_chunk(&mut |piece| splitter.feed(piece, &mut skip)).map_err(|error| unreadable(&self.path, &error))?;
-        // The last record is complete only at the end of the file.
+        // Only the end of the file shows that the last record is complete.
         let _ = splitter.end(&mut skip);
         Ok(splitter.complete_bytes())
     }
 
-    /// Returns the Unix time of simulation time zero in µs; `None` for an empty log.
+    /// Returns the Unix time in µs at simulation time zero; `None` for an empty log.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
@@ -58,7 +57,7 @@ impl LogFile {
         Ok(tlog::session_start_us(&self.read(HEAD_BYTES)?))
     }
 
-    /// Returns the SHA-256 of the log, hexadecimal.
+    /// Returns the log's SHA-256 hash as hexadecimal digits.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.

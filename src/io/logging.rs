@@ -4,8 +4,8 @@ use std::io::{IsTerminal, stderr};
 use tracing::Level;
 use tracing_subscriber::EnvFilter;
 
-/// Starts logging at this level. Dependencies log warnings and errors only. Messages of the window and graphics
-/// libraries appear only at debug level and below, because the view already reports driver problems in a single
+/// Starts logging at this level. Dependencies log only warnings and errors. Messages from the window and graphics
+/// libraries appear only at the debug and trace levels, because the view already reports driver problems in a single
 /// message.
 pub fn start(level: Level) {
     let graphics = if level > Level::INFO { "" } else { ",winit=error,wgpu_hal=off" };
@@ -17,6 +17,6 @@ pub fn start(level: Level) {
         .with_target(false)
         .without_time()
         .try_init();
-    // In tests, a second call keeps the settings of the first call.
+    // In tests, a second call keeps the first call's settings.
     drop(done);
 }

@@ -1,7 +1,7 @@
 //! MCAP recordings, and the recovery of truncated ones.
 //!
-//! A complete chunk is written after every 16 KiB or one second of flight, so a killed program loses no more than that.
-//! A file without a footer can be read up to its last complete chunk.
+//! The program writes a complete chunk after every 16 KiB or one second of flight; if it is killed, only the last chunk
+//! is lost. A file without a footer can be read up to its last complete chunk.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -17,11 +17,11 @@ const CHUNK_BYTES: u64 = 16 * 1024;
 const FLUSH_AFTER_NS: u64 = 1_000_000_000;
 
 fn options() -> WriteOptions {
-    // Without seeking, a chunk is never written before its length is known.
+    // Without seeking, the library writes a chunk only once its length is known.
     WriteOptions::new().compression(None).library("spandrel").chunk_size(Some(CHUNK_BYTES)).disable_seeking(true)
 }
 
-/// A recording in progress.
+/// An unfinished recording.
 pub struct McapRecording<W: Write + Seek> {
     writer: Writer<W>,
     channels: Vec<u16>,
@@ -68,7 +68,7 @@ impl<W: Write + Seek> McapRecording<W> {
         Ok(())
     }
 
-    /// Writes the index and the footer of the file.
+    /// Writes the file's index and footer.
     ///
     /// # Errors
     /// Returns an error if the disk cannot be written.
@@ -95,7 +95,7 @@ pub struct RecoveryResult {
     pub broken: Option<String>,
 }
 
-/// Reads as much of a file as possible and rewrites it with an index and a footer.
+/// Reads as much of a file as possible and rewrites that part with an index and a footer.
 ///
 /// # Errors
 /// Returns an error if it is not an MCAP file.
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(recover(&file).unwrap().broken, None);
     }
 
-    /// Wherever the file is truncated, only the chunk that was being written is lost.
+    /// No matter where the file is truncated, only the chunk that was being written is lost.
     #[test]
     fn exact_truncated_files_are_recovered_to_the_last_complete_chunk() {
         let file = recorded(600);

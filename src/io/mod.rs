@@ -1,4 +1,4 @@
-//! I/O for the subcommands: sockets and links, clock, files, serial ports, child processes, pacing, stores and
+//! I/O for the subcommands: sockets, links, clocks, files, serial ports, child processes, pacing, stores and
 //! controllers.
 
 pub mod addresses;

@@ -1,5 +1,5 @@
-//! Collects the data of all sockets in one queue. One thread per socket drains the kernel's buffer while the core
-//! computes. The queue is bounded; data that does not fit is dropped and counted. A misbehaving peer never ends a
+//! Collects the data from all sockets in one queue. One thread per socket drains the kernel's buffer while the core
+//! computes. The queue is bounded; data that does not fit is dropped and counted. A misbehaving peer cannot stop a
 //! reader thread.
 
 use super::serial::{self, SerialDevice};
@@ -12,11 +12,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::Duration;
 
-/// Maximum number of events that wait for the core: about ten seconds of a busy link.
+/// Maximum number of events waiting for the core: about ten seconds of traffic on a busy link.
 const EVENT_QUEUE_LEN: usize = 16_384;
-/// Maximum number of frames that wait for a slow TCP client; further frames are dropped.
+/// Maximum number of frames waiting for a slow TCP client; further frames are dropped.
 const STREAM_QUEUE_LEN: usize = 2_048;
-/// Delay after an unexpected socket error, so that a broken network interface does not cause a busy loop.
+/// Delay after an unexpected socket error, to avoid a busy loop if a network interface is broken.
 const ERROR_DELAY: Duration = Duration::from_millis(50);
 /// Buffer size, larger than any UDP payload.
 const MAX_DATAGRAM: usize = 65_536;
@@ -34,7 +34,7 @@ pub struct StreamId(u32);
 pub enum StreamOrigin {
     /// A client that connected over TCP.
     Tcp(SocketAddr),
-    /// A device at a serial port.
+    /// A device on a serial port.
     Serial(SerialDevice),
 }
 
@@ -82,12 +82,12 @@ struct StreamWriter {
 
 impl Drop for StreamWriter {
     fn drop(&mut self) {
-        // Also ends the reader thread. An error means that the connection is already closed.
+        // This also stops the reader thread. An error means that the connection is already closed.
         let _ = self.socket.as_ref().map(|socket| socket.shutdown(Shutdown::Both));
     }
 }
 
-/// Reports a new stream to the core. Returns the frames to send; `None` if the core has stopped.
+/// Reports a new stream to the core. Returns the channel of frames to send, or `None` if the core has stopped.
 fn register_stream(
     stream: StreamId,
     origin: StreamOrigin,
@@ -162,13 +162,13 @@ impl SocketHub {
         Ok(bound)
     }
 
-    /// Opens a serial port and reopens it after it has been disconnected.
+    /// Opens a serial port, and reopens it whenever it disconnects.
     ///
     /// # Errors
     /// Returns an error if the port cannot be opened.
     pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
         let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
-        // Numbered downward from the maximum to stay clear of the numbers of TCP clients.
+        // Serial ports are numbered downward from the maximum to avoid collisions with the numbers of TCP clients.
         let stream = StreamId(u32::MAX - self.serial_count);
         self.serial_count += 1;
         let (queue, device) = (self.sender.clone(), device.clone());
@@ -208,7 +208,7 @@ impl SocketHub {
         }
     }
 
-    /// Sends a datagram. It is not an error if the peer is not listening yet; any other error is logged once per peer.
+    /// Sends a datagram. A peer that is not listening yet is not an error; any other error is logged once per peer.
     pub fn send(&mut self, socket: SocketId, to: SocketAddr, bytes: &[u8]) {
         let Some(socket) = self.sockets.get(socket.0) else { return };
         let Err(error) = socket.send_to(bytes, to) else { return };
@@ -218,7 +218,7 @@ impl SocketHub {
         }
     }
 
-    /// Sends to a stream. A client that does not read loses frames, but never blocks the sender.
+    /// Sends to a stream. A client that does not read its data loses frames, but never blocks the sender.
     pub fn send_stream(&self, stream: StreamId, bytes: Vec<u8>) {
         let Some(writer) = self.streams.get(&stream) else { return };
         if let Err(TrySendError::Full(_)) = writer.queue.try_send(bytes) {
@@ -258,7 +258,7 @@ fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEve
                     Err(TrySendError::Disconnected(_)) => return,
                 }
             }
-            // ICMP "port unreachable" for an earlier datagram: the peer is not listening.
+            // ICMP "port unreachable" in response to an earlier datagram: the peer is not listening.
             Err(error) if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset) => {}
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(_) => std::thread::sleep(ERROR_DELAY),

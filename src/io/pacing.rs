@@ -5,12 +5,12 @@ use spandrel_model::time::SimTime;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// Maximum step of simulation time between two polls of the sockets: the lockstep interval (docs/src/reference/wire.md,
-/// "One simulation step").
+/// Maximum simulation time between two socket polls, which is the lockstep interval (docs/src/reference/wire.md, "One
+/// simulation step").
 pub const LOCKSTEP_STEP: SimTime = SimTime::from_ms(20);
-/// Wall time without an answer from a lockstep peer after which the run ends.
+/// Wall time without a response from a lockstep peer after which the run ends.
 pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
-/// Wall-clock delay above which the simulation does not catch up: the clock slips, and the slip is reported.
+/// Wall-clock delay beyond which the simulation does not catch up: the clock slips, and the program reports the slip.
 const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
 
 /// Simulation speed.
@@ -26,8 +26,8 @@ pub enum SimulationSpeed {
 const MAX_SPEED: f64 = 100.0;
 
 impl SimulationSpeed {
-    /// Returns the simulation seconds per wall-clock second for a client that is not in lockstep, at least 1. At `max`
-    /// the speed is unknown; the highest multiple is returned.
+    /// Returns the simulation seconds per wall-clock second for a client that is not in lockstep, at least 1. At `max`,
+    /// the speed is unknown, so the highest multiple is returned.
     pub fn client_speed_factor(self) -> f64 {
         match self {
             Self::Factor(times) => times.max(1.0),
@@ -57,10 +57,10 @@ impl std::fmt::Display for SimulationSpeed {
     }
 }
 
-/// Delay of the simulation relative to its clock, in wall time.
+/// The simulation's delay relative to its clock, in wall time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Lateness {
-    /// Longest delay. It includes the sleep time, because each wake-up runs several ticks.
+    /// Longest delay, including sleep time, because several ticks run after each wake-up.
     pub latest: Duration,
     /// Number of times that the clock slipped because a delay exceeded the limit.
     pub slips: u32,
@@ -68,7 +68,7 @@ pub struct Lateness {
     pub slipped: Duration,
 }
 
-/// Computes the simulation time to reach at a given wall time.
+/// Computes the target simulation time for a given wall time.
 #[derive(Debug, Clone)]
 pub struct WallPacer {
     speed: SimulationSpeed,
@@ -99,7 +99,7 @@ impl WallPacer {
         due.min(reached + LOCKSTEP_STEP)
     }
 
-    /// Changes the speed, starting now.
+    /// Changes the speed from now on.
     pub fn set_speed(&mut self, speed: SimulationSpeed, wall: Duration, reached: SimTime) {
         if self.speed != speed {
             self.speed = speed;
@@ -119,7 +119,7 @@ impl WallPacer {
         (self.wall + Duration::from_secs_f64(due_s)).saturating_sub(wall)
     }
 
-    /// Returns the delay of the simulation so far.
+    /// Returns the simulation's delay so far.
     pub fn lateness(&self) -> Lateness {
         self.late
     }
@@ -129,11 +129,11 @@ impl WallPacer {
     }
 }
 
-/// Time after which a peer that sends data but does not answer TIMESYNC is served in real time.
+/// Time without a TIMESYNC response after which a peer that sends data is served in real time.
 const FIRST_ANSWER_TIMEOUT: Duration = Duration::from_secs(3);
 
-/// Pauses the simulation until a peer's first answer. No simulation time passes until then, so a peer that answers soon
-/// is in lockstep from the first tick.
+/// Pauses the simulation until a peer's first response. No simulation time passes until then, so a peer that responds
+/// quickly is in lockstep from the first tick.
 #[derive(Debug, Clone, Default)]
 pub struct FirstAnswerWait {
     since: Option<Duration>,
@@ -141,7 +141,7 @@ pub struct FirstAnswerWait {
     last_announced: Option<Duration>,
 }
 
-/// Action while waiting for the peer's first answer.
+/// Action while waiting for the peer's first response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FirstAnswerAction {
     /// Keep waiting for the peer.
@@ -153,8 +153,8 @@ pub enum FirstAnswerAction {
 }
 
 impl FirstAnswerWait {
-    /// Returns the action at wall time `wall`; `data_received` is true once data has arrived from the peer, `every` is the
-    /// announcement interval.
+    /// Returns the action at wall time `wall`; `data_received` is true once data has arrived from the peer, and `every`
+    /// is the announcement interval.
     pub fn next_action(&mut self, data_received: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
         let since = *self.since.get_or_insert(wall);
         let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
@@ -175,8 +175,8 @@ impl FirstAnswerWait {
     }
 }
 
-/// Limits how long the simulation waits for lockstep peers. Only waiting without progress counts, because at `max`
-/// speed every step waits.
+/// Limits how long the simulation waits for lockstep peers. Only time without progress counts, because every step
+/// involves waiting at `max` speed.
 #[derive(Debug, Clone, Default)]
 pub struct LockstepTimeout {
     stalled_since: Option<(SimTime, Duration)>,

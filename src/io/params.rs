@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct ParamFile {
     path: PathBuf,
-    /// Parameter change counter at the time of the last save.
+    /// Value of the parameter change counter at the last save.
     pub saved_changes: u64,
 }
 
@@ -31,7 +31,7 @@ impl ParamFile {
         }
     }
 
-    /// Combines all problems in the file into one error.
+    /// Combine all problems in the file into one error.
     pub fn parse_error(&self, problems: &[ParamFileProblem]) -> AppError {
         let lines: Vec<String> =
             problems.iter().map(|problem| format!("{}:{}: {}", self.path.display(), problem.line, problem.what)).collect();

@@ -1,5 +1,5 @@
-//! Writes frames as Parquet for notebooks and databases. The columns match those of the CSV export, but are typed; the
-//! metadata of each field contains its unit, frame and definition.
+//! Writes frames as Parquet for notebooks and databases. The columns match those of the CSV export, but are typed; each
+//! field's metadata contains its unit, frame and definition.
 
 mod arrow_schema;
 
@@ -17,7 +17,7 @@ use spandrel_monitor::export::columns::ColumnReader;
 use spandrel_monitor::export::{COLUMNS, Column, FrameRow};
 use std::sync::Arc;
 
-/// Metadata key under which Arrow-based readers look for the types and metadata of fields.
+/// Metadata key under which Arrow-based readers look for field types and metadata.
 const ARROW_SCHEMA: &str = "ARROW:schema";
 
 /// Returns the frames as a Parquet file.

@@ -1,4 +1,4 @@
-//! Pauses and resumes the simulation at the parent process's request (lines `pause` and `resume` on standard input).
+//! Pauses and resumes the simulation at the parent process's request (`pause` and `resume` lines on standard input).
 
 use super::stop::StopRequest;
 use std::sync::Arc;
@@ -9,13 +9,12 @@ pub const PAUSE_LINE: &str = "pause";
 /// Line that resumes the simulation.
 pub const RESUME_LINE: &str = "resume";
 
-/// Pause flag, shared by all vehicles of a process.
+/// Pause flag, shared by all vehicles in a process.
 #[derive(Debug, Clone, Default)]
 pub struct PauseSwitch(Arc<AtomicBool>);
 
 impl PauseSwitch {
-    /// Handles the lines `pause` and `resume` on standard input. When standard input closes, requests that the process
-    /// stop.
+    /// Handles `pause` and `resume` lines on standard input. When standard input closes, requests a stop.
     pub fn listen(stop: &StopRequest) -> Self {
         let (still, lines) = (Self::default(), stop.lines());
         let heeding = still.clone();

@@ -5,7 +5,7 @@ use crate::errors::AppError;
 use spandrel_training::plan::{PlanRules, RULES, read_rules};
 use std::path::Path;
 
-/// Returns the rules from a file, or the built-in rules if there is none.
+/// Returns the rules from a file, or the built-in rules if no file is specified.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read or is invalid.

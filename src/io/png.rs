@@ -1,9 +1,9 @@
-//! Pictures as PNG files.
+//! Encodes images as PNG files.
 
 use crate::errors::AppError;
 use spandrel_view::picture::Picture;
 
-/// Encodes an image as PNG.
+/// Encodes an image as a PNG file.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, AppError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);

@@ -8,7 +8,7 @@ use std::time::Duration;
 /// Interval between log lines when standard error is not a terminal.
 const LOG_INTERVAL: Duration = Duration::from_secs(15);
 
-/// Progress display of a long operation.
+/// Progress display for a long operation.
 #[derive(Debug)]
 pub struct ProgressLog {
     bar: Option<ProgressBar>,
@@ -31,7 +31,7 @@ impl ProgressLog {
         Self { bar, stopwatch: Stopwatch::start(), lines: 0 }
     }
 
-    /// Updates the message; may be called at any rate.
+    /// Updates the message; may be called as often as needed.
     pub fn report(&mut self, message: impl FnOnce() -> String) {
         match &self.bar {
             Some(bar) => bar.set_message(message()),

@@ -7,8 +7,8 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Writes a temporary file next to the target and renames it, so that neither a reader nor a killed process leaves a
-/// partial file.
+/// Writes a temporary file next to the target and renames it, so readers never see a partial file, even if the process
+/// is killed.
 ///
 /// # Errors
 /// Returns an error if the disk cannot be written.
@@ -25,7 +25,7 @@ pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 }
 
 fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteError> {
-    // The temporary name is unique, because two writers of the same file must not rename each other's partial file.
+    // The temporary name is unique so that two writers of the same file do not rename each other's partial file.
     static TEMP_FILE_COUNTER: AtomicU64 = AtomicU64::new(0);
     let mut temp_path = path.to_path_buf().into_os_string();
     temp_path.push(format!(".{}-{}.new", std::process::id(), TEMP_FILE_COUNTER.fetch_add(1, Ordering::Relaxed)));
@@ -37,7 +37,7 @@ fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>)
         std::fs::rename(&temp_path, path)
     };
     write().map_err(|error| {
-        // Later writes do not reuse this name, so the file would remain.
+        // Later writes do not reuse this name, so the file would otherwise remain.
         let _ = std::fs::remove_file(&temp_path);
         WriteError { path: path.to_path_buf(), error }
     })

@@ -1,4 +1,4 @@
-//! Builds the report of a session from the contents of its folder.
+//! Builds a session's report from the contents of its folder.
 
 use super::clock;
 use super::replace::replace;
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// Maximum size of a photograph on the page, bytes; larger photographs are replaced by sketches.
 const MAX_PICTURE_BYTES: u64 = 400_000;
-/// Maximum total size of the photographs on a page, bytes; keeps the page below 10 MB.
+/// Maximum total size of the photographs on a page, bytes; keeps the page under 10 MB.
 const MAX_PICTURES_BYTES: u64 = 4_000_000;
 
 /// Writes the report into a session folder.
@@ -22,7 +22,7 @@ pub fn write(session: &Path) -> Result<(), AppError> {
     replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
 }
 
-/// Returns names and contents of the files in a session's SCORM package.
+/// Returns the names and contents of the files in a session's SCORM package.
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
@@ -45,18 +45,18 @@ pub fn comparison_page(first: &Path, second: &Path) -> Result<String, AppError> 
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
-    // No photographs are passed, because the caller is about to render them.
+    // No photographs are included, because the caller is about to render them.
     Ok(review_with_pictures(session, Vec::new())?.pictures)
 }
 
-/// Returns the maximum size of each photograph, bytes, for a page with `count` photographs.
+/// Returns the maximum size of each photograph in bytes for a page with `count` photographs.
 #[cfg(feature = "view")]
 pub fn max_picture_bytes(count: usize) -> usize {
     let share = MAX_PICTURES_BYTES / (count.max(1) as u64);
     share.min(MAX_PICTURE_BYTES) as usize
 }
 
-/// Returns the URL of a file for a browser.
+/// Returns a file's URL for a browser.
 pub fn address(path: &Path) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let mut address = String::from("file://");
@@ -70,7 +70,7 @@ pub fn address(path: &Path) -> String {
     address
 }
 
-/// Returns the complete contents of a session's page.
+/// Returns everything to show on a session's page.
 ///
 /// # Errors
 /// Returns an error if files are invalid, or the session has no data to report.

@@ -17,7 +17,7 @@ pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &
     assess_log(log, scenario, vehicle, build_site).map_err(|error| scoring_error(&error))
 }
 
-/// Returns the scored frames of a stored session, for exports.
+/// Returns a stored session's scored frames, for exports.
 ///
 /// # Errors
 /// Returns an error if there is nothing to score.
@@ -29,7 +29,7 @@ pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
 fn scoring_error(error: &AssessError) -> AppError {
     match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
-            AppError::wrong(format!("{error}: use the scenario and seed of the flight"))
+            AppError::wrong(format!("{error}: use the flight's scenario and seed"))
         }
         AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
             AppError::failed(error.to_string())

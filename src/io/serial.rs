@@ -12,10 +12,11 @@ use std::time::Duration;
 const BITS_PER_BYTE: f64 = 10.0;
 /// Interval between attempts to reopen a disconnected port.
 const REOPEN_INTERVAL: Duration = Duration::from_secs(1);
-/// Range of baud rates that radios and cables use. The system rejects rates that its hardware does not support.
+/// Range of baud rates that radios and cables use. The operating system rejects rates that the hardware does not
+/// support.
 const BAUD_RANGE: std::ops::RangeInclusive<u32> = 1_200..=4_000_000;
 
-/// A serial port and its speed.
+/// A serial port and its baud rate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SerialDevice {
     path: String,
@@ -23,7 +24,7 @@ pub struct SerialDevice {
 }
 
 impl SerialDevice {
-    /// Returns the capacity, bytes/s.
+    /// Returns the capacity in bytes/s.
     pub fn capacity_bytes_s(&self) -> f64 {
         f64::from(self.baud) / BITS_PER_BYTE
     }
@@ -59,8 +60,8 @@ impl FromStr for SerialDevice {
     }
 }
 
-/// Reads a port until its data is no longer needed. `begin` returns the frames to write, `on_bytes` receives the data read,
-/// and `end` is called when the port disconnects; the port is then reopened as soon as possible.
+/// Reads a port until its data is no longer needed. `begin` returns the frames to write, `on_bytes` receives the data,
+/// and `end` is called when the port disconnects. The port is then reopened as soon as possible.
 pub fn run_with_reconnect(
     device: &SerialDevice,
     mut port: SerialPort,
@@ -83,14 +84,14 @@ pub fn run_with_reconnect(
     }
 }
 
-/// Reads the port while a thread writes `frames` to it. Returns false if the data is no longer needed, true if the port
-/// disconnected.
+/// Reads the port while another thread writes `frames` to it. Returns false if the data is no longer needed, true if
+/// the port disconnected.
 fn read_until_disconnect(port: SerialPort, frames: Receiver<Vec<u8>>, on_bytes: &impl Fn(&[u8]) -> bool) -> bool {
     let port = Arc::new(port);
     let to_write = Arc::clone(&port);
     std::thread::spawn(move || {
         for frame in frames {
-            // The reader detects a disconnected port; a radio whose buffer is full drops the frame.
+            // The reader detects a disconnected port; if a radio's buffer is full, the frame is dropped.
             let _ = to_write.write_all(&frame);
         }
     });

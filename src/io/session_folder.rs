@@ -1,5 +1,5 @@
-//! Session folder on disk. Its logs are only appended to and are flushed regularly, so that a restarted monitor can
-//! resume the session.
+//! Session folder on disk. Its logs are append-only and flushed regularly, so that a restarted monitor can resume the
+//! session.
 
 use super::append_file::{AppendFile, WriteError, complete_lines_len, sync_folder};
 use super::clock;
@@ -26,7 +26,7 @@ pub struct SessionFolder {
     starts: u32,
 }
 
-/// Contents of a session folder, read back.
+/// Contents of a session folder, read from disk.
 #[derive(Debug)]
 pub struct StoredSession {
     /// Scenario with the seed and the placed defects.
@@ -39,9 +39,9 @@ pub struct StoredSession {
     pub trainee: String,
     /// Purpose of the flight, if one was chosen.
     pub purpose: Option<String>,
-    /// Wall time of simulation time zero, µs since the Unix epoch.
+    /// Wall time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
-    /// Number of times that a monitor has been started for this session.
+    /// Number of monitor starts for this session.
     pub starts: u32,
     /// Version of the program that recorded the session; empty if unknown.
     pub spandrel_version: String,
@@ -86,7 +86,7 @@ impl SessionFolder {
         let mut folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
         // Another monitor may have finished between reading and locking.
         if folder.telemetry.len() != stored.log.len() {
-            return Err(AppError::failed(format!("{}: the session grew while it was being read; try again", path.display())));
+            return Err(AppError::failed(format!("{}: the session changed while it was being read; try again", path.display())));
         }
         folder.telemetry.truncate(stored.log.complete_len()?)?;
         let events_path = path.join(EVENTS);
@@ -113,7 +113,7 @@ impl SessionFolder {
         &self.path
     }
 
-    /// Adds a record, which the next [`Self::flush`] writes.
+    /// Adds a record; the next [`Self::flush`] writes it.
     pub fn record(&mut self, record: SessionOutput) {
         match record {
             SessionOutput::Telemetry(bytes) => self.telemetry.push(&bytes),
@@ -124,19 +124,19 @@ impl SessionFolder {
     /// Writes pending records.
     ///
     /// # Errors
-    /// Returns an error if the disk cannot be written. The files then contain complete records only, and the next call
+    /// Returns an error if the disk cannot be written. The files then contain only complete records, and the next call
     /// retries.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         let telemetry = self.telemetry.flush();
         self.events.flush().and(telemetry)
     }
 
-    /// Returns the number of bytes that have not been written yet.
+    /// Returns the number of bytes not written yet.
     pub fn pending(&self) -> usize {
         self.telemetry.pending() + self.events.pending()
     }
 
-    /// Returns the number of records dropped because the disk could not be written for too long.
+    /// Returns the number of records dropped because the disk was unwritable for too long.
     pub fn dropped(&self) -> u64 {
         self.telemetry.dropped() + self.events.dropped()
     }
@@ -183,7 +183,7 @@ impl SessionFolder {
 }
 
 impl StoredSession {
-    /// Reads only the scenario of a session folder.
+    /// Reads only the scenario from a session folder.
     ///
     /// # Errors
     /// Returns an error if this is not a session folder, or the file is invalid.
@@ -229,7 +229,7 @@ impl StoredSession {
     }
 }
 
-/// Returns the trainee of a session and the wall time of its simulation time zero, µs since the Unix epoch. Faster than
+/// Returns a session's trainee, and the wall time at its simulation time zero in µs since the Unix epoch. Faster than
 /// reading the whole session.
 ///
 /// # Errors
@@ -259,10 +259,10 @@ pub struct OngoingSession {
     pub seed: u64,
 }
 
-/// Returns the session if it has not ended and its telemetry has grown within this time; `None` otherwise.
+/// Returns the session if it has not ended and its telemetry has grown within this period; `None` otherwise.
 pub fn ongoing_session(path: &Path, within: Duration) -> Option<OngoingSession> {
     let grown = path.join(TELEMETRY).metadata().and_then(|about| about.modified()).ok()?;
-    // If the clock was set back, the file counts as recent.
+    // If the clock has been set back, the file counts as recent.
     if path.join(ASSESSMENT).exists() || grown.elapsed().unwrap_or_default() > within {
         return None;
     }
@@ -297,7 +297,7 @@ fn trainee_from_folder_name(path: &Path, scenario: &str) -> Option<String> {
     Some(rest.strip_suffix(scenario)?.strip_suffix('-')?.to_owned())
 }
 
-/// Creates a new folder; the name is unique even if two sessions start in the same second.
+/// Creates a new folder. Its name is unique even if two sessions start in the same second.
 fn new_folder(sessions: &Path, stem: &str, started_unix_us: u64) -> Result<PathBuf, AppError> {
     for attempt in 0..1000u32 {
         let key = format!("{started_unix_us} {} {attempt}", std::process::id());

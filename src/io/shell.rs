@@ -17,12 +17,12 @@ use spandrel_sitl::endpoint::{LinkId, LinkKind, StorageRequest};
 use spandrel_sitl::sim::{Sim, SimEvent};
 use std::time::Duration;
 
-/// Maximum wait for the sockets, so that stop requests and silent peers are noticed.
+/// Maximum time to wait for socket data, so that the loop notices stop requests and silent peers.
 const MAX_WAIT: Duration = Duration::from_millis(100);
-/// Minimum sleep. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
+/// Minimum sleep time. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
 const MIN_SLEEP: Duration = Duration::from_millis(2);
-/// Wall-clock interval of heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3 to 5
-/// s without one.
+/// Wall-clock interval between heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3
+/// to 5 s without one.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Files that belong to one vehicle.
@@ -39,9 +39,9 @@ pub struct VehicleFiles {
 /// MAVLink signing key, and the links that need no signature.
 #[derive(Debug, Clone)]
 pub struct SigningConfig {
-    /// Key with which messages on all other links must be signed.
+    /// Key that must sign the messages on all other links.
     pub key: SigningKey,
-    /// Kinds of links whose unsigned frames are accepted.
+    /// Link types on which unsigned frames are accepted.
     pub unsigned: Vec<LinkKind>,
 }
 
@@ -138,8 +138,8 @@ impl VehicleShell {
         self.links.wait(MAX_WAIT);
     }
 
-    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing data
-    /// and waits for the next tick.
+    /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing
+    /// data, and waits for the next tick.
     ///
     /// # Errors
     /// Returns an error if a lockstep peer has disappeared.
@@ -177,7 +177,7 @@ impl VehicleShell {
         self.wait_for_next_tick()
     }
 
-    /// Runs the ticks up to `target`, and serves the clients' file requests between them.
+    /// Runs the ticks up to `target` and serves the clients' file requests between ticks.
     fn advance_to(&mut self, target: SimTime) {
         loop {
             self.core.handle_timeout(target);
@@ -188,7 +188,7 @@ impl VehicleShell {
         }
     }
 
-    /// Executes the clients' file requests and appends to the flight log.
+    /// Carries out the clients' file requests and appends to the flight log.
     fn serve_file_jobs(&mut self) {
         while let Some(job) = self.core.poll_file_job() {
             let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.run_action(&job.action));
@@ -201,7 +201,7 @@ impl VehicleShell {
         }
     }
 
-    /// Saves changed parameters, and rereads the file at a client's request.
+    /// Saves changed parameters. Rereads the file if a client requests it.
     fn save_parameters(&mut self) {
         let Some(file) = &mut self.params else { return };
         let wish = self.core.take_storage_request();
@@ -220,7 +220,7 @@ impl VehicleShell {
         }
     }
 
-    /// Saves the signing state if it is due or `at_once` is true.
+    /// Saves the signing state if a save is due or `at_once` is true.
     fn save_signing_state(&mut self, at_once: bool) {
         let wall = self.stopwatch.elapsed();
         if let Some(file) = self.signing_store.as_mut().filter(|file| at_once || file.is_due(wall))
@@ -246,7 +246,7 @@ impl VehicleShell {
         }
     }
 
-    /// Waits for the next tick, or for the lockstep peers.
+    /// Waits for the next tick or for the lockstep peers.
     fn wait_for_next_tick(&mut self) -> Result<(), AppError> {
         let wall = self.stopwatch.elapsed();
         if let Some(heard) = self.core.awaits_first_response() {
@@ -271,8 +271,8 @@ impl VehicleShell {
         Ok(())
     }
 
-    /// Waits for a peer's first TIMESYNC answer. The vehicle announces itself meanwhile, because a peer must find it
-    /// before it can answer.
+    /// Waits for a peer's first TIMESYNC response. Meanwhile, the vehicle announces itself, because a peer must find it
+    /// before responding.
     fn await_first_answer(&mut self, heard: bool, wall: Duration) {
         self.pacer.resync(wall, self.core.now());
         match self.first_answer.next_action(heard, wall, HEARTBEAT_INTERVAL) {
@@ -301,19 +301,19 @@ impl VehicleShell {
         }
     }
 
-    /// Returns the delay of the simulation relative to the wall clock.
+    /// Returns the simulation's delay relative to the wall clock.
     pub fn lateness(&self) -> Lateness {
         self.pacer.lateness()
     }
 
-    /// Closes the flight log, saves the signing state and logs how much data was lost.
+    /// Closes the flight log, saves the signing state and logs the amount of lost data.
     pub fn finish(&mut self) {
         self.core.close_flight_log();
         self.serve_file_jobs();
         self.save_signing_state(true);
         let slipped = self.lateness().slipped;
         if slipped >= Duration::from_secs(1) {
-            tracing::warn!("the computer could not keep up: {:.1} s of wall time lost", slipped.as_secs_f64());
+            tracing::warn!("the computer could not keep up: lost {:.1} s of wall time", slipped.as_secs_f64());
         }
         let bad = self.core.bad_bytes() + self.links.bad_bytes();
         if bad > 0 {
@@ -324,7 +324,7 @@ impl VehicleShell {
         }
         let dropped = self.core.dropped() + self.links.take_dropped();
         if dropped > 0 {
-            tracing::warn!("dropped {dropped} datagrams that exceeded the rate limit or the capacity of their link");
+            tracing::warn!("dropped {dropped} datagrams that exceeded the rate limit or their link's capacity");
         }
     }
 }

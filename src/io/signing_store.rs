@@ -1,5 +1,5 @@
-//! Timestamps of signed MAVLink messages, saved next to the key file so that the program rejects already processed
-//! messages even after a restart.
+//! Timestamps of signed MAVLink messages, saved next to the key file so that the program rejects replayed messages even
+//! after a restart.
 
 use super::replace::replace;
 use crate::errors::AppError;
@@ -7,11 +7,11 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Interval at which the timestamps are saved. If the program is killed, messages received since the last save could be
-/// replayed within one minute.
+/// Interval at which the timestamps are saved. If the program is killed, attackers could replay messages received since
+/// the last save within one minute.
 const SAVE_INTERVAL: Duration = Duration::from_secs(1);
 
-/// File with the signing timestamps of one vehicle.
+/// File with one vehicle's signing timestamps.
 #[derive(Debug)]
 pub struct SigningStore {
     path: PathBuf,
@@ -21,7 +21,7 @@ pub struct SigningStore {
 }
 
 impl SigningStore {
-    /// Returns the store of a vehicle, next to the key file.
+    /// Returns a vehicle's store, which is next to the key file.
     pub fn for_vehicle(key: &Path, system_id: u8) -> Self {
         let mut name = key.file_name().unwrap_or_default().to_os_string();
         name.push(format!(".heard.{system_id}"));
@@ -44,7 +44,7 @@ impl SigningStore {
     pub fn parse_error(&self, line: usize) -> AppError {
         AppError::wrong(format!(
             "{}:{line}: not a signing timestamp (allowed: a timestamp on line 1, then system, component, link and \
-             timestamp); if you delete the file, messages of earlier runs could be replayed",
+             timestamp); if you delete the file, attackers could replay messages from earlier runs",
             self.path.display()
         ))
     }
@@ -65,7 +65,8 @@ impl SigningStore {
             Err(error) if !self.error_reported => {
                 self.error_reported = true;
                 tracing::warn!(
-                    "cannot save signing timestamps, so messages of the last minute could be replayed after a restart: {error}"
+                    "cannot save signing timestamps, so attackers could replay messages from the last minute after a restart: \
+                     {error}"
                 );
             }
             Err(_) => {}

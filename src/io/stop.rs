@@ -1,5 +1,5 @@
-//! Stop requests: on SIGINT or SIGTERM, or when the parent process exits. Long-running loops check the flag and shut
-//! down cleanly.
+//! Stop requests, triggered by SIGINT, SIGTERM or the exit of the parent process. Long-running loops check the flag and
+//! shut down cleanly.
 
 use crate::errors::AppError;
 use std::io::{BufRead, Read};
@@ -12,8 +12,8 @@ use std::sync::mpsc::{Receiver, channel};
 pub struct StopRequest(Arc<AtomicBool>);
 
 impl StopRequest {
-    /// Listens for SIGINT and SIGTERM, and with `leash` also for the end of standard input: it closes when the parent
-    /// exits for any reason, so no child outlives its parent.
+    /// Listens for SIGINT and SIGTERM and, if `leash` is true, for the end of standard input, which closes when the
+    /// parent exits for any reason. This way, no child outlives its parent.
     ///
     /// # Errors
     /// Returns an error if the signal handler cannot be installed.
@@ -37,15 +37,14 @@ impl StopRequest {
         Ok(stop)
     }
 
-    /// Returns the lines that the parent process writes to standard input. When standard input closes, requests that
-    /// the process stop.
+    /// Returns the lines that the parent process writes to standard input. When standard input closes, requests a stop.
     pub fn lines(&self) -> Receiver<String> {
         let (sender, lines) = channel();
         let on_end = self.clone();
         std::thread::spawn(move || {
             let mut stdin = std::io::stdin().lock();
             let mut line = Vec::new();
-            // Bytes that are not UTF-8 make the line invalid, but do not end the input.
+            // Bytes that are not UTF-8 invalidate the line, but do not end the input.
             while matches!(stdin.read_until(b'\n', &mut line), Ok(1..)) {
                 let text = String::from_utf8_lossy(&line).trim_end().to_owned();
                 line.clear();
@@ -63,13 +62,13 @@ impl StopRequest {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Requests that all threads stop.
+    /// Asks all threads to stop.
     pub fn request(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
     async fn signals(self) {
-        // The first signal requests a stop, the second exits immediately.
+        // The first signal requests a stop; the second signal exits immediately.
         if next_signal().await.is_ok() {
             self.request();
             if next_signal().await.is_ok() {

@@ -1,5 +1,5 @@
 //! The vehicle's files on disk, in one folder that clients cannot escape. The folder is opened as a capability: the
-//! operating system's path lookup, not a text comparison, rejects links and names that point outside.
+//! operating system's path lookup, not a string comparison, rejects links and names that point outside the folder.
 
 use super::flight_logs;
 use super::mcap::{McapRecording, base64};
@@ -14,24 +14,24 @@ use spandrel_sitl::log::LogOutput;
 use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// Quota for the files of all clients, bytes.
+/// Total quota for the files of all clients, bytes.
 const CLIENT_QUOTA_BYTES: u64 = 256 * 1024 * 1024;
-/// Maximum number of files and directories of all clients, because a listing reads each of them.
+/// Maximum total number of clients' files and directories. The number is limited because a listing reads every entry.
 const CLIENT_QUOTA_ENTRIES: u64 = 1_000;
-/// Folder of flight logs, with one folder per day as in PX4. The logs belong to the vehicle: clients can read and
-/// remove them, and they do not count toward the quota.
+/// Flight log folder, with one subfolder per day as in PX4. The logs belong to the vehicle: clients can read and remove
+/// them, and they do not count toward the quota.
 const LOG_FOLDER: &str = "log";
 
-/// Folder of the vehicle's files, with the log of the current flight.
+/// Folder for the vehicle's files, with the current flight's log.
 #[derive(Debug)]
 pub struct FileStore {
     root: Dir,
     path: PathBuf,
     /// Maximum size of all flight logs, bytes; the oldest are deleted first.
     max_log_bytes: u64,
-    /// Site geometry as binary glTF in base64, written at the start of every recording.
+    /// Site geometry as base64-encoded binary glTF, written at the start of every recording.
     site: Option<String>,
-    /// Space used by the clients' files.
+    /// Space that the clients' files use.
     used: StorageUsage,
     log: Option<FlightLog>,
     recording: Option<McapRecording<std::fs::File>>,
@@ -42,15 +42,15 @@ pub struct FileStore {
 struct FlightLog {
     file: File,
     name: String,
-    /// Length that has been written successfully, bytes.
+    /// Length of the data written successfully, bytes.
     whole: u64,
 }
 
 impl FlightLog {
-    /// Appends a message completely or not at all, so that readers never find a message after a partial one.
+    /// Appends the whole message or nothing, so that readers never find a message after a partial one.
     fn write(&mut self, piece: &[u8]) -> std::io::Result<()> {
         self.file.write_all(piece).inspect_err(|_| {
-            // If this fails too, the partial message is at the end of the file, where readers tolerate one.
+            // If this also fails, the partial message remains at the end of the file, where readers tolerate it.
             let _ = self.file.set_len(self.whole);
         })?;
         self.whole += piece.len() as u64;
@@ -59,10 +59,10 @@ impl FlightLog {
 }
 
 impl FileStore {
-    /// Opens the folder and creates it if necessary.
+    /// Opens the folder, creating it if necessary.
     ///
     /// # Errors
-    /// Returns an error if the folder can neither be opened nor created.
+    /// Returns an error if the folder cannot be opened or created.
     pub fn open(path: &Path, max_log_bytes: u64) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("--files {}: {error}", path.display()));
         std::fs::create_dir_all(path).map_err(failed)?;
@@ -77,7 +77,7 @@ impl FileStore {
         self.site = Some(base64(glb));
     }
 
-    /// Executes a client's file request.
+    /// Carries out a client's file request.
     ///
     /// # Errors
     /// Returns the reason as a MAVLink FTP error.
@@ -129,8 +129,8 @@ impl FileStore {
         self.change(path, act)
     }
 
-    /// Writes to a file unless the clients' quota is exhausted. Its new length is at most the larger of `length` and
-    /// its previous length.
+    /// Writes to a file, unless the clients' quota is exhausted. The new length is at most `length` or the previous
+    /// length, whichever is larger.
     fn write(
         &mut self,
         path: &FilePath,
@@ -145,7 +145,7 @@ impl FileStore {
         self.change(path, |root| act(&mut root.open_with(path.as_str(), OpenOptions::new().write(true))?))
     }
 
-    /// Changes a path and updates the space used.
+    /// Changes a path and updates the amount of space used.
     fn change(&mut self, path: &FilePath, act: impl FnOnce(&Dir) -> std::io::Result<()>) -> std::io::Result<FileJobResult> {
         let before = StorageUsage::of(&self.root, path);
         let done = act(&self.root);
@@ -190,12 +190,12 @@ impl FileStore {
         Ok(FileJobResult::Checksum { sum: checksum(sum, &bytes), bytes: u32::try_from(bytes.len()).unwrap_or(CHECKSUM_SLICE) })
     }
 
-    /// Appends to the vehicle's log `log/<date>/<time>.ulg`, or to the recording with the same name and the extension
-    /// `.mcap`.
+    /// Appends to the vehicle's log `log/<date>/<time>.ulg`, or to the recording with the same name and an `.mcap`
+    /// extension.
     ///
     /// # Errors
-    /// Returns an error if the disk cannot be written. The file then ends with the previous data; the next flight
-    /// starts a new one.
+    /// Returns an error if the disk cannot be written. The file then ends with the previous data, and the next flight
+    /// starts a new file.
     pub fn log(&mut self, piece: &LogOutput) -> Result<(), AppError> {
         match piece {
             LogOutput::Bytes(bytes) => {
@@ -222,7 +222,7 @@ impl FileStore {
                 let (date, time) = readable.split_at(10);
                 let deleted = flight_logs::delete_oldest(&self.root, LOG_FOLDER, self.max_log_bytes)?;
                 if deleted > 0 {
-                    tracing::info!("deleted the logs of {deleted} old flights to make room for a new one");
+                    tracing::info!("deleted {deleted} old flight logs to make room for a new one");
                 }
                 let folder = format!("{LOG_FOLDER}/{date}");
                 self.root.create_dir_all(&folder)?;
@@ -266,7 +266,7 @@ impl FileStore {
 }
 
 fn io_error(root: &Path, name: &str, error: &dyn std::fmt::Display) -> AppError {
-    AppError::failed(format!("{}: cannot write: {error}; the file ends here", root.join(name).display()))
+    AppError::failed(format!("{}: cannot write: {error}; the log ends at this point", root.join(name).display()))
 }
 
 /// Returns true for a path in the vehicle's log folder.
@@ -279,7 +279,7 @@ fn check_client_path(path: &FilePath) -> std::io::Result<()> {
     if is_log(path) { Err(ErrorKind::PermissionDenied.into()) } else { Ok(()) }
 }
 
-/// Space used by the clients' files.
+/// Space that the clients' files use.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct StorageUsage {
     bytes: u64,
@@ -287,7 +287,7 @@ struct StorageUsage {
 }
 
 impl StorageUsage {
-    /// Measures a folder without its logs. Clients can still read and empty a folder that exceeds the quota.
+    /// Measures a folder, excluding its logs. Clients can still read and empty a folder that exceeds the quota.
     fn measure(root: &Dir) -> Self {
         let mut used = Self::default();
         used.count(root, true);
@@ -331,7 +331,7 @@ mod tests {
         FilePath::of(text.as_bytes()).unwrap()
     }
 
-    /// Creates a test folder, a sibling with a similar name, and a secret next to them.
+    /// Creates a test folder, a sibling folder with a similar name, and a secret file next to them.
     fn place(name: &str) -> (PathBuf, FileStore) {
         let base = std::env::temp_dir().join(format!("spandrel-store-{name}-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&base);
@@ -441,7 +441,7 @@ mod tests {
         let name = "log/2026-09-21/14_13_20.ulg";
         store.log.as_mut().unwrap().file = store.root.open(name).unwrap();
         let refused = store.log(&LogOutput::Bytes("two".into())).unwrap_err().to_string();
-        assert!(refused.contains(name) && refused.contains("the file ends here"), "{refused}");
+        assert!(refused.contains(name) && refused.contains("the log ends at this point"), "{refused}");
         store.log(&LogOutput::Bytes("three".into())).unwrap();
         assert_eq!(std::fs::read(base.join("root").join(name)).unwrap(), b"one");
         store.log(&LogOutput::End).unwrap();

@@ -1,9 +1,9 @@
-//! Ports that a vehicle opens, and addresses that it sends to from the start.
+//! Ports that a vehicle opens, and addresses that it sends to from startup.
 
 use super::serial::SerialDevice;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
-/// Ports and fixed peers of one vehicle.
+/// One vehicle's ports and fixed peers.
 #[derive(Debug, Clone)]
 pub struct VehiclePorts {
     /// MAVLink system ID.
@@ -28,7 +28,7 @@ pub struct VehiclePorts {
     pub gcs_limit: Option<u32>,
 }
 
-/// Returns the address of a port on this machine.
+/// Returns the address of one of this machine's ports.
 pub fn local(port: u16) -> SocketAddr {
     SocketAddr::from((Ipv4Addr::LOCALHOST, port))
 }

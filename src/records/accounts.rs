@@ -13,7 +13,7 @@ const ACCOUNT: &str = "SELECT trainees.pseudonym, role, age_band, drone_experien
 const SET_PASSWORD: &str = "INSERT INTO passwords (pseudonym, hash) VALUES ($1, $2) \
     ON CONFLICT (pseudonym) DO UPDATE SET hash = excluded.hash";
 
-/// A person with the hash of their password.
+/// A person and their password hash.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Account {
     /// Pseudonym, role and details.
@@ -23,8 +23,8 @@ pub struct Account {
 }
 
 impl Account {
-    /// Returns a hash of the password and the role. When it changes, browser sessions end. `None` for a person who
-    /// cannot log in.
+    /// Returns a hash of the password and the role, or `None` for a person who cannot log in. Browser sessions end when
+    /// this hash changes.
     #[must_use]
     pub fn credential(&self) -> Option<CredentialHash> {
         let hash = self.hash.as_ref()?;
@@ -33,7 +33,7 @@ impl Account {
 }
 
 impl Database {
-    /// Returns a person; `None` if there is no such name.
+    /// Returns a person, or `None` if nobody has this name.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -44,7 +44,7 @@ impl Database {
         })
     }
 
-    /// Adds a person or sets their role, and sets their password, in one transaction; the details are kept.
+    /// Sets a person's password and role in one transaction; adds the person if necessary. Their details do not change.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -58,7 +58,7 @@ impl Database {
         })
     }
 
-    /// Changes a person's password if the stored hash is still `before`; returns false otherwise.
+    /// Changes a person's password if the stored hash is still `before`. Returns false if it is not.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -71,7 +71,7 @@ impl Database {
         })
     }
 
-    /// Removes a person's password, so that they can no longer log in. Returns false if there was none.
+    /// Removes a person's password, so they can no longer log in. Returns false if there was no password.
     ///
     /// # Errors
     /// Returns an error if the database fails.

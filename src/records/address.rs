@@ -1,12 +1,13 @@
-//! Database addresses: a file, or a PostgreSQL URL. The TLS options of a URL are checked here, because the driver's
-//! error messages are unclear and some options do less than their names suggest.
+//! Database addresses: a file, or a PostgreSQL URL. TLS options in the URL are checked here, because the driver's error
+//! messages are unclear and some options do less than their names suggest.
 
 use rustls::pki_types::pem::PemObject;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 
-/// Allowed values of `sslmode`. `allow` is excluded because the driver would treat it as `disable`, and `verify-ca`
-/// because the driver (sqlx 0.8.6 with rustls) verifies the host name anyway, with a misleading error message.
+/// Allowed values of `sslmode`. `allow` is excluded because the driver (sqlx 0.8.6 with rustls) would treat it as
+/// `disable`. `verify-ca` is excluded because the driver verifies the host name anyway, with a misleading error
+/// message.
 const SSL_MODES: [&str; 4] = ["disable", "prefer", "require", "verify-full"];
 /// The only mode that verifies PostgreSQL's certificate.
 const VERIFYING_MODE: &str = "verify-full";
@@ -16,16 +17,16 @@ pub fn is_url(target: &str) -> bool {
     target.starts_with("postgres://") || target.starts_with("postgresql://")
 }
 
-/// Checks the TLS options of a URL.
+/// Checks a URL's TLS options.
 ///
 /// # Errors
-/// Returns an error if an option is invalid. The error contains its name, its value and the allowed values.
+/// Returns an error if an option is invalid. The error contains the option's name, its value and the allowed values.
 pub fn check_tls_options(target: &str) -> Result<(), String> {
     let Some((_, query)) = target.split_once('?').filter(|_| is_url(target)) else { return Ok(()) };
     let said: Vec<(String, String)> = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
     let value = |key: &str| said.iter().rev().find(|(name, _)| name == key).map(|(_, value)| value.as_str());
     let known = ["sslmode", "sslrootcert", "sslcert", "sslkey"];
-    // The driver ignores unknown options; a misspelled security option must not be ignored.
+    // The driver ignores unknown options, but misspelled security options must not go unnoticed.
     if let Some((name, _)) = said.iter().find(|(name, _)| is_tls_option(name) && !known.contains(&name.as_str())) {
         return Err(format!("{name}: unknown (allowed: {})", known.join(", ")));
     }
@@ -50,7 +51,7 @@ pub fn check_tls_options(target: &str) -> Result<(), String> {
     }
 }
 
-/// Returns true if an option concerns TLS, in upper or lower case, because the driver ignores `SSLMODE`.
+/// Returns true if an option is a TLS option. Case is ignored here, because the driver would silently ignore `SSLMODE`.
 fn is_tls_option(key: &str) -> bool {
     key.to_ascii_lowercase().starts_with("ssl")
 }
@@ -65,7 +66,7 @@ fn check_certificate_file(key: &str, file: &str) -> Result<(), String> {
     }
 }
 
-/// Describes a connection error, and adds advice where the driver's message is unclear.
+/// Describes a connection error, and adds advice if the driver's message is unclear.
 pub fn connection_error(error: &sqlx::Error) -> String {
     let said = error.to_string();
     let advice = [
@@ -75,7 +76,7 @@ pub fn connection_error(error: &sqlx::Error) -> String {
         ),
         ("not valid for name", "the server's certificate is for another host name: use that name in the URL"),
         ("CaUsedAsEndEntity", "the server uses a CA certificate as its own: issue a server certificate for its host name"),
-        ("certificate expired", "the server's certificate has expired, or a clock is wrong"),
+        ("certificate expired", "the server's certificate has expired, or one of the clocks is wrong"),
         ("server does not support TLS", "enable TLS on the server (ssl = on), or use sslmode=disable on a trusted network"),
     ];
     match advice.iter().find(|(sign, _)| said.contains(sign)) {
@@ -84,7 +85,7 @@ pub fn connection_error(error: &sqlx::Error) -> String {
     }
 }
 
-/// Returns the URL of an SQLite file; SQLite creates a missing file.
+/// Returns the URL of an SQLite file. SQLite creates the file if it is missing.
 pub fn sqlite_url(file: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/._-~".contains(&byte);
     let encoded: String =

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Maximum number of records per database transaction, so that an interrupted import loses little work.
 const RECORDS_PER_TRANSACTION: usize = 64;
 
-/// Number of session folders by import result.
+/// Numbers of session folders by import result.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ImportCounts {
     /// New or changed folders.
@@ -25,7 +25,7 @@ pub struct ImportCounts {
 
 impl ImportCounts {
     /// Returns the record of a folder, or `None` if the session was erased, is unchanged in `known`, or cannot be read.
-    /// If it cannot be read, logs the error with `otherwise` as the consequence.
+    /// If it cannot be read, logs the error; `otherwise` describes the consequence.
     pub fn read(
         &mut self,
         folder: &Path,

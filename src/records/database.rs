@@ -1,6 +1,6 @@
-//! Database of records: SQLite in a file, or PostgreSQL by URL, with the same statements and migrations. All calls
-//! block. Every change is one transaction that takes the write lock first, so concurrent writers wait for each other,
-//! and an interrupted program leaves either all of a session or nothing.
+//! Database of records: an SQLite file, or a PostgreSQL server specified by URL. Both use the same statements and
+//! migrations. All calls block. Every change is one transaction that takes the write lock first, so concurrent writers
+//! wait for each other, and an interrupted program never leaves a partial session.
 
 use super::address::{self, sqlite_url, without_password};
 use crate::errors::AppError;
@@ -14,8 +14,8 @@ use std::time::Duration;
 const BUSY_TIMEOUT: &str = "PRAGMA busy_timeout = 60000";
 /// SQLite overwrites deleted data with zeros.
 const SECURE_DELETE: &str = "PRAGMA secure_delete = ON";
-/// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without it, two stations that add the
-/// same new trainees in different orders would deadlock, and one transaction would be aborted.
+/// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without the lock, two stations that
+/// add the same new trainees in different orders would deadlock, and PostgreSQL would abort one transaction.
 const WRITE_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
 
 /// SQL dialect of the database.
@@ -36,7 +36,7 @@ pub struct Database {
 }
 
 impl Database {
-    /// Opens `postgres://...` or a file, which is created if it does not exist, and brings its tables up to date.
+    /// Opens `postgres://...` or a file and brings its tables up to date. Creates the file if it does not exist.
     ///
     /// # Errors
     /// Returns an error if the URL is invalid, or the database cannot be opened or has a newer version.
@@ -54,14 +54,14 @@ impl Database {
             .build()
             .map_err(|error| AppError::failed(format!("{name}: cannot start the database runtime: {error}")))?;
         let url = if kind == SqlDialect::Sqlite { sqlite_url(target) } else { target.to_owned() };
-        // SQLite's data_version is only meaningful within one connection, so the connection stays open.
+        // SQLite's data_version is meaningful only within one connection, so the connection stays open.
         let lives = |seconds| (kind == SqlDialect::Postgres).then(|| Duration::from_secs(seconds));
         let options = AnyPoolOptions::new().max_connections(1).idle_timeout(lives(600)).max_lifetime(lives(1800)).after_connect(
             move |connection, _| {
                 Box::pin(async move { if kind == SqlDialect::Sqlite { prepare(connection).await } else { Ok(()) } })
             },
         );
-        // The pool would retry a server that refuses connections; a separate first connection reports the error
+        // The pool would keep retrying if the server refuses connections; a separate first connection reports the error
         // immediately.
         let open = async {
             AnyConnection::connect(&url).await?.close().await?;
@@ -75,7 +75,7 @@ impl Database {
         Ok(database)
     }
 
-    /// Sets the stored version of the tables.
+    /// Sets the stored version number of the tables.
     #[cfg(test)]
     pub fn set_schema_version(&self, version: i64) -> Result<(), AppError> {
         self.run(async {
@@ -110,7 +110,7 @@ impl Database {
         runtime.block_on(work).map_err(|error| AppError::failed(format!("{}: {error}", self.name)))
     }
 
-    /// Returns a version string, which changes whenever another connection has modified the database.
+    /// Returns a version string that changes whenever another connection modifies the database.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -121,8 +121,8 @@ impl Database {
                     let version: i64 = sqlx::query("PRAGMA data_version").fetch_one(&self.pool).await?.try_get(0)?;
                     Ok(version.to_string())
                 }
-                // Every write transaction on the server changes this value, so results may be recomputed too often, but
-                // never too rarely.
+                // Every write transaction on the server changes this value, so results may be recomputed unnecessarily,
+                // but they are never outdated.
                 SqlDialect::Postgres => {
                     sqlx::query("SELECT txid_current_snapshot()::text").fetch_one(&self.pool).await?.try_get(0)
                 }
@@ -141,7 +141,7 @@ impl Database {
         }
     }
 
-    /// Removes deleted data from SQLite's write-ahead log as well.
+    /// Also removes deleted data from SQLite's write-ahead log.
     pub(super) async fn truncate_journal(&self) -> Result<(), sqlx::Error> {
         match self.kind {
             SqlDialect::Sqlite => self.pool.execute("PRAGMA wal_checkpoint(TRUNCATE)").await.map(|_| ()),
@@ -152,8 +152,8 @@ impl Database {
 
 impl Drop for Database {
     fn drop(&mut self) {
-        // The last reference may be dropped in a task of the web server, which must not block; dropping the runtime
-        // normally would block.
+        // The last reference may be dropped in a web server task, which must not block; dropping the runtime normally
+        // would block.
         if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_background();
         }
@@ -165,7 +165,7 @@ async fn prepare(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
         connection.execute(pragma).await?;
     }
     // The write-ahead log allows reads while another process writes. SQLite may reject the mode change while another
-    // station has the file open; that station requests it as well, and until then the busy timeout is sufficient.
+    // station has the file open. That station also requests the change; until then, the busy timeout is sufficient.
     let _ = connection.execute("PRAGMA journal_mode = WAL").await;
     Ok(())
 }

@@ -1,6 +1,6 @@
-//! Removes session folders in a crash-safe way. The transaction that erases the records also marks their folders; each
-//! folder is then renamed, so that nothing reads it anymore, and deleted. At the next start, interrupted removals are
-//! completed.
+//! Removes session folders in a crash-safe way. The transaction that erases the records also marks their folders. Each
+//! folder is then renamed, so that no program reads it anymore, and deleted. The next start completes interrupted
+//! removals.
 
 use super::database::Database;
 use super::erasure_marks::{self, ErasedKind, folder_name};
@@ -10,11 +10,11 @@ use std::collections::BTreeSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Prefix of the name of a folder that is being deleted.
+/// Name prefix of folders that are being deleted.
 const ERASING_PREFIX: &str = ".erasing-";
 
 impl Database {
-    /// Returns the hashes of the folders that are marked for removal.
+    /// Returns the name hashes of the folders that are marked for removal.
     fn erasing(&self) -> Result<BTreeSet<String>, AppError> {
         self.run(async {
             let query = sqlx::query("SELECT sha256 FROM erased WHERE what = $1").bind(ErasedKind::Folder.word().to_owned());
@@ -22,7 +22,7 @@ impl Database {
         })
     }
 
-    /// Removes the mark of a deleted folder.
+    /// Removes a deleted folder's mark.
     fn remove_mark(&self, name: &str) -> Result<(), AppError> {
         self.run(async {
             let mut change = self.begin().await?;
@@ -116,7 +116,7 @@ mod tests {
         let here = [temp_dir.path().to_path_buf()];
         let database = Database::open(&temp_dir.path().join("records.sqlite").display().to_string()).unwrap();
         session(temp_dir.path(), "b-ben");
-        // Interrupted after the transaction, after the rename, and during the deletion.
+        // The erasure is interrupted after the transaction, after the rename, and during the deletion.
         let [marked, renamed, half] = ["a-anna", "c-anna", "d-anna"].map(|name| session(temp_dir.path(), name));
         database.erase("anna", &[marked, renamed.clone(), half.clone()]).unwrap();
         for folder in [&renamed, &half] {
@@ -126,7 +126,7 @@ mod tests {
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(temp_dir.path()), ["b-ben"]);
         assert_eq!(database.erasing(), Ok(BTreeSet::new()));
-        // A folder that is copied back later is not deleted automatically.
+        // A folder that someone copies back later is not deleted automatically.
         session(temp_dir.path(), "a-anna");
         finish(&database, &here).unwrap();
         assert_eq!(remaining_folders(temp_dir.path()), ["a-anna", "b-ben"]);

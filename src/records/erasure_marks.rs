@@ -1,5 +1,5 @@
-//! Marks for erased data in the database. Every import and rebuild checks them, so that erased sessions do not return
-//! from folders on other stations.
+//! Database marks for erased data. Every import and rebuild checks them, so erased sessions do not return from folders
+//! on other stations.
 
 use super::database::{Database, signed};
 use crate::errors::AppError;
@@ -15,7 +15,7 @@ const MARK: &str = "INSERT INTO erased (what, sha256, erased_unix_us) VALUES ($1
 const CONTAINS: &str = "SELECT COUNT(*) FROM erased WHERE (what = 'trainee' AND sha256 = $1 AND erased_unix_us >= $2) \
     OR (what = 'session' AND sha256 = $3)";
 
-/// Kind of erasure mark.
+/// What an erasure mark applies to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ErasedKind {
     /// All sessions of a trainee that started before the mark.
@@ -36,12 +36,12 @@ impl ErasedKind {
     }
 }
 
-/// All marks: time of erasure by kind and hash of the name, µs since the Unix epoch.
+/// All marks: time of erasure in µs since the Unix epoch, by kind and name hash.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ErasureMarks(BTreeMap<(String, String), u64>);
 
 impl ErasureMarks {
-    /// Returns true if the session was erased, or its trainee was erased after it had started.
+    /// Returns true if the session was erased, or if its trainee was erased after it started.
     #[must_use]
     pub fn contains(&self, id: &str, trainee: &str, started_unix_us: u64) -> bool {
         let at = |what: ErasedKind, name: &str| self.0.get(&(what.word().to_owned(), hash(name)));
@@ -49,12 +49,12 @@ impl ErasureMarks {
     }
 }
 
-/// Returns the last component of a folder's path.
+/// Returns the last component of a folder path.
 pub(super) fn folder_name(folder: &Path) -> String {
     folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Returns the hash of a name for its mark; storing the name itself would defeat the erasure.
+/// Returns the hash that identifies a name in a mark; storing the name itself would defeat the erasure.
 pub(super) fn hash(name: &str) -> String {
     sha256_hex(format!("erased: {name}").as_bytes())
 }
@@ -76,7 +76,7 @@ impl Database {
     }
 }
 
-/// Marks a name as erased now, within the transaction that erases it.
+/// Marks a name as erased at the current time, within the transaction that erases it.
 pub(super) async fn mark(change: &mut Transaction<'static, Any>, what: ErasedKind, name: &str) -> Result<(), sqlx::Error> {
     let query = sqlx::query(MARK).bind(what.word().to_owned()).bind(hash(name)).bind(signed(clock::unix_us()));
     query.execute(&mut **change).await.map(|_| ())

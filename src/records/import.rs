@@ -13,7 +13,7 @@ use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, recor
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Returns the session folders directly inside these folders, sorted by name (that is, by time).
+/// Returns the session folders directly inside these folders, sorted by name (and therefore by time).
 ///
 /// # Errors
 /// Returns an error if a folder cannot be read.
@@ -28,7 +28,7 @@ pub fn session_folders(sessions: &[PathBuf]) -> Result<Vec<PathBuf>, AppError> {
     Ok(found)
 }
 
-/// Returns true for folders that are being erased or created; their names start with a dot.
+/// Returns true for folders that are being erased or created. Their names start with a dot.
 fn is_hidden(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."))
 }
@@ -36,14 +36,14 @@ fn is_hidden(path: &Path) -> bool {
 /// Returns the ID of a session: the name of its folder.
 ///
 /// # Errors
-/// Returns an error if the name of the folder is not valid UTF-8.
+/// Returns an error if the folder name is not valid UTF-8.
 pub fn id(session: &Path) -> Result<String, AppError> {
     let path = session.canonicalize().map_err(|error| AppError::wrong(format!("{}: {error}", session.display())))?;
     let name = path.file_name().and_then(|name| name.to_str());
     name.map(str::to_owned).ok_or_else(|| AppError::wrong(format!("{}: the folder name is not valid UTF-8", session.display())))
 }
 
-/// Creates the record of a session folder. Returns `None` if `known` contains it unchanged.
+/// Creates a session folder's record. Returns `None` if `known` contains the session unchanged.
 ///
 /// # Errors
 /// Returns an error if the folder is invalid or contains nothing to score.
@@ -57,7 +57,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     let scenario = &stored.scenario.scenario;
     let graded = scoring::grade(&stored.log, scenario, &stored.vehicle.vehicle)
         .map_err(|error| AppError::failed(format!("{}: {error}", session.display())))?;
-    // If the monitor was killed early, the positions of the defects were not saved; the seed reproduces them.
+    // If the monitor was killed early, it did not save the defect positions; the seed reproduces them.
     let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
     let answers = answers::read_saved_answers(session, scenario)?;
@@ -76,8 +76,8 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     })))
 }
 
-/// Returns true if the session of a folder was erased, or its trainee was erased after it had started. Unreadable
-/// folders return false, because [`read`] reports them.
+/// Returns true if a folder's session was erased, or if its trainee was erased after it started. Returns false for
+/// unreadable folders, because [`read`] reports them.
 pub fn is_erased(session: &Path, erased: &ErasureMarks) -> bool {
     let (Ok(id), Ok((trainee, started_unix_us))) = (id(session), trainee_and_start(session)) else { return false };
     erased.contains(&id, &trainee, started_unix_us)

@@ -1,4 +1,4 @@
-//! Records as JSON lines, for exchange between databases.
+//! Reads and writes records as JSON lines, for exchange between databases.
 
 use crate::errors::AppError;
 use crate::io::files;

@@ -1,4 +1,4 @@
-//! Locations of the database and the session folders.
+//! Where the database and the session folders are.
 
 use super::database::Database;
 use super::erasure;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 pub struct RecordsLocation {
     /// Folders that contain session folders.
     pub sessions: Vec<PathBuf>,
-    /// Database: a file, or a PostgreSQL URL; `None` for `records.sqlite` in the first folder of sessions.
+    /// Database: a file, or a PostgreSQL URL; `None` for `records.sqlite` in the first sessions folder.
     pub database: Option<String>,
 }
 

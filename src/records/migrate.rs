@@ -3,7 +3,7 @@
 use super::database::Database;
 use sqlx::{Executor, Row};
 
-/// Migrations in order; version n of the database includes the first n. Released migrations never change; new
+/// Migrations in order; database version n includes the first n migrations. Released migrations never change; new
 /// migrations are appended.
 const MIGRATIONS: &[&str] = &[
     include_str!("migrations/0001_first.sql"),
@@ -13,9 +13,9 @@ const MIGRATIONS: &[&str] = &[
 ];
 
 impl Database {
-    /// Runs the missing migrations in one transaction under the write lock.
+    /// Runs the missing migrations in one transaction while holding the write lock.
     pub(super) async fn migrate(&self) -> Result<(), sqlx::Error> {
-        // If the tables are up to date, no lock is taken, so readers do not wait for writers.
+        // If the tables are up to date, this takes no lock, so readers do not wait for writers.
         let version = sqlx::query("SELECT version FROM schema_version").fetch_optional(&self.pool).await;
         if let Ok(Some(row)) = version
             && row.try_get::<i64, _>(0).is_ok_and(|version| usize::try_from(version) == Ok(MIGRATIONS.len()))

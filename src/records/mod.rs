@@ -1,5 +1,5 @@
 //! Database of sessions, trainees and answers. The session folders are the source of truth; the database can be rebuilt
-//! from them at any time, except for the details entered about trainees.
+//! from them at any time, except for trainee details that were entered by hand.
 
 mod accounts;
 mod address;

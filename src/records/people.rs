@@ -1,4 +1,4 @@
-//! Trainee details, and export and erasure of all data of a trainee.
+//! Looks up people, and exports and erases all of a trainee's data.
 
 use super::database::Database;
 use super::location::RecordsLocation;
@@ -10,7 +10,7 @@ use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::Trainee;
 use std::path::{Path, PathBuf};
 
-/// All stored data of one trainee.
+/// All of one trainee's data.
 #[derive(Debug, Serialize)]
 pub struct TraineeData {
     trainee: Trainee,
@@ -20,7 +20,7 @@ pub struct TraineeData {
 
 impl TraineeData {
     /// Returns the same data with folder names instead of full paths, so that web responses do not reveal the server's
-    /// file system.
+    /// directory layout.
     #[must_use]
     pub fn with_folder_names(mut self) -> Self {
         for folder in &mut self.folders {
@@ -31,8 +31,8 @@ impl TraineeData {
     }
 }
 
-/// Returns all stored data of a trainee: details, sessions and answers from the database, and folder names. `None` if
-/// there is no data.
+/// Returns all of a trainee's data: details, sessions and answers from the database, and folder names. Returns `None`
+/// if there is no data.
 ///
 /// # Errors
 /// Returns an error if the database or a folder cannot be read.
@@ -51,7 +51,7 @@ pub fn stored_data(
     Ok(Some(TraineeData { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
 }
 
-/// Erases a trainee. Returns whether any data existed, and the number of sessions in the database.
+/// Erases a trainee. Returns true if any data existed, and the number of sessions in the database.
 ///
 /// # Errors
 /// Returns an error if a folder or the database cannot be changed.
@@ -73,16 +73,16 @@ pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppEr
 /// Returns a trainee's session folders.
 ///
 /// # Errors
-/// Returns an error if the folder of sessions cannot be read.
+/// Returns an error if the sessions folder cannot be read.
 pub fn folders_of_trainee(records_location: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&records_location.sessions, |owner, _| owner == trainee)
 }
 
-/// Returns the session folders whose trainee and start (µs since the Unix epoch) satisfy the predicate. Logs unreadable
-/// folders, because they may match.
+/// Returns the session folders whose trainee and start time (µs since the Unix epoch) satisfy the predicate. Logs
+/// unreadable folders, because they might match.
 ///
 /// # Errors
-/// Returns an error if the folder of sessions cannot be read.
+/// Returns an error if the sessions folder cannot be read.
 fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
@@ -90,14 +90,14 @@ fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result
         match trainee_and_start(&path) {
             Ok((trainee, started_unix_us)) if is(&trainee, started_unix_us) => found.push(path),
             Ok(_) => {}
-            Err(error) => tracing::warn!("cannot determine the trainee of a session folder: {error}"),
+            Err(error) => tracing::warn!("cannot tell which trainee a session folder belongs to: {error}"),
         }
     }
     Ok(found)
 }
 
-/// Erases all sessions and session folders that started before this time, µs since the Unix epoch. Returns the numbers
-/// of sessions and folders.
+/// Erases all sessions and session folders that started before this time (µs since the Unix epoch). Returns the number
+/// of sessions and the number of folders.
 ///
 /// # Errors
 /// Returns an error if a folder or the database cannot be changed.
@@ -113,10 +113,10 @@ pub fn erase_older_than(
     Ok((deleted, folders.len()))
 }
 
-/// Returns the session folders that started before this time, µs since the Unix epoch.
+/// Returns the session folders that started before this time (µs since the Unix epoch).
 ///
 /// # Errors
-/// Returns an error if the folder of sessions cannot be read.
+/// Returns an error if the sessions folder cannot be read.
 pub fn folders_older_than(records_location: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
     folders_where(&records_location.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

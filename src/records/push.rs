@@ -1,5 +1,5 @@
-//! `spandrel records push`: sends sessions as xAPI statements to a learning record store. The ID of a statement is
-//! derived from its contents, so statements that the store already has are not sent twice.
+//! `spandrel records push`: sends sessions as xAPI statements to a learning record store. Each statement's ID is
+//! derived from its contents, so statements that the store already has are not sent again.
 
 use super::location::RecordsLocation;
 use crate::errors::AppError;
@@ -11,7 +11,7 @@ use spandrel_training::xapi;
 use std::path::Path;
 use std::time::Duration;
 
-/// Name of the file with the session's statements in a session folder.
+/// Name of the file in a session folder that contains the session's statements.
 pub const STATEMENTS: &str = "xapi.jsonl";
 /// Maximum number of statements per request.
 const BATCH_SIZE: usize = 50;
@@ -23,13 +23,13 @@ const RETRY_DELAYS: [Duration; 5] = [
     Duration::from_secs(10),
     Duration::from_secs(30),
 ];
-/// Timeout of a request.
+/// Timeout for a request.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(60);
-/// Environment variables with the user name and password, so that process lists do not show them.
+/// Environment variables for the user name and password, which must not appear in process lists.
 const USER: &str = "SPANDREL_LRS_USER";
 const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
 
-/// Number of statements by the store's response.
+/// Numbers of statements by the store's response.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct PushCounts {
     /// Statements that were new to the store.
@@ -38,7 +38,7 @@ pub struct PushCounts {
     pub already_there: usize,
 }
 
-/// Checks the URL of an endpoint and removes trailing slashes.
+/// Checks an endpoint's URL and removes trailing slashes.
 ///
 /// # Errors
 /// Returns an error if it has a different scheme, no host, or a user, query or fragment.

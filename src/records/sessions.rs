@@ -25,15 +25,15 @@ const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     fingerprint = excluded.fingerprint, record = excluded.record, purpose = excluded.purpose \
     WHERE sessions.fingerprint <> excluded.fingerprint";
 const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
-// The subquery uses only an index; complete rows are read only for the sessions to show.
+// The subquery uses only an index, so complete rows are read only for the sessions to show.
 const LIST_ALL: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 const LIST_OF_TRAINEE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
-    /// Adds records with their trainees. Unchanged sessions are left alone, and erased sessions are not added again.
-    /// Returns the number of new or changed sessions.
+    /// Adds records and their trainees. Does not touch unchanged sessions or add erased sessions again. Returns the
+    /// number of new or changed sessions.
     ///
     /// # Errors
     /// Returns an error if the database fails; nothing is imported in that case.
@@ -45,8 +45,8 @@ impl Database {
         })
     }
 
-    /// Replaces these sessions and deletes those with the IDs in `gone`. All other sessions, which another station may
-    /// have added meanwhile, are kept, and so are the trainees and their details. Returns the number of sessions added.
+    /// Replaces these sessions and deletes those with IDs in `gone`. Keeps all other sessions, which another station
+    /// may have added in the meantime, and all trainees with their details. Returns the number of sessions added.
     ///
     /// # Errors
     /// Returns an error if the database fails; nothing is changed in that case.
@@ -61,7 +61,7 @@ impl Database {
         })
     }
 
-    /// Returns the ID and the trainee of the session with this telemetry (SHA-256, hexadecimal).
+    /// Returns the ID and trainee of the session with this telemetry hash (SHA-256, hexadecimal).
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -73,7 +73,7 @@ impl Database {
         })
     }
 
-    /// Returns the fingerprints of all sessions by session ID.
+    /// Returns all sessions' fingerprints by session ID.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -84,7 +84,7 @@ impl Database {
         })
     }
 
-    /// Returns the records of all trainees, or of one, in order of start time.
+    /// Returns the records of all trainees or one trainee, ordered by start time.
     ///
     /// # Errors
     /// Returns an error if the database fails or contains an invalid record.
@@ -105,7 +105,7 @@ impl Database {
         rows.into_iter().map(read).collect()
     }
 
-    /// Returns the record of one session.
+    /// Returns a session's record.
     ///
     /// # Errors
     /// Returns an error if the database fails or contains an invalid record.
@@ -118,7 +118,7 @@ impl Database {
         text.map(|text| serde_json::from_str(&text).map_err(wrong)).transpose()
     }
 
-    /// Returns the number of sessions of all trainees, or of one.
+    /// Returns the number of sessions of all trainees or one trainee.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -133,7 +133,7 @@ impl Database {
         Ok(u64::try_from(counted).unwrap_or_default())
     }
 
-    /// Returns up to `most` list entries of all trainees, or of one, newest first, after skipping the first `skip`.
+    /// Returns up to `most` list entries of all trainees or one trainee, newest first. Skips the first `skip` entries.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -146,7 +146,7 @@ impl Database {
         })
     }
 
-    /// Returns the IDs and trainees of the sessions that started before this time, µs since the Unix epoch.
+    /// Returns the IDs and trainees of the sessions that started before this time (µs since the Unix epoch).
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -158,7 +158,7 @@ impl Database {
         })
     }
 
-    /// Erases sessions, so that they cannot be imported again from folders on other stations. Marks `folders` for
+    /// Erases sessions. They cannot be imported again from folders on other stations. Marks `folders` for
     /// [`super::erasure::remove_folders`]. Returns the number of sessions deleted.
     ///
     /// # Errors
@@ -177,8 +177,8 @@ impl Database {
         })
     }
 
-    /// Erases a trainee with all data, so that the existing sessions cannot be imported again from folders on other
-    /// stations. Marks `folders` for [`super::erasure::remove_folders`]. Returns whether the trainee existed, and the
+    /// Erases a trainee and all their data. The existing sessions cannot be imported again from folders on other
+    /// stations. Marks `folders` for [`super::erasure::remove_folders`]. Returns true if the trainee existed, and the
     /// number of sessions deleted.
     ///
     /// # Errors
@@ -215,7 +215,7 @@ async fn upsert_all(change: &mut Transaction<'static, Any>, records: &[SessionRe
     Ok(changed)
 }
 
-/// Deletes one session. Returns the number of rows deleted.
+/// Deletes a session. Returns the number of deleted rows.
 async fn delete(change: &mut Transaction<'static, Any>, id: &str) -> Result<u64, sqlx::Error> {
     sqlx::query("DELETE FROM answers WHERE session = $1").bind(id.to_owned()).execute(&mut **change).await?;
     let done = sqlx::query("DELETE FROM sessions WHERE id = $1").bind(id.to_owned()).execute(&mut **change).await?;
@@ -271,7 +271,7 @@ fn bind<'q>(query: Query<'q, Any, AnyArguments>, record: &SessionRecord, text: S
         .bind(record.purpose.clone())
 }
 
-/// Fields of the JSON record that lists show in addition to the columns.
+/// JSON record fields that lists show in addition to the columns.
 #[derive(serde::Deserialize)]
 struct ListFields {
     #[serde(default)]

@@ -1,4 +1,4 @@
-//! Trainees in the database.
+//! Reads and writes trainees in the database.
 
 use super::database::Database;
 use crate::errors::AppError;
@@ -6,14 +6,14 @@ use spandrel_training::trainee::{Role, Trainee};
 use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
-/// Empty values leave the stored values unchanged, so that no concurrent change is lost.
+/// Empty values do not overwrite stored values, so no concurrent change is lost.
 const UPSERT_DETAILS: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
     VALUES ($1, CASE WHEN $2 = '' THEN 'trainee' ELSE $2 END, NULLIF($3, ''), NULLIF($4, ''), NULLIF($5, '')) \
     ON CONFLICT (pseudonym) DO UPDATE SET role = CASE WHEN $2 = '' THEN trainees.role ELSE excluded.role END, \
     age_band = COALESCE(excluded.age_band, trainees.age_band), \
     drone_experience = COALESCE(excluded.drone_experience, trainees.drone_experience), \
     gaming_experience = COALESCE(excluded.gaming_experience, trainees.gaming_experience)";
-/// Updates the details only if they are still the same as when the form was loaded.
+/// Updates the details only if they have not changed since the form was loaded.
 const SET_DETAILS: &str = "UPDATE trainees SET age_band = NULLIF($1, ''), drone_experience = NULLIF($2, ''), \
     gaming_experience = NULLIF($3, '') WHERE pseudonym = $4 AND COALESCE(age_band, '') = $5 AND COALESCE(drone_experience, '') = $6 \
     AND COALESCE(gaming_experience, '') = $7";
@@ -31,7 +31,7 @@ impl Database {
         })
     }
 
-    /// Adds a trainee, or sets the role and those details (age, drones, games) that are given.
+    /// Adds a trainee, or sets the role and any specified details (age, drones, games).
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -43,8 +43,8 @@ impl Database {
         })
     }
 
-    /// Sets a person's details (age, drones, games; empty for no answer) if they still match `before`. Returns false
-    /// and changes nothing if they do not match or if there is no such person.
+    /// Sets a person's details (age, drones, games; empty for no answer) if they still match `before`. If they do not
+    /// match, or there is no such person, returns false and changes nothing.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -59,7 +59,7 @@ impl Database {
     }
 }
 
-/// Adds a trainee or sets the given details, within a transaction.
+/// Adds a trainee or sets the specified details, within a transaction.
 pub(super) async fn update_details(
     change: &mut Transaction<'static, Any>,
     name: &str,

@@ -21,7 +21,8 @@ use std::net::IpAddr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Lifetime of the cookie that identifies a browser. The server forgets the browser after the same period.
+/// Lifetime of the cookie that identifies a browser. The server also discards its record of the browser after this
+/// period.
 const BROWSER_COOKIE_LIFETIME: cookie::time::Duration = cookie::time::Duration::days(90);
 
 /// Stores the browser sessions, the known browsers and the failed logins.
@@ -30,26 +31,26 @@ pub struct Authenticator {
     browser_sessions: Mutex<BrowserSessions>,
     throttle: Mutex<LoginThrottle>,
     devices: Mutex<KnownBrowsers>,
-    /// Queue of password hash requests.
+    /// Queue for password hash requests.
     pub hashing: HashingQueue,
     login_required: AtomicBool,
     secure: bool,
     allowed_origins: AllowedOrigins,
 }
 
-/// Client that sent a login.
+/// Client that sent a login request.
 #[derive(Debug, Clone, Copy)]
 pub struct LoginClient<'a> {
-    /// IP address of the client.
+    /// The client's IP address.
     pub from: IpAddr,
-    /// Cookie of a browser that has logged in before.
+    /// Cookie that identifies a browser that has logged in before.
     pub device: Option<&'a str>,
 }
 
-/// A visitor with their session cookie.
+/// A visitor and their session cookie.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identified {
-    /// Name and role of the visitor.
+    /// The visitor's name and role.
     pub visitor: Visitor,
     /// Session cookie value.
     pub cookie: String,
@@ -97,7 +98,7 @@ impl Authenticator {
         self.login_required.store(true, Ordering::SeqCst);
     }
 
-    /// Returns true if there is no password, so that every visitor has full access.
+    /// Returns true if no password is set, so every visitor has full access.
     ///
     /// # Errors
     /// Returns an error if the database fails.
@@ -105,8 +106,8 @@ impl Authenticator {
         if self.login_required.load(Ordering::SeqCst) {
             return Ok(false);
         }
-        // The command line may have set the first password meanwhile. Once logins are required, they stay required
-        // until a restart.
+        // Someone may have set the first password on the command line in the meantime. Once logins are required, they
+        // stay required until a restart.
         if !database.names_with_password()?.is_empty() {
             self.require_login();
             return Ok(false);
@@ -122,7 +123,7 @@ impl Authenticator {
         let open = self.is_open(database)?;
         let now_us = clock::unix_us();
         let found = cookie.and_then(|cookie| lock(&self.browser_sessions).find(&cookie, now_us).map(|visit| (cookie, visit)));
-        // Checked with every request, so a change of role, an erasure or a new password ends the browser session
+        // This check runs for every request, so a role change, an erasure or a new password ends the browser session
         // immediately, even if another server or the command line made the change.
         let account = found.as_ref().and_then(|(_, visit)| visit.name.as_deref());
         let account = account.map(|name| database.account(name)).transpose()?.flatten();
@@ -143,12 +144,12 @@ impl Authenticator {
         Ok(Identified { visitor: visitor(open, person, visit), cookie, is_new: false })
     }
 
-    /// Logs in: checks name and password, ends the previous browser session and starts a new one. Returns the new
-    /// session cookie and the cookie of the browser, which is known for this name from now on.
+    /// Logs in: checks the name and password, ends the previous browser session and starts a new one. Returns the new
+    /// session cookie and the browser cookie, which marks the browser as known for this name.
     ///
     /// # Errors
-    /// Returns an error if there were too many failures, or name and password do not match; the message does not reveal
-    /// which of them is wrong.
+    /// Returns an error if there were too many failures, or if the name or password is wrong; the message does not
+    /// reveal which.
     pub fn log_in(
         &self,
         database: &Database,
@@ -168,7 +169,7 @@ impl Authenticator {
         Ok((cookie, device))
     }
 
-    /// Checks a password within the limits on failed logins. Returns the account in the state in which the password
+    /// Checks a password, subject to the limits on failed logins. Returns the account as it was when the password
     /// matched.
     ///
     /// # Errors
@@ -180,10 +181,10 @@ impl Authenticator {
         if let Some(wait_us) = lock(&self.throttle).wait_us(from, name, now_us) {
             return Err(WebError::RateLimited(wait_us.div_ceil(1_000_000)));
         }
-        // If the queue is full, the request is rejected before it counts as a failure: a flood from elsewhere must not
+        // If the queue is full, the request is rejected before it counts as a failure: a flood of requests must not
         // lock out other users.
         let turn = self.hashing.acquire()?;
-        // Counted before the slow hashing, so that simultaneous attempts count as well.
+        // Attempts are counted before the slow hashing so that simultaneous attempts also count.
         lock(&self.throttle).record_failure(from, name, now_us);
         let account = database.account(name)?;
         let hash = account.as_ref().and_then(|account| account.hash.as_deref());
@@ -200,12 +201,12 @@ impl Authenticator {
         cookie.iter().for_each(|cookie| lock(&self.browser_sessions).end(cookie));
     }
 
-    /// Ends all browser sessions of a person except the one with the cookie `but`.
+    /// Ends all of a person's browser sessions except the one with the `but` cookie.
     pub fn end_other_sessions(&self, name: &str, but: Option<&str>) {
         lock(&self.browser_sessions).end_all_of(name, but);
     }
 
-    /// Keeps a browser session valid after a change of its account's password or role.
+    /// Keeps a browser session valid after its account's password or role has changed.
     pub fn update_credential(&self, cookie: Option<&str>, account: &Account) {
         if let (Some(cookie), Some(credential)) = (cookie, account.credential()) {
             lock(&self.browser_sessions).update_credential(cookie, credential);
@@ -215,7 +216,7 @@ impl Authenticator {
     /// Checks that the form token belongs to the visitor.
     ///
     /// # Errors
-    /// Returns an error if it does not, because the form belongs to another site or was loaded before a login.
+    /// Returns an error if it does not: the form comes from another site or was loaded before a login.
     pub fn check_token(visitor: &Visitor, given: Option<&str>) -> Result<(), WebError> {
         if given.is_some_and(|given| constant_time_eq(given, &visitor.token)) {
             return Ok(());
@@ -243,16 +244,16 @@ impl Authenticator {
         cookie_value(headers, self.browser_cookie_name())
     }
 
-    /// Returns the Set-Cookie value for a known browser. It grants no access; failed logins of known browsers are only
-    /// counted separately.
+    /// Returns the Set-Cookie value for a known browser. The cookie grants no access; the server only counts known
+    /// browsers' failed logins separately.
     pub fn browser_cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.browser_cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Strict).max_age(BROWSER_COOKIE_LIFETIME).build().to_string()
     }
 
-    /// Returns the Set-Cookie value of the session. The policy is Lax: with Strict, a link in an e-mail would arrive
-    /// without the cookie, and the new anonymous session would log the user out. Requests that change anything need a
-    /// form token and are checked for their origin.
+    /// Returns the Set-Cookie value for the session. The policy is Lax: with Strict, opening a link from an e-mail
+    /// would send no cookie, and the new anonymous session would log the user out. Requests that change anything need a
+    /// form token and pass an origin check.
     pub fn cookie(&self, value: &str) -> String {
         let built = cookie::Cookie::build((self.cookie_name(), value)).path("/").http_only(true).secure(self.secure);
         built.same_site(cookie::SameSite::Lax).build().to_string()

@@ -19,9 +19,9 @@ const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 /// Reads the body and checks the form token. Large files are written to `spool` during the upload.
 ///
 /// # Errors
-/// Returns an error if the body is too large, too slow, not a form, or its token is wrong.
+/// Returns an error if the body is too large, arrives too slowly, is not a form, or has a wrong token.
 pub async fn read(web_request: &mut WebRequest, kind: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
-    let late = |_| WebError::BadRequest("the upload of the form timed out".into());
+    let late = |_| WebError::BadRequest("the form upload timed out".into());
     match kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
         RouteKind::Change => {
@@ -69,14 +69,14 @@ async fn read_file(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<S
     let begun = tokio::time::Instant::now();
     let most = spool.max_bytes();
     while let Some(chunk) = part.chunk().await.map_err(|error| unreadable(&error, most))? {
-        // Usually this only writes to the page cache; if the disk is slow, the runtime's other threads continue.
+        // This usually writes only to the page cache; if the disk is slow, the runtime's other threads continue.
         tokio::task::block_in_place(|| spool.append(&chunk, begun.elapsed()))?;
     }
     Ok(spool.finish())
 }
 
 fn not_a_form() -> WebError {
-    WebError::BadRequest("the request is not a form with a file".into())
+    WebError::BadRequest("the request does not contain a form with a file".into())
 }
 
 fn unreadable(error: &MultipartError, most: usize) -> WebError {

@@ -1,6 +1,6 @@
-//! Cohort figures, cached for each state of the database. Reading ten thousand records takes seconds of processor time,
-//! and every reload of a cohort page needs the same figures. They use a separate database connection, so that list
-//! pages do not have to wait; the request pipeline processes one such request at a time.
+//! Cohort figures, cached until the database changes. Reading ten thousand records takes seconds of CPU time, and every
+//! reload of a cohort page needs the same figures. They use a separate database connection so that list pages do not
+//! have to wait. The request pipeline processes one such request at a time.
 
 use super::lock::lock;
 use crate::errors::AppError;
@@ -10,13 +10,14 @@ use spandrel_training::record::SessionRecord;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
-/// Maximum number of cached selections; the oldest is removed first. Estimate: more than an instructor would compare.
+/// Maximum number of cached selections; the oldest is removed first. An instructor is unlikely to compare more
+/// (estimate).
 const MAX_SELECTIONS: usize = 8;
 
-/// Figures for one selection.
+/// Cohort figures for one selection.
 #[derive(Debug)]
 pub struct CohortFigures {
-    /// Cohort; it may contain no sessions.
+    /// The cohort, which may contain no sessions.
     pub cohort: Cohort,
     /// Names of all scenarios with at least one session.
     pub flown_scenarios: Vec<String>,
@@ -61,7 +62,7 @@ fn compute_figures(records: &[SessionRecord], selection: &Selection) -> CohortFi
     CohortFigures { cohort: cohort(records, selection), flown_scenarios: flown.into_iter().map(str::to_owned).collect() }
 }
 
-/// Values cached by key for one version of their source.
+/// Values cached by key, for one version of their source data.
 #[derive(Debug)]
 struct VersionedCache<K, V> {
     version: String,

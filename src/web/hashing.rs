@@ -8,8 +8,8 @@ use super::response::WebError;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Maximum number of requests that are hashing or waiting at the same time. Each occupies one of the server's threads
-/// (`server::BLOCKING_THREADS`), so this is well below their number.
+/// Maximum number of requests that are hashing or waiting at the same time. Each request occupies one of the server's
+/// threads (`server::BLOCKING_THREADS`), so this maximum is well below the number of threads.
 const MAX_WAITING: usize = 6;
 /// Time after which a rejected client may retry, s.
 const RETRY_AFTER_S: u64 = 2;
@@ -28,7 +28,7 @@ pub struct HashingSlot<'a>(&'a HashingQueue);
 
 impl Default for HashingQueue {
     fn default() -> Self {
-        // Leaves one core free for pages.
+        // Leave one core free for serving pages.
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let lanes = (cores / 2).clamp(1, 2);
         Self { lanes: (0..lanes).map(|_| Mutex::default()).collect(), next: AtomicUsize::new(0), waiting: AtomicUsize::new(0) }

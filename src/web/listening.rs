@@ -1,4 +1,4 @@
-//! Listening settings of the server.
+//! The server's listening settings.
 
 use ipnet::IpNet;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -7,18 +7,18 @@ use std::path::PathBuf;
 /// Listening address, TLS files, and proxy settings.
 #[derive(Debug, Clone)]
 pub struct ListenConfig {
-    /// Address and port to listen on; port 0 for any free port
+    /// Address and port to listen on; 0 for any free port
     pub listen: SocketAddr,
     /// TLS certificate chain, PEM
     pub tls_cert: Option<PathBuf>,
     /// Private key of the certificate, PEM
     pub tls_key: Option<PathBuf>,
-    /// A reverse proxy terminates TLS, sets X-Forwarded-For and passes the Host header on; the server must not be
-    /// reachable in any other way
+    /// A reverse proxy terminates TLS, sets X-Forwarded-For and forwards the Host header; the server must be reachable
+    /// only through the proxy
     pub behind_proxy: bool,
-    /// Address or network of the proxy, such as 10.0.0.2 or 10.0.0.0/24; may be repeated [default: this machine]
+    /// The proxy's addresses or networks, such as 10.0.0.2 or 10.0.0.0/24; this machine by default
     pub trusted_proxy: Vec<IpNet>,
-    /// Host name that browsers may use for the server; may be repeated. localhost and IP addresses are always accepted
+    /// Host names that browsers may use for the server; localhost and IP addresses are always accepted
     pub host: Vec<String>,
 }
 

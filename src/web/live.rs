@@ -1,5 +1,5 @@
-//! Live flights. Each vehicle has a thread that subscribes to its payload port, streams its values to the pages and
-//! sends the instructor's commands.
+//! Live flights. Each vehicle has a thread that subscribes to the vehicle's payload port, streams values to the pages
+//! and sends the instructor's commands.
 
 mod camera_picture;
 mod command_queue;

@@ -1,5 +1,5 @@
-//! The web server: records, reports, questionnaires and live flights in a browser. A table of routes defines the access
-//! rules; the pages are rendered by `spandrel_training::web`, which does no I/O.
+//! The web server: records, reports, questionnaires and live flights in a browser. A route table defines the access
+//! rules. `spandrel_training::web` renders the pages and does no I/O.
 
 mod assets;
 mod auth;

@@ -5,12 +5,12 @@ use crate::errors::AppError;
 use argon2::password_hash::phc::{Output, PasswordHash, Salt};
 use argon2::{ARGON2ID_IDENT, Algorithm, Argon2, Block, Params, Version};
 
-/// Hash to verify for names without a password, so that the response takes the same time as for names with a password.
+/// Hash to verify for names without a password, so that the response takes as long as for names with a password.
 const DUMMY_HASH: &str = "$argon2id$v=19$m=19456,t=2,p=1$c3BhbmRyZWxzcGFuZHJlbA$lpYT1oVDUN5U6kPGGjEw5xOVQbQTkgO2xbCVrTQEzDM";
-/// Maximum memory cost of a stored hash, KiB, so that an untrusted database cannot exhaust the memory. Estimate: about
-/// three times the default.
+/// Maximum memory cost of a stored hash, KiB. It prevents an untrusted database from exhausting the memory. Estimate:
+/// about three times the default.
 const MAX_MEMORY_KIB: u32 = 65_536;
-/// Maximum number of passes of a stored hash, for the same reason (estimate).
+/// Maximum number of passes for a stored hash, to limit the CPU time (estimate).
 const MAX_PASSES: u32 = 10;
 
 /// Working memory for hashing, allocated once and reused.
@@ -49,7 +49,7 @@ pub fn hash(password: &str, memory: &mut HashingMemory) -> Result<String, AppErr
     Ok(parsed.to_string())
 }
 
-/// Returns true if the password matches the hash. Without a hash, takes the same time and returns false.
+/// Returns true if the password matches the hash. If there is no hash, takes the same time and returns false.
 pub fn verify(password: &str, hash: Option<&str>, memory: &mut HashingMemory) -> bool {
     let stored = PasswordHash::new(hash.unwrap_or(DUMMY_HASH));
     let fits = stored.ok().and_then(|stored| matches(password, &stored, memory)).unwrap_or(false);
@@ -66,7 +66,7 @@ fn matches(password: &str, stored: &PasswordHash, memory: &mut HashingMemory) ->
     let mut out = [0; Output::MAX_LENGTH];
     let out = out.get_mut(..expected.len())?;
     memory.hash_into(&Argon2::new(algorithm, version, params), password, &salt, out).ok()?;
-    // `Output` compares in constant time.
+    // `Output` values are compared in constant time.
     Some(Output::new(out).ok()? == expected)
 }
 
@@ -95,7 +95,7 @@ mod tests {
         let ours = hash("correct horse battery", memory).unwrap();
         let parsed = PasswordHash::new(&ours).unwrap();
         assert!(Argon2::default().verify_password(b"correct horse battery", &parsed).is_ok());
-        // A hash with a different cost, as in older databases.
+        // A hash with different cost parameters, as in older databases.
         let other = Argon2::new(Algorithm::Argon2id, Version::V0x13, Params::new(8_192, 3, 2, None).unwrap());
         let theirs = other.hash_password_with_salt(b"correct horse battery", &[7; 16]).unwrap().to_string();
         assert!(verify("correct horse battery", Some(&theirs), memory) && !verify("another", Some(&theirs), memory));

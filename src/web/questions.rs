@@ -14,7 +14,7 @@ use spandrel_monitor::export::json_text;
 use spandrel_training::questionnaire::{ANSWERS, Answers, QuestionnaireItem, Wording};
 use spandrel_training::web::questionnaire_form;
 
-/// Shows the questionnaire of a session.
+/// Responds with a session's questionnaire.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     render_form(state, request, false)
 }
@@ -31,7 +31,7 @@ fn render_form(state: &ServerState, request: &WebRequest, saved: bool) -> Handle
     Ok(WebResponse::page(questionnaire_form::page(&request.visitor, &about)))
 }
 
-/// Returns the wording in the requested language, the language of the saved answers, or the browser's preferred
+/// Returns the wording in the requested language, in the language of the saved answers, or in the browser's preferred
 /// language.
 fn language<'a>(state: &'a ServerState, request: &WebRequest, answers: &Answers) -> Result<&'a Wording, WebError> {
     if let Some(tag) = request.form_field("language").or_else(|| request.query_param("language")) {
@@ -52,7 +52,7 @@ fn task_names(scenario: &Scenario) -> Vec<(u32, String)> {
     scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect()
 }
 
-/// Saves the answers of a submitted form.
+/// Saves the answers from a submitted form.
 pub fn save(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let id = request.path_param("id");
     let folder = sessions::folder(state, request, id)?;

@@ -7,7 +7,7 @@ use spandrel_training::web::access::Visitor;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
-/// A file that was uploaded with a form.
+/// A file uploaded with a form.
 #[derive(Debug)]
 pub struct UploadedFile {
     /// File name as sent by the browser; never used as a path.
@@ -16,7 +16,7 @@ pub struct UploadedFile {
     pub file: SpooledUpload,
 }
 
-/// A parsed request with its visitor.
+/// A parsed request and its visitor.
 #[derive(Debug)]
 pub struct WebRequest {
     /// Visitor who sent the request.
@@ -25,7 +25,7 @@ pub struct WebRequest {
     pub cookie: Option<String>,
     /// Client address.
     pub from: IpAddr,
-    /// Cookie of a browser that has logged in before.
+    /// Cookie that identifies a browser that has logged in before.
     pub device: Option<String>,
     /// Path parameters, keyed by their names in the route table.
     pub path: BTreeMap<String, String>,
@@ -35,14 +35,14 @@ pub struct WebRequest {
     pub form: Vec<(String, String)>,
     /// Uploaded file, if any.
     pub upload: Option<UploadedFile>,
-    /// Preferred languages of the browser (Accept-Language).
+    /// The browser's preferred languages (Accept-Language).
     pub languages: String,
     /// True for requests from the pages' scripts, which expect JSON.
     pub expects_json: bool,
 }
 
 impl WebRequest {
-    /// Returns the client that sent a login.
+    /// Returns the client that sent a login request.
     pub fn client(&self) -> LoginClient<'_> {
         LoginClient { from: self.from, device: self.device.as_deref() }
     }
@@ -70,8 +70,8 @@ impl WebRequest {
         self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::BadRequest(format!("{name}: missing")))
     }
 
-    /// Checks that the visitor may see this trainee's data: the trainee, instructors and administrators may. For anyone
-    /// else, the data appears not to exist.
+    /// Checks that the visitor may see this trainee's data. Only the trainee, instructors and administrators may; for
+    /// everyone else, the data appears not to exist.
     ///
     /// # Errors
     /// Returns an error if the visitor has no access.

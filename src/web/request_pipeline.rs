@@ -1,5 +1,5 @@
-//! Request pipeline. Every request is identified, authorized and checked for its form token; then the route's handler
-//! runs on a thread that may block on disk and database access.
+//! Request pipeline. It identifies the visitor of every request, authorizes the request and checks its form token. Then
+//! the route's handler runs on a thread that may block on disk and database access.
 
 use super::auth::Identified;
 use super::body;
@@ -29,11 +29,11 @@ pub struct PipelineState {
     pub state: Arc<ServerState>,
     /// Limits the number of concurrent uploads.
     pub uploads: Arc<Semaphore>,
-    /// Acquired while a recording is scored or cohort figures are computed. Waiting for it does not occupy a thread.
+    /// Permit required to score a recording or compute cohort figures. Waiting for it does not occupy a thread.
     pub compute_permit: Arc<Semaphore>,
 }
 
-/// Handles a request for a route in the table.
+/// Handles a request for a route in the route table.
 pub async fn handle_route(shared: PipelineState, route: &'static Route, request: Request) -> Response<Body> {
     let secure = shared.state.auth.is_secure();
     let mut response = run_route(shared, route, request).await;
@@ -135,7 +135,7 @@ fn accepts_json(headers: &HeaderMap) -> bool {
     headers.get(header::ACCEPT).is_some_and(|value| value.as_bytes() == b"application/json")
 }
 
-/// Checks that the visitor has the access level of the route.
+/// Checks that the visitor has the route's access level.
 fn authorize(web_request: &WebRequest, route: &Route) -> Result<(), WebError> {
     if web_request.visitor.satisfies(route.required_access) {
         return Ok(());
@@ -172,12 +172,12 @@ fn error_response(
     response
 }
 
-/// Handles a request for a path that is not in the table.
+/// Handles a request for a path that is not in the route table.
 pub async fn handle_unknown_path(shared: PipelineState, request: Request) -> Response<Body> {
     let status = if request.method() == Method::GET || request.method() == Method::HEAD {
         WebError::NotFound
     } else {
-        WebError::Forbidden("This address does not accept changes.".into())
+        WebError::Forbidden("This page does not accept changes.".into())
     };
     error_response(&shared, None, &status)
 }

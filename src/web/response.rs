@@ -5,11 +5,11 @@ use axum::body::Body;
 use axum::http::{HeaderName, HeaderValue, Response, StatusCode, header};
 use maud::Markup;
 
-/// Content security policy of the pages: only the server's own files, no inline code and no requests to other sites.
+/// Content security policy for the pages: only the server's own files, no inline code and no requests to other sites.
 const PAGE_POLICY: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; connect-src 'self'; \
     form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
 
-/// HTTP response of a handler.
+/// A handler's HTTP response.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WebResponse {
     status: StatusCode,
@@ -24,29 +24,29 @@ pub struct WebResponse {
     body: Vec<u8>,
 }
 
-/// Error of a handler, with its HTTP status.
+/// A handler's error, which determines the HTTP status.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum WebError {
-    /// The resource does not exist, or this visitor may not see it. The response is the same in both cases, so that
+    /// The resource does not exist, or this visitor may not see it. The response is the same in both cases so that
     /// guessing reveals nothing.
     NotFound,
     /// The visitor must log in first.
     LoginRequired,
-    /// The visitor has no permission; contains a message.
+    /// The visitor lacks permission; contains a message.
     Forbidden(String),
     /// The request is invalid; contains a message.
     BadRequest(String),
-    /// The body is larger than this maximum, bytes.
+    /// The body is larger than this maximum in bytes.
     TooLarge(usize),
-    /// Too many failed logins; time to wait, s.
+    /// There were too many failed logins; contains the time to wait in s.
     RateLimited(u64),
-    /// The server is overloaded; time to wait, s.
+    /// The server is overloaded; contains the time to wait in s.
     Busy(u64),
     /// Internal error. The message is logged, but not shown.
     Failed(String),
 }
 
-/// The result of a handler.
+/// A handler's result.
 pub type HandlerResult = Result<WebResponse, WebError>;
 
 impl WebResponse {
@@ -69,7 +69,7 @@ impl WebResponse {
         Self::new("text/html; charset=utf-8", markup.into_string().into_bytes())
     }
 
-    /// Responds with a page that has its own policy and scripts (a report). It is sandboxed, without access to the
+    /// Responds with a page that has its own policy and scripts (a report). The page is sandboxed and cannot access the
     /// cookies.
     pub fn sandboxed_page(page: Vec<u8>, policy: &str) -> Self {
         let policy = format!("{policy}; frame-ancestors 'none'; sandbox allow-scripts allow-downloads");
@@ -108,7 +108,7 @@ impl WebResponse {
         self
     }
 
-    /// Sets the time after which the client may retry in seconds.
+    /// Sets the time in seconds after which the client may retry.
     pub fn retry_after(mut self, seconds: Option<u64>) -> Self {
         self.retry_after_s = seconds;
         self
@@ -119,8 +119,7 @@ impl WebResponse {
         let mut response = Response::new(Body::from(self.body));
         *response.status_mut() = self.status;
         let mut set = |name: HeaderName, value: &str| {
-            // All values are generated or validated, so this cannot fail; an invalid value would be omitted rather than
-            // sent.
+            // All values are generated or validated, so this cannot fail; an invalid header would be omitted.
             if let Ok(value) = HeaderValue::from_str(value) {
                 response.headers_mut().insert(name, value);
             }
@@ -160,7 +159,7 @@ pub fn set_security_headers(headers: &mut axum::http::HeaderMap, secure: bool) {
 }
 
 impl WebError {
-    /// Returns the time after which the client may retry, s, if waiting helps.
+    /// Returns the time in s after which the client may retry, or `None` if waiting does not help.
     pub fn retry_after_s(&self) -> Option<u64> {
         match self {
             Self::RateLimited(seconds) | Self::Busy(seconds) => Some(*seconds),
@@ -173,7 +172,7 @@ impl WebError {
         }
     }
 
-    /// Returns status, title and message for the error page.
+    /// Returns the error page's status, title and message.
     pub fn status_and_text(&self) -> (StatusCode, &'static str, String) {
         match self {
             Self::NotFound => {

@@ -1,4 +1,4 @@
-//! Table of routes: path, required access level and handler. Any other path returns "not found".
+//! Route table: path, required access level and handler. For any other path, the server responds with "not found".
 
 use super::request::WebRequest;
 use super::response::HandlerResult;
@@ -11,23 +11,23 @@ pub type Handler = fn(&ServerState, &WebRequest) -> HandlerResult;
 
 /// Maximum size of a form without a file, bytes.
 pub const MAX_FORM_BYTES: usize = 64 * 1024;
-/// Maximum size of an uploaded scenario, bytes; the shipped scenarios have about ten thousand bytes.
+/// Maximum size of an uploaded scenario, bytes; the shipped scenarios are about ten thousand bytes long.
 pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
-/// Maximum size of an uploaded recording, bytes; an hour of telemetry is about a third of this.
+/// Maximum size of an uploaded recording, bytes; an hour of telemetry is about one-third of this.
 pub const MAX_RECORDING_BYTES: usize = 96 * 1024 * 1024;
 
-/// Kind of route.
+/// What a route does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RouteKind {
     /// A static asset, the same for every visitor.
     File,
     /// A page or download that changes nothing.
     Show,
-    /// Like `Show`, but may take seconds to compute; one request at a time.
+    /// Like `Show`, but may take seconds to compute, so only one request runs at a time.
     Compute,
-    /// A form that changes something; it must contain the visitor's token.
+    /// A form that changes data; it must contain the visitor's token.
     Change,
-    /// A form with one file of at most this many bytes.
+    /// A form that uploads one file of at most this many bytes.
     Upload(usize),
 }
 
@@ -38,12 +38,12 @@ impl RouteKind {
     }
 }
 
-/// A row of the route table.
+/// A row in the route table.
 #[derive(Debug, Clone, Copy)]
 pub struct Route {
     /// Path, with parameters in braces.
     pub path: &'static str,
-    /// Route kind.
+    /// What the route does.
     pub kind: RouteKind,
     /// Access level required for the route.
     pub required_access: AccessLevel,
@@ -67,7 +67,7 @@ const fn upload(path: &'static str, most: usize, required_access: AccessLevel, h
     Route { path, kind: RouteKind::Upload(most), required_access, handler }
 }
 
-/// Path of the stream of live values. It is not in the table, because its response does not end.
+/// Path of the live value stream. It is not in the table, because its response does not end.
 pub const STREAM_PATH: &str = "/live/stream";
 
 /// All routes except the stream. Handlers for a trainee's data also check whether the visitor may access that trainee.

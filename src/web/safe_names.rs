@@ -1,6 +1,6 @@
-//! Checks names that come from browsers and are used as file names.
+//! Checks names from browsers that are used as file names.
 
-/// Returns true for a name that stays inside its folder on every operating system.
+/// Returns true if a file with this name stays inside its folder on every operating system.
 pub fn is_plain(name: &str) -> bool {
     let fits = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= 200 && !name.starts_with('.') && name.chars().all(fits)

@@ -52,14 +52,14 @@ pub fn uploaded(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Parses an uploaded scenario, which cannot refer to other files.
+/// Parses an uploaded scenario. It cannot refer to other files.
 pub fn read(file: &str, text: &str) -> Result<Scenario, AppError> {
     let alone = |_: &str| Err("an uploaded scenario cannot refer to other files".to_owned());
     Ok(scenario::read(file, text, &alone)?)
 }
 
-/// Returns the scenario as an argument for other functions: the path of an uploaded scenario, or the name of a shipped
-/// one.
+/// Returns the argument that identifies the scenario to other functions: the path of an uploaded scenario, or the name
+/// of a shipped scenario.
 pub fn argument(folder: &Path, name: &str) -> Result<String, WebError> {
     let job = find(folder, name).ok_or_else(|| WebError::BadRequest("scenario: unknown name".into()))?;
     Ok(if job.named.uploaded { upload_path(folder, name).display().to_string() } else { job.named.name })

@@ -17,7 +17,7 @@ const MAX_UPLOADS: usize = 200;
 /// Seed for drawing the site; the geometry is the same for every seed.
 const ANY_SEED: u64 = 0;
 
-/// Shows the list of scenarios.
+/// Responds with the list of scenarios.
 pub fn scenario_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
     render_list(state, request, None)
 }
@@ -27,7 +27,7 @@ fn render_list(state: &ServerState, request: &WebRequest, told: Option<(&str, &s
     Ok(WebResponse::page(pages::list(&request.visitor, &named, told)))
 }
 
-/// Shows the page of one scenario with drawings of its site.
+/// Responds with a scenario's page, including drawings of its site.
 pub fn scenario_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let job = find(&state.scenarios, request.path_param("name")).ok_or(WebError::NotFound)?;
     let site = Site::build(&job.scenario, ANY_SEED);

@@ -1,4 +1,4 @@
-//! The web server with its port, threads and axum router.
+//! The web server: its port, threads and axum router.
 
 use super::auth::AllowedOrigins;
 use super::listening::ListenConfig;
@@ -18,10 +18,10 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 use tokio::sync::Semaphore;
 
-/// Time limit for a client to send the header of a request.
+/// Time limit for a client to send a request header.
 const HEADER_TIMEOUT: Duration = Duration::from_secs(30);
-/// Maximum number of simultaneous uploads; each takes up to `MAX_RECORDING_BYTES` of disk space. Estimate: a class of
-/// thirty.
+/// Maximum number of simultaneous uploads; each one uses up to `MAX_RECORDING_BYTES` of disk space. Estimate: a class
+/// of thirty.
 const MAX_UPLOADS: usize = 32;
 /// Time limit for requests in progress when the server stops.
 const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(2);
@@ -76,7 +76,7 @@ impl WebServer {
             if let Err(error) = ended {
                 tracing::error!("the server stopped: {error}");
             }
-            // Does not wait for streams and slow handlers.
+            // This does not wait for streams and slow handlers.
             runtime.shutdown_background();
         });
         Ok(Self { address, handle, thread: Some(thread) })
@@ -127,7 +127,7 @@ async fn serve(
     }
 }
 
-/// Closes connections that send no complete header in time.
+/// Close connections that do not send a complete header in time.
 fn limit(builder: &mut hyper_util::server::conn::auto::Builder<hyper_util::rt::TokioExecutor>) {
     builder.http1().timer(hyper_util::rt::TokioTimer::new()).header_read_timeout(HEADER_TIMEOUT);
 }
@@ -151,7 +151,7 @@ fn method(route: &'static Route, shared: &PipelineState) -> MethodRouter {
     match route.kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => get(handle),
         RouteKind::Change => post(handle),
-        // The other fields of the form also need space.
+        // The form's other fields also need space.
         RouteKind::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + MAX_FORM_BYTES)),
     }
 }

@@ -1,6 +1,6 @@
-//! Imports new sessions into the database. A thread scans the folders for sessions that have ended and imports changed
-//! ones again on request. The folders remain the source of truth: after a kill or a database failure, a later scan
-//! imports everything.
+//! Imports new sessions into the database. A thread scans the folders for ended sessions, and imports changed sessions
+//! again on request. The folders remain the source of truth: if the server is killed or the database fails, a later
+//! scan imports everything.
 
 use crate::errors::AppError;
 use crate::records::{Database, RecordsLocation, is_erased, read_session, session_folders, session_id};
@@ -20,7 +20,7 @@ const SCAN_INTERVAL: Duration = Duration::from_secs(2);
 pub struct SessionImporter(Sender<PathBuf>);
 
 impl SessionImporter {
-    /// Starts the thread with a separate database connection, so that pages do not have to wait.
+    /// Starts the thread with a separate database connection so that pages do not have to wait.
     ///
     /// # Errors
     /// Returns an error if the database cannot be opened.
@@ -34,7 +34,7 @@ impl SessionImporter {
                 looked.scan(&database, &sessions);
                 match changed.recv_timeout(SCAN_INTERVAL) {
                     Ok(folder) => {
-                        // Answers are saved in quick succession, so the session is imported once for all pending
+                        // Users save answers in quick succession, so the session is imported once for all pending
                         // requests.
                         let mut folders = BTreeSet::from([folder]);
                         folders.extend(changed.try_iter());
@@ -48,7 +48,7 @@ impl SessionImporter {
         Ok(Self(sender))
     }
 
-    /// Requests that a changed session be imported again.
+    /// Requests another import of a changed session.
     pub fn import_again(&self, folder: PathBuf) {
         if self.0.send(folder).is_err() {
             tracing::warn!("new sessions are no longer imported: restart the server");
@@ -56,22 +56,22 @@ impl SessionImporter {
     }
 }
 
-/// State of the importer thread.
+/// The importer thread's state.
 #[derive(Debug, Default)]
 struct ImportProgress {
-    /// True once answers that changed before startup have been checked.
+    /// True once the first scan has checked for answers that changed before startup.
     answers_checked: bool,
     /// Unreadable folders, each logged once.
     unreadable: BTreeSet<PathBuf>,
-    /// Sessions that the database rejected; retried at every scan.
+    /// Sessions that the database rejected; every scan retries them.
     rejected: BTreeSet<PathBuf>,
     /// Folders of erased sessions, each logged once.
     erased: BTreeSet<PathBuf>,
 }
 
 impl ImportProgress {
-    /// Imports ended sessions that are missing from the database, sessions that it rejected before, and, on the first
-    /// scan, sessions with changed answers.
+    /// Imports ended sessions that are missing from the database and sessions that it rejected before. The first scan
+    /// also imports sessions with changed answers.
     fn scan(&mut self, database: &Database, sessions: &[PathBuf]) {
         let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
         let (known, erased, folders) = match (database.fingerprints(), database.erased(), session_folders(&here)) {
@@ -99,7 +99,7 @@ impl ImportProgress {
     fn skip(&mut self, folder: PathBuf) {
         if !self.erased.contains(&folder) {
             tracing::warn!(
-                "{}: not imported because it or its trainee was erased; spandrel records erase also removes the folder",
+                "{}: not imported because it or its trainee was erased; to remove the folder too, use `spandrel records erase`",
                 folder.display()
             );
             self.erased.insert(folder);
@@ -113,7 +113,7 @@ impl ImportProgress {
                 self.unreadable.remove(folder);
                 self.save_record(database, folder, record);
             }
-            // The folder has been erased meanwhile, or is unreadable.
+            // The folder has since been erased, or it is unreadable.
             Err(error) => {
                 self.rejected.remove(folder);
                 if self.unreadable.insert(folder.to_path_buf()) && folder.is_dir() {

@@ -1,4 +1,4 @@
-//! Session pages: the list, one session with its report and files, and the comparison of two sessions.
+//! Session pages: the session list, a single session with its report and files, and the comparison of two sessions.
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -14,17 +14,17 @@ use spandrel_training::report::assets;
 use spandrel_training::web::sessions as pages;
 use std::path::{Path, PathBuf};
 
-/// Number of sessions on each page of the list.
+/// Number of sessions on each list page.
 const SESSIONS_PER_PAGE: u32 = 50;
 /// Maximum number of other sessions offered for comparison.
 const MAX_COMPARISONS: u32 = 50;
 
-/// Redirects the start page to the sessions, or to the login.
+/// Redirects from the start page to the sessions or the login page.
 pub fn start(_: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::redirect(if request.visitor.is_known() { "/sessions" } else { "/login" }))
 }
 
-/// Shows a list of sessions of all trainees, or of one.
+/// Responds with a list of the sessions of all trainees or one trainee.
 pub fn session_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let wanted = request.query_param("trainee");
     let trainee = request.visitor.restricted_to().or(wanted);
@@ -32,7 +32,7 @@ pub fn session_list(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let last = u32::try_from(count.div_ceil(u64::from(SESSIONS_PER_PAGE))).unwrap_or(u32::MAX).max(1);
     let page = request.query_param("page").and_then(|page| page.parse().ok()).unwrap_or(1).clamp(1, last);
     let lines = state.database.list(trainee, SESSIONS_PER_PAGE, (page - 1).saturating_mul(SESSIONS_PER_PAGE))?;
-    // Links contain the name, so an invalid name is shown as empty.
+    // Links contain the name, so an invalid name is replaced by an empty one.
     let trainee = wanted.filter(|name| request.visitor.restricted_to().is_none() && name.parse::<TraineeId>().is_ok());
     let listing = pages::SessionList { lines: &lines, trainee, page, last, count };
     Ok(WebResponse::page(pages::list(&request.visitor, &listing)))
@@ -57,7 +57,7 @@ pub fn folder(state: &ServerState, request: &WebRequest, id: &str) -> Result<Pat
     state.folder(id).ok_or(WebError::NotFound)
 }
 
-/// Shows the page of one session.
+/// Responds with a session's page.
 pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let record = record(state, request, request.path_param("id"))?;
     let mut others = state.database.list(Some(&record.trainee), MAX_COMPARISONS, 0)?;
@@ -66,8 +66,8 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     Ok(WebResponse::page(pages::session(&request.visitor, &record, &pages::SessionPageData { folder, others: &others })))
 }
 
-/// Responds with a session's report under its own policy. Creates the report again if it is missing or was written by
-/// another version.
+/// Responds with a session's report under the report's own policy. Creates the report again if it is missing or another
+/// version wrote it.
 pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let folder = folder(state, request, request.path_param("id"))?;
     let policy = assets::page_policy();
@@ -83,7 +83,7 @@ pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::sandboxed_page(page, &policy))
 }
 
-/// Returns true if the page's head contains this version's policy.
+/// Returns true if the page's `head` element contains this version's policy.
 fn has_current_policy(page: &[u8], policy: &str) -> bool {
     let head = &page[..page.len().min(2_000)];
     let escaped = maud::html! { (policy) }.into_string();
@@ -94,7 +94,7 @@ fn has_current_policy(page: &[u8], policy: &str) -> bool {
 pub fn compare(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let folder = |word: &str| {
         let id =
-            request.query_param(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (allowed: a session ID)")))?;
+            request.query_param(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (required: a session ID)")))?;
         folder(state, request, id)
     };
     let page = report::comparison_page(&folder("first")?, &folder("second")?)?;

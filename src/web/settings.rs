@@ -12,7 +12,7 @@ use spandrel_training::web::{login, settings as pages};
 /// Microseconds per day.
 const US_PER_DAY: u64 = 86_400_000_000;
 
-/// Shows the login form.
+/// Responds with the login form.
 pub fn login_page(_: &ServerState, request: &WebRequest) -> HandlerResult {
     if request.visitor.is_known() {
         return Ok(WebResponse::redirect("/sessions"));
@@ -45,7 +45,7 @@ pub fn log_out(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::redirect("/login"))
 }
 
-/// Shows the visitor's account.
+/// Responds with the visitor's account page.
 pub fn account_page(_: &ServerState, request: &WebRequest) -> HandlerResult {
     if request.visitor.name.is_none() {
         return Ok(WebResponse::redirect("/settings"));
@@ -79,7 +79,7 @@ fn change(state: &ServerState, request: &WebRequest, name: &str) -> Result<(), W
     Ok(())
 }
 
-/// Shows the administrator's settings.
+/// Responds with the administrator's settings page.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     render_settings(state, request, None)
 }
@@ -104,7 +104,8 @@ pub fn set_login(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let password = request.required_field("password")?;
     login::check(password, name).map_err(WebError::BadRequest)?;
     if request.visitor.open && role != Role::Administrator {
-        let words = "the first password must be an administrator's, because everyone must log in from then on and only administrators can add users";
+        let words = "the first user with a password must be an administrator: from then on, everyone must log in, and \
+                     only administrators can add users";
         return Err(WebError::BadRequest(words.into()));
     }
     let own = request.visitor.name.as_deref() == Some(name);
@@ -136,7 +137,7 @@ pub fn remove_login(state: &ServerState, request: &WebRequest) -> HandlerResult 
     if had { Ok(WebResponse::redirect("/settings")) } else { Err(WebError::BadRequest("this person has no password".into())) }
 }
 
-/// Erases all sessions older than the given number of days.
+/// Erases all sessions older than the specified number of days.
 pub fn retention(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let days: u64 = request
         .required_field("days")?

@@ -1,5 +1,5 @@
-//! Uploaded files. A small file stays in memory; a large one is written to disk as it arrives, so that slow clients
-//! occupy neither memory nor a slot in a queue. Clients that are too slow are disconnected.
+//! Uploaded files. Small files stay in memory; large files are written to disk as they arrive, so slow clients occupy
+//! neither memory nor a queue slot. Clients that are too slow are disconnected.
 
 use super::response::WebError;
 use crate::errors::AppError;
@@ -10,19 +10,19 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Maximum size of a file that stays in memory, bytes.
+/// Maximum size of a file kept in memory, bytes.
 const MAX_IN_MEMORY: usize = 512 * 1024;
-/// Time after which the minimum rate applies to an upload.
+/// Time after which the minimum upload rate applies.
 const GRACE_PERIOD: Duration = Duration::from_secs(30);
-/// Minimum rate after that, bytes/s. Estimate: one sixteenth of a 1 Mbit/s line.
+/// Minimum upload rate after that time, bytes/s. Estimate: one-sixteenth of a 1 Mbit/s line.
 const MIN_RATE: u64 = 8 * 1024;
 
-/// A complete uploaded file.
+/// A completely uploaded file.
 #[derive(Debug)]
 pub enum SpooledUpload {
     /// Contents of a small file.
     Memory(Vec<u8>),
-    /// File on disk, deleted when this is dropped.
+    /// A large file on disk, deleted when this is dropped.
     Disk(SpoolFile),
 }
 
@@ -62,7 +62,7 @@ pub struct UploadSpool<'a> {
 }
 
 impl<'a> UploadSpool<'a> {
-    /// Creates an empty upload of at most `most` bytes. Large uploads are written to this folder.
+    /// Creates an empty upload with a limit of `most` bytes. Large uploads are written to this folder.
     pub fn new(folder: &'a Path, most: usize) -> Self {
         Self { folder, max_bytes: most, size: 0, head: Vec::new(), disk: None }
     }
@@ -75,7 +75,7 @@ impl<'a> UploadSpool<'a> {
     /// Appends a chunk that arrived `elapsed` after the start of the upload.
     ///
     /// # Errors
-    /// Returns an error if the file is too large, the client is too slow, or the disk cannot be written.
+    /// Returns an error if the file is too large, the client is too slow, or writing to the disk fails.
     pub fn append(&mut self, bytes: &[u8], elapsed: Duration) -> Result<(), WebError> {
         self.size += bytes.len();
         if self.size > self.max_bytes {

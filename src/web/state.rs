@@ -1,4 +1,4 @@
-//! Server state that all requests share.
+//! Server state shared by all requests.
 
 use super::auth::{AllowedOrigins, Authenticator};
 use super::figures::FigureCache;
@@ -18,7 +18,7 @@ use std::sync::Mutex;
 pub struct ServerSetup {
     /// Location of the database and the session folders.
     pub records_location: RecordsLocation,
-    /// Folder of uploaded scenarios; `None` for the default.
+    /// Folder for uploaded scenarios; `None` for the default.
     pub scenarios: Option<PathBuf>,
     /// Vehicles on the live page.
     pub watched: Vec<WatchedVehicle>,
@@ -26,18 +26,18 @@ pub struct ServerSetup {
     pub wordings: Vec<PathBuf>,
 }
 
-/// Server state that all requests share.
+/// Server state shared by all requests.
 #[derive(Debug)]
 pub struct ServerState {
     /// Database of sessions, trainees and answers.
     pub database: Database,
-    /// Cohort figure cache.
+    /// Cache of cohort figures.
     pub figures: FigureCache,
     /// Location of the database and the session folders.
     pub records_location: RecordsLocation,
-    /// Folder of uploaded scenarios.
+    /// Folder for uploaded scenarios.
     pub scenarios: PathBuf,
-    /// Logins, browser sessions and cookies.
+    /// Manages logins, browser sessions and cookies.
     pub auth: Authenticator,
     /// Questionnaire languages.
     pub languages: Languages,
@@ -45,9 +45,9 @@ pub struct ServerState {
     pub live: Vec<LiveVehicle>,
     /// Imports new sessions into the database.
     pub importer: SessionImporter,
-    /// Locked while an answers file is read, modified and written.
+    /// Locked while an answer file is read, modified and written.
     pub answers: Mutex<()>,
-    /// Locked while a recording is scored, because scoring is expensive.
+    /// Locked while a recording is scored, because scoring is slow.
     pub scoring: Mutex<()>,
 }
 
@@ -85,7 +85,7 @@ impl ServerState {
         })
     }
 
-    /// Returns the folder for uploads and imports in progress.
+    /// Returns the folder for unfinished uploads and imports.
     pub fn spool(&self) -> PathBuf {
         self.default_folder().join(temp_files::IMPORT_FOLDER)
     }
@@ -95,7 +95,7 @@ impl ServerState {
         self.records_location.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"))
     }
 
-    /// Returns the folder of a session; `None` if it is not on this machine or the ID is not a plain name.
+    /// Returns a session's folder, or `None` if it is not on this machine or the ID is not a plain name.
     pub fn folder(&self, id: &str) -> Option<PathBuf> {
         if !is_plain(id) {
             return None;

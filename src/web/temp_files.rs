@@ -5,14 +5,14 @@ use crate::records::session_folders;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Folder of sessions that are being imported; no session can have this name.
+/// Folder for sessions that are being imported; no session can have this name.
 pub const IMPORT_FOLDER: &str = ".taking-in";
-/// Age above which a temporary file counts as abandoned. A process on another computer that shares the disk may have
-/// any process ID, so the age must be longer than any write takes.
+/// Age beyond which a temporary file counts as abandoned. A process on another computer that shares the disk may have
+/// any process ID, so this age must exceed the duration of any write.
 const STALE_AGE: Duration = Duration::from_secs(600);
 
-/// Removes stale temporary files from the folders of sessions, from the session folders in them, and from the folder of
-/// scenarios. Files that cannot be checked or removed are left in place; they are harmless.
+/// Removes stale temporary files from the sessions folders, from the session folders inside them, and from the scenario
+/// folder. Leaves files in place that it cannot check or remove; they are harmless.
 pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let inside = session_folders(&here).unwrap_or_default();
@@ -20,14 +20,14 @@ pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
         for path in entries.map(|entry| entry.path()).filter(|path| is_stale(path)) {
             match std::fs::remove_file(&path) {
-                Ok(()) => tracing::info!("{}: removed a temporary file of a killed process", path.display()),
+                Ok(()) => tracing::info!("{}: removed a temporary file left by a killed process", path.display()),
                 Err(error) => tracing::warn!("{}: cannot remove: {error}", path.display()),
             }
         }
     }
 }
 
-/// Removes imports that a killed server has left incomplete.
+/// Removes incomplete imports left by a killed server.
 ///
 /// # Errors
 /// Returns an error if the disk cannot be written.
@@ -41,7 +41,7 @@ pub fn remove_partial_imports(sessions: &Path) -> Result<(), AppError> {
     }
 }
 
-/// Returns true if `io::replace` created the name, the process no longer runs, and the file is old.
+/// Returns true if `io::replace` generated the file name, the process is no longer running, and the file is old.
 fn is_stale(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let Some(writer) = writer_pid(name) else { return false };
@@ -49,7 +49,7 @@ fn is_stale(path: &Path) -> bool {
     old && path.is_file() && !is_alive(writer)
 }
 
-/// Returns the process ID in `NAME.PID-N.new`.
+/// Returns the process ID from a `NAME.PID-N.new` file name.
 fn writer_pid(name: &str) -> Option<u32> {
     let (rest, number) = name.strip_suffix(".new")?.rsplit_once('-')?;
     let (original, process) = rest.rsplit_once('.')?;
@@ -57,7 +57,7 @@ fn writer_pid(name: &str) -> Option<u32> {
     process.parse().ok()
 }
 
-/// Returns true if the process runs, or if the system has no /proc to check.
+/// Returns true if the process is running, or if the system has no /proc to check.
 fn is_alive(process: u32) -> bool {
     let all = Path::new("/proc");
     !all.join("self").exists() || all.join(process.to_string()).exists()

@@ -9,7 +9,7 @@ use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Checks that the server has a password and TLS if other machines can reach it.
+/// If other machines can reach the server, checks that it has a password and TLS.
 ///
 /// # Errors
 /// Returns an error if either is missing.
@@ -17,14 +17,14 @@ pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), A
     let beyond = !args.listen.ip().is_loopback();
     if (beyond || args.behind_proxy) && !somebody_has_a_password {
         return Err(AppError::wrong(format!(
-            "--listen {}: other machines could reach the server, and no password is set: set one first with --set-password USER --role \
-             administrator",
+            "--listen {}: other machines could reach the server, but no password is set; first set one with \
+             --set-password USER --role administrator",
             args.listen
         )));
     }
     if beyond && args.tls_cert.is_none() && !args.behind_proxy {
         return Err(AppError::wrong(format!(
-            "--listen {}: passwords would be sent unencrypted: use --tls-cert and --tls-key, or --behind-proxy if a proxy \
+            "--listen {}: passwords would be sent unencrypted; use --tls-cert and --tls-key, or --behind-proxy if a proxy \
              terminates TLS",
             args.listen
         )));
@@ -35,7 +35,7 @@ pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), A
 /// Returns the TLS configuration, or `None` without certificate files.
 ///
 /// # Errors
-/// Returns an error if a file cannot be read, or is not a certificate or key.
+/// Returns an error if a file cannot be read or does not contain a certificate or key.
 pub fn config(args: &ListenConfig) -> Result<Option<RustlsConfig>, AppError> {
     let (Some(chain), Some(key)) = (&args.tls_cert, &args.tls_key) else { return Ok(None) };
     let wrong =

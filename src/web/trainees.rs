@@ -20,19 +20,19 @@ const MAX_SESSIONS: u32 = 200;
 /// Default number of repetitions to compare.
 const DEFAULT_REPETITIONS: usize = 3;
 
-/// Shows the list of all trainees.
+/// Responds with the list of all trainees.
 pub fn trainee_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::trainee_list(&request.visitor, &state.database.trainees()?)))
 }
 
-/// Returns the person in the path, if the visitor may see them.
+/// Returns the person named in the path, if the visitor may see them.
 fn person(state: &ServerState, request: &WebRequest) -> Result<Trainee, WebError> {
     let name = request.path_param("name");
     request.require_access(name)?;
     state.database.account(name)?.map(|account| account.person).ok_or(WebError::NotFound)
 }
 
-/// Shows a trainee's sessions, progress and training plan.
+/// Responds with a trainee's sessions, progress and training plan.
 pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let person = person(state, request)?;
     let records = state.database.records(Some(&person.pseudonym))?;
@@ -43,7 +43,7 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     Ok(WebResponse::page(pages::trainee_page(&request.visitor, &about)))
 }
 
-/// Responds with all stored data of a trainee.
+/// Responds with all of a trainee's data.
 pub fn export(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let person = person(state, request)?;
     let kept = stored_data(&state.database, &state.records_location, &person.pseudonym)?.ok_or(WebError::NotFound)?;
@@ -51,11 +51,11 @@ pub fn export(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::download(&name, "application/json", json_text(&kept.with_folder_names()).into_bytes()))
 }
 
-/// Detail fields of a person, with their allowed values.
+/// The fields for a person's details, with their allowed values.
 const DETAILS: [(&str, &[&str]); 3] =
     [("age_band", AGE_BANDS), ("drone_experience", EXPERIENCE), ("gaming_experience", EXPERIENCE)];
 
-/// Saves a person's details, unless they were changed elsewhere since the page was loaded.
+/// Saves a person's details, unless they have been changed elsewhere since the page was loaded.
 pub fn details(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let person = person(state, request)?;
     let (mut before, mut after) = ([""; 3], [""; 3]);
@@ -70,19 +70,21 @@ pub fn details(state: &ServerState, request: &WebRequest) -> HandlerResult {
         after[k] = given;
     }
     if !state.database.set_details(&person.pseudonym, before, after)? {
-        return Err(WebError::BadRequest("these details have been changed elsewhere: reload the page and check them".into()));
+        return Err(WebError::BadRequest(
+            "these details have been changed elsewhere: reload the page and check the current details".into(),
+        ));
     }
     Ok(WebResponse::redirect(&format!("/trainees/{}", request.path_param("name"))))
 }
 
-/// Erases a trainee with all data, after the pseudonym has been typed as confirmation.
+/// Erases a trainee and all their data. The user must type the pseudonym to confirm.
 pub fn erase(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let person = person(state, request)?;
     let name = &person.pseudonym;
     if request.required_field("again")? != name {
         return Err(WebError::BadRequest(format!("the pseudonym you typed is not {name}: nothing was erased")));
     }
-    // Administrators cannot erase themselves, so at least one always remains.
+    // Administrators cannot erase themselves, so there is always at least one administrator.
     if person.role == Role::Administrator && request.visitor.name.as_deref() == Some(name) {
         return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to erase you".into()));
     }
@@ -92,7 +94,7 @@ pub fn erase(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::redirect("/trainees"))
 }
 
-/// Returns whether incomplete sessions count, as selected on the page.
+/// Returns the selection on the page: whether incomplete sessions count.
 fn incomplete(request: &WebRequest) -> IncompletePolicy {
     IncompletePolicy::included(request.query_param("incomplete").is_some())
 }
@@ -110,7 +112,7 @@ fn selection_from_query(request: &WebRequest) -> Result<Selection, WebError> {
     Ok(Selection { scenarios, repetitions, incomplete: incomplete(request) })
 }
 
-/// Shows the cohort page.
+/// Responds with the cohort page.
 pub fn cohort_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let selection = selection_from_query(request)?;
     let figured = state.figures.get(&selection)?;
@@ -126,7 +128,7 @@ pub fn cohort_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(cohort_page::cohort_page(&request.visitor, &chosen, counted)))
 }
 
-/// Responds with one of the cohort tables as CSV.
+/// Responds with a cohort table as CSV.
 pub fn cohort_table(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let name = TABLES.into_iter().find(|name| *name == request.path_param("name")).ok_or(WebError::NotFound)?;
     let figured = state.figures.get(&selection_from_query(request)?)?;

@@ -1,4 +1,4 @@
-//! Imports recorded flights as sessions. A recording is scored first and kept only if that succeeds.
+//! Imports recorded flights as sessions. A recording is kept only if it can be scored.
 
 use super::lock::lock;
 use super::request::WebRequest;
@@ -20,7 +20,7 @@ use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
 use spandrel_training::web::scenarios as pages;
 use std::path::{Path, PathBuf};
 
-/// Shows the upload form.
+/// Responds with the upload form.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     render_form(state, request, None)
 }
@@ -31,17 +31,17 @@ fn render_form(state: &ServerState, request: &WebRequest, told: Option<pages::Up
     Ok(WebResponse::page(pages::recorded(&request.visitor, &named, &vehicles, told)))
 }
 
-/// Upload result.
+/// Result of an upload.
 enum UploadOutcome {
     /// Folder of the imported session.
     Session(PathBuf),
-    /// ID and trainee of the existing session with the same recording.
+    /// ID and trainee of an existing session with the same recording.
     AlreadyImported(String, String),
 }
 
 /// Imports an uploaded recording.
 pub fn recording(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    // One import at a time, so that two simultaneous uploads of the same recording create only one session.
+    // Only one import runs at a time, so two simultaneous uploads of the same recording create only one session.
     let _one_at_a_time = lock(&state.scoring);
     match import_recording(state, request) {
         Ok(UploadOutcome::Session(folder)) => {
@@ -70,12 +70,12 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
     }
     let vehicle = files::vehicle(vehicle)?;
     let log = &*request.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?.file.bytes()?;
-    // The telemetry is stored unmodified, up to its last complete record.
+    // The telemetry is stored unmodified up to the last complete record.
     let kept = &log[..tlog::complete_len(log)];
     if let Some((id, trainee)) = state.database.find_by_telemetry(&sha256_hex(kept))? {
         return Ok(UploadOutcome::AlreadyImported(id, trainee));
     }
-    // A recording that cannot be scored counts as an invalid file, whatever kind of error the scorer reports.
+    // A recording that cannot be scored counts as an invalid file, no matter which error the scorer reports.
     let unfit = |error: AppError| WebError::BadRequest(format!("cannot import this recording: {error}"));
     let graded = scoring::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
@@ -97,7 +97,7 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
         seed: None,
         survey_builder: build_site,
     };
-    // The monitor replays the recording, so that the folder has the same contents as after a live flight.
+    // The monitor replays the recording so that the folder has the same contents as after a live flight.
     let mut monitor = Monitor::new(config);
     for record in tlog::TlogReader::new(log) {
         monitor.handle_datagram(record.frame);
@@ -118,15 +118,15 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
         tracing::warn!("cannot write the report: {error}");
     }
     folder.write_assessment(&json_text(&graded.assessment))?;
-    // The complete folder is moved to the other sessions; if the server is killed before that, nothing appears there.
+    // The complete folder is moved to the sessions folder; if the server is killed before that, nothing appears there.
     let place = free_folder(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
     let moved = std::fs::rename(folder.path(), &place);
     moved.map_err(|error| WebError::Failed(format!("{}: cannot move: {error}", place.display())))?;
     Ok(UploadOutcome::Session(place))
 }
 
-/// Returns a path with this name, or with a similar one if another recording with the same start time already has that
-/// name.
+/// Returns a path with this name, or with a similar name if another recording with the same start time is already using
+/// it.
 fn free_folder(sessions: &Path, name: &str) -> PathBuf {
     let stem = name.rsplit_once('-').map_or(name, |(stem, _)| stem);
     let others = (1..).map(|k: u32| format!("{stem}-{}", &sha256_hex(format!("{name} {k}").as_bytes())[..6]));

@@ -1,4 +1,4 @@
-//! Main loop of the window. Handles events and shows pages and views.
+//! The window's main loop. Handles events and shows pages and views.
 
 use super::display;
 use super::flight_view::FlightView;
@@ -27,17 +27,17 @@ use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, Window
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
 use winit::window::WindowId;
 
-/// Maximum frame rates of the views, 1/s: with a graphics card, the refresh rate of fast displays; without one, a rate
+/// Maximum frame rates of the views, 1/s. With a graphics card: the refresh rate of fast displays. Without one: a rate
 /// that still looks smooth.
 const MAX_FRAME_HZ: (f64, f64) = (120.0, 25.0);
-/// Frame rate of pages, which change only on key and stick input, 1/s.
+/// Frame rate of pages, 1/s. Pages change only on key and stick input.
 const PAGE_HZ: f64 = 20.0;
-/// Pause after each frame without a graphics card, as a share of the frame time, so that other processes can run.
+/// Pause after each frame as a fraction of the frame time, without a graphics card. It lets other processes run.
 const IDLE_FRACTION: f64 = 0.25;
-/// Zoom factor per notch of the mouse wheel.
+/// Zoom factor per mouse wheel notch.
 const ZOOM_PER_NOTCH: f64 = 1.15;
 
-/// Threads and connections of the window.
+/// The window's threads and connections.
 pub struct WindowThreads {
     /// Pilot thread, if the window can fly the vehicle.
     pub pilot: Option<PilotThread>,
@@ -45,11 +45,11 @@ pub struct WindowThreads {
     pub train_pipe: Option<TrainPipe>,
     /// Flight to show at startup.
     pub flight: Option<FlightView>,
-    /// Video stream of the camera's view.
+    /// Video stream that shows the camera's view.
     pub stream: Option<StreamSender>,
 }
 
-/// The window with its state.
+/// The window and its state.
 pub struct Cockpit {
     pub(super) plan: WindowConfig,
     pub(super) keys: KeyBindings,
@@ -75,7 +75,7 @@ pub struct Cockpit {
 }
 
 impl Cockpit {
-    /// Creates the state; the window is opened later.
+    /// Creates the state. The window opens later.
     pub fn new(
         plan: WindowConfig,
         keys: KeyBindings,
@@ -132,7 +132,7 @@ impl Cockpit {
         }
     }
 
-    /// Returns true while the views are shown and the keys control the vehicle.
+    /// Returns true while the window shows the views and the keys control the vehicle.
     fn flies(&self) -> bool {
         self.flow.page() == Page::Flight
     }
@@ -167,12 +167,12 @@ impl Cockpit {
                 self.flow.pause();
                 return;
             }
-            // The controller page shows the stick positions of the keyboard.
+            // The controller page shows the keyboard's stick positions.
             Some(KeyChange::Down(key)) if trying => self.send_to_pilot(PilotCommand::Down(key)),
             Some(KeyChange::Up(key)) => self.send_to_pilot(PilotCommand::Up(key)),
             _ => {}
         }
-        // Keys being tested there have no other effect.
+        // Keys that the user tests there have no other effect.
         let tried = self.flow.is_key_test() && keys::name(&event.logical_key).is_some_and(|key| self.keys.is_stick(&key));
         if let Some(press) = keys::press(event).filter(|_| !tried) {
             self.flow.press(press);
@@ -218,7 +218,7 @@ impl Cockpit {
         if let (true, Some((from_x, from_y)), Some(flight)) = (self.dragging, self.mouse, &self.threads.flight)
             && let (Some(panes), Some(now)) = (flight.panes(), flight.now())
         {
-            // The scene follows the drag, so that the same object stays under the pointer.
+            // The scene follows the pointer, so the same object stays under it.
             let to = panes.inspector_to_aircraft(&now);
             let rad_per_px = self.inspector_camera.rad_per_px(self.inspector_view_height_px(), to);
             self.inspector_camera.turn(rad_per_px * (from_x - x), rad_per_px * (y - from_y), to);
@@ -226,7 +226,7 @@ impl Cockpit {
         self.mouse = Some((x, y));
     }
 
-    /// Returns the height of the inspector's view on the screen in pixels.
+    /// Returns the on-screen height of the inspector's view in pixels.
     fn inspector_view_height_px(&self) -> f64 {
         let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
         let eyes = self.flow.arrangement.view_rects().into_iter().find(|view_rect| view_rect.which == ViewKind::Inspector);
@@ -286,7 +286,7 @@ impl ApplicationHandler for Cockpit {
             WindowEvent::MouseWheel { delta, .. } => {
                 let notches = match delta {
                     MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
-                    // A notch of common mouse wheels is about 50 px (estimate).
+                    // A mouse wheel notch is typically about 50 px (estimate).
                     MouseScrollDelta::PixelDelta(px) => px.y / 50.0,
                 };
                 self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_PER_NOTCH, notches.clamp(-10.0, 10.0)));

@@ -1,4 +1,4 @@
-//! The controller in the window: detection, test, calibration and flying.
+//! The window's controller: detects, tests and calibrates it, and flies with it.
 
 use crate::errors::AppError;
 use crate::io::controller::{CalibratedController, DeviceWatcher, EventSource, ProfileFolder};
@@ -16,7 +16,7 @@ enum DeviceState {
     Uncalibrated(EventSource, RawInput),
     /// Calibrated and used for flying.
     Calibrated(Box<CalibratedController>),
-    /// In the calibration wizard.
+    /// Being calibrated in the wizard.
     Calibrating(EventSource, Box<CalibrationWizard>),
 }
 
@@ -52,7 +52,7 @@ impl ControllerSlot {
             Ok(source) => self.open_controller(source),
             Err(error) => {
                 self.held = DeviceState::NoDevice(DeviceWatcher::start());
-                // The rest of the message applies to the command line only.
+                // The rest of the message applies only to the command line.
                 let why = error.to_string();
                 let why = why.rsplit_once(';').map_or(why.as_str(), |(why, _)| why);
                 let mut signs = why.chars();
@@ -61,7 +61,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Opens a newly connected device. Returns true if there is a new device, calibrated or not.
+    /// Opens a newly connected device. Returns true if there is a new device, even if it is not calibrated.
     pub fn open_new_device(&mut self) -> bool {
         let DeviceState::NoDevice(watch) = &mut self.held else { return self.replace_disconnected() };
         if !watch.is_available() {
@@ -71,8 +71,7 @@ impl ControllerSlot {
         !matches!(self.held, DeviceState::NoDevice(_))
     }
 
-    /// Opens a device that was connected while the current one is disconnected, unless only the current one is
-    /// calibrated.
+    /// Opens another device if the current device is disconnected, unless only the current device is calibrated.
     fn replace_disconnected(&mut self) -> bool {
         if !self.lost() || matches!(self.held, DeviceState::Calibrating(..)) {
             self.replacement_watcher = None;
@@ -129,7 +128,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Returns the reason why the vehicle can be flown only with the keyboard; `None` if a controller can be used.
+    /// Returns the reason why only the keyboard can fly the vehicle, or `None` if a controller can be used.
     pub fn keyboard_reason(&self) -> Option<String> {
         match self.name() {
             Some(name) if self.lost() => Some(format!("'{name}' is not connected.")),
@@ -142,7 +141,7 @@ impl ControllerSlot {
         &self.note
     }
 
-    /// Starts the calibration wizard. Searches for a disconnected device first.
+    /// Starts the calibration wizard. If the device is disconnected, searches for it first.
     pub fn calibrate(&mut self) {
         if self.lost() {
             self.find_device();
@@ -163,15 +162,15 @@ impl ControllerSlot {
         DeviceState::Calibrating(source, Box::new(wizard))
     }
 
-    /// Handles Enter in the wizard.
+    /// Handles the Enter key in the wizard.
     pub fn confirm(&mut self, now: SimTime) {
         if let DeviceState::Calibrating(_, wizard) = &mut self.held {
             wizard.confirm(now);
         }
     }
 
-    /// Leaves the wizard without changes. Searches again for a device that was disconnected meanwhile, so that it does
-    /// not appear connected with its sticks at rest.
+    /// Leaves the wizard without changes. If the device has since been disconnected, searches for it again, so that it
+    /// does not appear connected with its sticks at rest.
     pub fn cancel(&mut self) {
         let lost = self.lost();
         match self.take_device() {
@@ -199,7 +198,7 @@ impl ControllerSlot {
         };
     }
 
-    /// Returns the current stick positions of a calibrated device. Its buttons trigger actions on the link.
+    /// Returns a calibrated device's current stick positions. The device's buttons trigger actions on the link.
     ///
     /// # Errors
     /// Returns an error if the device can no longer be used.
@@ -225,7 +224,7 @@ impl ControllerSlot {
         }
     }
 
-    /// Disables the controller and notes the reason.
+    /// Disables the controller and stores the reason.
     pub fn disable(&mut self, why: &AppError) {
         self.held = DeviceState::NoDevice(DeviceWatcher::start());
         self.note = format!("Controller disabled: {why}.");
@@ -266,7 +265,7 @@ impl ControllerSlot {
     }
 }
 
-/// Returns a profile with one setting changed. All other values of each axis keep their measured or edited values.
+/// Returns a profile with one setting changed. All other settings of each axis keep their measured or edited values.
 fn adjusted_profile(profile: &ControllerProfile, tune: ProfileChange) -> ControllerProfile {
     let mut profile = profile.clone();
     match tune {
@@ -294,7 +293,7 @@ mod tests {
         let source = EventSource::Record(input_recording::InputRecording::read("pad.jsonl", &text.join("\n")).unwrap());
         let profile = ControllerProfile { device, mode: StickMode::Two, axes: ways, buttons: [].into() };
         ControllerSlot {
-            // A name that matches no device of the computer.
+            // A name that matches no device on this computer.
             requested_device: Some("no device is called so".into()),
             profiles: ProfileFolder::at(None),
             held: DeviceState::Calibrated(Box::new(CalibratedController::new(source, profile))),

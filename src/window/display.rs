@@ -1,13 +1,13 @@
-//! Opens the display, or reports why there is none.
+//! Opens the display, or reports why no display is available.
 
 use crate::errors::AppError;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-/// Returns the display's event loop.
+/// Returns an event loop for the display.
 pub fn open() -> Result<EventLoop<()>, AppError> {
-    // The keyboard library is loaded on first use, and the loader panics if it is missing. The panic is converted to an
-    // error here.
+    // The keyboard library is loaded on first use, and the loader panics if it is missing. Convert the panic to an
+    // error.
     let told = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let opened = std::panic::catch_unwind(EventLoop::new);
@@ -16,13 +16,16 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
         Ok(Ok(events)) => return Ok(events),
         Ok(Err(EventLoopError::Os(_))) => unreachable_display(),
         Ok(Err(error)) => error.to_string(),
-        Err(_) => "a library is missing; Debian and Ubuntu: apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2"
-            .to_owned(),
+        Err(_) => {
+            "a library is missing; on Debian and Ubuntu, run apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 \
+                   libxrandr2"
+                .to_owned()
+        }
     };
-    Err(AppError::failed(format!("there is no display to open a window on ({why}); everything else works without one")))
+    Err(AppError::failed(format!("no display is available for the window ({why}); all other features work without one")))
 }
 
-/// Describes the configured display, because the library's own message refers to its source code.
+/// Describes the configured display. The library's own message is not helpful because it refers to its source code.
 fn unreachable_display() -> String {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let asked: Vec<String> =

@@ -1,4 +1,4 @@
-//! A flight in the window: its telemetry, and the loading of its scene.
+//! A flight in the window: receives its telemetry and loads its scene.
 
 use super::listener::TelemetryListener;
 use super::panes::{PaneContent, RenderJob, ViewPanes};
@@ -14,40 +14,40 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
-/// Scene state of a flight.
+/// State of a flight's scene.
 pub enum SceneLoading {
     /// Waiting for the session's seed.
     Waiting,
     /// Building the site and its lighting.
     Building(Receiver<RenderJob>),
-    /// Ready to be rendered.
+    /// Ready to render.
     Ready(Box<ViewPanes>),
 }
 
-/// Seed of the defects and traffic in the scene.
+/// Seed for the defects and traffic in the scene.
 #[derive(Debug, Default)]
 struct SceneKey {
     /// Seed that was passed to the window.
     requested_seed: Option<u64>,
     /// Seed of the current scene.
     built_seed: Option<u64>,
-    /// True once a different seed of the simulator has been logged.
+    /// True once a mismatch with the simulator's seed has been logged.
     mismatch_reported: bool,
 }
 
 impl SceneKey {
-    /// Returns the seed to build with: the simulator's seed, the requested seed, or `otherwise`, in this order of
-    /// preference.
+    /// Returns the seed to build the scene with: the simulator's seed, the requested seed, or `otherwise`, in that
+    /// order of preference.
     fn seed(&self, said: Option<u64>, otherwise: Option<u64>) -> Option<u64> {
         said.or(self.requested_seed).or(otherwise)
     }
 
-    /// Returns the seeds of the scene and of the simulator if they differ.
+    /// Returns the scene's seed and the simulator's seed if they differ.
     fn built_seed_mismatch(&self, said: Option<u64>) -> Option<(u64, u64)> {
         self.built_seed.zip(said).filter(|(built, said)| built != said)
     }
 
-    /// Returns the requested seed and the simulator's seed the first time that they differ.
+    /// Returns the requested seed and the simulator's seed the first time they differ.
     fn requested_seed_mismatch(&mut self, said: Option<u64>) -> Option<(u64, u64)> {
         let differ = self.requested_seed.zip(said).filter(|(given, said)| !self.mismatch_reported && given != said);
         self.mismatch_reported |= differ.is_some();
@@ -57,14 +57,14 @@ impl SceneKey {
 
 /// A flight in the window.
 pub struct FlightView {
-    /// Scenario and aircraft of the flight.
+    /// The flight's scenario and aircraft.
     pub job: (Scenario, Vehicle),
     /// Telemetry listener.
     pub listener: TelemetryListener,
     /// Scene state.
     pub scene: SceneLoading,
     session: SceneKey,
-    /// Views of an earlier session, kept until their textures can be freed.
+    /// An earlier session's views, kept until their textures can be freed.
     previous_panes: Option<Box<ViewPanes>>,
     /// Time of the first rendered frame.
     pub first_frame_at: Option<Duration>,
@@ -88,7 +88,7 @@ impl FlightView {
         self.listener.live().moment(self.listener.wall(), &self.job.1)
     }
 
-    /// Advances from waiting to building to rendering as data arrives, and back to waiting if the simulator starts
+    /// Advances from waiting to building to rendering as data arrives, and returns to waiting if the simulator starts
     /// another session.
     ///
     /// # Errors
@@ -106,14 +106,14 @@ impl FlightView {
         self.follow_seed(said);
         match &self.scene {
             SceneLoading::Waiting => {
-                // The seed reported by the simulator takes precedence over the scenario's. A real vehicle reports none.
+                // The simulator's seed takes precedence over the scenario's seed. Real vehicles do not report a seed.
                 let seed = self.session.seed(said, real.then_some(self.job.0.seed.unwrap_or(0)));
                 let (Some(seed), Some(now)) = (seed, now) else { return Ok(()) };
                 let ((scenario, vehicle), at) = (self.job.clone(), now.moment.at);
                 tracing::info!("rendering with {}, {}, seed {seed}", screen.gpu.name, quality.name);
                 let (sender, receiver) = channel();
                 std::thread::spawn(move || {
-                    // Fails only if the window has been closed meanwhile.
+                    // Fails only if the window has since been closed.
                     let _ = sender.send(RenderJob::build(scenario, vehicle, seed, &quality, at));
                 });
                 self.session.built_seed = Some(seed);
@@ -131,11 +131,10 @@ impl FlightView {
         Ok(())
     }
 
-    /// Switches to the simulator's seed, which takes precedence over the requested seed and the seed of an earlier
-    /// session.
+    /// Switches to the simulator's seed, which takes precedence over the requested seed and any earlier session's seed.
     fn follow_seed(&mut self, said: Option<u64>) {
         if let Some((given, said)) = self.session.requested_seed_mismatch(said) {
-            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; showing the simulator's");
+            tracing::warn!("requested seed {given}, but the simulator uses seed {said}; using the simulator's seed");
         }
         if let Some((built, said)) = self.session.built_seed_mismatch(said) {
             tracing::info!("the simulator now uses seed {said} instead of {built}; rebuilding defects and traffic");
@@ -179,7 +178,7 @@ impl FlightView {
         if let Some(first) = self.first_frame_at {
             let seconds = lasted_since(first).as_secs_f64();
             tracing::info!(
-                "rendered {} frames of both views, {:.1} per second",
+                "rendered {} frames of both views ({:.1} frames per second)",
                 self.drawn,
                 f64::from(self.drawn) / seconds.max(1e-3)
             );

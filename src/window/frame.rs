@@ -1,4 +1,4 @@
-//! Renders one frame of the window (a page, or a flight with its displays) and handles the pages' requests.
+//! Renders one window frame (a page, or a flight with its displays) and handles the pages' requests.
 
 use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
@@ -16,10 +16,11 @@ use spandrel_view::hud;
 use spandrel_view::live::LiveMoment;
 use spandrel_view::sound::SoundInputs;
 
-/// Keyboard turn rate of the inspector's view, rad/s, and zoom factor per second (estimates: comfortable on a laptop).
+/// Turn rate of the inspector's view under keyboard control, rad/s, and zoom factor per second (estimates: comfortable
+/// on a laptop).
 const TURN_RAD_S: f64 = 1.0;
 const ZOOM_PER_S: f64 = 2.0;
-/// Display time of messages and of the initial key help, s.
+/// Display time for messages and for the initial key help, s.
 const MESSAGE_S: f64 = 7.0;
 const KEY_HELP_S: f64 = 25.0;
 
@@ -59,7 +60,7 @@ impl Cockpit {
         }
     }
 
-    /// Passes rotor speeds, distance and warnings to the sound output.
+    /// Passes rotor speeds, the distance and warnings to the sound output.
     fn sound(&mut self, now: Option<&LiveMoment>) {
         // Without recent telemetry, the rotor speeds are unknown, so no sound is played.
         let now = now.filter(|now| now.hud.telemetry_age_s <= hud::LINK_TIMEOUT_S && !self.flow.is_paused());
@@ -122,7 +123,7 @@ impl Cockpit {
         self.threads.flight = Some(FlightView::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
         self.image_writer = self.plan.camera_file.clone().map(super::picture_writer::PictureWriter::start);
         (self.map, self.inspector_camera) = (self.plan.map, spandrel_view::inspector_camera::InspectorCamera::default());
-        // Discard messages from before the flight.
+        // Discard messages that arrived before the flight.
         while self.threads.pilot.as_ref().and_then(PilotThread::poll_message).is_some() {}
         self.notices.clear();
         self.send_to_pilot(PilotCommand::ReleaseKeys);
@@ -182,7 +183,7 @@ impl Cockpit {
         self.save_screenshot(&shown, &text)
     }
 
-    /// Passes the camera's view to the stream and the picture file, with a single readback for both.
+    /// Passes the camera's view to the stream and the picture file, using a single readback for both.
     fn publish_frame(&mut self) -> Result<(), AppError> {
         let (Some(screen), Some(flight)) = (&self.screen, &self.threads.flight) else { return Ok(()) };
         let Some(panes) = flight.panes() else { return Ok(()) };
@@ -203,7 +204,7 @@ impl Cockpit {
         Ok(())
     }
 
-    /// Collects messages of the pilot thread and the pages.
+    /// Collects messages from the pilot thread and the pages.
     fn listen(&mut self, now: std::time::Duration) {
         while let Some(text) = self.threads.pilot.as_ref().and_then(PilotThread::poll_message) {
             tracing::info!("{text}");

@@ -1,12 +1,12 @@
-//! Keys of the window, with the names used in key binding files.
+//! The window's keys, with the names used in key binding files.
 
 use spandrel_view::flow::KeyPress;
 use std::collections::{BTreeMap, BTreeSet};
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key, NamedKey, PhysicalKey};
 
-/// Converts a key press to its action on a page. Held keys repeat movement and typing, but not Enter and Escape, which
-/// would otherwise act on the next page.
+/// Converts a key press to its action on a page. Held keys repeat movement and typing, but not Enter and Escape,
+/// because these would also act on the next page.
 pub fn press(event: &KeyEvent) -> Option<KeyPress> {
     if event.state != ElementState::Pressed {
         return None;
@@ -34,13 +34,13 @@ fn key_name(event: &KeyEvent) -> Option<KeyPress> {
 pub enum KeyChange {
     /// Pressed; not reported again while the key is held.
     Down(String),
-    /// Released, with the name under which it was pressed.
+    /// Released; contains the name that the key had when it was pressed.
     Up(String),
 }
 
-/// Pressed keys, and keys that were already pressed when the window gained focus: those were meant for another window
-/// and do nothing until released. Keys are identified by their physical key, because the symbol may differ between
-/// press and release (Shift).
+/// Pressed keys, and keys that were already pressed when the window gained focus. The latter were meant for another
+/// window and do nothing until released. Physical keys identify the keys, because the symbol may differ between press
+/// and release (Shift).
 #[derive(Debug, Default)]
 pub struct HeldKeys {
     names: BTreeMap<String, String>,
@@ -48,8 +48,8 @@ pub struct HeldKeys {
 }
 
 impl HeldKeys {
-    /// Returns true if a key press was meant for another window. `made_up` is true if the window system reports a key
-    /// that was already pressed.
+    /// Returns true if a key press was meant for another window. `made_up` is true if the window system generated the
+    /// event for a key that was already pressed.
     pub fn pressed_elsewhere(&mut self, event: &KeyEvent, made_up: bool) -> bool {
         self.update_foreign(key_id(&event.physical_key), event.state, made_up)
     }
@@ -60,7 +60,7 @@ impl HeldKeys {
                 self.foreign.insert(physical_key_id);
                 true
             }
-            // A held key repeats, and its first repetition is not marked as such.
+            // A held key repeats, and the first repetition is not marked as one.
             ElementState::Pressed => self.foreign.contains(&physical_key_id),
             ElementState::Released => self.foreign.remove(&physical_key_id),
         }
@@ -80,7 +80,7 @@ impl HeldKeys {
         }
     }
 
-    /// Forgets all pressed keys.
+    /// Clears all pressed keys.
     pub fn clear(&mut self) {
         *self = Self::default();
     }

@@ -1,4 +1,4 @@
-//! Telemetry subscriber in a separate thread, so that slow frames do not delay datagram timestamps.
+//! Telemetry subscriber. It runs in a separate thread so that slow frames do not delay datagram timestamps.
 
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -10,7 +10,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Maximum wait for a datagram, so that heartbeats are sent on time.
+/// Maximum time to wait for a datagram, so that heartbeats are sent on time.
 const MAX_WAIT: Duration = Duration::from_millis(50);
 
 /// Received telemetry, shared with the render loop.

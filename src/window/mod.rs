@@ -52,8 +52,8 @@ pub fn run(setup: WindowSetup) -> Result<(), AppError> {
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, setup.fly) {
         pilot.send_command(PilotCommand::Fly(vehicle));
     }
-    // On Linux, each thread inherits its nice value from the thread that starts it. The pilot thread was started
-    // earlier and keeps its priority; the encoder is started later and gets the lower priority.
+    // On Linux, a new thread inherits the nice value of the thread that starts it. The pilot thread started earlier and
+    // keeps its priority; the encoder starts later and gets the lower priority.
     priority::lower_priority();
     crew.stream = match setup.stream.map(|to| StreamSender::open(to, clock::unix_us())).transpose() {
         // The trainee's window takes precedence over the stream.

@@ -1,4 +1,4 @@
-//! Renders the two views to textures of the window.
+//! Renders the two views to the window's textures.
 
 use super::screen::WindowSurface;
 use crate::errors::AppError;
@@ -22,15 +22,15 @@ use spandrel_view::stage::{self, Stage};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Number of pixels of a view without a graphics card, regardless of its size on the screen (issue: 640 x 360 each on
-/// two cores).
+/// Number of pixels in a view without a graphics card, regardless of the view's size on the screen (issue: 640 x 360
+/// each on two cores).
 const SOFTWARE_VIEW_PX: f64 = 640.0 * 360.0;
 
 /// A flight whose scene has been built.
 pub struct RenderJob {
-    /// Scenario of the flight.
+    /// The flight's scenario.
     pub scenario: Scenario,
-    /// Aircraft of the flight.
+    /// The flight's aircraft.
     pub vehicle: Vehicle,
     site: Site,
     scene: Arc<Scene>,
@@ -49,7 +49,7 @@ impl RenderJob {
     }
 }
 
-/// Texture of a view.
+/// A view's texture.
 struct ViewPane {
     whole: wgpu::Texture,
     texture: wgpu::TextureView,
@@ -57,16 +57,16 @@ struct ViewPane {
     size_px: (u32, u32),
 }
 
-/// Both views of a flight.
+/// A flight's two views.
 pub struct ViewPanes {
     job: RenderJob,
     renderer: Renderer,
     /// Second device for the camera's view, if the window's own device is a software renderer.
     secondary: Option<SecondaryRenderer>,
     panes: BTreeMap<u8, ViewPane>,
-    /// Last image of the second device.
+    /// The second device's last image.
     last_image: Option<Picture>,
-    /// Exposure meters of the inspector's view and the camera's.
+    /// Exposure meters for the inspector's view and the camera's view.
     meters: [ExposureMeter; 2],
 }
 
@@ -76,7 +76,7 @@ pub struct PaneContent {
     pub view_rect: ViewRect,
     /// egui texture with the rendered image.
     pub picture: egui::TextureId,
-    /// Overlay of the view.
+    /// The view's overlay.
     pub items: Vec<DrawItem>,
 }
 
@@ -118,7 +118,7 @@ impl ViewPanes {
         if self.job.site.traffic().closures() != &now.closures {
             self.job.site = self.job.site.with_closures(now.closures.clone());
         }
-        // The camera's view starts first, because the second device renders it while this one renders the other view.
+        // Start the camera's view first, because the second device renders it while this device renders the other view.
         let mut order: Vec<&ViewRect> = places.iter().collect();
         order.sort_by_key(|view_rect| view_rect.which != ViewKind::Camera);
         let (mut shown, mut begun) = (Vec::new(), false);
@@ -153,7 +153,7 @@ impl ViewPanes {
         Ok(())
     }
 
-    /// Returns the last image of the camera, without the head-up display.
+    /// Returns the camera's last image, without the head-up display.
     pub fn camera(&self, screen: &WindowSurface) -> Result<Option<Picture>, AppError> {
         if self.secondary.is_some() {
             return Ok(self.last_image.clone());
@@ -161,7 +161,7 @@ impl ViewPanes {
         Ok(self.panes.get(&(ViewKind::Camera as u8)).map(|pane| read(&screen.gpu, &pane.whole)).transpose()?)
     }
 
-    /// Returns the rectangle of a view; the camera's has the aspect ratio of its sensor.
+    /// Returns a view's rectangle. The camera's view has its sensor's aspect ratio.
     fn fit_view(&self, screen: &WindowSurface, view_rect: ViewRect) -> ViewRect {
         let window = screen.window.inner_size();
         match view_rect.which {
@@ -173,7 +173,7 @@ impl ViewPanes {
         }
     }
 
-    /// Returns the shot and the overlay of a view.
+    /// Returns a view's shot and overlay.
     fn render(
         &mut self,
         screen: &WindowSurface,
@@ -196,7 +196,8 @@ impl ViewPanes {
             }
             ViewKind::Camera => {
                 let display = stage::display(&stage, moment, &now.hud, (feed, false), map);
-                // Text keeps its normal size on the screen; displays with a larger scale factor use more pixels for it.
+                // Text keeps its normal size on the screen, so displays with a larger scale factor use more pixels for
+                // it.
                 let scale = screen.window.scale_factor();
                 (stage.camera_frame(moment, size_px, film), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
             }
@@ -204,7 +205,7 @@ impl ViewPanes {
     }
 }
 
-/// Returns the texture of a view, and recreates it if the size has changed.
+/// Returns a view's texture, and recreates it if the size has changed.
 fn pane<'a>(
     panes: &'a mut BTreeMap<u8, ViewPane>,
     screen: &mut WindowSurface,

@@ -1,5 +1,5 @@
 //! Saves the camera's view to a file about once a second, for the live page. A separate thread encodes the JPEG and
-//! waits for the disk, so that the window loses no frames.
+//! waits for the disk so that the window does not drop frames.
 
 use crate::errors::AppError;
 use crate::io::replace::replace;
@@ -12,10 +12,10 @@ use std::time::Duration;
 
 /// Interval between images.
 const SAVE_INTERVAL: Duration = Duration::from_secs(1);
-/// Maximum file size, bytes; a phone connection transfers it in a second.
+/// Maximum file size, bytes; a mobile connection transfers this in one second.
 const MAX_BYTES: usize = 150_000;
 
-/// Passes images to the thread that saves them. The file is deleted at the end.
+/// Passes images to the thread that saves them. The thread deletes the file when it ends.
 pub struct PictureWriter {
     sender: Option<SyncSender<Picture>>,
     thread: Option<JoinHandle<()>>,
@@ -23,9 +23,9 @@ pub struct PictureWriter {
 }
 
 impl PictureWriter {
-    /// Starts the thread that saves images to `path`.
+    /// Starts a thread that saves images to `path`.
     pub fn start(path: PathBuf) -> Self {
-        // At most one image waits; further images are dropped.
+        // The queue holds at most one image; further images are dropped.
         let (sender, receiver) = sync_channel(1);
         let thread = std::thread::spawn(move || save_images(&path, &receiver));
         Self { sender: Some(sender), thread: Some(thread), due: Duration::ZERO }
@@ -61,7 +61,7 @@ fn save_images(path: &Path, pictures: &Receiver<Picture>) {
     let mut told = false;
     for picture in pictures {
         if let Err(error) = write(path, &picture) {
-            // Logged only once, because later failures most likely have the same cause.
+            // Log only the first failure, because later failures probably have the same cause.
             if !std::mem::replace(&mut told, true) {
                 tracing::warn!("cannot save the camera's view: {error}");
             }

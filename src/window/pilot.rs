@@ -1,4 +1,4 @@
-//! Flies from the window in a separate thread: stick positions are sent at 50 Hz, regardless of the frame rate.
+//! Flies the vehicle from the window. A separate thread sends stick positions at 50 Hz, regardless of the frame rate.
 
 use super::controller_slot::ControllerSlot;
 use crate::errors::AppError;
@@ -16,9 +16,10 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Maximum wait for a datagram: a quarter of the interval between stick samples.
+/// Maximum time to wait for a datagram: one-quarter of the interval between stick samples.
 const MAX_WAIT: Duration = Duration::from_millis(5);
-/// Interval at which the controller's status is updated on the ground (a tenth of a person's reaction time; estimate).
+/// Interval at which the controller's status is updated on the ground: one-tenth of a person's reaction time
+/// (estimate).
 const STATUS_INTERVAL: SimTime = SimTime::from_ms(30);
 
 /// A command from the window to the pilot thread.
@@ -28,7 +29,7 @@ pub enum PilotCommand {
     Down(String),
     /// A key with this name was released.
     Up(String),
-    /// Release all keys, because the window lost the focus or shows a page.
+    /// Release all keys, because the window lost focus or shows a page.
     ReleaseKeys,
     /// Connect to this vehicle's ground station port.
     Fly(SocketAddr),
@@ -40,7 +41,7 @@ pub enum PilotCommand {
     FindController,
     /// Start the calibration wizard.
     Calibrate,
-    /// Confirm a step of the wizard.
+    /// Confirm the wizard's current step.
     Confirm,
     /// Leave the calibration wizard without saving.
     Cancel,
@@ -99,7 +100,7 @@ impl PilotThread {
 
     /// Sends a command to the pilot thread.
     pub fn send_command(&self, ask: PilotCommand) {
-        // The thread lives as long as the window.
+        // The thread runs as long as the window is open.
         let _ = self.commands.send(ask);
     }
 
@@ -196,8 +197,8 @@ impl PilotLoop {
                 if let Some(action) = action.filter(|_| self.vehicle.is_some()) {
                     self.link.request_action(action, now);
                 }
-                // Stick positions are sent only after the user has started to fly, because another ground station or a
-                // script may be in control. Arming counts as flying; otherwise the vehicle would detect a lost control
+                // Send stick positions only after the user has started to fly, because another ground station or a
+                // script may be in control. Arming counts as flying; otherwise, the vehicle would detect a lost control
                 // link.
                 let flies =
                     matches!(action, Some(ControllerAction::Arm | ControllerAction::TakeOff | ControllerAction::Position));
@@ -223,11 +224,11 @@ impl PilotLoop {
         }
     }
 
-    /// Returns the controller's stick positions unless keys are held; without a controller, returns those of the
-    /// keyboard once it has been used. Also returns a message for the user about the controller.
+    /// Returns the controller's stick positions, unless keys are held. Without a controller, returns the keyboard's
+    /// stick positions once it has been used. Also returns a message for the user about the controller.
     fn sticks(&mut self, now: SimTime) -> (Option<Sticks>, Option<String>) {
         let keys = self.keyboard.sticks(now);
-        // While the simulation is paused, button actions would be late or lost, so they go to a dummy link.
+        // While the simulation is paused, button actions would be delayed or lost, so they go to a dummy link.
         let (mut nobody, flown);
         if self.paused {
             nobody = ControllerLink::default();
@@ -250,14 +251,14 @@ impl PilotLoop {
         }
     }
 
-    /// Updates the connection state of the controller. Returns a message if the state has changed.
+    /// Updates the controller's connection state. Returns a message if the state has changed.
     fn set_device_lost(&mut self, lost: bool) -> Option<String> {
         let before = std::mem::replace(&mut self.lost, lost);
         let name = self.controller.name().unwrap_or("the controller");
         match (before, lost) {
             (false, true) => {
-                // If the controller is disconnected, no stick positions are sent, even if keys were used before, so
-                // that the vehicle's failsafe is active until a key is used again.
+                // If the controller is disconnected, send no stick positions, even if keys were used before. The
+                // vehicle's failsafe is then active until the user presses a key again.
                 self.keyboard_in_use = false;
                 Some(format!("'{name}' disconnected: stick input centered, then stopped. Press a key to fly with the keyboard."))
             }

@@ -1,7 +1,6 @@
-//! Scheduling priority of rendering, below that of the simulator and the monitor.
+//! Scheduling priority for rendering, which is lower than the priority of the simulator and the monitor.
 
-/// Lowers the priority of this thread and of all threads that it starts, so that rendering does not delay the
-/// simulator.
+/// Lowers the priority of this thread and all threads that it starts, so that rendering does not delay the simulator.
 pub fn lower_priority() {
     #[cfg(unix)]
     if let Err(error) = rustix::process::nice(NICENESS) {

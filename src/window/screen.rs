@@ -14,7 +14,7 @@ pub struct WindowSurface {
     pub window: Arc<Window>,
     /// Graphics device that renders to the window.
     pub gpu: Gpu,
-    /// egui's painter, with which the views' textures are registered.
+    /// egui's painter. The views' textures are registered with it.
     pub painter: egui_wgpu::Renderer,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
@@ -23,12 +23,12 @@ pub struct WindowSurface {
 }
 
 impl WindowSurface {
-    /// Opens a window of this size, px, enlarged by the scale factor of the display.
+    /// Opens a window of this size in px, multiplied by the display's scale factor.
     ///
     /// # Errors
     /// Returns an error if there is no display or no graphics device.
     pub fn open(events: &ActiveEventLoop, title: &str, (width, height): (u32, u32)) -> Result<Self, AppError> {
-        // The window is never larger than the display, because its edges would be hidden.
+        // The window is never larger than the display, because its edges would then be hidden.
         let display = events.primary_monitor().or_else(|| events.available_monitors().next());
         let scale = display.as_ref().map_or(1.0, |display| display.scale_factor().max(1.0));
         let wanted = PhysicalSize::new((scale * f64::from(width)).round() as u32, (scale * f64::from(height)).round() as u32);
@@ -38,7 +38,7 @@ impl WindowSurface {
         let failed = |why: String| AppError::failed(format!("cannot open a window: {why}"));
         let window = Arc::new(events.create_window(attributes).map_err(|error| failed(error.to_string()))?);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        // Surface creation fails if there is no driver.
+        // Creating a surface fails if there is no driver.
         let surface = instance.create_surface(window.clone()).map_err(|error| GpuError::NoDevice(error.to_string()))?;
         let gpu = Gpu::open_for(&instance, Some(&surface))?;
         let size = window.inner_size();
@@ -63,7 +63,7 @@ impl WindowSurface {
         Ok(Self { window, gpu, painter, surface, config, input, freed: Vec::new() })
     }
 
-    /// Passes an event to egui. Returns true if egui has consumed it.
+    /// Passes an event to egui. Returns true if egui consumed it.
     pub fn handle_event(&mut self, event: &WindowEvent) -> bool {
         if let WindowEvent::Resized(size) = event {
             (self.config.width, self.config.height) = (size.width.max(1), size.height.max(1));
@@ -127,7 +127,7 @@ impl WindowSurface {
             }
         }
         let jobs = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
-        // The previous frame may still have used these textures.
+        // The previous frame may still be using these textures.
         for id in std::mem::replace(&mut self.freed, changes.free.iter().copied().collect()) {
             self.painter.free_texture(&id);
         }

@@ -1,6 +1,6 @@
 //! Renders a second view on a second software device.
 //!
-//! A software device processes the vertices of an image in one thread and then its pixels in all other threads, so
+//! A software device processes an image's vertices in one thread and then its pixels in all other threads, so most
 //! cores are idle during the vertex phase. A second device uses that time to render another image.
 
 use spandrel_view::gpu::{DrawCounts, Gpu, GpuError, Renderer, picture_texture, read};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::{self, JoinHandle};
 
-/// A rendered image and its draw counts.
+/// A rendered image and the number of draws.
 pub type RenderedShot = (Picture, DrawCounts);
 
 /// Renders shots in a separate thread, on a separate software device. The thread ends when this is dropped.
@@ -44,7 +44,7 @@ impl SecondaryRenderer {
         self.shots.as_ref().and_then(|shots| shots.send(shot).ok()).ok_or_else(ended)
     }
 
-    /// Waits for the oldest image that has not been returned yet, and returns it.
+    /// Waits for the oldest pending image and returns it.
     ///
     /// # Errors
     /// Returns an error if the device fails.
@@ -56,7 +56,7 @@ impl SecondaryRenderer {
 impl Drop for SecondaryRenderer {
     fn drop(&mut self) {
         drop(self.shots.take());
-        // A driver that is still rendering when the program exits can crash. A panic in the thread has already been
+        // A driver can crash if it is still rendering when the program exits. A panic in the thread has already been
         // reported.
         if let Some(render_thread) = self.render_thread.take() {
             let _ = render_thread.join();

@@ -1,5 +1,5 @@
-//! Plays sound samples with one system program, and speaks warnings with another. Sound libraries would need system
-//! headers to build.
+//! Plays sound samples with one system program and speaks warnings with another. Building with a sound library would
+//! require system headers.
 
 use crate::io::clock::Stopwatch;
 use spandrel_clients::rc::keyboard::SoundPreferences;
@@ -18,12 +18,12 @@ const PLAYERS: [(&str, &[&str]); 2] = [
 const SPEECH_PROGRAMS: [&str; 2] = ["spd-say", "espeak-ng"];
 /// Number of samples per chunk (10 ms).
 const CHUNK_SAMPLES: usize = SAMPLE_RATE_HZ as usize / 100;
-/// Playback lead time: longer delays the sound, shorter causes dropouts on a busy machine (estimate).
+/// Playback lead time (estimate). A longer time delays the sound; a shorter time causes dropouts on a busy machine.
 const PLAYBACK_LEAD: Duration = Duration::from_millis(80);
-/// Interval between checks for whether another chunk is needed.
+/// Interval at which the thread checks whether the player needs another chunk.
 const CHUNK_INTERVAL: Duration = Duration::from_millis(5);
 
-/// Sound output of the window; its thread starts with the first sound.
+/// The window's sound output. Its thread starts with the first sound.
 pub struct AudioOutput {
     settings: SoundSettings,
     on: bool,
@@ -52,12 +52,12 @@ impl AudioOutput {
         }
     }
 
-    /// Silences the output until the inputs are updated again.
+    /// Mutes the output until the inputs are updated again.
     pub fn silence(&self) {
         locked(&self.inputs).silent = true;
     }
 
-    /// Updates the inputs of the sound synthesis.
+    /// Updates the inputs for sound synthesis.
     pub fn set(&mut self, heard: SoundInputs) {
         if !self.on {
             return;
@@ -75,7 +75,7 @@ fn locked(heard: &Mutex<SoundInputs>) -> MutexGuard<'_, SoundInputs> {
     heard.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Plays until the window is closed, with the first player that works.
+/// Plays sound until the window is closed, using the first player that works.
 fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut tried = Vec::new();
     for (name, args) in PLAYERS {
@@ -85,13 +85,13 @@ fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
         }
     }
     tracing::warn!(
-        "no sound ({}); Debian and Ubuntu: apt-get install pulseaudio-utils or alsa-utils; everything else works",
+        "no sound ({}); on Debian and Ubuntu, install pulseaudio-utils or alsa-utils; everything else works",
         tried.join("; ")
     );
     speak(heard, settings);
 }
 
-/// Speaks warnings until the window is closed; speech does not require a player.
+/// Speaks warnings until the window is closed. Speech does not need a player.
 fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut voice = SpeechVoice::new(settings.speech);
     while Arc::strong_count(heard) > 1 && voice.on {
@@ -114,7 +114,7 @@ fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, setting
         let now = locked(heard).clone();
         voice.update_inputs(&now);
         sound.set(now);
-        // After a stall of the computer, skips the missed sound instead of catching up.
+        // If the computer has stalled, skip the missed sound instead of catching up.
         made = made.max(watch.elapsed());
         while made < watch.elapsed() + PLAYBACK_LEAD {
             if stdin.write_all(&next_chunk(&mut sound)).is_err() {
@@ -125,7 +125,7 @@ fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, setting
         std::thread::sleep(CHUNK_INTERVAL);
     }
     drop(stdin);
-    // The player plays the rest of its buffer and exits.
+    // The player finishes its buffer and exits.
     player.wait().map(|_| ())
 }
 
@@ -162,7 +162,7 @@ impl SpeechVoice {
         if started.is_none() {
             self.on = false;
             tracing::warn!(
-                "no spoken warnings: none of {} is installed (Debian and Ubuntu: apt-get install espeak-ng)",
+                "no spoken warnings: none of {} is installed (on Debian and Ubuntu, run apt-get install espeak-ng)",
                 SPEECH_PROGRAMS.join(", ")
             );
         }

@@ -1,5 +1,5 @@
-//! Streams the camera's view as H.264 over RTP. A separate thread encodes and sends, so that a slow network or encoder
-//! drops frames of the stream, but not of the window.
+//! Streams the camera's view as H.264 over RTP. A separate thread encodes and sends frames, so a slow network or
+//! encoder drops frames in the stream, but not in the window.
 
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -18,13 +18,13 @@ use std::time::Duration;
 
 /// Bits per pixel (estimate: 2 Mbit/s at 720p25, which wireless networks can handle).
 const BITS_PER_PIXEL: f64 = 0.1;
-/// Number of frames between key frames, which is the maximum wait of a receiver that joins the stream.
+/// Number of frames between key frames. A receiver that joins the stream waits for the next key frame.
 const KEY_FRAME_INTERVAL: u32 = 25;
-/// Minimum interval between frames: 30 per second, as from drone cameras (estimate; docs/src/reference/wire.md,
-/// "Camera, gimbal and lamp"). The window may have a higher frame rate.
+/// Minimum interval between frames: 30 frames per second, typical of drone cameras (estimate;
+/// docs/src/reference/wire.md, "Camera, gimbal and lamp"). The window may have a higher frame rate.
 const MIN_FRAME_INTERVAL: Duration = Duration::from_nanos(33_000_000);
 
-/// A video stream to a receiver.
+/// A video stream to one receiver.
 pub struct StreamSender {
     /// Set to `None` to end the stream.
     pictures: Option<SyncSender<Picture>>,
@@ -36,11 +36,11 @@ pub struct StreamSender {
     last: Option<Stopwatch>,
 }
 
-/// Stream statistics.
+/// Statistics about the stream.
 #[derive(Debug, Clone, Copy, Default)]
 struct StreamStatistics {
     pictures: u64,
-    /// Total encoding time (wall time).
+    /// Total encoding time, measured as wall time.
     encoding: Duration,
 }
 
@@ -55,7 +55,7 @@ impl StreamSender {
         if to.port() != PORT {
             tracing::warn!("--stream {to}: the vehicle still announces port {PORT}; configure the other port in the receiver");
         }
-        // At most one frame waits while another is being encoded; further frames are dropped.
+        // The queue holds at most one frame while another frame is being encoded; further frames are dropped.
         let (pictures, wanted) = sync_channel(1);
         let encoding_fails = Arc::new(AtomicBool::new(false));
         let line = StreamDestination { socket, to, packets: RtpPacketizer::new(seed), watch: Stopwatch::start(), told: false };
@@ -72,8 +72,8 @@ impl StreamSender {
         self.last.is_none_or(|last| last.elapsed() >= MIN_FRAME_INTERVAL)
     }
 
-    /// Passes a frame to the encoder if it is ready. Returns the status of the stream once the frame rate is known, if
-    /// encoding works.
+    /// Passes a frame to the encoder if it is ready. If encoding works, returns the stream's status once the frame rate
+    /// is known.
     pub fn push(&mut self, picture: Picture) -> Option<VideoStatus> {
         let (width_px, height_px) = (picture.width, picture.height);
         self.last = Some(Stopwatch::start());
@@ -95,12 +95,12 @@ impl Drop for StreamSender {
         // A panic in the thread has already been reported.
         if let Some(Ok(sent)) = self.sender.take().map(JoinHandle::join) {
             let each_ms = 1e3 * sent.encoding.as_secs_f64() / (sent.pictures.max(1) as f64);
-            tracing::info!("{} frames streamed, encoded in {each_ms:.1} ms each", sent.pictures);
+            tracing::info!("streamed {} frames, average encoding time {each_ms:.1} ms", sent.pictures);
         }
     }
 }
 
-/// Opens a socket that only sends to this address.
+/// Opens a socket that sends only to this address.
 fn socket(to: SocketAddr) -> std::io::Result<UdpSocket> {
     let any =
         if to.is_ipv4() { SocketAddr::from((Ipv4Addr::UNSPECIFIED, 0)) } else { SocketAddr::from((Ipv6Addr::UNSPECIFIED, 0)) };
@@ -113,7 +113,7 @@ fn bits_s((width, height): (u32, u32)) -> u32 {
     (BITS_PER_PIXEL * f64::from(width) * f64::from(height) * f64::from(KEY_FRAME_INTERVAL)) as u32
 }
 
-/// Destination of the packets.
+/// Where the packets are sent.
 struct StreamDestination {
     socket: UdpSocket,
     to: SocketAddr,
@@ -132,13 +132,13 @@ impl StreamDestination {
                 && error.kind() != std::io::ErrorKind::ConnectionRefused
                 && !std::mem::replace(&mut self.told, true)
             {
-                tracing::warn!("lost packets of the stream to {}: {error}", self.to);
+                tracing::warn!("lost stream packets to {}: {error}", self.to);
             }
         }
     }
 }
 
-/// Encoder for frames of varying size.
+/// An encoder for frames of varying size.
 #[derive(Default)]
 struct ResizingEncoder(Option<(H264Encoder, (u32, u32))>);
 
@@ -155,12 +155,12 @@ impl ResizingEncoder {
     }
 }
 
-/// The last error that was reported.
+/// The last reported error.
 #[derive(Debug, Default)]
 struct LastError(Option<VideoError>);
 
 impl LastError {
-    /// Returns an error only if it differs from the last one. After a success, the same error is returned again.
+    /// Returns an error only if it differs from the last one. After a success, returns the same error again.
     fn new_error(&mut self, wrong: Option<VideoError>) -> Option<&VideoError> {
         if self.0 == wrong {
             return None;
@@ -170,7 +170,7 @@ impl LastError {
     }
 }
 
-/// Encodes and sends until the window is closed.
+/// Encodes and sends frames until the window is closed.
 fn send(wanted: &Receiver<Picture>, mut line: StreamDestination, encoding_fails: &AtomicBool) -> StreamStatistics {
     let (mut encoder, mut complaint, mut sent) = (ResizingEncoder::default(), LastError::default(), StreamStatistics::default());
     while let Ok(picture) = wanted.recv() {
@@ -178,7 +178,7 @@ fn send(wanted: &Receiver<Picture>, mut line: StreamDestination, encoding_fails:
         let encoded = encoder.encode(&picture);
         encoding_fails.store(encoded.is_err(), Ordering::Relaxed);
         if let Some(error) = complaint.new_error(encoded.as_ref().err().cloned()) {
-            tracing::warn!("frames are missing in the stream: {error}");
+            tracing::warn!("the stream is missing frames: {error}");
         }
         if let Ok(encoded) = encoded {
             sent.encoding += began.elapsed();

@@ -13,7 +13,7 @@ pub struct TrainPipe {
 }
 
 impl TrainPipe {
-    /// Reads messages from standard input. When it closes, the window closes as well.
+    /// Reads messages from standard input. When standard input closes, the window closes, too.
     pub fn listen(stop: &StopRequest) -> Self {
         Self { lines: stop.lines(), error_reported: false }
     }
@@ -33,7 +33,7 @@ impl TrainPipe {
         None
     }
 
-    /// Sends a message to `train`. If `train` has exited, standard input closes as well, which closes the window.
+    /// Sends a message to `train`. If `train` has exited, standard input also closes, which closes the window.
     pub fn send(&self, message: &FromWindow) {
         let mut out = std::io::stdout().lock();
         if let Err(error) = writeln!(out, "{}", pipe::line(message)).and_then(|()| out.flush()) {

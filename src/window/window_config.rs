@@ -1,4 +1,4 @@
-//! Settings of the window from the command line.
+//! Window settings from the command line.
 
 use spandrel_clients::rc::keyboard::KeyBindings;
 use spandrel_model::scenario::Scenario;
@@ -8,14 +8,14 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Settings of the window from the command line.
+/// Window settings from the command line.
 #[derive(Debug, Clone)]
 pub struct WindowConfig {
     /// Local address to bind.
     pub listen: IpAddr,
-    /// Quality preset; `None` to choose one that suits the device.
+    /// Quality preset; `None` to choose a preset that suits the device.
     pub quality: Option<Quality>,
-    /// Window size, px: width, height.
+    /// Window width and height, px.
     pub size_px: (u32, u32),
     /// True if the map may be shown.
     pub map: bool,
@@ -23,7 +23,7 @@ pub struct WindowConfig {
     pub picture: Option<CaptureRequest>,
     /// File to save the camera's view to.
     pub camera_file: Option<PathBuf>,
-    /// True to print a line on standard output when both views have been rendered.
+    /// True to print a line on standard output after both views have been rendered.
     pub announce: bool,
 }
 
@@ -36,10 +36,10 @@ pub struct CaptureRequest {
     pub after: Duration,
 }
 
-/// Startup configuration of the window.
+/// The window's startup configuration.
 #[derive(Debug)]
 pub struct WindowSetup {
-    /// Settings of the window itself.
+    /// Settings for the window itself.
     pub config: WindowConfig,
     /// The job to show.
     pub scenario: Scenario,
@@ -57,7 +57,7 @@ pub struct WindowSetup {
     pub device: Option<String>,
     /// Folder for calibration profiles; `None` for the user's default folder.
     pub profiles: Option<PathBuf>,
-    /// Destination of the camera's view as H.264 over RTP.
+    /// Address to stream the camera's view to, as H.264 over RTP.
     pub stream: Option<SocketAddr>,
     /// True if sound is on.
     pub sound: bool,

@@ -1,4 +1,4 @@
-//! Composes the window from views, displays and texts.
+//! Paints the window's views, displays and texts.
 
 use super::flight_view::SceneLoading;
 use super::listener::TelemetryListener;
@@ -7,10 +7,10 @@ use spandrel_clients::rc::keyboard::KeyBindings;
 use spandrel_view::arrange::ViewLayout;
 use spandrel_view::gpu::paint;
 
-/// Texts of the window.
+/// The window's texts.
 #[derive(Default)]
 pub struct WindowText {
-    /// Status while the scene is not ready.
+    /// Status to show while the scene is not ready.
     pub waiting: String,
     /// Recent messages, shown for a few seconds.
     pub lines: Vec<String>,

@@ -147,5 +147,5 @@ def test_wire_waiting_for_a_vehicle_is_reported(tmp_path):
         spandrel.end(sim)
     finally:
         spandrel.end(waits)
-    assert told == [f"no vehicle at 127.0.0.1:{dial} yet; waiting", f"connected to the vehicle at 127.0.0.1:{dial}"]
+    assert told == [f"waiting for a vehicle at 127.0.0.1:{dial}", f"connected to the vehicle at 127.0.0.1:{dial}"]
     assert waits.returncode == 0

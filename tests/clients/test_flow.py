@@ -168,7 +168,7 @@ def test_wire_complete_session_with_the_keyboard(screen, tmp_path):
 
         def flies():
             again.if_due()
-            return "lift-off" in training.told().split("attempt ended; the recorded data")[-1]
+            return "lift-off" in training.told().split("the attempt has ended; the recorded data")[-1]
 
         spandrel.wait_for("lift-off", flies, LIMIT_S)
 

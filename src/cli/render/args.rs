@@ -6,11 +6,11 @@ use std::path::PathBuf;
 
 /// Render any moment of a recorded session, or a scenario from any viewpoint, as a PNG picture
 ///
-/// For a session: the view of the aircraft's camera at a simulation time, the inspector's view from the landing pad, or
-/// both side by side, with head-up display. For a scenario: the view from any point toward another point. No window or
-/// graphics card is needed: a software Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers). --snapshots
-/// renders all photographs of a session into its folder as JPEG files with EXIF and XMP; --video renders the camera's
-/// view, with the photographs as chapters in a separate file (WebVTT).
+/// For a session, renders the aircraft camera's view at a simulation time, the inspector's view from the landing pad,
+/// or both side by side, with head-up display. For a scenario, renders the view from any point toward another point. It
+/// needs no window or graphics card: a software Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers).
+/// --snapshots renders all photographs of a session into its folder as JPEG files with EXIF and XMP; --video renders
+/// the camera's view, with the photographs as chapters in a separate file (WebVTT).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -28,23 +28,23 @@ pub struct Args {
     /// Session folder, scenario file, or the name of a shipped scenario
     #[arg(value_name = "SESSION|SCENARIO")]
     pub what: String,
-    /// Simulation time, s [default for a session: the middle of the flight]
+    /// Simulation time in s [default for a session: the middle of the flight]
     #[arg(long, value_name = "S")]
     pub at: Option<f64>,
     /// Output file; '-' for standard output
     #[arg(long, value_name = "FILE", default_value = "picture.png")]
     pub out: String,
-    /// View of a session to render
+    /// View to render for a session
     #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
     pub view: String,
-    /// Size of each view, px; the camera's view and photographs keep the sensor's aspect ratio within it [default:
-    /// 1280x720; for photographs the camera's, smaller without a graphics card]
+    /// Size of each view in px; the camera's view and photographs keep the sensor's aspect ratio within it [default:
+    /// 1280x720; for photographs the camera's size, or a smaller size without a graphics card]
     #[arg(long, value_name = "WxH")]
     pub size: Option<String>,
     /// Rendering quality: low, medium, high or ultra
     #[arg(long, value_name = "PRESET", default_value = "high")]
     pub quality: String,
-    /// Write label masks for each picture, to train detectors: NAME.elements.png (AASHTO element numbers),
+    /// Write label masks for each picture, for training detectors: NAME.elements.png (AASHTO element numbers),
     /// NAME.defects.png (defect numbers), both 16-bit grayscale, and NAME.masks.json (kind, condition state and box of
     /// each defect)
     #[arg(long, conflicts_with = "video")]
@@ -52,35 +52,35 @@ pub struct Args {
     /// Hide the head-up display
     #[arg(long)]
     pub no_hud: bool,
-    /// Render all photographs of a session to its folder "snapshots" (JPEG) and small copies for the report to its
-    /// folder "small", and rewrite the report
+    /// Render all of a session's photographs to its "snapshots" folder (JPEG) and small copies for the report to its
+    /// "small" folder, and rewrite the report
     #[arg(long, conflicts_with_all = ["at", "out", "view", "video"])]
     pub snapshots: bool,
     /// Render a session's camera view as a video (MP4, H.264), with chapters in a .vtt file next to it
     #[arg(long, value_name = "FILE", conflicts_with_all = ["at", "out", "view"])]
     pub video: Option<PathBuf>,
-    /// Video frame rate, frames per second, 1 to 60
+    /// Video frame rate in frames per second (1 to 60)
     #[arg(long, value_name = "HZ", default_value_t = 15.0, requires = "video")]
     pub fps: f64,
-    /// Part of the flight in the video, s of simulation time [default: all]
+    /// Part of the flight to show in the video, in s of simulation time [default: all]
     #[arg(long, value_name = "FROM,TO", requires = "video")]
     pub span: Option<String>,
-    /// Viewpoint, m from the scenario's origin: east, north, up; scenarios only
+    /// Viewpoint in m east, north and up from the scenario's origin; scenarios only
     #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "look")]
     pub from: Option<String>,
-    /// Point to look at, m
+    /// Point to look at, in the same coordinates
     #[arg(long, value_name = "E,N,U", allow_hyphen_values = true, requires = "from")]
     pub look: Option<String>,
-    /// Horizontal field of view, deg [default: that of the aircraft's camera]; scenarios only
+    /// Horizontal field of view in deg; scenarios only [default: the aircraft camera's]
     #[arg(long, value_name = "DEG")]
     pub fov: Option<f64>,
     /// Turn on the lamp at the viewpoint; scenarios only
     #[arg(long)]
     pub lamp: bool,
-    /// Start time, which sets the position of the sun, UTC (2026-06-20T08:00:00Z); scenarios only
+    /// Start time in UTC (2026-06-20T08:00:00Z), which determines the sun's position; scenarios only
     #[arg(long, value_name = "UTC")]
     pub utc: Option<String>,
-    /// Cloud cover, 0 to 1; scenarios only
+    /// Cloud cover (0 to 1); scenarios only
     #[arg(long, value_name = "SHARE")]
     pub cloud: Option<f64>,
     /// Aircraft for a scenario: a file, or the name of a shipped aircraft
@@ -89,7 +89,7 @@ pub struct Args {
     /// Run at low CPU priority
     #[arg(long)]
     pub nice: bool,
-    /// Seed for a scenario's defects and traffic [default: its own]
+    /// Seed for a scenario's defects and traffic [default: the scenario's seed]
     #[arg(long, value_name = "N", value_parser = parse_seed)]
     pub seed: Option<u64>,
 }

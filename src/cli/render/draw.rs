@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     files::write(&args.out, &png(&picture)?)
 }
 
-/// Rejects options whose values come from the session.
+/// Rejects options that do not apply to a session, because the session sets their values.
 fn reject_scenario_options(args: &Args) -> Result<(), AppError> {
     let given = [
         ("--from", args.from.is_some()),
@@ -49,10 +49,9 @@ fn reject_scenario_options(args: &Args) -> Result<(), AppError> {
     ];
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
-        Some((name, _)) => Err(AppError::wrong(format!(
-            "{name}: '{}' is a session, which is rendered as flown; {name} is for scenarios only",
-            args.what
-        ))),
+        Some((name, _)) => {
+            Err(AppError::wrong(format!("{name}: '{}' is a session, but {name} applies only to scenarios", args.what)))
+        }
     }
 }
 
@@ -99,7 +98,7 @@ fn render_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pi
     draw(&drawing, args, &[(shot, Vec::new())])
 }
 
-/// Renders a moment of a session.
+/// Renders a session at one moment.
 fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
@@ -123,8 +122,8 @@ fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pic
     draw(&drawing, args, &views)
 }
 
-/// Renders shots side by side, each with its overlay. Also writes the label masks if they are requested and there is a
-/// single shot.
+/// Renders shots side by side, each with its overlay. If label masks are requested and there is a single shot, writes
+/// them as well.
 fn draw(drawing: &SceneDrawing, args: &Args, views: &[(Shot, Vec<hud::DrawItem>)]) -> Result<Picture, AppError> {
     let mut scene_renderer = drawing.scene_renderer();
     if let (true, [(shot, _)]) = (args.masks, views) {

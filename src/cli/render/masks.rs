@@ -1,4 +1,4 @@
-//! Label masks: the element and the defect that each pixel shows.
+//! Label masks, which contain the element and defect that each pixel shows.
 
 use super::args::Args;
 use super::scene_drawing::SceneRenderer;
@@ -8,7 +8,7 @@ use spandrel_model::scenario::PlacedDefect;
 use spandrel_view::shot::Shot;
 use std::path::Path;
 
-/// Checks that label masks are requested for a single image or for photographs.
+/// Checks that label masks are requested only for a single image or for photographs.
 pub fn check(args: &Args) -> Result<(), AppError> {
     let one = args.snapshots || args.from.is_some() || args.view != "both";
     if args.masks && !one {
@@ -20,7 +20,7 @@ pub fn check(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Writes the label masks of a shot next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and
+/// Writes a shot's label masks next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and
 /// NAME.masks.json.
 pub fn write(scene_renderer: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
     let masks = scene_renderer.labels(shot)?;

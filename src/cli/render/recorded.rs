@@ -1,4 +1,4 @@
-//! A recorded session for rendering: poses at any time, and the values of the head-up display.
+//! A recorded session for rendering: poses at any time, and head-up display values.
 
 use crate::errors::AppError;
 use crate::io::files;
@@ -22,23 +22,23 @@ use spandrel_view::scene::DronePose;
 use spandrel_view::stage::SceneMoment;
 use std::path::{Path, PathBuf};
 
-/// A recorded flight with its session folder.
+/// A recorded flight and its session folder.
 pub struct RecordedFlight {
     /// Session folder.
     pub folder: PathBuf,
     /// Contents of the session folder.
     pub stored: StoredSession,
-    /// Wall time of simulation time zero, µs since the Unix epoch.
+    /// Wall time at simulation time zero, µs since the Unix epoch.
     zero_unix_us: u64,
-    /// Complete telemetry log in memory, because images may need its records in any order.
+    /// Complete telemetry log, kept in memory because images may need its records in any order.
     log: Vec<u8>,
-    /// Scored flight of the session, the one to render.
+    /// The session's scored flight, which is the one to render.
     pub flight: Flight,
     /// Number of earlier flights in the log, from before the simulator was restarted.
     before: usize,
     /// Total duration of the earlier flights.
     earlier_duration: SimTime,
-    /// Number of records of the earlier flights.
+    /// Number of records in the earlier flights.
     earlier_records: usize,
 }
 
@@ -73,7 +73,7 @@ impl RecordedFlight {
         })
     }
 
-    /// Converts a simulation time of the flight to wall time, µs since the Unix epoch.
+    /// Converts a simulation time of the flight to wall time in µs since the Unix epoch.
     pub fn unix_us(&self, at: SimTime) -> u64 {
         self.zero_unix_us + u64::try_from((self.earlier_duration + at).us()).unwrap_or(0)
     }
@@ -88,7 +88,7 @@ impl RecordedFlight {
         &self.stored.vehicle.vehicle
     }
 
-    /// Returns the first and last time of the flight.
+    /// Returns the flight's start and end times.
     pub fn span(&self) -> (SimTime, SimTime) {
         let time = |truth: Option<&spandrel_mavlink::contract::truth::Truth>| truth.map_or(SimTime::ZERO, |truth| truth.time);
         (time(self.flight.truths.first()), time(self.flight.truths.last()))
@@ -104,7 +104,7 @@ impl RecordedFlight {
         attention::bridge_closures(&self.flight)
     }
 
-    /// Returns the poses at a given time of the flight.
+    /// Returns the poses at this time in the flight.
     ///
     /// # Errors
     /// Returns an error if there is no telemetry for this time.
@@ -112,11 +112,11 @@ impl RecordedFlight {
         let (first, last) = self.span();
         moment(&self.flight, at, self.vehicle()).ok_or_else(|| {
             let (at, first, last) = (at.s(), first.s(), last.s());
-            AppError::failed(format!("the session has no data at {at:.1} s, only from {first:.1} to {last:.1} s"))
+            AppError::failed(format!("the session has no data at {at:.1} s (available: {first:.1} to {last:.1} s)"))
         })
     }
 
-    /// Returns a feed of the other display values that starts with the flight.
+    /// Returns a feed of the other display values from the start of the flight.
     pub fn replay_feed(&self) -> RecordedFeed<'_> {
         // A session without an event log is rendered without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
@@ -126,7 +126,7 @@ impl RecordedFlight {
         }
         let mut events: Vec<(SimTime, serde_json::Value)> =
             events.filter_map(|event| Some((event["t_s"].as_f64().map(SimTime::from_s)?, event))).collect();
-        // Reversed so that events can be popped from the end; the sort keeps the order of simultaneous events.
+        // Reversed so that events can be popped from the end; the sort preserves the order of simultaneous events.
         events.sort_by_key(|event| event.0);
         events.reverse();
         let records = tlog::TlogReader::new(&self.log).skip(self.earlier_records);
@@ -170,7 +170,7 @@ impl RecordedFeed<'_> {
 }
 
 /// Returns the poses at a time; `None` without telemetry. Attitude, gimbal and zoom are interpolated, as in the live
-/// view; the other values are the last ones received.
+/// view; other values are the last ones received.
 fn moment(flight: &Flight, at: SimTime, vehicle: &Vehicle) -> Option<SceneMoment> {
     let state = flight.between(at)?;
     let trace = trace(flight, at);
@@ -219,7 +219,7 @@ mod tests {
     /// Interval between position samples, ms (50 Hz).
     const STEP_MS: i64 = 20;
 
-    /// Writes a session's records as a vehicle and a monitor would.
+    /// Writes a session's records as a vehicle and a monitor would write them.
     struct ReplayTelemetry {
         folder: SessionFolder,
         vehicle: Encoder,
@@ -253,7 +253,7 @@ mod tests {
             self.hear(&frame);
         }
 
-        /// Records a flight with its clock starting at zero, in this PX4 flight mode, with a status text.
+        /// Records a flight in this PX4 flight mode with a status text; its clock starts at zero.
         fn flight(&mut self, until_ms: i64, height_m: f64, mode: u32, words: &str) {
             for ms in (0..=until_ms).step_by(STEP_MS as usize) {
                 self.truth(ms, height_m, false);
@@ -285,7 +285,7 @@ mod tests {
         let folder = SessionFolder::create(sessions.path(), "anna", STARTED_US, &scenario, &vehicle).unwrap();
         let (vehicle, other) = (Encoder::new(1, 1), Encoder::new(2, 1));
         let mut tape = ReplayTelemetry { folder, vehicle, other, scenario: scenario.scenario, newest: None };
-        // On the ground. Three late samples of another system do not start a new flight.
+        // On the ground. Three late samples from another system do not start a new flight.
         tape.flight(30_000, 0.0, 2, "Crash: simulator_restarted");
         (0..3).for_each(|k| tape.truth(STEP_MS * k, 0.0, true));
         tape.flight(20_000, 10.0, 3, "Crash: the second");

@@ -1,4 +1,4 @@
-//! A site on a graphics device, rendered one image at a time.
+//! A site on a graphics device, for rendering one image at a time.
 
 use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
@@ -51,12 +51,12 @@ impl SceneDrawing {
         Ok(Self { gpu, site, scene, quality })
     }
 
-    /// Sets the bridge closures of a recorded flight.
+    /// Sets the bridge closures to those of a recorded flight.
     pub fn with_closures(self, closure_times: BridgeClosures) -> Self {
         Self { site: self.site.with_closures(closure_times), ..self }
     }
 
-    /// Returns the parts of the scene that do not change during a session.
+    /// Returns the static parts of the scene.
     pub fn stage<'a>(&'a self, scenario: &'a Scenario, vehicle: &'a Vehicle) -> Stage<'a> {
         Stage { scenario, vehicle, site: &self.site, scene: &self.scene }
     }
@@ -70,7 +70,7 @@ impl SceneDrawing {
         }
     }
 
-    /// Returns the defects of the site.
+    /// Returns the site's defects.
     pub fn defects(&self) -> &[PlacedDefect] {
         self.site.defects()
     }
@@ -89,7 +89,7 @@ impl SceneRenderer<'_> {
         Ok(self.renderer.picture_with(self.gpu, shot, &mut self.overlay, items)?)
     }
 
-    /// Returns the elements and defects that each pixel of a shot shows.
+    /// Returns the element and defect that each pixel of a shot shows.
     pub fn labels(&mut self, shot: &Shot) -> Result<LabelMask, AppError> {
         Ok(self.renderer.labels(self.gpu, shot)?)
     }

@@ -1,4 +1,4 @@
-//! Renders the photographs of a session from its telemetry, with the metadata that the camera would have written.
+//! Renders a session's photographs from its telemetry, with the metadata that the camera would have written.
 
 use super::args::Args;
 use super::masks;
@@ -18,11 +18,11 @@ use spandrel_view::photo::{self, PhotoInfo};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::SceneMoment;
 
-/// Maximum number of pixels without a graphics card, unless a size is specified: roughly a second per image instead of
-/// a minute.
+/// Maximum number of pixels without a graphics card, unless a size is specified. Rendering an image then takes roughly
+/// a second instead of a minute.
 const MAX_SOFTWARE_PX: f64 = 1280.0 * 960.0;
 
-/// Renders all photographs of a session to its folder, and rewrites its report.
+/// Renders all of a session's photographs to its folder, and rewrites its report.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let preset = quality(&args.quality)?;
     let asked = args.size.as_deref().map(size).transpose()?;
@@ -73,7 +73,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Returns the metadata of a photograph, with interpolated attitude and gimbal.
+/// Returns a photograph's metadata, with interpolated aircraft attitude and gimbal angles.
 fn photo_info(recorded: &RecordedFlight, picture: &ReviewedPicture, moment: &SceneMoment, shot: &Shot) -> PhotoInfo {
     let (scenario, vehicle) = (recorded.scenario(), recorded.vehicle());
     let taken_unix_us = recorded.unix_us(picture.time);

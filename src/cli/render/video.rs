@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 /// Bits per pixel (estimate: 6 Mbit/s at 1080p30, typical of small cameras).
 const BITS_PER_PIXEL: f64 = 0.1;
-/// Interval between key frames, s; players can jump to these.
+/// Interval between key frames, s; players can seek to key frames.
 const KEY_FRAME_INTERVAL_S: f64 = 2.0;
 /// Maximum duration of a photograph's chapter, s; a chapter ends where the next one starts.
 const MAX_CHAPTER_S: f64 = 4.0;
@@ -94,7 +94,8 @@ fn span(args: &Args, recorded: &RecordedFlight) -> Result<(SimTime, SimTime), Ap
     if from < first || to > last || from >= to { Err(wrong()) } else { Ok((from, to)) }
 }
 
-/// Returns a chapter for each photograph in the span, with its verdict as title. Chapters last at least one frame.
+/// Returns a chapter for each photograph in the span; the title is the photograph's verdict. Each chapter lasts at
+/// least one frame.
 fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s: f64) -> Vec<webvtt::Chapter> {
     let within: Vec<&ReviewedPicture> = taken.iter().filter(|picture| (from..=to).contains(&picture.time)).collect();
     let next = |k: usize| within.get(k + 1).map_or(to, |next: &&ReviewedPicture| next.time);
@@ -112,7 +113,7 @@ fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s
         .collect()
 }
 
-/// A video file. It has a temporary name until it is complete, so that an existing video is kept until then.
+/// A video file. It has a temporary name until it is complete, so an existing video is not replaced before then.
 struct VideoFile<'a> {
     path: &'a Path,
     part: PathBuf,
@@ -140,7 +141,7 @@ impl<'a> VideoFile<'a> {
 
 impl Drop for VideoFile<'_> {
     fn drop(&mut self) {
-        // If the file still has its temporary name, it is incomplete.
+        // A file that still has its temporary name is incomplete.
         let _ = std::fs::remove_file(&self.part);
     }
 }

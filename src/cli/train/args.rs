@@ -9,16 +9,16 @@ use crate::io::trainee_id::TraineeId;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-/// Default scenario, from the TASBID paper.
+/// Default scenario, which comes from the TASBID paper.
 pub const DEFAULT_SCENARIO: &str = "two-bridges";
 
 /// Fly a session yourself
 ///
 /// Starts the simulator and the monitor, prints how to connect a ground station or a script, waits for the flight, and
-/// prints the scores and the session folder. With a display it opens a window: choose trainee and job (unless a
-/// scenario is given), check the controller, take a tutorial on the first flight, fly with the keyboard or a calibrated
-/// controller in the inspector's and the camera's view, and see the scores. You can pause or restart a practice flight.
-/// Without a display, fly with your ground station or a script.
+/// prints the scores and the session folder. With a display, it opens a window where you choose the trainee and job
+/// (unless you specify a scenario), check the controller, take a tutorial on your first flight, fly with the keyboard
+/// or a calibrated controller using the inspector's and the camera's views, and see the scores. You can pause or
+/// restart a practice flight. Without a display, fly with your ground station or a script.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -36,7 +36,7 @@ pub struct Args {
     /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
-    /// Random seed for defects, traffic, gusts and sensor noise, 0 to 2147483647 [default: the scenario's seed, or a
+    /// Random seed (0 to 2147483647) for defects, traffic, gusts and sensor noise [default: the scenario's seed, or a
     /// new one]
     #[arg(long, value_name = "N", value_parser = args::parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
@@ -46,10 +46,10 @@ pub struct Args {
     /// Purpose of the flight
     #[arg(long, value_name = "PURPOSE", default_value = "practice")]
     pub purpose: args::Purpose,
-    /// Choose in the window even if a scenario is given
+    /// Choose in the window even if a scenario is specified
     #[arg(long, conflicts_with = "no_view")]
     pub choose: bool,
-    /// Folder in which to create session folders
+    /// Folder where session folders are created
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     pub sessions: PathBuf,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max; use 1 to fly by hand
@@ -58,10 +58,10 @@ pub struct Args {
     /// Autopilot protocol; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
     pub flavor: args::Flavor,
-    /// Local port for the web pages of the sessions and the live flight, 0 for any free port, or none
+    /// Local port for the web pages about the sessions and the live flight, 0 for any free port, or none
     #[arg(long, value_name = "PORT|none", default_value = "0")]
     pub web: addresses::PortChoice,
-    /// Don't open the window
+    /// Do not open the window
     #[arg(long)]
     pub no_view: bool,
     /// Quit when the session is scored instead of keeping the vehicle connected
@@ -73,7 +73,7 @@ pub struct Args {
     /// Graphics quality of the window: low, medium, high, ultra, or auto
     #[arg(long, value_name = "PRESET", default_value = "auto")]
     pub quality: String,
-    /// Key bindings of the window (same format as `spandrel view --keys`)
+    /// Key bindings for the window (same format as `spandrel view --keys`)
     #[arg(long, value_name = "FILE")]
     pub keys: Option<PathBuf>,
     /// Controller for flying in the window: its ID or part of its name [default: the only connected controller]
@@ -82,7 +82,7 @@ pub struct Args {
     /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_view")]
     pub profiles: Option<PathBuf>,
-    /// Stream the camera view to this address during the flight, as H.264 over RTP (as `spandrel view --stream`;
+    /// Stream the camera view to this address during the flight, as H.264 over RTP (like `spandrel view --stream`;
     /// QGroundControl listens on UDP 5600)
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, conflicts_with = "no_view")]
     pub stream: Option<SocketAddr>,
@@ -91,14 +91,14 @@ pub struct Args {
 }
 
 impl Args {
-    /// Returns the job of a scenario with the requested aircraft and seed.
+    /// Returns a scenario's job with the requested aircraft and seed.
     pub fn job(&self, scenario: &str) -> JobArgs {
         JobArgs { scenario: scenario.to_owned(), vehicle: self.vehicle.clone(), seed: self.seed }
     }
 }
 
 /// Returns the file to which the window saves the camera's view for the live page. Each process has its own file in the
-/// folder of sessions, where nobody else can write.
+/// sessions folder, where other users cannot write.
 pub fn camera_file(args: &Args) -> PathBuf {
     args.sessions.join(format!(".camera-{}.jpg", std::process::id()))
 }

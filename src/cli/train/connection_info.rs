@@ -3,8 +3,8 @@
 use crate::cli::ports::PortArgs;
 use std::path::Path;
 
-/// Returns the instructions for one flight. `web` is the address of the web pages, and `window` is true if a window
-/// shows the flight.
+/// Returns the instructions for one flight. `web` is the web pages' address, and `window` is true if a window shows the
+/// flight.
 pub fn connection_instructions(
     title: &str,
     args: &PortArgs,

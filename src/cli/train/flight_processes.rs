@@ -1,4 +1,4 @@
-//! The simulator and monitor processes of one flight, and the window's requests during it.
+//! The simulator and monitor processes of one flight, and the window's requests during the flight.
 
 use super::args::Args;
 use super::connection_info::connection_instructions;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::Duration;
 
-/// Interval between checks of the child processes.
+/// Interval at which the child processes are checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 /// Folder for the vehicle's files and flight logs inside the session folder, so that they are erased with the session.
 const VEHICLE_FILES: &str = "vehicle";
@@ -35,18 +35,18 @@ pub struct FlightProcesses {
     choice: FlightChoice,
     title: String,
     paused: bool,
-    /// Arguments that restart a monitor on the same session and port.
+    /// Arguments for restarting the monitor with the same session and port.
     monitor_restart_args: Vec<String>,
     monitor_restarts: u32,
 }
 
-/// Reason for the end of the wait for a flight.
+/// Reason why the wait for a flight ended.
 pub enum FlightOutcome {
     /// The session ended, or the user ended it.
     Over,
     /// The flight must be restarted.
     Restart,
-    /// A process exited too early.
+    /// A process exited unexpectedly.
     Lost(AppError),
 }
 
@@ -104,7 +104,7 @@ impl FlightProcesses {
         Some(SocketAddr::new(self.host, port))
     }
 
-    /// Returns the message that makes the window show the flight.
+    /// Returns the message that tells the window to show the flight.
     pub fn started_message(&self, args: &Args) -> Option<ToWindow> {
         Some(ToWindow::Flying(FlightStarted {
             choice: self.choice.clone(),
@@ -120,8 +120,8 @@ impl FlightProcesses {
         connection_instructions(&self.title, &args.ports, &self.ports, &self.session, (web, window))
     }
 
-    /// Waits until the session ends, a stop is requested, or a process exits too early. Handles the window's requests
-    /// meanwhile.
+    /// Waits until the session ends, a stop is requested, or a process exits unexpectedly. Meanwhile, handles the
+    /// window's requests.
     pub fn wait(&mut self, window: &mut Option<WindowProcess>, stop: &StopRequest) -> FlightOutcome {
         loop {
             if let Some(window) = window {
@@ -132,7 +132,7 @@ impl FlightProcesses {
                     }
                 }
                 if !window.is_open() && self.paused {
-                    // Without the window, the user could not resume.
+                    // Without the window, the user would be unable to resume.
                     self.set_paused(false);
                 }
             }
@@ -195,7 +195,7 @@ impl FlightProcesses {
         self.monitor.read_announcement().map(|_| ())
     }
 
-    /// Ends the monitor, which scores the session and completes its folder. The vehicle stays connected.
+    /// Stops the monitor, which then scores the session and completes its folder. The vehicle stays connected.
     pub fn end_session(&mut self) {
         self.monitor.finish();
         if self.paused {
@@ -208,7 +208,7 @@ impl FlightProcesses {
         self.sim.ended()
     }
 
-    /// Ends both processes; the session is saved.
+    /// Stops both processes; the session is saved.
     pub fn finish(&mut self) {
         self.monitor.finish();
         self.sim.finish();

@@ -1,4 +1,5 @@
-//! `spandrel train`: starts a simulator and a monitor for a trainee, and a window to choose, fly and review flights.
+//! `spandrel train`: starts a simulator and a monitor for a trainee, and a window for choosing, flying and reviewing
+//! flights.
 
 mod args;
 mod connection_info;
@@ -31,7 +32,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     TrainRun::new(args, log, StopRequest::install(false)?).run()
 }
 
-/// Checks the name of a quality preset. Without the `view` feature, every name is accepted.
+/// Checks a quality preset's name. Without the `view` feature, accepts every name.
 fn check_quality(name: &str) -> Result<(), AppError> {
     #[cfg(feature = "view")]
     super::picture_args::quality_or_auto(name)?;

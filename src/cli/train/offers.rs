@@ -15,7 +15,7 @@ use spandrel_view::flow::pipe::{
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Returns the options of the start page.
+/// Returns the choices that the start page offers.
 pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
     let mut names: Vec<String> = files::scenario_names().into_iter().map(str::to_owned).collect();
     if !names.contains(&choice.scenario) {
@@ -33,9 +33,9 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
     }
 }
 
-/// Returns the trainees with their numbers of sessions and practice sessions.
+/// Returns each trainee with the number of sessions and practice sessions.
 fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
-    // A folder that does not exist yet contains no sessions.
+    // If the folder does not exist yet, there are no sessions.
     let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
     let mut count: BTreeMap<String, (u32, u32)> = BTreeMap::new();
     for folder in &folders {
@@ -62,7 +62,7 @@ fn contents_summary(scenario: &Scenario) -> String {
     parts.join(", ")
 }
 
-/// Returns the end page of a session. `trouble` is the reason for missing scores, if known.
+/// Returns a session's end page. `trouble` is the reason why scores are missing, if known.
 pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
     let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
     let assessment: Value = serde_json::from_str(&text).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Renders the photographs of a flight for its folder and its report in the background.
+//! Renders a flight's photographs in the background, for its folder and its report.
 
 use super::window::software_renderer_threads;
 use crate::io::stop::StopRequest;
@@ -14,7 +14,8 @@ const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 pub struct PhotographJobs(Vec<Child>);
 
 impl PhotographJobs {
-    /// Starts rendering a session's photographs. If that fails, the report has placeholders, as without a window.
+    /// Starts rendering a session's photographs. If that fails, the report shows placeholders, as it does without a
+    /// window.
     pub fn draw(&mut self, session: &Path) {
         let started = std::env::current_exe().and_then(|program| {
             let (threads, few) = software_renderer_threads();
@@ -28,7 +29,7 @@ impl PhotographJobs {
         }
     }
 
-    /// Waits until all photographs are rendered; a stop request cancels the rest.
+    /// Waits until all photographs are rendered; a stop request cancels the remaining ones.
     pub fn finish(&mut self, stop: &StopRequest) {
         self.0.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         if !self.0.is_empty() && !stop.is_requested() {

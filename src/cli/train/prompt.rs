@@ -3,7 +3,7 @@
 use std::io::{BufRead, IsTerminal};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Input that requests another flight.
+/// Input that starts another flight.
 const AGAIN_INPUT: &str = "again";
 
 /// A line typed at the terminal.
@@ -38,7 +38,7 @@ impl TerminalPrompt {
         }
     }
 
-    /// Returns the next answer, if one was typed. The end of the input quits.
+    /// Returns the next answer, if one was typed. The end of the input counts as quitting.
     pub fn answer(&mut self) -> Option<PromptAnswer> {
         if !self.is_open() {
             return None;

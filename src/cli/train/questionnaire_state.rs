@@ -1,4 +1,4 @@
-//! Checks whether the questionnaire of a session is complete.
+//! Checks whether a session's questionnaire is complete.
 
 use crate::io::answers::{read_saved_answers, task_ids};
 use crate::io::session_folder::StoredSession;
@@ -9,7 +9,7 @@ pub fn has_unanswered(session: &Path) -> bool {
     let Ok(job) = StoredSession::read_scenario(session) else { return false };
     match read_saved_answers(session, &job.scenario) {
         Ok(answers) => !answers.unwrap_or_default().complete(&task_ids(&job.scenario)),
-        // A page that cannot read the answers cannot accept new ones, either.
+        // If the page cannot read the answers, it cannot accept new ones, either.
         Err(_) => false,
     }
 }

@@ -1,4 +1,4 @@
-//! Sequence of flights in one run of `train`: those chosen in the window, or the one given on the command line.
+//! The flights in one run of `train`: those chosen in the window, or the one specified on the command line.
 
 use super::args::{Args, DEFAULT_SCENARIO, camera_file};
 use super::flight_processes::{FlightOutcome, FlightProcesses};
@@ -20,10 +20,10 @@ use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
 
-/// Interval between checks of the window.
+/// Interval at which the window is checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Web server with the vehicle that its live page shows.
+/// Web server and the vehicle that its live page shows.
 struct ServedPages {
     server: WebServer,
     vehicle: Option<SocketAddr>,
@@ -41,18 +41,18 @@ pub struct TrainRun<'a> {
     web: Option<ServedPages>,
     web_announced: bool,
     photographs: PhotographJobs,
-    /// Vehicle of the last flight. It stays connected until the next flight or the end of the run, so that ground
+    /// Processes of the last flight. Its vehicle stays connected until the next flight or the end of the run, so ground
     /// stations can download its logs.
     vehicle: Option<FlightProcesses>,
     prompt: TerminalPrompt,
 }
 
-/// Decision after a flight.
+/// What to do after a flight.
 enum NextFlight {
     Fly(FlightChoice),
-    /// The user is done flying.
+    /// The user has finished flying.
     Leave,
-    /// There is no window in which to choose.
+    /// No window is available for choosing the next flight.
     NoChoice,
 }
 
@@ -94,7 +94,8 @@ impl<'a> TrainRun<'a> {
         while let NextFlight::Fly(choice) = next {
             let (flown, session) = match self.fly(&choice) {
                 Ok(done) => done,
-                // An error in the first flight ends the run, as without a window; later errors are shown in the window.
+                // An error in the first flight ends the run, as it does without a window; later errors are shown in the
+                // window.
                 Err(error) if last.is_none() && !self.is_window_in_use() => return Err(error),
                 Err(error) => {
                     tracing::warn!("cannot start the flight: {error}");
@@ -108,7 +109,7 @@ impl<'a> TrainRun<'a> {
             last = Some(session);
             next = self.next_choice(&choice);
         }
-        // A user who quits in the window has seen the results; unanswered questions can be answered on the web pages.
+        // A user who quits in the window has seen the results, and can still answer questions on the web pages.
         let seen = matches!(next, NextFlight::Leave) && !last.as_deref().is_some_and(questionnaire_state::has_unanswered);
         self.end_vehicle();
         if let Some(window) = self.window.take() {
@@ -132,7 +133,7 @@ impl<'a> TrainRun<'a> {
         open
     }
 
-    /// Waits until the window is shown. Returns false if that fails.
+    /// Waits until the window appears. Returns false if it fails to open.
     fn wait_for_window(&mut self) -> bool {
         let ready = self.window.as_mut().is_some_and(|window| window.is_ready(&self.stop));
         self.is_open() && ready
@@ -143,7 +144,7 @@ impl<'a> TrainRun<'a> {
         self.is_open() && self.window.as_ref().is_some_and(|window| window.ready)
     }
 
-    /// Returns true if flights are chosen in the window, not only on the command line.
+    /// Returns true if the user can choose flights in the window.
     fn is_window_in_use(&mut self) -> bool {
         self.web_announced && self.is_open()
     }
@@ -154,14 +155,14 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Returns the command line's choice once the window is shown or known to be missing, so that no flight starts
+    /// Returns the command line's choice once the window is shown or has failed to open, so that no flight starts
     /// without its views.
     fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
         self.wait_for_window();
         if self.stop.is_requested() { NextFlight::Leave } else { NextFlight::Fly(usual.clone()) }
     }
 
-    /// Returns the first choice: the window's or, without a window, the command line's.
+    /// Returns the first choice: from the window or, without a window, from the command line.
     fn first_choice(&mut self, usual: &FlightChoice) -> NextFlight {
         if self.wait_for_window() {
             self.serve(None);
@@ -170,7 +171,7 @@ impl<'a> TrainRun<'a> {
                 NextFlight::NoChoice => {}
                 next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
             }
-            // If the user closes the window, no flight follows; if the window crashes, the run continues without it.
+            // If the user closes the window, the run ends; if the window crashes, the run continues without it.
             if self.closed {
                 return NextFlight::Leave;
             }
@@ -179,7 +180,7 @@ impl<'a> TrainRun<'a> {
             return NextFlight::Leave;
         }
         tracing::info!(
-            "using the command line: {} flies {}; use --trainee, --scenario and --purpose to change this",
+            "using the command line: {} flies {}; to change this, use --trainee, --scenario and --purpose",
             usual.trainee,
             usual.scenario
         );
@@ -204,7 +205,7 @@ impl<'a> TrainRun<'a> {
                         Ok(()) => return NextFlight::Fly(choice),
                         Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
                     },
-                    // Ignores late messages about a flight that has just ended.
+                    // Ignore late messages about a flight that has just ended.
                     FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
                 }
             }
@@ -219,7 +220,7 @@ impl<'a> TrainRun<'a> {
         self.prompt_at_terminal(last)
     }
 
-    /// Keeps the vehicle connected if there is no window, until the user answers at the terminal or a stop is
+    /// If there is no window, keeps the vehicle connected until the user answers at the terminal or a stop is
     /// requested.
     fn prompt_at_terminal(&mut self, last: &FlightChoice) -> NextFlight {
         if self.args.once || self.closed || self.vehicle.is_none() {
@@ -272,13 +273,13 @@ impl<'a> TrainRun<'a> {
             print!("{}", flight.connection_info(self.args, web, shown));
             let outcome = flight.wait(&mut self.window, &self.stop);
             if matches!(outcome, FlightOutcome::Over) && self.stop.is_requested() {
-                // After a stop request, no further flight can be chosen.
+                // After a stop request, the user cannot choose another flight.
                 self.window.take().into_iter().for_each(WindowProcess::close);
             }
             flight.end_session();
             let session = flight.session().to_path_buf();
             if matches!(outcome, FlightOutcome::Restart) {
-                tracing::info!("attempt ended; the recorded data is in {}", session.display());
+                tracing::info!("the attempt has ended; the recorded data is in {}", session.display());
                 flight.finish();
                 continue;
             }
@@ -289,7 +290,7 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Shows the result at the terminal and in the window.
+    /// Shows the result in the terminal and in the window.
     fn end(&mut self, choice: &FlightChoice, session: &Path, outcome: FlightOutcome) -> Result<(), AppError> {
         let told = report_outcome(session);
         if told.is_ok() {
@@ -300,8 +301,8 @@ impl<'a> TrainRun<'a> {
             FlightOutcome::Over | FlightOutcome::Restart => told,
         };
         let open = self.is_open();
-        // If the window has crashed, rendering is impossible; after a stop request, the user does not wait for
-        // photographs.
+        // If the window has crashed, rendering does not work; after a stop request, the user should not have to wait
+        // for photographs.
         if (open || self.closed) && result.is_ok() && !self.stop.is_requested() {
             self.photographs.draw(session);
         }
@@ -315,8 +316,8 @@ impl<'a> TrainRun<'a> {
         result
     }
 
-    /// Serves the web pages of the sessions and of this vehicle's flight, at the same address throughout. A failure
-    /// does not prevent the flight.
+    /// Serves the web pages for the sessions and for this vehicle's flight. The address stays the same throughout the
+    /// run. A failure does not prevent the flight.
     fn serve(&mut self, vehicle: Option<SocketAddr>) {
         let addresses::PortChoice::Number(mut port) = self.args.web else { return };
         match self.web.take() {
@@ -342,20 +343,20 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    /// Keeps the web pages available until the user answers at the terminal, because the questionnaire follows the
-    /// flight.
+    /// Keeps the web pages available until the user answers at the terminal, because the user fills in the
+    /// questionnaire after the flight.
     fn keep_serving(&mut self, session: &Path) {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
         let address = offers::flight_summary(session, Some(web.server.address()), None).questionnaire;
         println!("questionnaire {address}   (available until you press Enter)");
-        // Enter only ends the web pages; the run still waits for the photographs.
+        // Enter only stops the web pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {
             std::thread::sleep(CHECK_INTERVAL);
         }
     }
 }
 
-/// Validates a choice from the window like one from the command line.
+/// Validates a choice made in the window in the same way as a choice on the command line.
 fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
     choice.trainee.parse::<TraineeId>().map_err(AppError::wrong)?;
     files::scenario(&choice.scenario).map(|_| ())

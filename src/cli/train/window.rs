@@ -1,4 +1,4 @@
-//! The window as a separate process, and the pipe to it. The session continues if the window exits.
+//! The window process and the pipe to it. The session continues if the window exits.
 
 use super::args::{Args, camera_file};
 use crate::io::addresses::PortChoice;
@@ -8,7 +8,7 @@ use crate::io::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
 
-/// Interval between checks of the window.
+/// Interval at which the window is checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 /// Time limit for the window to open on a busy machine.
 const OPEN_TIMEOUT: Duration = Duration::from_secs(60);
@@ -19,7 +19,7 @@ pub struct WindowProcess {
     has_exited: bool,
     /// True once the window has reported that it is shown.
     pub ready: bool,
-    /// True if the window was closed by the user and did not crash.
+    /// True if the user closed the window; false if it crashed.
     pub closed: bool,
     is_flying: bool,
     bad_line_reported: bool,
@@ -70,7 +70,7 @@ impl WindowProcess {
         self.child.send_line(&pipe::line(message));
     }
 
-    /// Returns the next message of the window. Only the first invalid line is logged; later ones are ignored.
+    /// Returns the window's next message. Only the first invalid line is logged; later ones are ignored.
     pub fn receive(&mut self) -> Option<FromWindow> {
         while let Some(line) = self.child.try_read_line() {
             match pipe::read(&line) {
@@ -127,14 +127,14 @@ fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
 
 fn exit_message(closed: bool, is_flying: bool) -> &'static str {
     match (closed, is_flying) {
-        (true, false) => "window closed",
-        (true, true) => "window closed: the session continues without it",
+        (true, false) => "the window was closed",
+        (true, true) => "the window was closed: the session continues without it",
         (false, _) => "the window failed (see its message in the terminal): the session continues without it",
     }
 }
 
-/// Returns the environment variable that limits Mesa's software renderer to half of the processors; the simulator and
-/// the monitor need the other half.
+/// Returns the environment variable that limits Mesa's software renderer to half of the CPUs; the simulator and the
+/// monitor need the other half.
 pub fn software_renderer_threads() -> (&'static str, String) {
     let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     ("LP_NUM_THREADS", (all / 2).max(1).to_string())

@@ -1,4 +1,4 @@
-//! A calibrated controller: converts its events to stick positions and actions.
+//! Converts a calibrated controller's events to stick positions and actions.
 
 use super::{EventSource, ProfileFolder, read_profile};
 use crate::errors::AppError;
@@ -39,7 +39,7 @@ impl InputLog {
         self.line(input_recording::line(now, event))
     }
 
-    /// Appends a line completely or not at all.
+    /// Appends the whole line or nothing.
     fn line(&mut self, mut line: String) -> std::io::Result<()> {
         line.push('\n');
         self.file.write_all(line.as_bytes()).inspect_err(|_| {
@@ -61,7 +61,7 @@ pub struct ControllerReading {
 }
 
 impl CalibratedController {
-    /// Opens a calibrated controller with the given profile, or with the saved profile of its device.
+    /// Opens a calibrated controller with the specified profile, or with its device's saved profile.
     ///
     /// # Errors
     /// Returns an error if the device is not calibrated, or a file is invalid.
@@ -93,8 +93,8 @@ impl CalibratedController {
         Self { source, profile, raw: RawInput::default(), log: None }
     }
 
-    /// Processes the device's events and its button actions. A recording is replayed according to `flown`, the time
-    /// since the first contact with the vehicle.
+    /// Processes the device's events and its button actions. Recordings are replayed by `flown`, the time since the
+    /// first contact with the vehicle.
     pub fn poll(&mut self, link: &mut ControllerLink, flown: SimTime, now: SimTime) -> ControllerReading {
         while let Some(event) = self.source.next(flown) {
             self.record_event(flown, event);
@@ -114,7 +114,7 @@ impl CalibratedController {
         ControllerReading { sticks: (!self.raw.lost).then(|| self.profile.sticks(&self.raw)), over: self.source.is_over() }
     }
 
-    /// Records an event. A disk error ends the recording, but not the flight.
+    /// Records an event. A disk error stops the recording, but not the flight.
     fn record_event(&mut self, flown: SimTime, event: DeviceEvent) {
         let Some(log) = &mut self.log else { return };
         if let Err(error) = log.write(flown, event) {
@@ -124,7 +124,7 @@ impl CalibratedController {
     }
 }
 
-/// Functions for the controller test and calibration in the window.
+/// Functions for testing and calibrating the controller in the window.
 #[cfg(feature = "view")]
 impl CalibratedController {
     /// Returns the calibration profile in use.
@@ -137,12 +137,12 @@ impl CalibratedController {
         self.profile = profile;
     }
 
-    /// Returns the raw axes and buttons.
+    /// Returns the raw axis and button values.
     pub fn raw(&self) -> &RawInput {
         &self.raw
     }
 
-    /// Returns only the event source, without the profile.
+    /// Discards the profile and returns the event source.
     pub fn release(self) -> EventSource {
         self.source
     }

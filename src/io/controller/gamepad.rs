@@ -1,10 +1,11 @@
-//! Gamepads and RC transmitters, through gilrs. Axes are raw; the calibration assigns their functions.
+//! Gamepads and RC transmitters, accessed through gilrs. Axes are raw; the calibration assigns their functions.
 
 use crate::errors::AppError;
 use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
 use spandrel_clients::rc::{Device, DeviceEvent};
 
-/// Event type of an absolute axis, which Linux stores above the event code (linux/input-event-codes.h, EV_ABS).
+/// Event type of an absolute axis (linux/input-event-codes.h, EV_ABS). Linux stores it in the bits above the event
+/// code.
 const EV_ABS: u32 = 3;
 
 /// A connected gamepad or transmitter.
@@ -16,7 +17,8 @@ pub struct Gamepad {
 }
 
 fn system() -> Result<Gilrs, AppError> {
-    // gilrs' filters are off because the profile defines dead bands, and its mappings are off to get raw axes.
+    // gilrs filters are off because the profile defines dead bands, and gilrs mappings are off because raw axes are
+    // needed.
     let built = GilrsBuilder::new().with_default_filters(false).add_included_mappings(false).add_env_mappings(false).build();
     built.map_err(|error| AppError::failed(format!("cannot access gamepads and transmitters on this machine: {error}")))
 }
@@ -66,7 +68,7 @@ impl Gamepad {
             ([(id, device)], _) => Ok(Self { id: *id, device: device.clone(), system }),
             ([], None) => Err(AppError::failed("no gamepad or transmitter is connected; use --keyboard to fly without one")),
             ([], Some(wanted)) => Err(AppError::failed(format!("no device matches '{wanted}' (connected: {names})"))),
-            _ => Err(AppError::wrong(format!("several devices match: choose one with --device (connected: {names})"))),
+            _ => Err(AppError::wrong(format!("more than one device matches: choose one with --device (connected: {names})"))),
         }
     }
 

@@ -1,4 +1,4 @@
-//! Sources of stick input: gamepads and transmitters (feature `gamepad`), the keyboard of the terminal, and recordings.
+//! Sources of stick input: gamepads and transmitters (feature `gamepad`), the terminal's keyboard, and recordings.
 
 mod calibrated;
 #[cfg(feature = "gamepad")]
@@ -40,7 +40,7 @@ impl EventSource {
         Err(AppError::failed(format!("{}: {NO_GAMEPADS}", wanted.unwrap_or("a gamepad or transmitter"))))
     }
 
-    /// Returns the source device of the events.
+    /// Returns the device that produces the events.
     pub fn device_info(&self) -> &Device {
         match self {
             #[cfg(feature = "gamepad")]
@@ -49,7 +49,7 @@ impl EventSource {
         }
     }
 
-    /// Returns the next event up to time `now`.
+    /// Returns the next event that occurs by time `now`.
     pub fn next(&mut self, now: SimTime) -> Option<DeviceEvent> {
         match self {
             #[cfg(feature = "gamepad")]
@@ -69,7 +69,7 @@ impl EventSource {
 }
 
 #[cfg(not(feature = "gamepad"))]
-const NO_GAMEPADS: &str = "this build does not support gamepads (build with --features gamepad; on Debian and Ubuntu that needs libudev-dev); use --keyboard to fly without one";
+const NO_GAMEPADS: &str = "this build does not support gamepads (build with --features gamepad, which needs libudev-dev on Debian and Ubuntu); use --keyboard to fly without one";
 
 /// Detects newly connected devices.
 #[derive(Debug, Default)]
@@ -84,7 +84,7 @@ impl DeviceWatcher {
     /// Starts watching, if the system supports it.
     pub fn start() -> Self {
         Self {
-            // The search for a device has already reported the error.
+            // The error was already reported during the search for a device.
             #[cfg(feature = "gamepad")]
             system: gamepad::GamepadWatcher::start().ok(),
         }

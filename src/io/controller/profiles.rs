@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 const NO_HOME_FOLDER: &str = "no home folder found: specify a profile folder with --profiles";
 
-/// Folder of profiles; `None` if the user has no home folder. Without a folder, devices have no profiles, but
-/// everything else works.
+/// Profile folder; `None` if the user has no home folder. Without this folder, devices have no profiles, but everything
+/// else works.
 #[derive(Debug, Clone, Default)]
 pub struct ProfileFolder(Option<PathBuf>);
 
@@ -20,7 +20,7 @@ impl ProfileFolder {
         Self(folder.or_else(|| default_folder(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
     }
 
-    /// Returns the folder of the profiles.
+    /// Returns the profile folder.
     ///
     /// # Errors
     /// Returns an error if no folder was specified and the user has no home folder.
@@ -59,7 +59,7 @@ impl ProfileFolder {
     }
 }
 
-/// Returns the user's default folder, based on these two environment variables.
+/// Returns the user's default profile folder, based on these two environment variables.
 fn default_folder(config: Option<OsString>, home: Option<OsString>) -> Option<PathBuf> {
     let known = |place: Option<OsString>| place.filter(|place| !place.is_empty()).map(PathBuf::from);
     let config = known(config).or_else(|| known(home).map(|home| home.join(".config")));

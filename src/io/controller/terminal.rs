@@ -1,5 +1,5 @@
 //! The terminal's keyboard as a controller. Terminals that report key releases (kitty keyboard protocol) work best; in
-//! others, keys are released after a delay.
+//! other terminals, keys count as released after a delay.
 
 use crate::errors::AppError;
 use crossterm::event::{
@@ -42,8 +42,8 @@ impl RawTerminal {
         }
         let failed = |error: std::io::Error| AppError::failed(format!("cannot read key presses from the terminal: {error}"));
         terminal::enable_raw_mode().map_err(failed)?;
-        // The terminal's features are requested on standard error; if standard error is a file, there are no key
-        // releases.
+        // The program queries the terminal's features on standard error; if standard error is a file, key releases are
+        // not available.
         let features_enabled = stderr().is_terminal();
         let reports_releases = features_enabled && terminal::supports_keyboard_enhancement().unwrap_or(false);
         let taken = Self { features_enabled, reports_releases };

@@ -1,7 +1,7 @@
-//! Encodes an Arrow schema as an encapsulated IPC message, which Parquet files contain for Arrow-based readers, because
+//! Encodes an Arrow schema as an encapsulated IPC message. Parquet files include it for Arrow-based readers, because
 //! Parquet's own schema cannot store units. Format: <https://arrow.apache.org/docs/format/Columnar.html>, tables of
 //! `Schema.fbs` and `Message.fbs`; encoding: <https://flatbuffers.dev/internals/>. Parents are written before their
-//! children, so that all offsets are positive.
+//! children so that all offsets are positive.
 
 /// Field type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub enum Kind {
     Utf8,
 }
 
-/// A field of the schema.
+/// A schema field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field<'a> {
     /// Column name.
@@ -41,7 +41,7 @@ const CONTINUATION: [u8; 4] = [0xFF; 4];
 const ALIGNMENT: usize = 8;
 
 impl Kind {
-    /// Returns the type's number in the union `Type`.
+    /// Returns the type's number in the `Type` union.
     fn number(self) -> u8 {
         match self {
             Self::Int64 => 2,
@@ -91,7 +91,7 @@ impl FlatBufferWriter {
     fn table(&mut self, slots: &[Slot]) -> (usize, Vec<usize>) {
         let places_len = 4 + 2 * slots.len();
         let start = (self.bytes.len() + places_len).next_multiple_of(ALIGNMENT);
-        // The vtable ends where the table starts, so the distance back to it is its own length.
+        // The vtable ends where the table starts, so the offset back to the vtable equals its length.
         self.bytes.resize(start - places_len, 0);
         let mut table = (places_len as i32).to_le_bytes().to_vec();
         let mut at = Vec::new();

@@ -1,12 +1,12 @@
-//! Concurrent changes by several stations: erased data stays erased, a rebuild deletes no sessions of other stations,
-//! and no change to a person is lost.
+//! Concurrent changes by several stations: erased data stays erased, a rebuild does not delete other stations'
+//! sessions, and no change to a person is lost.
 
 use super::record;
 use crate::records::database::Database;
 use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::Role;
 
-/// A time after every erasure in these tests, µs since the Unix epoch (2100).
+/// A time after every erasure in these tests, in the year 2100, µs since the Unix epoch.
 const LATER_US: u64 = 4_102_444_800_000_000;
 
 /// Runs all tests in this file on one database.
@@ -27,7 +27,8 @@ fn is_deleted(database: &Database, id: &str) -> bool {
     database.record(id).unwrap().is_none()
 }
 
-/// One station erases sessions, and another, which still has their folders, imports the records that it read earlier.
+/// One station erases sessions. Another station, which still has their folders, imports the records that it read
+/// earlier.
 fn erased_sessions_are_not_imported_again(target: &str) {
     let (here, there) = (Database::open(target).unwrap(), Database::open(target).unwrap());
     let flown = [record("erna", 1), record("erna", 2)];
@@ -42,7 +43,7 @@ fn erased_sessions_are_not_imported_again(target: &str) {
     let anew = SessionRecord { started_unix_us: LATER_US, ..record("erna", 3) };
     assert_eq!(there.put(std::slice::from_ref(&anew)), Ok(1));
     assert_eq!(there.erase("erna", &[]), Ok((true, 1)));
-    // A session deleted by the retention limit stays deleted; the trainee's other sessions can be imported.
+    // A session that was deleted because of its age stays deleted; the trainee's other sessions can be imported.
     assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2)]), Ok(2));
     assert_eq!(here.delete_sessions(&["session-fritz-001".into()], &[]), Ok(1));
     assert_eq!(there.put(&[record("fritz", 1), record("fritz", 2), record("fritz", 3)]), Ok(1));
@@ -82,7 +83,7 @@ fn concurrent_changes_to_person_are_kept(target: &str) {
     assert_eq!(there.set_details("hans", ["25-34", "", "some"], none), Ok(true), "details can be cleared");
     assert_eq!(here.account("hans").unwrap().unwrap().person.age_band, None);
     assert_eq!(here.set_details("nobody-of-this-name", none, none), Ok(false));
-    // The command line sets only the details that were given.
+    // The command line sets only the specified details.
     here.update_details("hans", None, [None, Some("some"), None]).unwrap();
     here.update_details("hans", Some(Role::Trainee), [Some("45-54"), None, None]).unwrap();
     let person = here.account("hans").unwrap().unwrap().person;

@@ -1,4 +1,4 @@
-//! Database tests, run on SQLite and on a real PostgreSQL server.
+//! Database tests, which run on SQLite and on a real PostgreSQL server.
 
 mod changes;
 mod server;
@@ -17,7 +17,7 @@ const STATION_COUNT: usize = 20;
 /// Number of sessions that each station writes.
 const SESSIONS_PER_STATION: usize = 8;
 
-/// Returns a fictitious session record.
+/// Returns a made-up session record.
 fn record(trainee: &str, number: usize) -> SessionRecord {
     let mut record = perfect_record(trainee, number);
     record.started_unix_us = 1_700_000_000_000_000 + 1_000_000 * number as u64;
@@ -100,8 +100,8 @@ fn logins_are_stored_and_erased(target: &str) {
     assert_eq!((account.person, account.hash.as_deref()), (ada, Some("second")));
     assert_eq!(again.remove_password("ada"), Ok(true));
     assert_eq!(again.remove_password("ada"), Ok(false));
-    assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "still known, but can no longer log in");
-    // An erased person can no longer log in, even if the same name is added again.
+    assert_eq!(database.account("ada").unwrap().unwrap().hash, None, "the person still exists but can no longer log in");
+    // An erased person can no longer log in, even if someone adds the same name again.
     assert_eq!(database.erase("o'brien", &[]), Ok((true, 1)));
     assert_eq!((database.names_with_password().unwrap(), database.account("o'brien").unwrap()), (vec![], None));
     database.update_details("o'brien", None, [None; 3]).unwrap();
@@ -151,7 +151,7 @@ fn rebuild_is_atomic(target: &str) {
     let records = [record("ben", 1), record("ben", 2)];
     assert_eq!(database.rebuild(&records, &there), Ok(2));
     assert_eq!(database.records(None).unwrap(), records);
-    // One invalid record fails the whole change; the existing records remain.
+    // If one record is invalid, the whole change fails, and the existing records remain.
     let mut broken = record("ben", 3);
     broken.seconds = f64::NAN;
     let gone: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
@@ -169,7 +169,7 @@ fn concurrent_imports_lose_nothing(target: &str) {
             let target = target.to_owned();
             std::thread::spawn(move || {
                 let database = Database::open(&target).unwrap();
-                // Each trainee exists on two stations, and all stations import the same shared session.
+                // Each trainee exists on two stations, and all stations import the same session.
                 let trainee = format!("t{}", station / 2);
                 for number in 0..SESSIONS_PER_STATION {
                     database.put(&[record(&trainee, station * SESSIONS_PER_STATION + number), record("shared", 0)]).unwrap();
@@ -233,7 +233,7 @@ fn exact_erased_names_are_removed_from_the_file() {
     assert!(!found.into_iter().any(traces));
 }
 
-/// The last task of the web server drops the database in a context that must not block.
+/// The web server's last task drops the database in a context that must not block.
 #[test]
 fn exact_dropping_the_database_does_not_block() {
     let folder = tempfile::tempdir().unwrap();

@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 /// Debian's `nobody` and `nogroup`, because PostgreSQL does not run as root.
 const NOBODY: u32 = 65_534;
 
-/// PostgreSQL's default port, which is also part of the name of its socket.
+/// PostgreSQL's default port, which is also part of its socket's name.
 const DEFAULT_PORT: u16 = 5432;
 
 /// A temporary PostgreSQL server.
@@ -23,7 +23,7 @@ impl PostgresServer {
         Self::with(DEFAULT_PORT, &["listen_addresses=".to_owned()])
     }
 
-    /// Starts a server on a port of this computer, with additional settings (`name=value`).
+    /// Starts a server on one of this machine's ports, with additional settings (`name=value`).
     pub fn on_port(port: u16, settings: &[String]) -> Self {
         let here = ["listen_addresses=127.0.0.1".to_owned(), format!("port={port}")];
         Self::with(port, &[&here, settings].concat())
@@ -55,7 +55,7 @@ impl PostgresServer {
             .spawn()
             .unwrap();
         let mut server = Self { process, folder };
-        // pg_isready connects to the server and waits for its answer.
+        // pg_isready connects to the server and waits for a response.
         let place = ["-h".to_owned(), at(&home), "-p".to_owned(), port.to_string()];
         let ready = || Command::new(bin_folder.join("pg_isready")).args(&place).args(["-t", "1"]).output().unwrap().status;
         while !ready().success() {
@@ -86,7 +86,7 @@ impl Drop for PostgresServer {
     }
 }
 
-/// Returns the folder of the PostgreSQL executables, from Debian's location or the PATH.
+/// Returns the folder of the PostgreSQL executables: Debian's location, or a folder in the PATH.
 fn bin_folder() -> PathBuf {
     let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
     let mut found: Vec<PathBuf> =
@@ -110,8 +110,8 @@ fn unprivileged(program: &Path) -> Command {
     command
 }
 
-/// Transfers a file to the user that runs PostgreSQL and makes it readable only by that user; PostgreSQL rejects
-/// private keys with other permissions.
+/// Changes a file's owner to the user that runs PostgreSQL, and makes the file readable only by that user. PostgreSQL
+/// rejects private keys with other permissions.
 pub fn give_to_postgres(file: &Path) {
     std::fs::set_permissions(file, std::fs::Permissions::from_mode(0o600)).unwrap();
     if is_root() {

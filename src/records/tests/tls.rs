@@ -1,4 +1,4 @@
-//! TLS connections to a real PostgreSQL server, with certificates created by OpenSSL.
+//! Tests TLS connections to a real PostgreSQL server, with certificates created by OpenSSL.
 
 use super::server::{PostgresServer, give_to_postgres};
 use crate::records::database::Database;
@@ -20,7 +20,7 @@ fn authority(folder: &Path, name: &str) {
     openssl(folder, &format!("req -x509 {KEY_OPTIONS} -keyout {name}.key -out {name}.pem -days 2 -subj /CN={name}"));
 }
 
-/// Creates `NAME.pem` and `NAME.key` for a host, signed by the authority `ours`.
+/// Creates `NAME.pem` and `NAME.key` for a host, signed by the `ours` authority.
 fn signed(folder: &Path, name: &str, host: &str) {
     std::fs::write(folder.join("more.cnf"), format!("subjectAltName=DNS:{host}\nbasicConstraints=CA:FALSE\n")).unwrap();
     openssl(folder, &format!("req {KEY_OPTIONS} -keyout {name}.key -out {name}.csr -subj /CN={name}"));
@@ -28,7 +28,7 @@ fn signed(folder: &Path, name: &str, host: &str) {
     openssl(folder, &format!("x509 -req -in {name}.csr -out {name}.pem {sign}"));
 }
 
-/// Returns the TLS version and the subject of the client certificate, as PostgreSQL reports them for this connection.
+/// Returns the TLS version and the client certificate's subject, as reported by PostgreSQL for this connection.
 fn tls_info(url: &str) -> Option<(String, String)> {
     let database = Database::open(url).unwrap();
     let row = database.run(async { sqlx::query(TLS_INFO_QUERY).fetch_optional(&database.pool).await }).unwrap()?;
@@ -44,7 +44,7 @@ fn val_tls_options_in_the_postgresql_url() {
     signed(folder, "server", "localhost");
     signed(folder, "station", "station");
     give_to_postgres(&folder.join("server.key"));
-    // PostgreSQL runs as another user and must be able to read the files.
+    // PostgreSQL runs as a different user and must be able to read the files.
     std::fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
     let at = |name: &str| folder.join(name).display().to_string();
     let port = TcpListener::bind(("127.0.0.1", 0)).unwrap().local_addr().unwrap().port();

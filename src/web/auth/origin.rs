@@ -1,22 +1,22 @@
-//! Checks the origin of requests: site, host name and client address.
+//! Checks where requests come from: site, host name and client address.
 
 use crate::web::response::WebError;
 use axum::http::{HeaderMap, header};
 use ipnet::IpNet;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 
-/// Trusted proxies and the host names of the server.
+/// Trusted proxies and the server's host names.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct AllowedOrigins {
-    /// Proxies that terminate TLS; empty without a proxy. With proxies, all requests must come from them, and only
-    /// their X-Forwarded-For is trusted.
+    /// Proxies that terminate TLS; empty without a proxy. If there are proxies, all requests must come from them, and
+    /// only their X-Forwarded-For header is trusted.
     pub proxies: Vec<IpNet>,
-    /// Host names of this server, in addition to localhost and IP addresses.
+    /// This server's host names, in addition to localhost and IP addresses.
     pub hosts: Vec<String>,
 }
 
 impl AllowedOrigins {
-    /// Returns the settings for a server behind these proxies, or behind a proxy on this machine if none are given.
+    /// Returns the settings for a server behind these proxies, or behind a proxy on this machine if none are specified.
     pub fn behind_proxies(named: &[IpNet], hosts: &[String]) -> Self {
         let local = || vec![IpNet::from(IpAddr::from(Ipv4Addr::LOCALHOST)), IpNet::from(IpAddr::from(Ipv6Addr::LOCALHOST))];
         Self { proxies: if named.is_empty() { local() } else { named.to_vec() }, hosts: hosts.to_vec() }
@@ -37,9 +37,9 @@ impl AllowedOrigins {
         }
     }
 
-    /// Checks that a request names this server and, if it changes anything, that it comes from one of the server's
-    /// pages, as reported by the browser. A server without passwords accepts only requests to this machine's own names,
-    /// which other sites cannot use (DNS rebinding).
+    /// Checks that a request is addressed to this server. If it changes anything, also checks that it comes from one of
+    /// the server's pages, as reported by the browser. A server without passwords accepts only requests to this
+    /// machine's own names, which other sites cannot use (DNS rebinding).
     ///
     /// # Errors
     /// Returns an error if one of these checks fails.
@@ -63,14 +63,14 @@ impl AllowedOrigins {
         if site && origin {
             return Ok(());
         }
-        Err(WebError::Forbidden("This request comes from another site.".into()))
+        Err(WebError::Forbidden("This request came from another site.".into()))
     }
 
-    /// Returns the client's address: that of the socket or, behind a proxy, the last address in X-Forwarded-For that is
-    /// not a trusted proxy.
+    /// Returns the client's address: the socket's peer address or, behind a proxy, the last address in X-Forwarded-For
+    /// that is not a trusted proxy.
     ///
     /// # Errors
-    /// Returns an error if a proxy is required and the socket is not one.
+    /// Returns an error if a proxy is required and the request does not come from one.
     pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
         if self.proxies.is_empty() {
             return Ok(socket);
@@ -79,8 +79,8 @@ impl AllowedOrigins {
             return Err(WebError::Forbidden("This server accepts requests only from its proxy (--trusted-proxy).".into()));
         }
         let lines = headers.get_all("x-forwarded-for").iter().rev().map(|line| line.to_str().unwrap_or_default());
-        // Each proxy appends the address from which it received the request; the client can forge everything before the
-        // last untrusted address.
+        // Each proxy appends the address that sent it the request; the client can forge everything before the last
+        // untrusted address.
         for entry in lines.flat_map(|line| line.rsplit(',')) {
             match entry.trim().parse::<IpAddr>() {
                 Ok(address) if self.trusts(address) => {}
@@ -99,7 +99,7 @@ fn authority(headers: &HeaderMap) -> Option<&str> {
     all.next().is_none().then_some(only)
 }
 
-/// Host in a Host header (RFC 9110, 7.2), without the port.
+/// Host name or address from a Host header (RFC 9110, 7.2), without the port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Host<'a> {
     Address(IpAddr),

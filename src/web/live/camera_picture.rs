@@ -10,7 +10,7 @@ use crate::web::state::ServerState;
 /// First bytes of every JPEG file (ITU-T T.81, B.1.1.3: SOI, then a marker).
 const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
 
-/// Responds with a vehicle's image to an instructor.
+/// Responds to an instructor with a vehicle's image.
 pub fn show(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let (_, live) = select_vehicle(state, request.query_param("vehicle"))?;
     of(live)
@@ -23,7 +23,7 @@ pub fn show(state: &ServerState, request: &WebRequest) -> HandlerResult {
 pub fn of(live: &LiveVehicle) -> HandlerResult {
     let path = live.picture.as_deref().filter(|path| version(path).is_some()).ok_or(WebError::NotFound)?;
     let bytes = std::fs::read(path).map_err(|_| WebError::NotFound)?;
-    // Only JPEG images are served, whatever else the file may contain.
+    // Serve only JPEG images, because the file could contain anything.
     if !bytes.starts_with(&JPEG) {
         return Err(WebError::NotFound);
     }

@@ -1,5 +1,5 @@
-//! Queue of instructor commands to the vehicle. Datagrams can be lost, so each step is repeated until it is answered; a
-//! step without an answer is reported.
+//! Queue of instructor commands to the vehicle. Datagrams can be lost, so each step is repeated until the vehicle
+//! responds; a step without a response is reported.
 
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
@@ -8,12 +8,12 @@ use spandrel_monitor::sidecar::COMPONENT as MONITOR;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// Interval at which an unanswered step is repeated.
+/// Interval at which a step without a response is repeated.
 const RETRY_INTERVAL: Duration = Duration::from_millis(500);
 /// Maximum number of attempts per step.
 const MAX_TRIES: u32 = 20;
-/// MAVLink system ID of the live page. Its component is a companion computer, so that its loss does not trigger the
-/// vehicle's ground station failsafe.
+/// MAVLink system ID of the live page. Its component type is a companion computer, so that losing it does not trigger
+/// the vehicle's ground station failsafe.
 pub const INSTRUCTOR_SYSTEM: u8 = 252;
 pub const INSTRUCTOR_COMPONENT: u8 = 192;
 /// FAILURE_TYPE_OK and FAILURE_TYPE_OFF of MAV_CMD_INJECT_FAILURE.
@@ -32,14 +32,14 @@ pub enum InstructorCommand {
         /// Wind direction (where the wind comes from), degrees clockwise from north.
         from_deg: f64,
     },
-    /// Opens or closes the bridges to traffic.
+    /// Opens the bridges to traffic or closes them.
     Traffic {
         /// True to open the bridges.
         open: bool,
     },
     /// Injects or clears a failure.
     Failure {
-        /// FAILURE_UNIT of the component.
+        /// The component's FAILURE_UNIT.
         unit: f32,
         /// Component name.
         words: &'static str,
@@ -64,8 +64,8 @@ enum ParamNumber {
 }
 
 impl ParamNumber {
-    /// Returns the value as sent. `cast` is true for vehicles that expect integers converted to float, false for
-    /// vehicles that expect their bit pattern.
+    /// Returns the value in its wire format. `cast` is true for vehicles that expect integers converted to float, and
+    /// false for vehicles that expect the integer's bit pattern.
     fn to_wire(self, cast: bool) -> f32 {
         match self {
             Self::Real(value) => value,
@@ -87,7 +87,7 @@ struct QueuedCommand {
     tries: u32,
 }
 
-/// Commands that have not finished yet, processed in order.
+/// Unfinished commands, processed in order.
 #[derive(Debug, Default)]
 pub struct CommandQueue(VecDeque<QueuedCommand>);
 
@@ -133,13 +133,13 @@ impl CommandQueue {
                 break;
             }
             if task.tries >= MAX_TRIES {
-                words.push(format!("{}: no answer", task.description));
+                words.push(format!("{}: no response", task.description));
                 self.0.pop_front();
                 continue;
             }
             frames.push(frame(step, encoder, system, cast));
             (task.last_sent, task.tries) = (Some(now), task.tries + 1);
-            // Notes are not answered; datagrams to a monitor on the same machine are hardly ever lost.
+            // Notes have no response; datagrams to a monitor on the same machine are hardly ever lost.
             if matches!(step, CommandStep::Note(_)) {
                 task.steps.pop_front();
             }
@@ -147,8 +147,8 @@ impl CommandQueue {
         (frames, words)
     }
 
-    /// Checks whether a frame answers the current step. Returns a message if the step was rejected, which ends the
-    /// command.
+    /// Checks whether a frame is a response to the current step. If the step was rejected, ends the command and returns
+    /// a message.
     pub fn handle_frame(&mut self, frame: &ReceivedFrame) -> Option<String> {
         let task = self.0.front_mut()?;
         match answer(task.steps.front()?, frame.message.as_ref()?)? {
@@ -166,11 +166,11 @@ impl CommandQueue {
     }
 }
 
-/// Returns the answer to a step: success, or rejection with a reason. Ignores answers addressed to other systems.
+/// Returns the response to a step: success, or rejection with a reason. Ignores responses addressed to other systems.
 fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'static str>> {
     let ours = |system: u8, component: u8| (system, component) == (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT);
     match (step, message) {
-        // Only the new value counts as an answer; another client may have requested the old one.
+        // Only the new value counts as a response; another client may have requested the old value.
         (CommandStep::Parameter(name, number), MavMessage::PARAM_VALUE(value)) => {
             let done = value.param_id.to_str().is_ok_and(|id| id == *name) && number.matches(value.param_value);
             done.then_some(Ok(()))
@@ -188,14 +188,14 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'stati
     }
 }
 
-/// Returns the result of a command; `None` while it is in progress.
+/// Returns a command's result, or `None` while it is in progress.
 fn result(result: MavResult) -> Option<Result<(), &'static str>> {
     match result {
         MavResult::MAV_RESULT_ACCEPTED => Some(Ok(())),
         MavResult::MAV_RESULT_IN_PROGRESS => None,
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err("not now")),
-        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("the vehicle does not support it")),
-        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denied it")),
+        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("the vehicle does not support this command")),
+        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denied this command")),
         _ => Some(Err("the vehicle reported a failure")),
     }
 }
@@ -292,13 +292,13 @@ mod tests {
         sent(&mut commands, 1);
         assert_eq!(
             commands.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
-            Some("instructor: satellite navigation fails: rejected, the vehicle denied it".into())
+            Some("instructor: satellite navigation fails: rejected, the vehicle denied this command".into())
         );
         let (frames, words) = sent(&mut commands, 2);
         assert_eq!((instructor_note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
         commands.push(InstructorCommand::Wind { speed_m_s: 1.0, from_deg: 0.0 });
         let told: Vec<String> = (0..30).flat_map(|k| sent(&mut commands, 1_000 + 500 * k).1).collect();
-        assert_eq!(told, ["instructor: wind 1 m/s from 0°: no answer"]);
+        assert_eq!(told, ["instructor: wind 1 m/s from 0°: no response"]);
     }
 
     #[test]

@@ -1,5 +1,4 @@
-//! Finds the trainee of a vehicle's current flight, based on the session that a monitor is recording with the same
-//! scenario and seed.
+//! Finds out who is flying a vehicle, based on the session that a monitor is recording with the same scenario and seed.
 
 use crate::io::session_folder::ongoing_session;
 use crate::records::session_folders;
@@ -7,11 +6,11 @@ use spandrel_training::web::live_state::JobIdentity;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// A session whose telemetry has not grown for this long is not the current flight.
+/// Time after which a session whose telemetry has stopped growing is no longer the current flight.
 const MAX_AGE: Duration = Duration::from_secs(10);
 
-/// Returns the trainee of the only matching ongoing session. `None` if there is none or more than one, so that no
-/// trainee sees another trainee's camera view.
+/// Returns the trainee of the only matching ongoing session. Returns `None` if there is no such session or more than
+/// one, so that no trainee sees another trainee's camera view.
 pub fn current_trainee(sessions: &[PathBuf], key: JobIdentity) -> Option<String> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let folders = session_folders(&here).ok()?;

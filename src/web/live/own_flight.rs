@@ -1,5 +1,5 @@
-//! A trainee's page about their own flight, with only the camera's view. The map, cues and actions are for instructors,
-//! because trainees do not have them in an assessment.
+//! A trainee's page for their own flight, which shows only the camera's view. The map, cues and actions are for
+//! instructors, because trainees do not have them in an assessment.
 
 use super::vehicle::LiveVehicle;
 use super::{camera_picture, picture};
@@ -16,7 +16,7 @@ fn flight<'a>(state: &'a ServerState, request: &WebRequest) -> Option<&'a LiveVe
     state.live.iter().find(|live| lock(&live.known.trainee).as_ref() == Some(name))
 }
 
-/// Shows the page, which displays the camera's view as soon as the visitor is flying.
+/// Responds with the page, which displays the camera's view as soon as the visitor is flying.
 pub fn page(_: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::own_flight(&request.visitor)))
 }

@@ -7,7 +7,7 @@ use crate::web::response::{HandlerResult, WebResponse};
 use crate::web::state::ServerState;
 use spandrel_training::web::live as pages;
 
-/// Shows the instructor's live page.
+/// Responds with the instructor's live page.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     if state.live.is_empty() {
         return Ok(WebResponse::page(pages::live(&request.visitor, None, &pages::VehicleSelection::default())));

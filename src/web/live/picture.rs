@@ -1,17 +1,18 @@
-//! Camera image of a live flight, which a window saves to a file about once a second.
+//! A live flight's camera image, which a window saves to a file about once a second.
 
 use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
-/// Age above which an image is outdated.
+/// Age beyond which an image is outdated.
 const MAX_AGE: Duration = Duration::from_secs(10);
 /// Maximum size of an image, bytes; a full HD view takes several hundred thousand bytes.
 const MAX_BYTES: u64 = 4 * 1024 * 1024;
-/// Returns the version of the current image, so that browsers request each image only once; `None` if it is outdated.
+/// Returns the current image's version, or `None` if the image is outdated. The version lets browsers request each
+/// image only once.
 pub fn version(path: &Path) -> Option<u64> {
     let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MAX_BYTES)?;
     let kept = about.modified().ok()?;
-    // If the clock was set back, the image counts as current.
+    // If the clock has been set back, the image counts as current.
     let age = kept.elapsed().unwrap_or_default();
     let since = kept.duration_since(UNIX_EPOCH).ok()?;
     (age < MAX_AGE).then(|| u64::try_from(since.as_millis()).ok()).flatten()

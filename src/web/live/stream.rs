@@ -10,7 +10,7 @@ use spandrel_training::web::access::AccessLevel;
 use std::convert::Infallible;
 use std::sync::Arc;
 
-/// Number of events after which the visitor's access is checked again.
+/// Number of events between checks of the visitor's access.
 const ACCESS_CHECK_INTERVAL: u32 = 50;
 
 /// Streams the values until the browser disconnects or the visitor loses access.

@@ -1,4 +1,4 @@
-//! Listener thread of one vehicle: subscribes to its payload port.
+//! Listener thread, which subscribes to one vehicle's payload port.
 
 use super::command_queue::{CommandQueue, INSTRUCTOR_COMPONENT, INSTRUCTOR_SYSTEM, InstructorCommand};
 use super::{flight_owner, picture};
@@ -23,11 +23,11 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::sync::watch;
 
-/// Interval between updates of the pages.
+/// Interval between page updates.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
-/// Maximum wait for a datagram.
+/// Maximum time to wait for a datagram.
 const MAX_WAIT: Duration = Duration::from_millis(50);
-/// Heartbeat interval. The vehicle drops subscribers that stay silent.
+/// Heartbeat interval. The vehicle drops silent subscribers.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 /// Time without telemetry after which a vehicle is considered silent.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(3);
@@ -37,15 +37,15 @@ const MAX_BATCH_LEN: usize = 256;
 /// Files and folders that the listener reads.
 #[derive(Debug, Clone)]
 pub struct ListenerPaths {
-    /// Folders of sessions, which contain the scenarios of ongoing flights.
+    /// Sessions folders, which contain the scenarios of ongoing flights.
     pub sessions: Vec<PathBuf>,
-    /// Folder of uploaded scenarios.
+    /// Folder for uploaded scenarios.
     pub scenarios: PathBuf,
     /// File to which a window saves the camera's view.
     pub picture: Option<PathBuf>,
 }
 
-/// Listener of one vehicle.
+/// Listener for one vehicle.
 pub struct LiveListener {
     hub: SocketHub,
     socket: SocketId,
@@ -53,7 +53,7 @@ pub struct LiveListener {
     flight: LiveFlightState,
     encoder: Encoder,
     commands: CommandQueue,
-    /// Scenario that was not found, and the time of the search.
+    /// Scenario that was not found, and the time of the last search for it.
     not_found: Option<(JobIdentity, Duration)>,
     /// Time of the last search for the trainee.
     last_trainee_search: Option<Duration>,
@@ -61,12 +61,12 @@ pub struct LiveListener {
     paths: ListenerPaths,
 }
 
-/// State of the flight, read by the pages.
+/// Flight state that the pages read.
 #[derive(Debug, Clone, Default)]
 pub struct SharedFlightInfo {
-    /// Drawings of the scenario.
+    /// The scenario's drawings.
     pub drawings: Arc<Mutex<Option<JobDrawings>>>,
-    /// Trainee of the current flight.
+    /// The current flight's trainee.
     pub trainee: Arc<Mutex<Option<String>>>,
 }
 
@@ -104,7 +104,7 @@ impl LiveListener {
         let clock = Stopwatch::start();
         let (mut heard, mut beat, mut told) = (None, None, None);
         let due = |last: Option<Duration>, every: Duration| last.is_none_or(|last| clock.elapsed() >= last + every);
-        // The channel closes when the server and all its pages are gone.
+        // The channel closes when the server and all its pages have been dropped.
         while !moments.is_closed() {
             if self.receive() {
                 heard = Some(clock.elapsed());
@@ -187,7 +187,7 @@ impl LiveListener {
         self.flight.set_job(key, &scenario);
     }
 
-    /// Updates the trainee from time to time, because another trainee may fly next.
+    /// Updates the trainee regularly, because another trainee may fly next.
     fn find_trainee(&mut self, lives: bool, now: Duration) {
         if self.last_trainee_search.is_some_and(|at| now < at + SILENCE_TIMEOUT) {
             return;

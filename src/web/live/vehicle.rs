@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Sender, channel};
 use tokio::sync::watch;
 
-/// Settings of a vehicle on the live page.
+/// Settings for a vehicle on the live page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WatchedVehicle {
     /// Address of its payload port.

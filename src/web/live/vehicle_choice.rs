@@ -4,7 +4,7 @@ use super::vehicle::LiveVehicle;
 use crate::web::response::WebError;
 use crate::web::state::ServerState;
 
-/// Returns the vehicle with this number (counted from 1) and the number; without a number, returns the first vehicle.
+/// Returns the vehicle with this number (starting at 1), and the number. Without a number, returns the first vehicle.
 ///
 /// # Errors
 /// Returns an error if no vehicle is configured, or the number is too large.
