@@ -39,7 +39,7 @@ pub enum AssessError {
     #[error("no lift-off: the drone never rose more than 0.3 m above the pad, so there is no session to score")]
     NeverFlown,
     /// The telemetry contains no ground-truth messages.
-    #[error("the telemetry contains no HIL_STATE_QUATERNION messages; scoring requires their time and true state")]
+    #[error("the telemetry contains no HIL_STATE_QUATERNION messages; scoring requires their timestamps and true states")]
     NoTruth,
     /// The telemetry was recorded in a different scenario.
     #[error("the simulator runs a different scenario: it reports scn_crc {received:#010x}, but `{name}` has {expected:#010x}")]

@@ -82,7 +82,7 @@ fn exact_review_contains_scorer_assessment() {
     let review = review(&tape, &job);
     assert_eq!((&review.assessment, &review.frames, review.seed), (&graded.assessment, &graded.frames, graded.seed));
     let each = &graded.assessment.snapshots.each;
-    assert!(each.len() > 5, "several pictures are needed");
+    assert!(each.len() > 5, "the test requires several pictures");
     let verdicts: Vec<bool> = review
         .pictures
         .iter()
@@ -112,7 +112,7 @@ fn exact_page_makes_no_network_requests() {
         let inside = value.starts_with('#') || value.starts_with("data:");
         assert!(inside, "{value}");
     }
-    assert_eq!(page.matches("<script").count(), 6, "data, two parts of three.js, uPlot, two of Spandrel's");
+    assert_eq!(page.matches("<script").count(), 6, "expected scripts: data, two for three.js, uPlot, two of Spandrel's own");
     assert!(!page.contains(" style=\"") && !page.contains(" onclick"), "the policy blocks styles and scripts in attributes");
     assert!(page.contains("Content-Security-Policy"));
 }
@@ -139,7 +139,7 @@ fn exact_user_text_is_escaped_everywhere() {
     assert_eq!(evil.feedback.notes.len(), 1);
     for page in [page::session(&evil), page::comparison(&evil, short_review())] {
         let page = without_assets(&page);
-        assert!(page.contains("alert(1)"), "the text is present in escaped form");
+        assert!(page.contains("alert(1)"), "the text should appear in escaped form");
         for raw in ["<script>alert", "<img src=x", "<!--"] {
             assert!(!page.contains(raw), "{raw}");
         }
@@ -167,7 +167,7 @@ fn exact_every_surface_area_has_one_outcome() {
     }
     let job = two_bridges();
     let more = review(&record_inspection(&job, 240.0, 2), &job);
-    assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times as many pictures show more");
+    assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times as many pictures should show more surface");
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn exact_empty_job_has_a_report() {
         "This job has no defects",
         "No contacts",
         "n/a",
-        "1 gaps longer than 0.2 s",
+        "Telemetry gaps longer than 0.2 s: 1",
         "no telemetry for",
     ] {
         assert!(page.contains(words), "{words}");

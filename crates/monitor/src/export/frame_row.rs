@@ -29,9 +29,9 @@ pub struct FrameRow {
     pub since_lift_off_s: f64,
     /// True roll, pitch and yaw, rad.
     pub roll_pitch_yaw_rad: Option<[f64; 3]>,
-    /// Camera pitch relative to the horizon, rad, up positive.
+    /// Camera pitch relative to the horizon, rad, positive up.
     pub gimbal_pitch_rad: Option<f64>,
-    /// Task whose path the drone is on, or else the last task entered.
+    /// Task whose path the drone is on or, if none, the last task entered.
     pub task: Option<TaskDistance>,
     /// Whether the drone is on a task's path.
     pub on_path: bool,

@@ -133,9 +133,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
             let words = if own >= MIN_GOOD_SELF_RATING && measured < low {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0}%, in the bottom quarter")
+                format!("rated their own performance {own:.1} of 5 but scored {measured:.0}%, which is in the bottom quarter")
             } else if own < MIN_GOOD_SELF_RATING && measured > high {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0}%, in the top quarter")
+                format!("rated their own performance {own:.1} of 5 but scored {measured:.0}%, which is in the top quarter")
             } else {
                 continue;
             };
@@ -147,9 +147,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
             let words = if answer <= MAX_AGREEING_ANSWER && record.seconds > slow {
-                format!("felt no time pressure, but flew for {minutes:.1} min, in the slowest quarter")
+                format!("felt no time pressure but flew for {minutes:.1} min, which is in the slowest quarter")
             } else if answer > MAX_AGREEING_ANSWER + 1 && record.seconds < quick {
-                format!("felt time pressure, but flew for {minutes:.1} min, in the fastest quarter")
+                format!("felt time pressure but flew for {minutes:.1} min, which is in the fastest quarter")
             } else {
                 continue;
             };

@@ -67,7 +67,7 @@ pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<M
     if n < RECOMMENDED_TRAINEES {
         warnings.push(format!(
             "demand, strain, performance: only {n} trainees gave complete answers; with fewer than {RECOMMENDED_TRAINEES}, the model can miss medium effects, \
-             so it describes these trainees only and does not generalize"
+             so it describes only these trainees and does not generalize"
         ));
     }
     match estimate(&people) {

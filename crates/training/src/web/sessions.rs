@@ -186,7 +186,7 @@ fn tasks(record: &SessionRecord) -> Markup {
             figure { figcaption { "On-path share by task" } (shares(&rows, "On-path share by task")) }
             (table(
                 "Task results",
-                &[("Task", false), ("Path flown", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
+                &[("Task", false), ("Path flown", false), ("On-path share (%)", true), ("Speeding time (s)", true), ("Crashes", true), ("Defects found", true)],
                 &html! {
                     @for task in &record.tasks {
                         tr {

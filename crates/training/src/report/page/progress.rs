@@ -58,7 +58,7 @@ pub fn progress_figures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> 
         div.three {
             (figure("The four scores by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
             @if !tasks.is_empty() {
-                (figure("On-path share by task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
+                (figure("On-path share by task (%)", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
             }
             (figure("Crashes by object", &html! {
                 @if seen.is_empty() { p.calm { "None." } } @else { (legend(&seen)) (counts(&rows, "Crashes by kind and repetition")) }
@@ -127,7 +127,7 @@ fn curve_table(curves: &[ScoreCurve]) -> Table {
     };
     Table {
         name: "learning_curves",
-        caption: "learning curves, first × repetition ^ exponent",
+        caption: "learning curves (score = first score × repetition ^ exponent)",
         columns: vec!["score", "repetitions", "first", "exponent", "R²", "next"],
         rows: curves.iter().map(row).collect(),
     }
@@ -160,7 +160,7 @@ fn on_path_table(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table {
     Table {
         name: "on_path",
         caption: "on-path share by task",
-        columns: vec!["repetition", "task", "name", "on path, %"],
+        columns: vec!["repetition", "task", "name", "on-path share (%)"],
         rows: progress.repetitions.iter().flat_map(|one| tasks.iter().map(move |task| row(one, task))).collect(),
     }
 }

@@ -11,7 +11,7 @@ pub fn section(review: &Review) -> Markup {
     html! {
         p { (gaps(review)) }
         @if telemetry.missing_frames > 0 {
-            p.note { "In gaps longer than 1 s, missing frames repeat the last known position and are scored there." }
+            p.note { "In gaps longer than 1 s, missing frames repeat the last known position and are scored at that position." }
         }
         (control_intervals(review).shown())
         (files(review).shown())
@@ -25,7 +25,7 @@ fn gaps(review: &Review) -> String {
         return "The telemetry has no gaps longer than 0.2 s.".into();
     }
     format!(
-        "The telemetry has {} gaps longer than 0.2 s: {} frames were interpolated, {} are missing; {}% of the session is covered.",
+        "Telemetry gaps longer than 0.2 s: {}. Interpolated frames: {}. Missing frames: {}. Telemetry covers {}% of the session.",
         t.gaps,
         t.interpolated_frames,
         t.missing_frames,

@@ -50,7 +50,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
         &html! {
             (labeled_box((DEMAND, ROW), "Demand", "mental, physical"))
             (labeled_box((STRAIN, ROW), "Strain", "pressure, frustration"))
-            (labeled_box((PERFORMANCE, ROW), "Performance", "overall score, %"))
+            (labeled_box((PERFORMANCE, ROW), "Performance", "overall score (%)"))
             (labeled_box(FEEDBACK, "Feedback", "helpfulness"))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
             (effect_text((crossing, middle + 24.0), &effects.on_strain))

@@ -78,7 +78,7 @@ fn effects_table(model: &MediationModel) -> Table {
     Table {
         name: "indirect_effects",
         caption: "indirect effect of demand on performance via strain, with bootstrap confidence intervals",
-        columns: vec!["feedback level", "feedback", "effect, %", "95% CI, lower", "upper"],
+        columns: vec!["feedback level", "feedback", "effect (%)", "95% CI, lower", "upper"],
         rows,
     }
 }
