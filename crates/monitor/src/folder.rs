@@ -1,10 +1,10 @@
-//! Session folder file names and the contents of `session.json`. The application writes the files.
+//! File names in a session folder, and the contents of `session.json`. The application writes the files.
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
 
-/// Telemetry: all MAVLink frames as received.
+/// Telemetry log with all MAVLink frames as received.
 pub const TELEMETRY: &str = "telemetry.tlog";
 /// Scenario file with all included files resolved.
 pub const SCENARIO: &str = "scenario.toml";
@@ -22,7 +22,7 @@ pub const ASSESSMENT: &str = "assessment.json";
 pub const REPORT: &str = "report.html";
 /// Folder that contains the pictures.
 pub const SNAPSHOTS: &str = "snapshots";
-/// Subfolder with downsized copies of the pictures for the report, under the same file names.
+/// Subfolder with downsized copies of the pictures for the report. The file names are the same.
 pub const SMALL: &str = "small";
 
 /// Contents of `session.json`.

@@ -60,7 +60,7 @@ fn exact_instructor_note_is_in_report_but_not_among_messages() {
     assert!(page.contains("instructor's notes") && page.contains("note: watch the pier") && page.contains("class=\"note-dot\""));
 }
 
-/// Returns the values of all attributes that make a browser load a resource.
+/// Returns the values of all attributes that cause a browser to load a resource.
 fn resource_urls(page: &str) -> Vec<&str> {
     let starts = [" src=\"", " href=\"", " action=\"", " poster=\"", " data=\"", " srcset=\""];
     let values = |start: &'static str| page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap_or_default());

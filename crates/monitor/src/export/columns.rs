@@ -1,11 +1,11 @@
-//! The columns of the frames export. CSV, Parquet and the data dictionary are generated from this list.
+//! Columns of the frame export. CSV, Parquet and the data dictionary are generated from this list.
 
 use super::FrameRow;
 use spandrel_model::frames::{Enu, Vec3};
 use std::fmt::Write;
 
 /// Data type of a column and the function that reads its value from a row. The function returns `None` if the telemetry
-/// has no such value.
+/// does not contain the value.
 #[derive(Debug, Clone, Copy)]
 pub enum ColumnReader {
     /// Integer column.
@@ -18,7 +18,7 @@ pub enum ColumnReader {
     Text(fn(&FrameRow) -> &'static str),
 }
 
-/// A column of the frames export.
+/// A column of the frame export.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
     /// Column name, ending in the unit if there is one.
@@ -76,7 +76,7 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
     row.roll_pitch_yaw_rad.map(|angles| angles[angle].to_degrees())
 }
 
-/// All columns in order. Names and order of released columns never change; new columns are appended.
+/// All columns in order. The names and order of released columns never change; new columns are appended.
 pub const COLUMNS: &[Column] = &[
     column("frame", "", "", "Frame number; 1 is lift-off.", ColumnReader::Integer(|r| Some(i64::from(r.frame.index)))),
     column("t_s", "s", "", "Simulation time since lift-off.", ColumnReader::Float(|r| Some(r.since_lift_off_s))),
@@ -262,7 +262,7 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
     csv
 }
 
-/// Appends one cell to the CSV text. The write result is ignored because writing to a string cannot fail.
+/// Appends one cell to the CSV text. Ignores the write result because writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: ColumnReader, row: &FrameRow) {
     let _ = match read {
         ColumnReader::Integer(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),

@@ -15,7 +15,7 @@ const fn field(path: &'static str, unit: &'static str, description: &'static str
     JsonField { path, unit, description }
 }
 
-/// All fields, in the order of the file.
+/// All fields, in file order.
 pub const FIELDS: &[JsonField] = &[
     field("profile", "", "Scoring profile used for `scores`; always `paper`."),
     field("scores.conformity.raw", "", "Conformity, -100 to 100; the entire score is null if the job has no tasks."),

@@ -14,7 +14,7 @@ pub struct TaskProximity {
     pub too_close_m: Option<f64>,
     /// Task number in the scenario.
     pub id: u32,
-    /// Whether the trainee may leave the task: its path was flown, or the drone is nearest to an end of the path.
+    /// Whether the trainee may leave the task because its path was flown or the drone is nearest to an end of the path.
     pub may_leave_task: bool,
 }
 
@@ -35,7 +35,7 @@ pub struct FeedbackInput {
     pub clearance_m: Option<f64>,
     /// Kind of object in contact, excluding touchdowns on the pad.
     pub contact: ContactKind,
-    /// Name of the object in contact, if known to the site.
+    /// Name of the object in contact, if the site knows it.
     pub touched: Option<String>,
     /// The drone's proximity to each task, in scenario order.
     pub tasks: Vec<TaskProximity>,

@@ -3,8 +3,8 @@
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 
-/// Number of points per search block. Blocks with a bounding box farther away than the best point so far are skipped;
-/// the result stays exact.
+/// Number of points per search block. The search skips blocks whose bounding box is farther away than the best point so
+/// far; the result stays exact.
 const BLOCK_POINTS: usize = 16;
 /// Margin for rounding errors when testing whether a box can be skipped.
 const BOX_TOLERANCE: f64 = 1.0 + 1e-9;
@@ -116,7 +116,7 @@ impl ReferencePath {
         self.points_m.first().map(|_| 0.0).into_iter().chain(later).collect()
     }
 
-    /// Returns the length represented by each point, m: half of each adjacent segment.
+    /// Returns the length in meters that each point represents: half of each adjacent segment.
     #[must_use]
     pub fn lengths_by_point_m(&self) -> Vec<f64> {
         let mut lengths_m = vec![0.0; self.points_m.len()];
@@ -291,7 +291,7 @@ impl OnPath {
         Self { task, windows }
     }
 
-    /// Returns the fraction of frames in a task's window that are on the path (P_p,t); 0 if the path was never entered.
+    /// Returns the fraction of a task window's frames that are on the path (P_p,t); 0 if the path was never entered.
     #[must_use]
     pub fn share(&self, task: usize) -> f64 {
         let Some(window) = self.windows[task] else { return 0.0 };

@@ -1,4 +1,4 @@
-//! Robustness against corrupt input: flipped bits, truncated frames, and changed fields with a valid checksum.
+//! Robustness against corrupt input: flipped bits, truncated frames, and modified fields with a valid checksum.
 
 use crate::live::new_monitor;
 use spandrel_mavlink::dialect::MavMessage;

@@ -1,4 +1,4 @@
-//! Tests of the frames export: compares every column with known values from a recorded flight.
+//! Tests of the frame export: compares every column with known values from a recorded flight.
 
 use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, MavMessage, WIND_COV_DATA};
 use spandrel_model::frames::{Enu, Vec3};

@@ -49,7 +49,7 @@ fn exact_short_gaps_are_interpolated_and_long_gaps_stay_missing() {
         let graded = score_tape(&tape, &one_task());
         let telemetry = graded.assessment.telemetry;
         let got = (telemetry.interpolated_frames, telemetry.missing_frames);
-        // Frame sampling starts at lift-off, so the gap may contain one frame more or less.
+        // Frame sampling starts at lift-off, so the gap may contain one frame more or fewer.
         assert!(got.0.abs_diff(interpolated) <= 1 && got.1.abs_diff(missing) <= 1, "{ms} ms: {got:?}");
         assert_eq!(telemetry.gaps, usize::from(ms > 200));
         assert_eq!(got.0 == 0, interpolated == 0, "{ms} ms");

@@ -9,8 +9,8 @@ pub struct ColumnDefinition {
     pub description: &'static str,
 }
 
-/// Table, column name (a prefix if it ends in `*`), unit and definition. The first matching row applies. An empty table name
-/// matches all tables.
+/// Table, column name, unit and definition of each column. A name that ends in `*` is a prefix. An empty table name
+/// matches all tables. The first matching row applies.
 const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("learning_of_the_group.csv", "mean", "points", "Mean score of these trainees for this repetition."),
     ("learning_of_the_group.csv", "first", "points", "Score on the fitted curve at the first repetition."),

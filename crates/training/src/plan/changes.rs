@@ -3,7 +3,7 @@
 use crate::record::SessionRecord;
 use serde::Serialize;
 
-/// Score changes below this threshold are reported as unchanged, points.
+/// Minimum score change, points. Smaller changes are reported as unchanged.
 const MIN_REPORTED_CHANGE: f64 = 0.05;
 
 /// The latest session compared with the previous one on the same job.

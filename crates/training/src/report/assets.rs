@@ -21,7 +21,7 @@ pub const UPLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
 pub const THREE_CORE: &str = include_str!("assets/three.core.min.js");
 /// The three.js renderer, `build/three.module.min.js`; imports the core as [`THREE_CORE_NAME`].
 pub const THREE: &str = include_str!("assets/three.module.min.js");
-/// Module specifier with which the renderer imports the core. The page's script replaces it with the actual URL.
+/// Module specifier that the renderer uses to import the core. The page's script replaces it with the actual URL.
 pub const THREE_CORE_NAME: &str = "./three.core.min.js";
 
 /// Encodes bytes as Base64.
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn exact_policy_allows_only_listed_scripts_and_styles() {
-        // SHA-256 of the empty string, Base64.
+        // SHA-256 of the empty string in Base64.
         let empty = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='";
         let policy = policy(&[""], &[""]);
         assert!(policy.starts_with("default-src 'none'; "));

@@ -47,7 +47,7 @@ impl ParallelView {
         Self { right: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 0.0, 1.0) }
     }
 
-    /// Returns an oblique view toward `azimuth_deg` (clockwise from north), tilted down by `down_deg`.
+    /// Returns an oblique view in the direction `azimuth_deg` (clockwise from north), tilted down by `down_deg`.
     #[must_use]
     pub fn oblique(azimuth_deg: f64, down_deg: f64) -> Self {
         let (s, c) = math::sin_cos(azimuth_deg.to_radians());

@@ -5,7 +5,7 @@ use super::assets;
 use super::layout::{page_with_script, section, token};
 use maud::{Markup, PreEscaped, html};
 
-/// Maximum length of an instructor's note, characters; a note is sent as one MAVLink message.
+/// Maximum length of an instructor's note, characters. A note must fit in one MAVLink message.
 pub const MAX_NOTE_LEN: usize = 100;
 /// Maximum wind speed, m/s, from the vehicle parameter's upper limit.
 pub const MAX_WIND_M_S: f64 = 25.0;

@@ -93,7 +93,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
 }
 
-/// Reason that a recording was not imported.
+/// Reason why a recording was not imported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UploadMessage<'a> {
     /// The recording is invalid.

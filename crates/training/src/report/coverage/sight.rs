@@ -12,7 +12,7 @@ pub const REQUIRED_GSD_M: f64 = CRACK_WIDTH_M / MIN_LINE_WIDTH_PX;
 /// Distance between the end of a line of sight and the surface, m.
 const SIGHT_LINE_MARGIN_M: f64 = 0.02;
 
-/// Returns the distance at which pixels have the required size on the surface in meters.
+/// Returns the distance in meters at which pixels have the required size on the surface.
 #[must_use]
 pub fn reach_m(camera: &Camera) -> f64 {
     REQUIRED_GSD_M * camera.focal_px()

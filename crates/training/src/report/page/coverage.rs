@@ -1,4 +1,4 @@
-//! Surface coverage by element: the area that the pictures capture well, and why the rest does not count.
+//! Surface coverage by element: the area that the pictures capture well, and the reasons why the rest does not count.
 
 use super::figure::{figure, legend};
 use crate::report::Review;
@@ -12,7 +12,7 @@ use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 
 /// Maximum number of reasons named in the summary.
 const MAX_REASONS: usize = 3;
-/// Minimum fraction of the inspectable surface for a reason to be named.
+/// Minimum fraction of the inspectable surface that a reason must affect to be named.
 const MIN_REASON_SHARE: f64 = 0.01;
 
 /// Renders the "Coverage" section of a session report.
@@ -45,7 +45,7 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-/// Returns the main reasons that surface is not captured well; `None` if each is below [`MIN_REASON_SHARE`].
+/// Returns the main reasons why surface is not captured well; `None` if each affects less than [`MIN_REASON_SHARE`].
 fn reasons_not_captured(total: &ElementSurface) -> Option<String> {
     let share = |outcome: &SurfaceOutcome| total.area_m2(*outcome) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> = SurfaceOutcome::ALL

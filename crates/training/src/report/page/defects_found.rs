@@ -1,5 +1,5 @@
-//! Found and missed defects, marked on the bridges. For missed defects, also shows how close the flight came and how
-//! they would have looked.
+//! Found and missed defects, marked on the bridges. For missed defects, also shows how close the flight came to them
+//! and how they would have looked.
 
 use super::figure::figure;
 use super::gallery::{DefectMark, frame};

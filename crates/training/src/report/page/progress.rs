@@ -165,7 +165,7 @@ fn on_path_table(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table {
     }
 }
 
-/// Returns the message for too few repetitions for a learning curve.
+/// Returns the message that there are too few repetitions for a learning curve.
 pub fn too_few_repetitions() -> String {
     format!(
         "A learning curve requires {} repetitions of the same job.",
@@ -194,8 +194,8 @@ mod tests {
     fn exact_progress_lists_each_repetition() {
         let text = progress_page(3).into_string();
         assert_eq!(text.matches("class=\"lines\"").count(), 2);
-        // Four score lines with three points each. The task lines have one point fewer, because one task was once not
-        // attempted.
+        // Four score lines with three points each. The task lines have one point fewer because one task was not
+        // attempted in one session.
         assert_eq!(text.matches("<circle class=\"dot-").count(), 12 + 11);
         assert!(text.contains("water: 2") && text.contains("person or vehicle: 1") && !text.contains("bridge: "), "{text}");
         assert!(text.contains("not attempted") && text.contains("&lt;b&gt;slab") && !text.contains("<b>slab"));

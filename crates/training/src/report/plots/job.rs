@@ -12,7 +12,7 @@ use spandrel_model::site::Site;
 
 /// Margin beyond each end of a bridge in its side view, m.
 const END_MARGIN_M: f64 = 25.0;
-/// Margin above a bridge, m, which keeps a drone above the deck inside the drawing.
+/// Margin above a bridge, m, so that a drone above the deck stays inside the drawing.
 const TOP_MARGIN_M: f64 = 15.0;
 
 /// Draws the plan view with north up.

@@ -91,7 +91,7 @@ pub(super) fn is_near_bridge(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<>
     }
 }
 
-/// Fits the side view of a bridge, including these frames.
+/// Fits a bridge's side view, including these frames, to a drawing.
 pub(super) fn side_view_map<'a>(
     scenario: &Scenario,
     site: &Site,
@@ -276,7 +276,7 @@ mod tests {
             assert!(y >= MARGIN - 1e-9 && y <= map.size.1 - MARGIN + 1e-9, "{y}");
             let m: Vec<f64> = map.matrix().split(' ').map(|value| value.parse().unwrap()).collect();
             let [e, n, u] = point.array();
-            // The matrix has four decimals, and coordinates are at most 60 m.
+            // The matrix elements have four decimals, and coordinates are at most 60 m.
             assert!((m[0] * e + m[1] * n + m[2] * u + m[3] - x).abs() < 0.02);
             assert!((m[4] * e + m[5] * n + m[6] * u + m[7] - y).abs() < 0.02);
         }
