@@ -167,7 +167,10 @@ fn exact_every_surface_area_has_one_outcome() {
     }
     let job = two_bridges();
     let more = review(&record_inspection(&job, 240.0, 2), &job);
-    assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times as many pictures should show more surface");
+    assert!(
+        more.coverage.total().pictured_m2() > coverage.total().pictured_m2(),
+        "three times as many pictures should show more surface"
+    );
 }
 
 #[test]

@@ -152,7 +152,13 @@ pub const COLUMNS: &[Column] = &[
         "True roll angle, positive with the right side down.",
         ColumnReader::Float(|r| attitude_deg(r, 0)),
     ),
-    optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch angle, positive with the nose up.", ColumnReader::Float(|r| attitude_deg(r, 1))),
+    optional(
+        "pitch_deg",
+        "deg",
+        BODY_FROM_NED,
+        "True pitch angle, positive with the nose up.",
+        ColumnReader::Float(|r| attitude_deg(r, 1)),
+    ),
     optional(
         "yaw_deg",
         "deg",

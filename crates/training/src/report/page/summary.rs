@@ -151,5 +151,10 @@ fn table(review: &Review) -> Table {
     if review.assessment.completion.complete {
         rows.push(vec!["Overall".into(), TableCell::Empty, TableCell::Number(scores.overall, 2), TableCell::Empty]);
     }
-    Table { name: "scores", caption: "scores", columns: vec!["score", "raw", "score (of 100)", "certification profile (of 100)"], rows }
+    Table {
+        name: "scores",
+        caption: "scores",
+        columns: vec!["score", "raw", "score (of 100)", "certification profile (of 100)"],
+        rows,
+    }
 }
