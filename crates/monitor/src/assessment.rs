@@ -86,7 +86,7 @@ pub struct Assessment {
     pub completion: Completion,
     /// Results per task, in scenario order.
     pub tasks: Vec<TaskResult>,
-    /// Number of crashes by kind of object hit.
+    /// Crash counts by kind of object hit.
     pub crashes: CrashCounts,
     /// Picture results: totals and individual results.
     pub snapshots: SnapshotCounts,
@@ -103,9 +103,9 @@ pub struct Assessment {
 /// An interval of consecutive frames with the same control source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct ControlInterval {
-    /// First frame number.
+    /// Number of the first frame.
     pub from_frame: u32,
-    /// Last frame number, inclusive.
+    /// Number of the last frame, inclusive.
     pub to_frame: u32,
     /// Control source; `None` before the first heartbeat.
     pub by: Option<ControlSource>,
@@ -128,7 +128,7 @@ pub struct Scores {
     pub overall_max: f64,
 }
 
-/// Path and speed results of one task.
+/// One task's path and speed results.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TaskResult {
     /// Task number in the scenario.
@@ -298,7 +298,7 @@ pub fn assess_log(
     Ok(AssessedSession { assessment, frames, seed })
 }
 
-/// Returns the flight to score, and its seed.
+/// Returns the flight to score and its seed.
 ///
 /// # Errors
 /// Fails if the telemetry belongs to a different scenario or seed, or contains no session.

@@ -11,7 +11,7 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 
 /// Minimum interval between coordinate frame updates.
 const POSE_INTERVAL: SimTime = SimTime::from_ms(40);
-/// Number of frames between recordings of all other data.
+/// Interval at which all other data is recorded, frames.
 const FRAMES_PER_SLOW_SAMPLE: usize = 25;
 /// MAVLink severity levels used for log messages.
 const SEVERITY_CRITICAL: u8 = 2;

@@ -8,7 +8,7 @@ use spandrel_model::time::SimTime;
 pub struct TaskProximity {
     /// Distance to the task's path (l*), m.
     pub distance_m: f64,
-    /// On-path threshold of the task, m.
+    /// The task's on-path threshold, m.
     pub threshold_m: f64,
     /// Minimum clearance in this task, m; `None` to use the scenario's value.
     pub too_close_m: Option<f64>,

@@ -135,8 +135,8 @@ impl ReferencePath {
         Some((self.points_m[k], self.points_m[next]))
     }
 
-    /// Returns the index with the lowest cost (the lowest index in a tie). A point's cost must be at least the squared
-    /// distance to its block's box.
+    /// Returns the index with the lowest cost; in a tie, the lowest such index. A point's cost must be at least the
+    /// squared distance to its block's box.
     fn search(&self, position_m: Vec3<Enu>, cost: impl Fn(usize) -> f64) -> Option<usize> {
         let point = position_m.array();
         let mut best: Option<(f64, usize)> = None;
@@ -203,7 +203,7 @@ impl ReferencePaths {
         &self.paths[task]
     }
 
-    /// Returns the on-path threshold of a task in meters.
+    /// Returns a task's on-path threshold in meters.
     #[must_use]
     pub fn threshold_m(&self, task: usize) -> f64 {
         self.thresholds_m[task]
@@ -244,9 +244,9 @@ impl ReferencePaths {
 /// A task's first and last on-path frames, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TaskWindow {
-    /// First frame index.
+    /// Index of the first frame.
     pub first: usize,
-    /// Last frame index, inclusive.
+    /// Index of the last frame, inclusive.
     pub last: usize,
 }
 

@@ -106,7 +106,7 @@ pub struct TaskVisits {
 /// A crash. Contacts close together in time are merged into one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MergedCrash {
-    /// First frame number.
+    /// Number of the first frame.
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,

@@ -100,7 +100,7 @@ pub struct RepetitionBox {
     pub plot: BoxPlot,
 }
 
-/// Paired comparison of one score between two of the group's repetitions.
+/// Paired comparison of one score between two group repetitions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
     /// Score name, such as `conformity`.

@@ -71,7 +71,7 @@ pub struct SessionRecord {
     pub battery_failed: bool,
     /// Battery charge in the last frame, %.
     pub battery_at_end_pct: f64,
-    /// Fraction of frames with received telemetry, 0 to 1.
+    /// Fraction of frames for which telemetry was received, 0 to 1.
     pub covered: f64,
     /// Whether the session meets all certification requirements.
     pub certified: bool,

@@ -176,7 +176,7 @@ mod tests {
             assert!(view.right.dot(view.up).abs() < 1e-12);
             assert!((view.right.norm() - 1.0).abs() < 1e-12 && (view.up.norm() - 1.0).abs() < 1e-12);
         }
-        assert!((ParallelView::plan().toward_viewer() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "plan view looks down");
+        assert!((ParallelView::plan().toward_viewer() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "the plan view looks down");
         assert!((ParallelView::from_south().toward_viewer() - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
         // The view looks north and down, so the viewer is to the south and above.
         let towards = ParallelView::oblique(0.0, 30.0).toward_viewer();

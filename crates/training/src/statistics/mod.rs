@@ -38,7 +38,7 @@ pub enum StatisticsError {
         right: usize,
     },
     /// A value is infinite or NaN.
-    #[error("value number {at} is {value}, which is not a finite number")]
+    #[error("value {at} is {value}, which is not a finite number")]
     NotFinite {
         /// The value's position in the list, from 1.
         at: usize,

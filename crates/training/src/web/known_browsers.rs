@@ -59,7 +59,7 @@ mod tests {
         assert_eq!(devices.find(&cookie, "anna", BROWSER_EXPIRY_US), None);
         assert_eq!(devices.find(&cookie, "ben", 1), None);
         assert_eq!(devices.find("guessed", "anna", 1), None);
-        assert_eq!(devices.remember(Some(&cookie), "anna", &[2; 32], 1), cookie, "known browser keeps its cookie");
+        assert_eq!(devices.remember(Some(&cookie), "anna", &[2; 32], 1), cookie, "a known browser keeps its cookie");
         assert_ne!(devices.remember(Some("planted"), "anna", &[3; 32], 1), "planted");
         assert!(devices.find(&cookie, "anna", BROWSER_EXPIRY_US).is_some(), "a login restarts the expiry");
     }

@@ -131,12 +131,12 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
         form.stacked method="post" action="/live/act" data-act {
             (hidden("wind"))
             label { "Wind speed (m/s)" input type="number" name="speed" required min="0" max=(MAX_WIND_M_S) step="0.5" value="6"; }
-            label { "From, degrees" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
+            label { "Wind direction, from (degrees)" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
             button type="submit" { "Set wind" }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("traffic"))
-            p.note { "Closing stops new traffic; vehicles on the bridge leave." }
+            p.note { "Closing a bridge stops new traffic; vehicles already on it leave." }
             div.row {
                 button type="submit" name="open" value="no" { "Close bridges" }
                 button type="submit" name="open" value="yes" { "Open bridges" }

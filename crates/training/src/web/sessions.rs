@@ -110,7 +110,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageDa
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
             @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
-            (formatting::duration(record.seconds)) " of flight, ended: " (record.end_reason.replace('_', " "))
+            "flight time " (formatting::duration(record.seconds)) ", ended: " (record.end_reason.replace('_', " "))
         }
         (actions(record, beside))
         (section("scores", "Scores", &scores(record)))

@@ -25,7 +25,7 @@ pub fn header(review: &Review) -> Markup {
                     b { (review.about.trainee) } " · " (utc(&review.about.started_utc)) " · " (review.vehicle.name)
                     @if let Some(purpose) = &review.about.purpose { " · " (purpose) }
                 }
-                p { (formatting::duration(end.seconds)) " flight time, " (formatting::end_reason_label(end.reason)) ". " (telemetry_summary(review)) }
+                p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) ". " (telemetry_summary(review)) }
             }
             div.overall {
                 @if review.assessment.completion.complete {
