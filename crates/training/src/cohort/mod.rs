@@ -63,7 +63,7 @@ pub struct Cohort {
     pub boxes: Vec<RepetitionBox>,
     /// Paired comparisons of the group's repetitions.
     pub tests: Vec<Comparison>,
-    /// Tests whether the group's scores are distributed like those of the other trainees.
+    /// Tests of whether the group's scores are distributed like the other trainees' scores.
     pub homogeneity: Vec<GroupHomogeneityTest>,
     /// Answer counts for all first sessions and for each of the group's repetitions.
     pub likert: Vec<Likert>,

@@ -131,7 +131,7 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
         form.stacked method="post" action="/live/act" data-act {
             (hidden("wind"))
             label { "Wind speed (m/s)" input type="number" name="speed" required min="0" max=(MAX_WIND_M_S) step="0.5" value="6"; }
-            label { "Wind direction, from (degrees)" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
+            label { "Wind direction (degrees)" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
             button type="submit" { "Set wind" }
         }
         form.stacked method="post" action="/live/act" data-act {
