@@ -145,7 +145,7 @@ pub struct TaskResult {
     pub last_frame: Option<u32>,
     /// Fraction of the task window's frames that are on the path (P_p), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss of the task (P_s in TASBID).
+    /// The task's speeding loss (P_s in TASBID).
     pub speeding: f64,
 }
 

@@ -51,7 +51,7 @@ pub struct SessionInfo {
     /// Session purpose, `practice` or `assessment`; `None` if not specified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
-    /// Number of monitor starts for this folder.
+    /// Number of times that the monitor was started for this folder.
     pub monitor_starts: u32,
     /// Link statistics since the monitor was last started.
     pub link: LinkCounts,

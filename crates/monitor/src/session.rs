@@ -289,8 +289,8 @@ mod tests {
         let pad_m = rule.pad_m;
         let over_home = pad_m + Vec3::new(1.0, 0.0, 5.0);
         assert_eq!(end(&mut rule, 0, over_home, |_| (true, false)), None);
-        // The drone disarms in the lake. After the respawn, it is armed, but for one second the telemetry still reports it as
-        // disarmed and on the ground.
+        // The drone disarms in the lake. After the respawn, it is armed, but for one second, the telemetry still
+        // reports it as disarmed and on the ground.
         assert_eq!(end(&mut rule, 8_000, pad_m + Vec3::new(80.0, 0.0, -5.0), |_| (false, true)), None);
         assert_eq!(end(&mut rule, 16_000, over_home, |k| (k >= 30, k < 30)), None);
         // Later states are valid again: the drone comes to rest near home and disarms.

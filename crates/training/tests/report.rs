@@ -188,8 +188,7 @@ fn exact_night_changes_only_light_outcomes() {
     assert!(night.average_picture().unwrap().lux < day.average_picture().unwrap().lux);
 }
 
-/// On the tape, the forward stick moves by 0.01 of full travel per 100 ms, so a movement of 0.1 takes up to 1 s to
-/// show.
+/// On the tape, the forward stick moves by 0.01 of full travel per 100 ms, so it takes up to 1 s to move by 0.1.
 #[test]
 fn exact_speeding_cue_is_reported_with_reaction_time() {
     let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);

@@ -25,7 +25,7 @@ pub struct FeedbackInput {
     pub time: SimTime,
     /// Whether the session is running (from lift-off to its end).
     pub in_session: bool,
-    /// Whether the drone is airborne. Proximity warnings are suppressed on the ground.
+    /// Whether the drone is in the air. On the ground, proximity warnings are suppressed.
     pub airborne: bool,
     /// Speed (magnitude of the velocity), m/s.
     pub speed_m_s: f64,

@@ -1,6 +1,6 @@
 //! Off-path cue: the drone is beyond the path threshold but within the maximum distance of the last task entered. The
-//! cue is off in transit: before the first task, and after the drone leaves a task whose path was flown or leaves from
-//! an end of the path (docs/src/reference/assessment.md, "Feedback during the flight").
+//! cue is off in transit: before the first task, and after the drone leaves a task at an end of its path or after
+//! flying its path (docs/src/reference/assessment.md, "Feedback during the flight").
 
 use super::input::{FeedbackInput, TaskProximity};
 use super::pilot_text::{Cooldown, PilotText};

@@ -63,7 +63,7 @@ impl FlownPath {
         self.before = point;
     }
 
-    /// Returns whether each point of the path was flown.
+    /// Returns whether each path point was flown.
     #[must_use]
     pub fn points(&self) -> &[bool] {
         &self.covered

@@ -104,7 +104,7 @@ impl ReferencePath {
         self.blocks.iter().all(|block| block.distance_squared(position_m.array()) > limit)
     }
 
-    /// Returns each point's distance along the path from the first point in meters.
+    /// Returns each point's distance in meters from the first point, measured along the path.
     #[must_use]
     pub fn along_m(&self) -> Vec<f64> {
         let steps = self.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm());

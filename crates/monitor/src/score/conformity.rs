@@ -7,7 +7,7 @@ use super::Score;
 pub struct TaskShares {
     /// Fraction of the task window's frames that are on the path (P_p,t), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss of the task (P_s,t in TASBID).
+    /// The task's speeding loss (P_s,t in TASBID).
     pub speeding: f64,
 }
 

@@ -77,7 +77,7 @@ impl Monitor {
         at_end || passed as f64 >= MIN_FLOWN_SHARE * count as f64
     }
 
-    /// Returns whether the drone is low over the pad. Heights elsewhere are not checked, because a job can take the
+    /// Returns whether the drone is low over the pad. Heights elsewhere are not checked because a job can take the
     /// drone below the pad.
     fn is_low_over_pad(&self, truth: &Truth) -> bool {
         let team = &self.config.scenario.ground_team;

@@ -1,4 +1,4 @@
-//! Tests of the six kinds of MAVLink feedback, with their thresholds and timing.
+//! Tests of the six MAVLink feedback cues, including their thresholds and timing.
 
 use crate::live::{new_monitor, sent_messages};
 use spandrel_mavlink::contract::cue;

@@ -54,7 +54,7 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "name", "", "Task name."),
     ("", "attempted", "", "1 if the path was entered, otherwise 0."),
     ("", "on_path", "", "Fraction of the task window's time spent on the path, 0 to 1."),
-    ("", "speeding", "", "Speeding loss of the task."),
+    ("", "speeding", "", "The task's speeding loss."),
     ("", "task_*", "", "Number of crashes in this task's window."),
     ("", "outside", "", "Number of crashes outside all task windows."),
     ("", "total", "", "Total number of crashes."),

@@ -59,7 +59,7 @@ pub struct TaskShare {
     pub attempted: bool,
     /// On-path share (P_p), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss of the task (P_s in TASBID).
+    /// The task's speeding loss (P_s in TASBID).
     pub speeding: f64,
 }
 

@@ -22,7 +22,7 @@ const DAY_US: f64 = 86_400e6;
 const BATTERY_RESERVE_PCT: f64 = 20.0;
 /// Points lost per minute beyond the time for full efficiency (TASBID).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
-/// A deviation is described by a single direction only if that direction dominates by this factor.
+/// Factor by which one direction must exceed the other for a deviation to be described by that direction alone.
 const DOMINANCE_RATIO: f64 = 2.0;
 
 /// Scenarios recommended for one trainee.

@@ -43,7 +43,7 @@ pub struct TaskRecord {
     pub crashes: Crashes,
     /// Number of defects nearest to this path.
     pub defects_placed: usize,
-    /// Number of those defects that were found.
+    /// Number of these defects that were found.
     pub defects_found: usize,
 }
 

@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn val_embedded_libraries_match_published_hashes() {
-        // SHA-256 of the files in the npm packages uplot-1.6.32.tgz and three-0.184.0.tgz.
+        // SHA-256 hashes of the files in the npm packages uplot-1.6.32.tgz and three-0.184.0.tgz.
         let published = [
             (UPLOT, "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f"),
             (UPLOT_STYLE, "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04"),

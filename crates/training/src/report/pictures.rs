@@ -47,7 +47,7 @@ impl PictureVerdict {
         }
     }
 
-    /// Returns the CSS class that colors it in the report.
+    /// Returns the CSS class that colors the verdict in the report.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {

@@ -121,7 +121,7 @@ pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]
     }
     let factor = normal.clone().cholesky()?;
     let lower = factor.l();
-    // The diagonal elements of the Cholesky factor are the lengths of the columns' components orthogonal to the preceding
+    // Each diagonal element of the Cholesky factor is the length of a column's component orthogonal to the preceding
     // columns.
     let distinct = (0..=P).all(|k| lower[(k, k)] > COLLINEARITY_TOLERANCE.sqrt() * normal[(k, k)].sqrt());
     distinct.then(|| factor.solve(&right).iter().copied().collect())

@@ -39,8 +39,8 @@ pub fn data(review: &Review) -> String {
     escape_json(&block.to_string())
 }
 
-/// Returns a comparison's data block as JSON: the time series of both flights and the events at which they can be
-/// aligned.
+/// Returns a comparison's data block as JSON: the time series of both flights and the events that can be used to align
+/// them.
 #[must_use]
 pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> String {
     let flight = |k: usize| {
@@ -56,7 +56,7 @@ pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> St
     escape_json(&block.to_string())
 }
 
-/// An event in both flights at which they can be aligned in time.
+/// An event in both flights that can be used to align them in time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlignmentEvent {
     /// Name of the event, shown in the alignment menu.

@@ -156,7 +156,7 @@ pub(super) fn bounding_points(review: &Review) -> Vec<Vec3<Enu>> {
     all
 }
 
-/// Returns the points that bound a job, without deep foundations.
+/// Returns the points that bound a job, excluding deep foundations.
 pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     let water_m = scenario.terrain.water_level_m;
     let members = site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
@@ -177,7 +177,7 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
     }
 }
 
-/// Draws the reference paths (of one bridge or all), flight path, marks, drone and scale.
+/// Draws the reference paths (of one bridge or of all bridges), the flight path, marks, drone and scale.
 fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         (reference_paths(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
@@ -192,7 +192,7 @@ fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&
     }
 }
 
-/// Draws the reference paths of one bridge or all.
+/// Draws the reference paths of one bridge or of all bridges.
 pub(super) fn reference_paths(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
     let of = |task: &&Task| {
         let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());

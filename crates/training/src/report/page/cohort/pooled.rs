@@ -79,7 +79,7 @@ fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     (0..=most).step_by(wide).map(bin).collect()
 }
 
-/// Renders measured scores by self-rating, rounded to an integer.
+/// Renders measured scores grouped by self-rating, which is rounded to an integer.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rated = |rating: usize| {
         let people = cohort.self_rating.people.iter();
