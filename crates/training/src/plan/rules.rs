@@ -35,7 +35,7 @@ pub enum RuleMeasure {
     FalseSnapshots,
     /// Flight time beyond the time for full efficiency, min.
     Overtime,
-    /// 1 if the flight did not end with a landing on the pad.
+    /// 1 if the flight did not end with a landing at home.
     NotLanded,
     /// 1 if the battery charge was below 20% at the end.
     BatteryLow,
