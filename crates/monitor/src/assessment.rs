@@ -32,21 +32,21 @@ pub struct ScoringJob<'a> {
     pub survey: &'a dyn SiteSurvey,
 }
 
-/// Reason that a flight cannot be scored.
+/// Reason why a flight cannot be scored.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum AssessError {
     /// The drone never rose above the lift-off height.
     #[error("no lift-off: the drone never rose more than 0.3 m above the pad, so there is no session to score")]
     NeverFlown,
     /// The telemetry contains no ground-truth messages.
-    #[error("the telemetry contains no HIL_STATE_QUATERNION messages; scoring requires their time and true state")]
+    #[error("the telemetry contains no HIL_STATE_QUATERNION messages; scoring requires their timestamps and true states")]
     NoTruth,
     /// The telemetry was recorded in a different scenario.
     #[error("the simulator runs a different scenario: it reports scn_crc {received:#010x}, but `{name}` has {expected:#010x}")]
     OtherScenario {
         /// Name of the session's scenario.
         name: String,
-        /// `scn_crc` received from the simulator.
+        /// `scn_crc` value received from the simulator.
         received: u32,
         /// CRC of the session's scenario.
         expected: u32,
@@ -75,7 +75,7 @@ impl From<std::io::Error> for AssessError {
     }
 }
 
-/// Session assessment: the TASBID scores and the certification profile.
+/// Session assessment: TASBID scores and certification results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Assessment {
     /// Scoring profile used for `scores`; always `paper`.
@@ -86,13 +86,13 @@ pub struct Assessment {
     pub completion: Completion,
     /// Results per task, in scenario order.
     pub tasks: Vec<TaskResult>,
-    /// Number of crashes by kind of object hit.
+    /// Crash counts by kind of object hit.
     pub crashes: CrashCounts,
     /// Picture results: totals and individual results.
     pub snapshots: SnapshotCounts,
     /// End of the session: reason, length and battery failure.
     pub end: SessionEnd,
-    /// Fraction of frames with received telemetry, and the number of gaps.
+    /// Fraction of frames for which telemetry was received, and the number of gaps.
     pub telemetry: TelemetryCoverage,
     /// Control source over time. Does not affect any score.
     pub flown_by: Vec<ControlInterval>,
@@ -103,9 +103,9 @@ pub struct Assessment {
 /// An interval of consecutive frames with the same control source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct ControlInterval {
-    /// First frame number.
+    /// Number of the first frame.
     pub from_frame: u32,
-    /// Last frame number, inclusive.
+    /// Number of the last frame, inclusive.
     pub to_frame: u32,
     /// Control source; `None` before the first heartbeat.
     pub by: Option<ControlSource>,
@@ -128,7 +128,7 @@ pub struct Scores {
     pub overall_max: f64,
 }
 
-/// Path and speed results of one task.
+/// One task's path and speed results.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TaskResult {
     /// Task number in the scenario.
@@ -137,15 +137,15 @@ pub struct TaskResult {
     pub attempted: bool,
     /// Task state: done, partly flown or not attempted.
     pub state: TaskState,
-    /// Flown fraction of the task's path, 0 to 1.
+    /// Fraction of the task's path that was flown, 0 to 1.
     pub covered: f64,
-    /// First frame number on the path.
+    /// Number of the first frame on the path.
     pub first_frame: Option<u32>,
-    /// Last frame number on the path.
+    /// Number of the last frame on the path.
     pub last_frame: Option<u32>,
-    /// Fraction of window frames on the path (P_p), 0 to 1.
+    /// Fraction of the task window's frames that are on the path (P_p), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss of the task (P_s in TASBID).
+    /// The task's speeding loss (P_s in TASBID).
     pub speeding: f64,
 }
 
@@ -179,7 +179,7 @@ pub struct SnapshotCounts {
     pub recall: Option<f64>,
     /// F-measure of precision and recall; `None` if no defect was placed.
     pub f_beta: Option<f64>,
-    /// Individual picture results in order, including any unmet conditions.
+    /// Result of each picture in order, including any unmet conditions.
     pub each: Vec<Snapshot>,
 }
 
@@ -190,13 +190,13 @@ pub struct SessionEnd {
     pub reason: EndReason,
     /// Number of frames (N).
     pub frames: usize,
-    /// Duration of the session, s: number of frames divided by the frame rate (N/f).
+    /// Session duration, s: number of frames divided by the frame rate (N/f).
     pub seconds: f64,
-    /// Whether the session ended because of an empty battery or the time limit (X_b).
+    /// Whether the session ended because the battery was empty or the time limit was reached (X_b).
     pub battery_failed: bool,
 }
 
-/// Fraction of the session with received telemetry, and the gaps.
+/// Fraction of the session for which telemetry was received, and the gaps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TelemetryCoverage {
     /// Number of frames in gaps longer than 1 s. They repeat the last position and velocity.
@@ -209,7 +209,7 @@ pub struct TelemetryCoverage {
     pub covered: f64,
 }
 
-/// An assessment and the frames it was computed from.
+/// An assessment and the frames from which it was computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AssessedSession {
     /// The session's assessment.
@@ -291,14 +291,14 @@ pub fn assess_log(
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log)?;
     let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
-    // The flight contains all required data. Keeping the timeline as well would double memory use.
+    // The flight contains all the data that scoring needs. Keeping the timeline as well would double the memory use.
     drop(timeline);
     let survey = attention::with_flight_closures(build(scenario, seed), &flight);
     let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: survey.as_ref() })?;
     Ok(AssessedSession { assessment, frames, seed })
 }
 
-/// Returns the flight to score, and its seed.
+/// Returns the flight to score and its seed.
 ///
 /// # Errors
 /// Fails if the telemetry belongs to a different scenario or seed, or contains no session.
@@ -311,7 +311,7 @@ pub fn flight_with_seed(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehi
     Ok((flight, seed))
 }
 
-/// Returns the flight to score: the first with a lift-off, or the last one if there was none.
+/// Returns the flight to score: the first one with a lift-off or, if none has one, the last.
 #[must_use]
 pub fn scored_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Flight {
     flight_and_prior_runs(timeline, scenario, vehicle).1
@@ -331,7 +331,7 @@ pub fn flight_and_prior_runs(timeline: &Timeline, scenario: &Scenario, vehicle: 
     last
 }
 
-/// Checks that the telemetry, scenario and command line agree on scenario and seed, and returns the seed.
+/// Checks that the telemetry, the session and the command line agree on the scenario and seed. Returns the seed.
 ///
 /// # Errors
 /// Fails if the scenario or the seed differs, or if no seed is available.
@@ -380,7 +380,7 @@ fn shares(scenario: &Scenario, session: &Session, on_path: &OnPath) -> Vec<TaskS
     on_path.windows.iter().enumerate().map(one).collect()
 }
 
-/// Computes the TASBID paper's scores from the measures.
+/// Computes the scores defined in the TASBID paper from the measures.
 #[must_use]
 pub fn scores(scenario: &Scenario, shares: &[TaskShares], end: &SessionEnd, crashes: &[Crash], counts: DetectionTally) -> Scores {
     let scoring = &scenario.scoring;

@@ -1,5 +1,5 @@
-//! Exports for external tools: the frames as a table, and the scoring-related parts of a scenario as JSON. Column names
-//! and keys are stable. Numbers use the fewest digits that represent the value exactly.
+//! Exports for external tools: the frames as a table, and the parts of a scenario that affect scoring as JSON. Column
+//! names and keys are stable. Numbers use the fewest digits that represent the value exactly.
 
 pub mod columns;
 pub mod fields;
@@ -33,7 +33,7 @@ pub struct DefectExport {
     size_m: f64,
 }
 
-/// The scoring-related parts of a scenario.
+/// The parts of a scenario that affect scoring.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScenarioExport {
     name: String,
@@ -42,7 +42,7 @@ pub struct ScenarioExport {
     max_speed_m_s: f64,
     time_best_s: f64,
     time_max_s: f64,
-    /// Weight of recall: a number, or the string `inf` because JSON cannot represent infinity.
+    /// Weight of recall: a number or, because JSON cannot represent infinity, the string `inf`.
     beta: serde_json::Value,
     tasks: Vec<TaskExport>,
     defects: Vec<DefectExport>,

@@ -1,10 +1,10 @@
-//! Session folder file names and the contents of `session.json`. The application writes the files.
+//! File names in a session folder, and the contents of `session.json`. The application writes the files.
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
 
-/// Telemetry: all MAVLink frames as received.
+/// Telemetry log with all MAVLink frames as received.
 pub const TELEMETRY: &str = "telemetry.tlog";
 /// Scenario file with all included files resolved.
 pub const SCENARIO: &str = "scenario.toml";
@@ -22,7 +22,7 @@ pub const ASSESSMENT: &str = "assessment.json";
 pub const REPORT: &str = "report.html";
 /// Folder that contains the pictures.
 pub const SNAPSHOTS: &str = "snapshots";
-/// Subfolder with downsized copies of the pictures for the report, under the same file names.
+/// Subfolder with downsized copies of the pictures for the report. The file names are the same.
 pub const SMALL: &str = "small";
 
 /// Contents of `session.json`.
@@ -51,7 +51,7 @@ pub struct SessionInfo {
     /// Session purpose, `practice` or `assessment`; `None` if not specified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
-    /// Number of monitor starts for this folder.
+    /// Number of times that the monitor was started for this folder.
     pub monitor_starts: u32,
     /// Link statistics since the monitor was last started.
     pub link: LinkCounts,

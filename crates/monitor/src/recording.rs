@@ -1,5 +1,5 @@
-//! Converts a flight received over MAVLink to a Foxglove recording: drone and camera coordinate frames, battery,
-//! scoring data and log messages.
+//! Converts a flight received over MAVLink to a Foxglove recording with the drone and camera coordinate frames,
+//! battery, scoring data and log messages.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::telemetry::Flight;
@@ -11,13 +11,13 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 
 /// Minimum interval between coordinate frame updates.
 const POSE_INTERVAL: SimTime = SimTime::from_ms(40);
-/// Number of frames between recordings of all other data.
+/// Interval at which all other data is recorded, frames.
 const FRAMES_PER_SLOW_SAMPLE: usize = 25;
 /// MAVLink severity levels used for log messages.
 const SEVERITY_CRITICAL: u8 = 2;
 const SEVERITY_INFO: u8 = 6;
 
-/// Returns all messages in the recording in chronological order.
+/// Returns all of the recording's messages in chronological order.
 #[must_use]
 pub fn messages(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Vec<ChannelMessage> {
     let unix_ns = |time: SimTime| (scenario.light.start_unix_s * 1_000_000_000 + time.ns()).max(0).cast_unsigned();

@@ -20,10 +20,10 @@ const MAX_REST_SPEED_M_S: f64 = 0.2;
 /// Time at rest that counts as a landing (docs/src/reference/assessment.md, "Frames").
 const LANDING_REST_TIME: SimTime = SimTime::from_ms(3_000);
 
-/// Maximum age of the armed and on-ground states, which the autopilot sends every second.
+/// Maximum age of the armed and on-ground states. The autopilot sends them every second.
 const MAX_STATE_AGE: SimTime = SimTime::from_ms(1_500);
 
-/// Reason that a session ended.
+/// Reason why a session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(into = "&'static str")]
 pub enum EndReason {
@@ -73,7 +73,7 @@ impl EndReason {
 pub struct EndRuleInput {
     /// Current simulation time.
     pub time: SimTime,
-    /// Flight time up to now, s.
+    /// Flight time so far, s.
     pub flown_s: f64,
     /// Position of the drone's center in the site frame, m.
     pub position_m: Vec3<Enu>,
@@ -153,7 +153,7 @@ impl EndRule {
             }
             ContactKind::None | ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other => {}
         }
-        // The armed state can be up to a second old, so disarmed means a landing only after armed was received.
+        // The armed state can be up to a second old, so "disarmed" indicates a landing only after "armed" was received.
         self.seen_armed |= moment.armed == Some(true);
         self.rest_since = self.has_landed_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
         if let Some(since) = self.rest_since
@@ -170,8 +170,8 @@ impl EndRule {
         if self.rest_since.is_none() { self.pending } else { None }
     }
 
-    /// Returns the pending end while a possible landing is being confirmed. It takes effect if the telemetry stops
-    /// first.
+    /// Returns the pending end while a possible landing is being confirmed. If the telemetry stops first, this end
+    /// takes effect.
     #[must_use]
     pub fn pending(&self) -> Option<(SimTime, EndReason)> {
         self.pending
@@ -184,14 +184,14 @@ impl EndRule {
     }
 }
 
-/// Returns the height of the aircraft's center above the pad that counts as lift-off in meters.
+/// Returns the height in meters of the aircraft's center above the pad that counts as lift-off.
 #[must_use]
 pub fn lift_off_height_m(vehicle: &Vehicle) -> f64 {
     let stand = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max);
     MIN_LIFT_OFF_HEIGHT_M.max(stand + RESTING_HEIGHT_MARGIN_M)
 }
 
-/// How long frames are still evaluated past the time limit; longer than it takes to confirm a landing.
+/// Time past the time limit during which frames are still evaluated; longer than it takes to confirm a landing.
 const EVALUATION_MARGIN: SimTime = SimTime::from_ms(10_000);
 
 /// A session's frames and end.
@@ -199,7 +199,7 @@ const EVALUATION_MARGIN: SimTime = SimTime::from_ms(10_000);
 pub struct Session {
     /// Session frames, with pad touchdowns removed; frame 1 has index 0.
     pub frames: Vec<Frame>,
-    /// Reason that the session ended after the last frame.
+    /// Reason why the session ended after the last frame.
     pub reason: EndReason,
 }
 
@@ -221,7 +221,7 @@ impl Session {
         Some(Self { frames, reason })
     }
 
-    /// Returns the session duration (N/f), s.
+    /// Returns the session duration (N/f) in seconds.
     #[must_use]
     pub fn seconds(&self, frame_rate_hz: f64) -> f64 {
         self.frames.len() as f64 / frame_rate_hz
@@ -289,8 +289,8 @@ mod tests {
         let pad_m = rule.pad_m;
         let over_home = pad_m + Vec3::new(1.0, 0.0, 5.0);
         assert_eq!(end(&mut rule, 0, over_home, |_| (true, false)), None);
-        // The drone disarms in the lake. After the respawn, it is armed, but for one second the telemetry still reports it as
-        // disarmed and on the ground.
+        // The drone disarms in the lake. After the respawn, it is armed, but for one second, the telemetry still
+        // reports it as disarmed and on the ground.
         assert_eq!(end(&mut rule, 8_000, pad_m + Vec3::new(80.0, 0.0, -5.0), |_| (false, true)), None);
         assert_eq!(end(&mut rule, 16_000, over_home, |k| (k >= 30, k < 30)), None);
         // Later states are valid again: the drone comes to rest near home and disarms.

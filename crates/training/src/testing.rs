@@ -4,7 +4,7 @@ use super::questionnaire::{Answers, QuestionnaireItem};
 use super::record::{Crashes, DefectRecord, FORMAT, Scores, SessionRecord, TaskRecord};
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
-/// Returns the record of a perfect flight of the TASBID job, with all 24 questions answered "agree".
+/// Returns the record of a perfect flight on the TASBID job, with all 24 questions answered "agree".
 pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
     let mut answers = Answers { language: "en".into(), ..Answers::default() };
     answers.given.extend(QuestionnaireItem::all(&[1, 2, 3, 4]).into_iter().map(|item| (item, 2)));
@@ -59,7 +59,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
     }
 }
 
-/// Returns the record of a session that ended early, with only 60% of the first task's path flown.
+/// Returns the record of a session that ended early, after only 60% of the first task's path was flown.
 pub fn aborted_record(trainee: &str, number: usize) -> SessionRecord {
     let mut record = perfect_record(trainee, number);
     record.completion =

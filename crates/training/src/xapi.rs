@@ -15,7 +15,7 @@ pub const HOME: &str = "https://spandrel.invalid/trainees";
 const STATEMENT_NAMESPACE: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
 /// Key of the session result extension for job completion.
 const COMPLETION: &str = "urn:spandrel:completion";
-/// Key of the task result extension for the flown fraction of the task's path.
+/// Key of the task result extension for the fraction of the task's path that was flown.
 const COVERED: &str = "urn:spandrel:covered";
 /// Prefix of verb IDs in ADL's vocabulary.
 const VERB_PREFIX: &str = "http://adlnet.gov/expapi/verbs/";

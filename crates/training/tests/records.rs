@@ -35,7 +35,7 @@ fn faulty_flight() -> Tape {
     tape.hold(0.8);
     tape.fly((40.0, 0.0, 14.5), 2.5);
     tape.fly((40.0, 0.0, 10.0), 1.0);
-    // Too fast for 10 m.
+    // Exceeds the speed limit for 10 m.
     tape.fly((50.0, 0.0, 10.0), 5.0);
     tape.lamp(true);
     tape.hold(0.2);
@@ -117,7 +117,7 @@ fn exact_sideways_deviation_is_not_a_height_deviation() {
     tape.fly((30.0, 0.0, 10.0), 4.0);
     tape.fly((30.0, 5.0, 10.0), 2.0);
     tape.hold(3.0);
-    // More than 8 m from the path, the drone counts as elsewhere rather than off the path.
+    // If the drone is more than 8 m from the path, it counts as elsewhere rather than off the path.
     tape.fly((30.0, 20.0, 10.0), 4.0);
     tape.hold(5.0);
     tape.fly((30.0, 0.0, 10.0), 4.0);

@@ -60,7 +60,7 @@ fn exact_instructor_note_is_in_report_but_not_among_messages() {
     assert!(page.contains("instructor's notes") && page.contains("note: watch the pier") && page.contains("class=\"note-dot\""));
 }
 
-/// Returns the values of all attributes that make a browser load a resource.
+/// Returns the values of all attributes that cause a browser to load a resource.
 fn resource_urls(page: &str) -> Vec<&str> {
     let starts = [" src=\"", " href=\"", " action=\"", " poster=\"", " data=\"", " srcset=\""];
     let values = |start: &'static str| page.split(start).skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
@@ -82,7 +82,7 @@ fn exact_review_contains_scorer_assessment() {
     let review = review(&tape, &job);
     assert_eq!((&review.assessment, &review.frames, review.seed), (&graded.assessment, &graded.frames, graded.seed));
     let each = &graded.assessment.snapshots.each;
-    assert!(each.len() > 5, "several pictures are needed");
+    assert!(each.len() > 5, "the test requires several pictures");
     let verdicts: Vec<bool> = review
         .pictures
         .iter()
@@ -112,7 +112,7 @@ fn exact_page_makes_no_network_requests() {
         let inside = value.starts_with('#') || value.starts_with("data:");
         assert!(inside, "{value}");
     }
-    assert_eq!(page.matches("<script").count(), 6, "data, two parts of three.js, uPlot, two of Spandrel's");
+    assert_eq!(page.matches("<script").count(), 6, "expected scripts: data, two for three.js, uPlot, two of Spandrel's own");
     assert!(!page.contains(" style=\"") && !page.contains(" onclick"), "the policy blocks styles and scripts in attributes");
     assert!(page.contains("Content-Security-Policy"));
 }
@@ -139,7 +139,7 @@ fn exact_user_text_is_escaped_everywhere() {
     assert_eq!(evil.feedback.notes.len(), 1);
     for page in [page::session(&evil), page::comparison(&evil, short_review())] {
         let page = without_assets(&page);
-        assert!(page.contains("alert(1)"), "the text is present in escaped form");
+        assert!(page.contains("alert(1)"), "the text should appear in escaped form");
         for raw in ["<script>alert", "<img src=x", "<!--"] {
             assert!(!page.contains(raw), "{raw}");
         }
@@ -167,7 +167,10 @@ fn exact_every_surface_area_has_one_outcome() {
     }
     let job = two_bridges();
     let more = review(&record_inspection(&job, 240.0, 2), &job);
-    assert!(more.coverage.total().pictured_m2() > coverage.total().pictured_m2(), "three times as many pictures show more");
+    assert!(
+        more.coverage.total().pictured_m2() > coverage.total().pictured_m2(),
+        "three times as many pictures should show more surface"
+    );
 }
 
 #[test]
@@ -185,8 +188,7 @@ fn exact_night_changes_only_light_outcomes() {
     assert!(night.average_picture().unwrap().lux < day.average_picture().unwrap().lux);
 }
 
-/// On the tape, the forward stick moves by 0.01 of full travel per 100 ms, so a movement of 0.1 takes up to 1 s to
-/// show.
+/// On the tape, the forward stick moves by 0.01 of full travel per 100 ms, so it takes up to 1 s to move by 0.1.
 #[test]
 fn exact_speeding_cue_is_reported_with_reaction_time() {
     let job = scenario(vec![task(1, line((0.0, 0.0, 10.0), (90.0, 0.0, 10.0)), 3.0)]);
@@ -225,7 +227,7 @@ fn exact_empty_job_has_a_report() {
         "This job has no defects",
         "No contacts",
         "n/a",
-        "1 gaps longer than 0.2 s",
+        "Telemetry gaps longer than 0.2 s: 1",
         "no telemetry for",
     ] {
         assert!(page.contains(words), "{words}");

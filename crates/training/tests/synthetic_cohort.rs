@@ -67,5 +67,5 @@ fn val_only_poor_interlayer_flights_recommend_gap_drill() {
             spared += 1;
         }
     }
-    assert!(sent >= 5 && spared >= 5, "{sent} sent, {spared} spared");
+    assert!(sent >= 5 && spared >= 5, "{sent} with the drill recommended, {spared} without");
 }

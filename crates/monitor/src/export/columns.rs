@@ -1,11 +1,11 @@
-//! The columns of the frames export. CSV, Parquet and the data dictionary are generated from this list.
+//! Columns of the frame export. CSV, Parquet and the data dictionary are generated from this list.
 
 use super::FrameRow;
 use spandrel_model::frames::{Enu, Vec3};
 use std::fmt::Write;
 
 /// Data type of a column and the function that reads its value from a row. The function returns `None` if the telemetry
-/// has no such value.
+/// does not contain the value.
 #[derive(Debug, Clone, Copy)]
 pub enum ColumnReader {
     /// Integer column.
@@ -18,7 +18,7 @@ pub enum ColumnReader {
     Text(fn(&FrameRow) -> &'static str),
 }
 
-/// A column of the frames export.
+/// A column of the frame export.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
     /// Column name, ending in the unit if there is one.
@@ -76,14 +76,14 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
     row.roll_pitch_yaw_rad.map(|angles| angles[angle].to_degrees())
 }
 
-/// All columns in order. Names and order of released columns never change; new columns are appended.
+/// All columns in order. The names and order of released columns never change; new columns are appended.
 pub const COLUMNS: &[Column] = &[
     column("frame", "", "", "Frame number; 1 is lift-off.", ColumnReader::Integer(|r| Some(i64::from(r.frame.index)))),
     column("t_s", "s", "", "Simulation time since lift-off.", ColumnReader::Float(|r| Some(r.since_lift_off_s))),
-    column("fb", "", STICK, "Stick position, forward positive.", ColumnReader::Float(|r| Some(r.frame.sticks[0]))),
-    column("rl", "", STICK, "Stick position, right positive.", ColumnReader::Float(|r| Some(r.frame.sticks[1]))),
-    column("ud", "", STICK, "Stick position, up positive.", ColumnReader::Float(|r| Some(r.frame.sticks[2]))),
-    column("rt", "", STICK, "Stick position, clockwise positive.", ColumnReader::Float(|r| Some(r.frame.sticks[3]))),
+    column("fb", "", STICK, "Stick position, positive forward.", ColumnReader::Float(|r| Some(r.frame.sticks[0]))),
+    column("rl", "", STICK, "Stick position, positive to the right.", ColumnReader::Float(|r| Some(r.frame.sticks[1]))),
+    column("ud", "", STICK, "Stick position, positive up.", ColumnReader::Float(|r| Some(r.frame.sticks[2]))),
+    column("rt", "", STICK, "Stick position, positive clockwise.", ColumnReader::Float(|r| Some(r.frame.sticks[3]))),
     column("light", "", "", "Whether the lamp is on.", ColumnReader::Boolean(|r| r.frame.light)),
     column(
         "snapshot",
@@ -142,17 +142,23 @@ pub const COLUMNS: &[Column] = &[
         "velocity_up_m_s",
         "m/s",
         ENU_VELOCITY,
-        "True vertical velocity, up positive.",
+        "True vertical velocity, positive up.",
         ColumnReader::Float(|r| Some(r.frame.velocity_m_s.up())),
     ),
     optional(
         "roll_deg",
         "deg",
         BODY_FROM_NED,
-        "True roll, right side down positive.",
+        "True roll angle, positive with the right side down.",
         ColumnReader::Float(|r| attitude_deg(r, 0)),
     ),
-    optional("pitch_deg", "deg", BODY_FROM_NED, "True pitch, nose up positive.", ColumnReader::Float(|r| attitude_deg(r, 1))),
+    optional(
+        "pitch_deg",
+        "deg",
+        BODY_FROM_NED,
+        "True pitch angle, positive with the nose up.",
+        ColumnReader::Float(|r| attitude_deg(r, 1)),
+    ),
     optional(
         "yaw_deg",
         "deg",
@@ -164,14 +170,14 @@ pub const COLUMNS: &[Column] = &[
         "gimbal_pitch_deg",
         "deg",
         "horizon",
-        "Camera pitch relative to the horizon, up positive.",
+        "Camera pitch relative to the horizon, positive up.",
         ColumnReader::Float(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
     ),
     optional(
         "task",
         "",
         "",
-        "Task whose path the drone is on, or else the last task entered; empty until a task is entered.",
+        "Task whose path the drone is on or, if none, the last task entered; empty until a task is entered.",
         ColumnReader::Integer(|r| r.task.map(|task| i64::from(task.id))),
     ),
     column("on_path", "", "", "Whether the drone is on a task's path.", ColumnReader::Boolean(|r| r.on_path)),
@@ -193,21 +199,21 @@ pub const COLUMNS: &[Column] = &[
         "wind_east_m_s",
         "m/s",
         ENU_VELOCITY,
-        "East wind component, relative to the ground.",
+        "East wind component relative to the ground.",
         ColumnReader::Float(|r| east(r.wind_m_s)),
     ),
     optional(
         "wind_north_m_s",
         "m/s",
         ENU_VELOCITY,
-        "North wind component, relative to the ground.",
+        "North wind component relative to the ground.",
         ColumnReader::Float(|r| north(r.wind_m_s)),
     ),
     optional(
         "wind_up_m_s",
         "m/s",
         ENU_VELOCITY,
-        "Vertical wind component, up positive, relative to the ground.",
+        "Vertical wind component relative to the ground, positive up.",
         ColumnReader::Float(|r| up(r.wind_m_s)),
     ),
     optional(
@@ -262,7 +268,7 @@ pub fn frames_csv(rows: &[FrameRow]) -> String {
     csv
 }
 
-/// Appends one cell to the CSV text. The write result is ignored because writing to a string cannot fail.
+/// Appends one cell to the CSV text. Ignores the write result because writing to a string cannot fail.
 fn write_cell(csv: &mut String, read: ColumnReader, row: &FrameRow) {
     let _ = match read {
         ColumnReader::Integer(value) => value(row).map_or(Ok(()), |value| write!(csv, "{value}")),

@@ -1,4 +1,4 @@
-//! A row of the frames export: a frame with attitude, gimbal, task, path distance, wind and estimated position.
+//! A row of the frame export: a frame with attitude, gimbal, task, path distance, wind and estimated position.
 
 use crate::assessment::{AssessError, check_identity, flight_and_prior_runs};
 use crate::measures::on_path::{OnPath, ReferencePaths};
@@ -20,7 +20,7 @@ pub struct TaskDistance {
     pub distance_m: Option<f64>,
 }
 
-/// One row of the frames export. `None` means that telemetry has no value for this frame.
+/// One row of the frame export. `None` means that the telemetry has no value for this frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameRow {
     /// The scored frame.
@@ -29,9 +29,9 @@ pub struct FrameRow {
     pub since_lift_off_s: f64,
     /// True roll, pitch and yaw, rad.
     pub roll_pitch_yaw_rad: Option<[f64; 3]>,
-    /// Camera pitch relative to the horizon, rad, up positive.
+    /// Camera pitch relative to the horizon, rad, positive up.
     pub gimbal_pitch_rad: Option<f64>,
-    /// Task whose path the drone is on, or else the last task entered.
+    /// Task whose path the drone is on or, if none, the last task entered.
     pub task: Option<TaskDistance>,
     /// Whether the drone is on a task's path.
     pub on_path: bool,
@@ -85,8 +85,8 @@ pub fn rows(frames: Vec<Frame>, flight: &Flight, navigation: &Navigation, scenar
         });
         let attitude = flight.between(frame.time).filter(|_| known).map(|between| between.motion.ned_from_frd.euler());
         FrameRow {
-            // Dividing by 1e9 gives the double nearest to the decimal value, which prints with few digits. Multiplying
-            // by 1e-9 doesn't.
+            // Dividing by 1e9 yields the double nearest to the decimal value, which prints with few digits. Multiplying
+            // by 1e-9 does not.
             since_lift_off_s: (frame.time - start).ns() as f64 / 1e9,
             roll_pitch_yaw_rad: attitude.map(|(roll, pitch, yaw)| [roll, pitch, yaw]),
             gimbal_pitch_rad: flight.gimbal.at(frame.time).filter(|_| known),

@@ -1,11 +1,11 @@
-//! Battery cue: green, yellow or red. A text is sent only when the color gets worse.
+//! Battery cue: green, yellow or red. Sends a text only when the color gets worse.
 
 use super::input::FeedbackInput;
 use super::pilot_text::PilotText;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::scenario::FeedbackThresholds;
 
-/// Battery display color; the scenario sets the limits.
+/// Battery display color. The scenario sets the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum BatteryColor {
     /// At or above `battery_green_pct`.
@@ -17,7 +17,7 @@ pub enum BatteryColor {
     Red,
 }
 
-/// Returns the display color for a battery charge in %.
+/// Returns the display color for a battery charge in percent.
 #[must_use]
 pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     if battery_pct >= limits.battery_green_pct {

@@ -1,5 +1,5 @@
-//! Crash cue: raised at first contact. Its text names the object hit and takes priority over all other texts. Contacts
-//! in quick succession produce only one text.
+//! Crash cue, raised at first contact. Its text names the object that was hit and takes priority over all other texts.
+//! Contacts in quick succession produce only one text.
 
 use super::input::FeedbackInput;
 use super::pilot_text::{Cooldown, PilotText};

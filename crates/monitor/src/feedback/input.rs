@@ -8,13 +8,13 @@ use spandrel_model::time::SimTime;
 pub struct TaskProximity {
     /// Distance to the task's path (l*), m.
     pub distance_m: f64,
-    /// On-path threshold of the task, m.
+    /// The task's on-path threshold, m.
     pub threshold_m: f64,
     /// Minimum clearance in this task, m; `None` to use the scenario's value.
     pub too_close_m: Option<f64>,
     /// Task number in the scenario.
     pub id: u32,
-    /// Whether the trainee may leave the task: its path was flown, or the drone is nearest to an end of the path.
+    /// Whether the trainee may leave the task because its path was flown or the drone is nearest to an end of the path.
     pub may_leave_task: bool,
 }
 
@@ -25,7 +25,7 @@ pub struct FeedbackInput {
     pub time: SimTime,
     /// Whether the session is running (from lift-off to its end).
     pub in_session: bool,
-    /// Whether the drone is airborne. Proximity warnings are suppressed on the ground.
+    /// Whether the drone is in the air. On the ground, proximity warnings are suppressed.
     pub airborne: bool,
     /// Speed (magnitude of the velocity), m/s.
     pub speed_m_s: f64,
@@ -35,7 +35,7 @@ pub struct FeedbackInput {
     pub clearance_m: Option<f64>,
     /// Kind of object in contact, excluding touchdowns on the pad.
     pub contact: ContactKind,
-    /// Name of the object in contact, if known to the site.
+    /// Name of the object in contact, if the site knows it.
     pub touched: Option<String>,
     /// The drone's proximity to each task, in scenario order.
     pub tasks: Vec<TaskProximity>,

@@ -1,5 +1,5 @@
-//! In-flight feedback, with one file per rule. Each rule processes the same [`FeedbackInput`], returns whether its cue
-//! is on, and returns a text when the cue turns on. Thresholds come from the scenario. All times are simulation times.
+//! In-flight feedback, with one file per rule. Every rule processes the same [`FeedbackInput`]. It returns whether its
+//! cue is on and, when the cue turns on, a text. Thresholds come from the scenario. All times are simulation times.
 
 pub mod battery;
 pub mod crash;

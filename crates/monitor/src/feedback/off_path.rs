@@ -1,6 +1,6 @@
 //! Off-path cue: the drone is beyond the path threshold but within the maximum distance of the last task entered. The
-//! cue is off in transit: before the first task, and after the drone leaves a task with its path flown or from an end
-//! of the path (docs/src/reference/assessment.md, "Feedback during the flight").
+//! cue is off in transit: before the first task, and after the drone leaves a task at an end of its path or after
+//! flying its path (docs/src/reference/assessment.md, "Feedback during the flight").
 
 use super::input::{FeedbackInput, TaskProximity};
 use super::pilot_text::{Cooldown, PilotText};
@@ -85,7 +85,7 @@ impl OffPathCue {
         (if self.shown_since.is_some() { cue::OFF_PATH } else { 0 }, text)
     }
 
-    /// Returns the task ID and distance, m, if the drone is off the path.
+    /// Returns the task ID and the distance in meters if the drone is off the path.
     fn off_path_distance(&mut self, moment: &FeedbackInput, reach_m: f64) -> Option<(u32, f64)> {
         let task = &moment.tasks[moment.last?];
         let between = self.transit.update(moment.time, task);

@@ -1,5 +1,5 @@
 //! Speeding cue: the drone exceeds the speed limit on any path or near the last task entered. The scorer counts
-//! speeding only inside task windows, but a window's end is not known during the flight.
+//! speeding only in task windows, but during the flight, the end of a window is not yet known.
 
 use super::input::FeedbackInput;
 use super::pilot_text::{Cooldown, PilotText};

@@ -15,11 +15,11 @@ use std::sync::Arc;
 pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
     /// Returns the session's defects.
     fn defects(&self) -> &[PlacedDefect];
-    /// Returns the visibility of each in-range defect in a picture taken with these settings.
+    /// Returns the visibility of each defect in range in a picture taken with these settings.
     fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
     /// Returns the name of the nearest object within `max_m`, for messages to the pilot.
     fn nearest_object_name(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
-    /// Returns a copy of the site with these bridge closures; `None` if it has no moving traffic.
+    /// Returns a copy of the site with these bridge closures; `None` if the site has no moving traffic.
     fn with_closures(&self, _: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
         None
     }

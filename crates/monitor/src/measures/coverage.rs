@@ -1,4 +1,4 @@
-//! Coverage: the flown fraction of each reference path's length.
+//! Coverage: the fraction of each reference path's length that was flown.
 
 use super::on_path::{OnPath, ReferencePath, ReferencePaths};
 
@@ -11,7 +11,8 @@ const MAX_COVERED_STEP_M: f64 = 5.0;
 pub struct PathCoverage {
     /// Length of the path, m; 0 for a single point.
     pub length_m: f64,
-    /// Flown fraction of the length, 0 to 1. A path no longer than its threshold counts as flown once reached.
+    /// Fraction of the length that was flown, 0 to 1. A path no longer than its threshold counts as flown once the
+    /// drone reaches it.
     pub share: f64,
 }
 
@@ -29,7 +30,7 @@ fn task_coverage(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &
     flown.coverage()
 }
 
-/// The flown part of a path, updated frame by frame.
+/// The part of a path that was flown, updated frame by frame.
 ///
 /// A point represents half of each adjacent segment. It is covered if it was the nearest point in an on-path frame or
 /// lies between the nearest points of two consecutive on-path frames.
@@ -62,13 +63,13 @@ impl FlownPath {
         self.before = point;
     }
 
-    /// Returns whether each point of the path was flown.
+    /// Returns whether each path point was flown.
     #[must_use]
     pub fn points(&self) -> &[bool] {
         &self.covered
     }
 
-    /// Returns the path's length and flown fraction.
+    /// Returns the path's length and the fraction that was flown.
     #[must_use]
     pub fn coverage(&self) -> PathCoverage {
         let length_m: f64 = self.weights_m.iter().sum();

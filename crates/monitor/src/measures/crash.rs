@@ -8,8 +8,8 @@ use spandrel_model::scenario::GroundTeam;
 
 /// Maximum vertical speed at which contact with the pad is not a crash, m/s (docs/src/reference/assessment.md, "Crashes").
 const MAX_SOFT_CONTACT_M_S: f64 = 1.0;
-/// Maximum height above the pad at which a contact may be with the ground around the pad, m (estimate: center height of
-/// any tilted aircraft).
+/// Maximum height above the pad at which a contact may be with the ground around the pad, m (estimate: height of the
+/// center of any tilted aircraft).
 const MAX_PAD_CONTACT_HEIGHT_M: f64 = 1.0;
 /// Number of preceding frames searched for the impact speed, because the drone may already have stopped when the
 /// contact is reported.
@@ -68,7 +68,7 @@ pub fn is_soft_pad_contact(position_m: Vec3<Enu>, vertical_m_s: f64, team: &Grou
         && vertical_m_s.abs() < MAX_SOFT_CONTACT_M_S
 }
 
-/// Returns all crashes: frames in which a contact starts or escalates to a vehicle or person.
+/// Returns all crashes. A crash is a frame in which a contact starts or escalates to a vehicle or person.
 #[must_use]
 pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     let mut found: Vec<Crash> = Vec::new();
@@ -89,8 +89,8 @@ pub fn crashes(frames: &[Frame], on_path: &OnPath) -> Vec<Crash> {
     found
 }
 
-/// Returns the task whose window contains frame `i`. If several do, prefers the task being flown, then the last one
-/// flown, then the lowest index.
+/// Returns the task whose window contains frame `i`. If several windows contain it, prefers the task being flown, then
+/// the last one flown, then the one with the lowest index.
 fn task_at_frame(i: usize, on_path: &OnPath) -> Option<usize> {
     let holds = |task: usize| on_path.windows[task].is_some_and(|window| window.contains(i));
     let open: Vec<usize> = (0..on_path.windows.len()).filter(|task| holds(*task)).collect();

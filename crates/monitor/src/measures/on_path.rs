@@ -3,8 +3,8 @@
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 
-/// Number of points per search block. Blocks with a bounding box farther away than the best point so far are skipped;
-/// the result stays exact.
+/// Number of points per search block. The search skips blocks whose bounding box is farther away than the best point so
+/// far; the result stays exact.
 const BLOCK_POINTS: usize = 16;
 /// Margin for rounding errors when testing whether a box can be skipped.
 const BOX_TOLERANCE: f64 = 1.0 + 1e-9;
@@ -104,7 +104,7 @@ impl ReferencePath {
         self.blocks.iter().all(|block| block.distance_squared(position_m.array()) > limit)
     }
 
-    /// Returns each point's distance along the path from the first point in meters.
+    /// Returns each point's distance in meters from the first point, measured along the path.
     #[must_use]
     pub fn along_m(&self) -> Vec<f64> {
         let steps = self.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm());
@@ -116,7 +116,7 @@ impl ReferencePath {
         self.points_m.first().map(|_| 0.0).into_iter().chain(later).collect()
     }
 
-    /// Returns the length represented by each point, m: half of each adjacent segment.
+    /// Returns the length in meters that each point represents: half of each adjacent segment.
     #[must_use]
     pub fn lengths_by_point_m(&self) -> Vec<f64> {
         let mut lengths_m = vec![0.0; self.points_m.len()];
@@ -135,8 +135,8 @@ impl ReferencePath {
         Some((self.points_m[k], self.points_m[next]))
     }
 
-    /// Returns the index with the lowest cost (the lowest index in a tie). A point's cost must be at least the squared
-    /// distance to its block's box.
+    /// Returns the index with the lowest cost; in a tie, the lowest such index. A point's cost must be at least the
+    /// squared distance to its block's box.
     fn search(&self, position_m: Vec3<Enu>, cost: impl Fn(usize) -> f64) -> Option<usize> {
         let point = position_m.array();
         let mut best: Option<(f64, usize)> = None;
@@ -203,7 +203,7 @@ impl ReferencePaths {
         &self.paths[task]
     }
 
-    /// Returns the on-path threshold of a task in meters.
+    /// Returns a task's on-path threshold in meters.
     #[must_use]
     pub fn threshold_m(&self, task: usize) -> f64 {
         self.thresholds_m[task]
@@ -244,9 +244,9 @@ impl ReferencePaths {
 /// A task's first and last on-path frames, as indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TaskWindow {
-    /// First frame index.
+    /// Index of the first frame.
     pub first: usize,
-    /// Last frame index, inclusive.
+    /// Index of the last frame, inclusive.
     pub last: usize,
 }
 
@@ -291,7 +291,7 @@ impl OnPath {
         Self { task, windows }
     }
 
-    /// Returns the fraction of frames in a task's window that are on the path (P_p,t); 0 if the path was never entered.
+    /// Returns the fraction of a task window's frames that are on the path (P_p,t); 0 if the path was never entered.
     #[must_use]
     pub fn share(&self, task: usize) -> f64 {
         let Some(window) = self.windows[task] else { return 0.0 };

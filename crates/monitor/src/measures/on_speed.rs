@@ -12,8 +12,8 @@ pub fn speeding(speeds_m_s: &[f64], windows: &[Option<TaskWindow>], limit_m_s: f
     speeds_m_s.iter().zip(inside).map(|(speed, inside)| inside && *speed > limit_m_s).collect()
 }
 
-/// Returns the speeding loss (P_s,t): the sum of speed / limit over the speeding frames, divided by the total number of
-/// frames in the window; 0 without a window.
+/// Returns the speeding loss (P_s,t): the sum of speed / limit over the speeding frames, divided by the number of all
+/// frames in the window; 0 if there is no window.
 #[must_use]
 pub fn loss(speeds_m_s: &[f64], speeding: &[bool], window: Option<TaskWindow>, limit_m_s: f64) -> f64 {
     let Some(window) = window else { return 0.0 };

@@ -1,4 +1,4 @@
-//! Accuracy (P_A in the TASBID paper): defects shown in the pictures.
+//! Accuracy (P_A in the TASBID paper), based on the defects that the pictures show.
 
 use super::Score;
 
@@ -16,13 +16,13 @@ pub struct DetectionTally {
 }
 
 impl DetectionTally {
-    /// Returns hits / pictures; 0 if no picture was taken.
+    /// Returns the number of hits divided by the number of pictures; 0 if no picture was taken.
     #[must_use]
     pub fn precision(&self) -> f64 {
         if self.taken == 0 { 0.0 } else { self.hits as f64 / self.taken as f64 }
     }
 
-    /// Returns defects found / defects placed; `None` if no defect was placed.
+    /// Returns the number of defects found divided by the number placed; `None` if no defect was placed.
     #[must_use]
     pub fn recall(&self) -> Option<f64> {
         (self.placed > 0).then(|| self.found as f64 / self.placed as f64)

@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const VISIT_MERGE_GAP_S: f64 = 10.0;
 /// Contacts closer together than this count as one crash, s (docs/src/reference/assessment.md, "Certification").
 const CRASH_MERGE_GAP_S: f64 = 1.0;
-/// Minimum battery at landing, % (docs/src/reference/assessment.md, "Certification").
+/// Minimum battery charge at landing, % (docs/src/reference/assessment.md, "Certification").
 const MIN_LANDING_BATTERY_PCT: f64 = 20.0;
 /// Minimum loss per crash, points (equal to TASBID's fixed loss per crash).
 const MIN_CRASH_LOSS: f64 = 3.0;
@@ -33,7 +33,7 @@ const EXPOSURE_LOSS_PER_S: f64 = 0.1;
 /// Maximum loss for low clearance, points (estimate).
 const MAX_EXPOSURE_LOSS: f64 = 50.0;
 
-/// Results of the certification profile.
+/// Certification results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Certification {
     /// Whether all requirements were met.
@@ -42,7 +42,7 @@ pub struct Certification {
     pub gates: Requirements,
     /// Unmet requirements as text, each with its actual and required value.
     pub unmet: Vec<String>,
-    /// Scores from 0 to 100. Conformity is absent if no path was entered, and accuracy if no defect was placed.
+    /// Scores from 0 to 100. Conformity is absent if no path was entered; accuracy is absent if no defect was placed.
     pub scores: CertificationScores,
     /// Flags: `not_attempted:ID` for each task not attempted; `no_evidence` if no path was entered.
     pub flags: Vec<String>,
@@ -71,7 +71,7 @@ pub struct Requirements {
     pub no_person_or_vehicle_hit: bool,
     /// Whether the drone landed near the ground team.
     pub landed_at_home: bool,
-    /// Whether the drone landed with at least 20% battery.
+    /// Whether the drone landed with a battery charge of at least 20%.
     pub battery_reserve: bool,
 }
 
@@ -84,7 +84,7 @@ pub struct CertificationScores {
     pub efficiency: f64,
     /// Safety, based on contact speed and clearance.
     pub safety: f64,
-    /// Detection accuracy; the kind of defect is not graded.
+    /// Detection accuracy. The kind of defect is not graded.
     pub accuracy: Option<f64>,
 }
 
@@ -95,9 +95,9 @@ pub struct TaskVisits {
     pub id: u32,
     /// First and last frame of each visit.
     pub visits: Vec<(u32, u32)>,
-    /// Flown fraction of the reference path, 0 to 1.
+    /// Fraction of the reference path that was flown, 0 to 1.
     pub coverage: f64,
-    /// Fraction of the visits' frames on the path, 0 to 1.
+    /// Fraction of the visits' frames that are on the path, 0 to 1.
     pub on_path: f64,
     /// TASBID speeding loss, computed over the frames in the visits.
     pub speeding: f64,
@@ -106,7 +106,7 @@ pub struct TaskVisits {
 /// A crash. Contacts close together in time are merged into one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MergedCrash {
-    /// First frame number.
+    /// Number of the first frame.
     pub frame: u32,
     /// Time since lift-off, s.
     pub t_s: f64,
@@ -312,8 +312,8 @@ fn merge_crashes(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
         .collect()
 }
 
-/// Returns the time spent below the minimum clearance in seconds. The limit is the scenario's or, if lower, the limit of the
-/// last task entered, as in the too-close cue.
+/// Returns the time spent below the minimum clearance in seconds. The limit is the scenario's or, if lower, that of the
+/// last task entered, as for the too-close cue.
 fn exposure_s(evidence: &CertificationInputs<'_>) -> f64 {
     let scenario = evidence.scenario;
     let mut current: Option<usize> = None;

@@ -1,4 +1,4 @@
-//! Job completion. It is shown with every score so that an incomplete flight is not mistaken for a complete one.
+//! Job completion. Every score is shown with it so that no one mistakes an incomplete flight for a complete one.
 
 use crate::measures::coverage::PathCoverage;
 use serde::{Deserialize, Serialize};
@@ -8,16 +8,16 @@ use spandrel_model::numbers::{format_limit, format_with_limit};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TaskState {
-    /// The required fraction of its path was flown.
+    /// The required fraction of the task's path was flown.
     Done,
-    /// Its path was entered, but less than the required fraction was flown.
+    /// The task's path was entered, but less than the required fraction was flown.
     Part,
-    /// Its path was never entered.
+    /// The task's path was never entered.
     NotAttempted,
 }
 
 impl TaskState {
-    /// Derives the state from whether the path was entered and how much of it was flown.
+    /// Returns the state of a task from its coverage and whether its path was entered.
     #[must_use]
     pub fn of(attempted: bool, covered: f64, done_share: f64) -> Self {
         match (attempted, covered >= done_share) {
@@ -47,7 +47,7 @@ pub struct Completion {
     pub tasks_done: usize,
     /// Number of tasks in the job.
     pub tasks: usize,
-    /// Flown fraction of the total path length, 0 to 1.
+    /// Fraction of the total path length that was flown, 0 to 1.
     pub path_share: f64,
     /// Whether the session ended with a landing at home.
     pub landed_at_home: bool,
@@ -79,8 +79,8 @@ impl Completion {
     #[must_use]
     pub fn summary(&self) -> String {
         let word = if self.complete { "Complete" } else { "Incomplete" };
-        // With a single task, its share decides whether the job is complete, so the text needs enough digits to show
-        // why. With multiple tasks, a rounded share is enough.
+        // If there is only one task, its share determines whether the job is complete, so the text needs enough digits
+        // to show why. Otherwise, a rounded share is enough.
         let share =
             if self.tasks == 1 { percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) };
         let tasks = if self.tasks == 1 { "task" } else { "tasks" };

@@ -5,14 +5,14 @@ use super::Score;
 /// On-path share (P_p) and speeding loss (P_s) of one task.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaskShares {
-    /// Fraction of window frames on the path (P_p,t), 0 to 1.
+    /// Fraction of the task window's frames that are on the path (P_p,t), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss of the task (P_s,t in TASBID).
+    /// The task's speeding loss (P_s,t in TASBID).
     pub speeding: f64,
 }
 
-/// Computes conformity over all tasks; `None` for a job without tasks. The weights depend on the number of tasks and
-/// the two speeds; for the TASBID job, they are 25 and -25/3.
+/// Computes the conformity score over all tasks; `None` for a job without tasks. The weights depend on the number of
+/// tasks and the two speeds; for the TASBID job, they are 25 and -25/3.
 #[must_use]
 pub fn score(tasks: &[TaskShares], speed_limit_m_s: f64, max_speed_m_s: f64) -> Option<Score> {
     if tasks.is_empty() {

@@ -2,8 +2,8 @@
 
 use super::Score;
 
-/// Computes efficiency: the full score up to `time_best_s`, then a linear decrease to 0 at `time_max_s`; -100 if the
-/// battery failed (X_b).
+/// Computes the efficiency score: the full score up to `time_best_s`, then a linear decrease to 0 at `time_max_s`; -100
+/// if the battery failed (X_b).
 #[must_use]
 pub fn score(seconds: f64, battery_failed: bool, time_best_s: f64, time_max_s: f64) -> Score {
     let over = (seconds - time_best_s).max(0.0);

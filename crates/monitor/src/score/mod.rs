@@ -18,7 +18,7 @@ pub const SCORER_VERSION: u32 = 2;
 pub struct Score {
     /// Result of the formula, clamped to its scale.
     pub raw: f64,
-    /// Percentage of the scale: 100 (raw - least) / (greatest - least).
+    /// Percentage of the scale, 100 (raw - least) / (greatest - least).
     pub pct: f64,
 }
 

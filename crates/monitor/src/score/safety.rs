@@ -7,7 +7,7 @@ const TRAFFIC_LOSS: f64 = 100.0;
 /// Points lost for any other crash.
 const OTHER_LOSS: f64 = 3.0;
 
-/// Computes safety. `others` is the number of contacts with anything except people and vehicles.
+/// Computes the safety score. `others` is the number of contacts with anything except people and vehicles.
 #[must_use]
 pub fn score(person: bool, vehicle: bool, others: usize) -> Score {
     let traffic = f64::from(u8::from(person)) + f64::from(u8::from(vehicle));

@@ -12,8 +12,8 @@ use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use spandrel_mavlink::station;
 
-/// Fraction of a path's points that must be passed before the path counts as flown (estimate: cutting a corner skips some
-/// points).
+/// Fraction of a path's points that the drone must pass before the path counts as flown (estimate: cutting a corner
+/// skips some points).
 const MIN_FLOWN_SHARE: f64 = 0.9;
 
 impl Monitor {
@@ -77,7 +77,7 @@ impl Monitor {
         at_end || passed as f64 >= MIN_FLOWN_SHARE * count as f64
     }
 
-    /// Returns whether the drone is low over the pad. Heights elsewhere are not checked, because a job can take the
+    /// Returns whether the drone is low over the pad. Heights elsewhere are not checked because a job can take the
     /// drone below the pad.
     fn is_low_over_pad(&self, truth: &Truth) -> bool {
         let team = &self.config.scenario.ground_team;
@@ -116,7 +116,7 @@ impl Monitor {
         }
     }
 
-    /// Adopts the system ID of the scored flight or, until there is one, of the last heartbeat received.
+    /// Uses the system ID of the scored flight or, until there is one, of the last heartbeat received.
     fn adopt_system(&mut self, system: u8) {
         let system = self.timeline.system().unwrap_or(system);
         if system != self.encoder.system_id() {

@@ -38,7 +38,7 @@ mod telemetry_intake;
 pub const COMPONENT: u8 = 191;
 /// The autopilot's component ID (MAV_COMP_ID_AUTOPILOT1).
 const AUTOPILOT_COMPONENT: u8 = 1;
-/// Interval at which `cues` is repeated, 5 Hz (docs/src/reference/wire.md, "Scoring data").
+/// Interval at which the monitor repeats `cues`, 5 Hz (docs/src/reference/wire.md, "Scoring data").
 const CUES_INTERVAL: SimTime = SimTime::from_ms(200);
 /// Heartbeat interval in simulation time, which keeps runs reproducible at any simulation speed.
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
@@ -46,9 +46,9 @@ const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
 const HEARTBEAT_WALL_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// Time to wait for late datagrams before scoring.
 const SCORING_DELAY: SimTime = SimTime::from_ms(500);
-/// Delay before scoring is retried if the live rule detected the session's end but the scorer did not.
+/// Delay before the monitor retries scoring if the live rule detected the session's end but the scorer did not.
 const END_RETRY_DELAY: SimTime = SimTime::from_ms(5_000);
-/// Wall-clock time without telemetry after which an ended session is closed.
+/// Wall-clock time without telemetry after which the monitor closes an ended session.
 const SILENCE_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 /// Radius around the drone's center to search for the object in contact, m (estimate: half the size of the largest
 /// aircraft).
@@ -76,7 +76,7 @@ pub struct MonitorConfig {
     pub purpose: Option<String>,
     /// Wall-clock time of the session's first start, µs since the Unix epoch. Unchanged if the monitor restarts.
     pub started_unix_us: u64,
-    /// System ID used until the vehicle is detected (1 + instance number).
+    /// System ID (1 + instance number) that the monitor uses until it detects the vehicle.
     pub system_id: u8,
     /// Seed specified on the command line. Telemetry with a different seed is rejected.
     pub seed: Option<u64>,
@@ -210,7 +210,8 @@ impl Monitor {
         Decoder::new().datagram(bytes).iter().any(|frame| fits(frame) && beats(frame))
     }
 
-    /// Processes a datagram from the vehicle. The first `seed` message builds the site, which can take a while.
+    /// Processes a datagram from the vehicle. The first `seed` message causes the site to be built, which can take a
+    /// while.
     pub fn handle_datagram(&mut self, bytes: &[u8]) {
         self.vehicle_received = true;
         for received in self.decoder.datagram(bytes) {
@@ -224,7 +225,7 @@ impl Monitor {
         }
     }
 
-    /// Updates the wall-clock time, measured from an arbitrary fixed instant. Needed only while simulation time does
+    /// Updates the wall-clock time, measured from an arbitrary fixed instant. Required only while simulation time does
     /// not advance.
     pub fn handle_timeout(&mut self, wall: SimTime) {
         if std::mem::take(&mut self.vehicle_received) || self.last_received_wall.is_none() {
@@ -256,7 +257,7 @@ impl Monitor {
         self.outcome.as_ref()
     }
 
-    /// Returns the reason that the telemetry was rejected, if it was.
+    /// Returns the reason why the telemetry was rejected; `None` if it was not.
     #[must_use]
     pub fn refused(&self) -> Option<&AssessError> {
         self.refusal.as_ref()
@@ -309,7 +310,7 @@ impl Monitor {
         self.live.current_task.map(|task| self.config.scenario.tasks[task].id)
     }
 
-    /// Returns the remaining battery in %; `None` if not received yet.
+    /// Returns the remaining battery charge in percent; `None` if not received yet.
     #[must_use]
     pub fn battery_pct(&self) -> Option<f64> {
         self.live.battery_pct

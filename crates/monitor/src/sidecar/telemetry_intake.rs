@@ -19,7 +19,7 @@ use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 impl Monitor {
-    /// Returns the log timestamp of a frame, µs: the session's start plus the simulation time since the first truth
+    /// Returns a frame's log timestamp in µs: the session's start plus the simulation time since the first truth
     /// message. It keeps increasing when the simulator restarts.
     pub(super) fn log_timestamp_us(&mut self, received: &ReceivedFrame) -> u64 {
         let own = spandrel_mavlink::telemetry::sample::truth_time(&received.bytes);
@@ -42,7 +42,7 @@ impl Monitor {
         }
     }
 
-    /// Logs an instructor's note with the current time.
+    /// Logs an instructor's note at the current time.
     pub(super) fn log_instructor_note(&mut self, received: &ReceivedFrame) {
         if let Some(((system, COMPONENT), text)) = instructor_note::decode(received)
             && system == self.encoder.system_id()

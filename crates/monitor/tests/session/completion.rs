@@ -12,13 +12,13 @@ use spandrel_testkit::job::*;
 /// point spacing (1 m) early or late.
 const HALF_POINT_SPACING: f64 = 0.01;
 
-/// Creates a job with one path of 100 m at a height of 10 m, from 10 to 110 m east.
+/// Creates a job with one 100 m path at a height of 10 m, from 10 to 110 m east.
 fn scenario_with_long_task() -> Scenario {
     scenario(vec![task(1, line((10.0, 0.0, 10.0), (110.0, 0.0, 10.0)), 3.0)])
 }
 
-/// Records a flight along the first `to_m` meters of the path. The drone then either returns home, 20 m from the path,
-/// or stops there.
+/// Records a flight along the first `to_m` meters of the path. The drone then either returns to home, 20 m from the
+/// path, or stops where it is.
 fn flown(to_m: f64, home: bool) -> Tape {
     let mut tape = Tape::new();
     tape.hold(1.0);

@@ -1,4 +1,4 @@
-//! Robustness against corrupt input: flipped bits, truncated frames, and changed fields with a valid checksum.
+//! Robustness against corrupt input: flipped bits, truncated frames, and modified fields with a valid checksum.
 
 use crate::live::new_monitor;
 use spandrel_mavlink::dialect::MavMessage;
@@ -82,5 +82,5 @@ fn prop_scorer_survives_corrupt_logs() {
         }
         scored += usize::from(assess_log(&log, &one_task(), &vehicle(), test_survey).is_ok());
     }
-    assert!(scored > 50, "most damage costs a record, not the session: {scored} of 100 logs scored");
+    assert!(scored > 50, "most damage should cost one record, not the session: {scored} of 100 logs scored");
 }

@@ -1,4 +1,4 @@
-//! Tests of the frames export: compares every column with known values from a recorded flight.
+//! Tests of the frame export: compares every column with known values from a recorded flight.
 
 use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, MavMessage, WIND_COV_DATA};
 use spandrel_model::frames::{Enu, Vec3};
@@ -10,7 +10,7 @@ use spandrel_testkit::job::*;
 const POSITION_TOLERANCE_M: f64 = 0.025;
 /// Angle tolerance, rad; attitudes are sent as 32-bit floats.
 const ANGLE_TOLERANCE_RAD: f64 = 1e-6;
-/// Error of the autopilot's position estimate in the flight below: east, north, up, m.
+/// East, north and up errors of the autopilot's position estimate in the test flight, m.
 const ESTIMATE_ERROR_M: [f64; 3] = [0.5, -0.25, 0.125];
 
 /// Sends the autopilot's position estimate.

@@ -1,4 +1,4 @@
-//! Tests of the six kinds of MAVLink feedback, with their thresholds and timing.
+//! Tests of the six MAVLink feedback cues, including their thresholds and timing.
 
 use crate::live::{new_monitor, sent_messages};
 use spandrel_mavlink::contract::cue;
@@ -49,7 +49,7 @@ fn exact_off_path_cue_has_delay_and_hold_time() {
     let mut watch = MonitoredFlight::airborne();
     watch.tape.fly((30.0, 0.0, 10.0), 20.0);
     watch.run();
-    // Moves sideways at 10 m/s. A distance of 5 m is beyond the 3 m threshold but within 8 m.
+    // The drone moves sideways at 10 m/s. A distance of 5 m is beyond the 3 m threshold but within 8 m.
     watch.tape.fly((30.0, 5.0, 10.0), 10.0);
     let left = watch.tape.now_ms;
     watch.tape.hold(3.0);

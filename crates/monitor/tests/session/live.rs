@@ -102,7 +102,7 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     let zero = spandrel_mavlink::telemetry::tlog::simulation_zero_us(&log).unwrap();
     assert!((59_900_000..=60_100_000).contains(&(START_US - zero)), "{} us", START_US - zero);
     assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, START_US);
-    // A killed and resumed monitor continues with the same clock.
+    // A monitor that was killed and resumed continues with the same clock.
     let mut second = Monitor::resume(config(one_task()), &log).unwrap();
     let mut more = Tape::new();
     more.hold(65.0);

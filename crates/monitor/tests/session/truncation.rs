@@ -35,8 +35,8 @@ fn exact_clean_flight_has_full_score_and_ends_at_touchdown() {
 
 #[test]
 fn exact_short_gaps_are_interpolated_and_long_gaps_stay_missing() {
-    // Each case lists the gap (ms), interpolated frames and missing frames. Frames are 40 ms apart; truth messages, 20
-    // ms.
+    // Each case lists the gap (ms), interpolated frames and missing frames. Frames are 40 ms apart, and truth messages
+    // are 20 ms apart.
     for (ms, interpolated, missing) in [(200, 0, 0), (240, 5, 0), (1_000, 24, 0), (1_040, 0, 25)] {
         let mut tape = Tape::new();
         tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -49,7 +49,7 @@ fn exact_short_gaps_are_interpolated_and_long_gaps_stay_missing() {
         let graded = score_tape(&tape, &one_task());
         let telemetry = graded.assessment.telemetry;
         let got = (telemetry.interpolated_frames, telemetry.missing_frames);
-        // Frame sampling starts at lift-off, so the gap may contain one frame more or less.
+        // Frame sampling starts at lift-off, so the gap may contain one frame more or fewer.
         assert!(got.0.abs_diff(interpolated) <= 1 && got.1.abs_diff(missing) <= 1, "{ms} ms: {got:?}");
         assert_eq!(telemetry.gaps, usize::from(ms > 200));
         assert_eq!(got.0 == 0, interpolated == 0, "{ms} ms");

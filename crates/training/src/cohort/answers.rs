@@ -1,4 +1,4 @@
-//! A cohort's questionnaire answers: counts per question and comparison with measured scores.
+//! A cohort's questionnaire answers: answer counts per question and a comparison with measured scores.
 
 use super::samples::SessionsByTrainee;
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE};
@@ -84,7 +84,7 @@ fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<Likert> {
     QuestionnaireItem::all(&tasks).into_iter().filter_map(row).collect()
 }
 
-/// Returns the overall score, % of the maximum.
+/// Returns the overall score as a percentage of the maximum.
 pub fn measured_pct(record: &SessionRecord) -> f64 {
     100.0 * record.scores.overall / record.scores.overall_max
 }
@@ -122,7 +122,8 @@ fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
 }
 
 /// Returns contradictions as defined in the TASBID paper: a high self-rating with a score in the bottom quarter, a low
-/// self-rating with a score in the top quarter, no time pressure among the slowest, or time pressure among the fastest.
+/// self-rating with a score in the top quarter, no time pressure despite one of the slowest flights, or time pressure
+/// despite one of the fastest.
 fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<Contradiction> {
     let mut found = Vec::new();
     let ends = |mut values: Vec<f64>| {
@@ -133,9 +134,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
             let words = if own >= MIN_GOOD_SELF_RATING && measured < low {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0}%, in the bottom quarter")
+                format!("rated their own performance {own:.1} of 5 but scored {measured:.0}%, which is in the bottom quarter")
             } else if own < MIN_GOOD_SELF_RATING && measured > high {
-                format!("rated their own performance {own:.1} of 5, but scored {measured:.0}%, in the top quarter")
+                format!("rated their own performance {own:.1} of 5 but scored {measured:.0}%, which is in the top quarter")
             } else {
                 continue;
             };
@@ -147,9 +148,9 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
             let words = if answer <= MAX_AGREEING_ANSWER && record.seconds > slow {
-                format!("felt no time pressure, but flew for {minutes:.1} min, in the slowest quarter")
+                format!("felt no time pressure but flew for {minutes:.1} min, which is in the slowest quarter")
             } else if answer > MAX_AGREEING_ANSWER + 1 && record.seconds < quick {
-                format!("felt time pressure, but flew for {minutes:.1} min, in the fastest quarter")
+                format!("felt time pressure but flew for {minutes:.1} min, which is in the fastest quarter")
             } else {
                 continue;
             };

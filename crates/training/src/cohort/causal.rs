@@ -14,7 +14,7 @@ use spandrel_model::random::RandomStream;
 pub const RECOMMENDED_TRAINEES: usize = 78;
 /// Maximum number of bootstrap samples.
 const MAX_RESAMPLES: usize = 2_000;
-/// Minimum number of bootstrap samples, used for cohorts so large that more would take seconds.
+/// Minimum number of bootstrap samples, used for large cohorts, for which more samples would take seconds.
 const MIN_RESAMPLES: usize = 200;
 /// Maximum total number of trainees drawn across all bootstrap samples.
 const MAX_DRAWN_TRAINEES: usize = 1_000_000;
@@ -60,14 +60,14 @@ struct Respondent {
     performance: f64,
 }
 
-/// Estimates the model and appends the estimate's limitations to `warnings`.
+/// Estimates the model and appends its limitations to `warnings`.
 pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
     let people: Vec<Respondent> = firsts.iter().filter_map(|record| respondent(record)).collect();
     let n = people.len();
     if n < RECOMMENDED_TRAINEES {
         warnings.push(format!(
             "demand, strain, performance: only {n} trainees gave complete answers; with fewer than {RECOMMENDED_TRAINEES}, the model can miss medium effects, \
-             so it describes these trainees only and does not generalize"
+             so it describes only these trainees and does not generalize"
         ));
     }
     match estimate(&people) {

@@ -30,7 +30,7 @@ const RECOMMENDED_PAIRS: usize = 34;
 /// Sessions and number of repetitions to analyze.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Selection {
-    /// Scenarios that count as the job. If empty, the most frequently flown scenario.
+    /// Scenarios that count as the job. If empty, the most frequently flown scenario is the job.
     pub scenarios: Vec<String>,
     /// Number of repetitions to compare.
     pub repetitions: usize,
@@ -51,7 +51,7 @@ pub struct Cohort {
     pub trainees: usize,
     /// Number of repetitions compared.
     pub repetitions: usize,
-    /// Trainees with at least that many sessions ("the group").
+    /// Trainees with at least `repetitions` sessions ("the group").
     pub group: Vec<String>,
     /// Score distributions of the first sessions.
     pub distributions: Vec<Distribution>,
@@ -63,9 +63,9 @@ pub struct Cohort {
     pub boxes: Vec<RepetitionBox>,
     /// Paired comparisons of the group's repetitions.
     pub tests: Vec<Comparison>,
-    /// Tests of whether the group's scores are distributed like those of the other trainees.
+    /// Tests of whether the group's scores are distributed like the other trainees' scores.
     pub homogeneity: Vec<GroupHomogeneityTest>,
-    /// Answer counts for all first sessions and for the group's repetitions.
+    /// Answer counts for all first sessions and for each of the group's repetitions.
     pub likert: Vec<Likert>,
     /// Self-ratings compared with measured scores.
     pub self_rating: SelfRating,
@@ -130,7 +130,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
 }
 
 /// Returns the selected scenarios or, if none are selected, the most frequently flown one (the first by name in a tie).
-/// Counts only sessions that the policy allows, unless there are none.
+/// Counts only sessions that the policy allows or, if it allows none, all sessions.
 fn scenarios(records: &[SessionRecord], selection: &Selection) -> Vec<String> {
     if !selection.scenarios.is_empty() {
         return selection.scenarios.clone();

@@ -59,7 +59,7 @@ pub struct TaskShare {
     pub attempted: bool,
     /// On-path share (P_p), 0 to 1.
     pub on_path: f64,
-    /// Speeding loss of the task (P_s in TASBID).
+    /// The task's speeding loss (P_s in TASBID).
     pub speeding: f64,
 }
 
@@ -72,7 +72,7 @@ pub struct CrashTable {
     pub by_kind: Crashes,
     /// Task numbers. Each row has one count per task plus a final one for crashes outside the tasks.
     pub tasks: Vec<u32>,
-    /// Total across all trainees for each task; the last element counts crashes outside the tasks.
+    /// Each task's total across all trainees; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
     /// Crash counts by trainee.
     pub rows: Vec<CrashRow>,
@@ -83,7 +83,7 @@ pub struct CrashTable {
 pub struct CrashRow {
     /// Trainee's pseudonym.
     pub trainee: String,
-    /// Count for each task; the last element counts crashes outside the tasks.
+    /// Crashes in each task; the last element counts crashes outside the tasks.
     pub by_task: Vec<usize>,
     /// Total number of crashes.
     pub total: usize,
@@ -100,7 +100,7 @@ pub struct RepetitionBox {
     pub plot: BoxPlot,
 }
 
-/// Paired comparison of one score between two of the group's repetitions.
+/// Paired comparison of one score between two group repetitions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
     /// Score name, such as `conformity`.
@@ -112,8 +112,8 @@ pub struct Comparison {
     /// Paired test of later minus earlier.
     #[serde(flatten)]
     pub test: PairedTest,
-    /// Holm-corrected p values, separately for each tail. Comparisons of the four scores form one family, comparisons
-    /// of the overall score another.
+    /// Holm-corrected p values, computed separately for each tail. Comparisons of the four scores form one family;
+    /// comparisons of the overall score form another.
     pub p_holm: Option<TailProbabilities>,
 }
 

@@ -89,7 +89,7 @@ fn exact_causal_model_recovers_generating_effects() {
     };
     assert_eq!(model.n, 22);
     assert!((of(&model.strain, "demand") - 0.7).abs() < 0.25, "{:?}", model.strain.coefficients);
-    // 12 points per unit of strain are 3% of 400.
+    // 12 points per unit of strain correspond to 3% of 400.
     assert!((of(&model.performance, "strain") + 3.0).abs() < 1.5, "{:?}", model.performance.coefficients);
     let middle = model.indirect[1];
     let interval = middle.interval_95.unwrap();
@@ -130,8 +130,9 @@ fn exact_learning_curve_requires_four_repetitions() {
 fn exact_group_curve_fits_eligible_trainee_means() {
     let safety = |first: f64, k: usize| first * spandrel_model::math::pow(k as f64, 0.3);
     let mut records = Vec::new();
-    // Two trainees' curves have the same exponent, so the curve of their mean does, too. Only repetitions that both
-    // flew count. A third trainee has too few sessions, and a fourth has no accuracy score in one session.
+    // Two trainees' curves have the same exponent, so the curve of their mean has the same one. Only repetitions that
+    // both trainees flew count. A third trainee has too few sessions, and a fourth has no accuracy score in one
+    // session.
     for (who, first, times) in [("anna", 30.0, 6), ("ben", 50.0, 4), ("cleo", 90.0, 3), ("dan", 40.0, 4)] {
         for k in 1..=times {
             let mut record = perfect_record(who, k);

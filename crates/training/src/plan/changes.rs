@@ -3,7 +3,7 @@
 use crate::record::SessionRecord;
 use serde::Serialize;
 
-/// Score changes below this threshold are reported as unchanged, points.
+/// Minimum score change, points. Smaller changes are reported as unchanged.
 const MIN_REPORTED_CHANGE: f64 = 0.05;
 
 /// The latest session compared with the previous one on the same job.
@@ -47,8 +47,8 @@ pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     add("accuracy".into(), then.accuracy, now.accuracy, true);
     for task in &last.tasks {
         let Some(then) = before.tasks.iter().find(|other| other.id == task.id) else { continue };
-        add(format!("{}: on path, %", task.name), Some(100.0 * then.on_path), Some(100.0 * task.on_path), true);
-        add(format!("{}: above the speed limit, s", task.name), Some(then.speeding_s), Some(task.speeding_s), false);
+        add(format!("{}: on-path share (%)", task.name), Some(100.0 * then.on_path), Some(100.0 * task.on_path), true);
+        add(format!("{}: time above the speed limit (s)", task.name), Some(then.speeding_s), Some(task.speeding_s), false);
         let crashes = (then.crashes.total() as f64, task.crashes.total() as f64);
         add(format!("{}: crashes", task.name), Some(crashes.0), Some(crashes.1), false);
     }

@@ -1,5 +1,5 @@
-//! The training plan: uses scores and their causes to recommend which scenarios to fly next, why and when, and reports
-//! changes since the previous session. The rules come from a data file.
+//! The training plan: recommends which scenarios to fly next, when and why, based on scores and their causes. It also
+//! reports changes since the previous session. The rules come from a data file.
 
 mod changes;
 mod rules;
@@ -20,9 +20,9 @@ const MAX_DEFECTS_LISTED: usize = 3;
 const DAY_US: f64 = 86_400e6;
 /// A landing with less battery charge than this counts as late, % (docs/src/reference/assessment.md, "Certification").
 const BATTERY_RESERVE_PCT: f64 = 20.0;
-/// Points lost per minute past the time for full efficiency (TASBID).
+/// Points lost per minute beyond the time for full efficiency (TASBID).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
-/// A deviation is described by a single direction only if that direction dominates by this factor.
+/// Factor by which one direction must exceed the other for a deviation to be described by that direction alone.
 const DOMINANCE_RATIO: f64 = 2.0;
 
 /// Scenarios recommended for one trainee.
@@ -66,9 +66,9 @@ pub struct PlanReason {
     pub session: String,
     /// Reason shown to the trainee.
     pub words: String,
-    /// Measured value; fractions from 0 to 1.
+    /// Measured value. Fractions range from 0 to 1.
     pub value: f64,
-    /// Limit above which the rule fires.
+    /// Limit that the value must exceed for the rule to fire.
     pub limit: f64,
 }
 
@@ -188,7 +188,7 @@ fn findings<'a>(rule: &PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a
     }
 }
 
-/// Returns each task's latest flight, matched by kind; free tasks are matched by name.
+/// Returns each task's latest flight. Tasks are matched by kind, and free tasks by name.
 fn latest_flights_by_task(records: &[SessionRecord]) -> Vec<(&SessionRecord, &TaskRecord)> {
     let mut newest: Vec<(&SessionRecord, &TaskRecord)> = Vec::new();
     for (record, task) in records.iter().rev().flat_map(|record| record.tasks.iter().map(move |task| (record, task))) {

@@ -33,11 +33,11 @@ pub enum RuleMeasure {
     MissedInView,
     /// Fraction of pictures that show no new defect.
     FalseSnapshots,
-    /// Flight time past the time for full efficiency, min.
+    /// Flight time beyond the time for full efficiency, min.
     Overtime,
-    /// 1 if the flight did not end on the pad.
+    /// 1 if the flight did not end with a landing at home.
     NotLanded,
-    /// 1 if the battery was below 20% at the end.
+    /// 1 if the battery charge was below 20% at the end.
     BatteryLow,
 }
 
@@ -82,11 +82,11 @@ pub struct PlanRule {
     pub name: String,
     /// Measure that is compared with the limit.
     pub measure: RuleMeasure,
-    /// Kind of task; `None` for any.
+    /// Kind of task; `None` for all kinds.
     pub task: Option<&'static str>,
-    /// Kind of object hit; `None` for any.
+    /// Kind of object hit; `None` for all kinds.
     pub with: Option<&'static str>,
-    /// Reason that a missed defect's best picture did not count; empty for any.
+    /// Reason why a missed defect's best picture did not count; empty for any reason.
     pub lacked: String,
     /// Value above which the rule fires.
     pub limit: f64,

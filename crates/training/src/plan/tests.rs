@@ -11,7 +11,7 @@ fn rules() -> PlanRules {
 fn record_with_measure(rule: &PlanRule, factor: f64) -> SessionRecord {
     let mut record = perfect_record("anna", 1);
     let value = factor * rule.limit;
-    // Counts are integers: with a limit of 0.5, 1 exceeds it and 0 does not.
+    // Counts are integers. If the limit is 0.5, a count of 1 exceeds it and a count of 0 does not.
     let count = if factor > 1.0 { value.ceil().max(1.0) as usize } else { 0 };
     let mut crashes = Crashes::default();
     match rule.with {

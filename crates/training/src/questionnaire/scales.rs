@@ -3,8 +3,8 @@
 use super::{Answers, InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE, TlxScale};
 use serde::{Deserialize, Serialize};
 
-/// Scale scores from 1 to 5; higher values mean more of the named quality. A scale is present if at least half of its
-/// questions are answered.
+/// Scale scores from 1 to 5. A higher value means more of the quality that the scale is named after. A scale is present
+/// if at least half of its questions were answered.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ScaleScores {
     /// Mean mental demand over the phases.
@@ -30,8 +30,8 @@ pub fn scales(answers: &Answers, tasks: &[u32]) -> ScaleScores {
         average(answers, items.collect())
     };
     let whole = |which: &[OverallItem]| average(answers, which.iter().map(|one| QuestionnaireItem::Overall(*one)).collect());
-    // For demand and strain statements, disagreement means a high value. Feedback and performance statements are worded
-    // the other way around, so they are reversed here.
+    // Disagreeing with a demand or strain statement means a high value. Feedback and performance statements are worded
+    // the other way around, so their values are reversed here.
     let affirmed = |mean: f64| f64::from(STRONGLY_AGREE + STRONGLY_DISAGREE) - mean;
     ScaleScores {
         mental_demand: of(&[PhaseAspect::MentalDemand]),

@@ -268,7 +268,7 @@ mod tests {
         let wording = read_wording("en.toml", ENGLISH).unwrap();
         assert_eq!(wording.tlx(TlxScale::Performance).1, "perfect");
         assert_eq!(wording.form.answered(3, 24), "3 of 24 answered");
-        assert_eq!(wording.form.step_instruction(), "Please enter 0 to 100 in steps of 5, b or q, or press Enter.");
+        assert_eq!(wording.form.step_instruction(), "Please enter a number from 0 to 100 in steps of 5, b or q, or press Enter.");
     }
 
     #[test]

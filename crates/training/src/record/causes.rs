@@ -1,4 +1,4 @@
-//! Causes of a session's scores, computed per task from the session's frames.
+//! Causes of a session's scores, computed for each task from the session's frames.
 
 use super::source::RecordSource;
 use super::task_record::{Crashes, DefectRecord, TaskRecord, kind_key};
@@ -85,8 +85,8 @@ fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize,
     }
 }
 
-/// Returns the horizontal and vertical distance from the task's path, m, for each frame in the window that is on no
-/// path but within 8 m of this path.
+/// Returns the horizontal and vertical distances from the task's path in meters, for each frame in the window that is
+/// on no path but within 8 m of this one.
 fn off_path(flown: &FlownSession<'_>, task: usize, window: TaskWindow) -> Vec<(f64, f64)> {
     let frames = (window.first..=window.last).filter(|k| flown.on_path.task[*k].is_none());
     let offset = |k: usize| {

@@ -1,5 +1,5 @@
-//! Session records: all data needed for progress, cohorts and plans. A record is computed solely from the session
-//! folder, so it can be recreated at any time.
+//! Session records, which contain all data needed for progress, cohorts and plans. A record is computed solely from the
+//! session folder, so it can be recreated at any time.
 
 mod causes;
 mod outcome;
@@ -62,7 +62,7 @@ pub struct SessionRecord {
     pub snapshots: usize,
     /// Number of snapshots that show a new defect.
     pub hits: usize,
-    /// Reason that the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or
+    /// Reason why the flight ended: `landed`, `battery`, `time_limit`, `person`, `vehicle`, `crash`, `abort` or
     /// `restart`.
     pub end_reason: String,
     /// Flight duration, s.
@@ -71,7 +71,7 @@ pub struct SessionRecord {
     pub battery_failed: bool,
     /// Battery charge in the last frame, %.
     pub battery_at_end_pct: f64,
-    /// Fraction of frames with received telemetry, 0 to 1.
+    /// Fraction of frames for which telemetry was received, 0 to 1.
     pub covered: f64,
     /// Whether the session meets all certification requirements.
     pub certified: bool,
@@ -116,7 +116,7 @@ pub struct SessionListEntry {
     pub overall: f64,
     /// Maximum possible `overall`.
     pub overall_max: f64,
-    /// Reason that the flight ended.
+    /// Reason why the flight ended.
     pub end_reason: String,
     /// Job completion; absent in format 1 records.
     pub completion: Option<Completion>,
@@ -268,7 +268,7 @@ impl SessionRecord {
                 return Err(format!("{key} = {value} (allowed: 0 to {most})"));
             }
         }
-        // Data missing from older formats is unknown; such a session counts as incomplete.
+        // Older formats lack this data, so such a session counts as incomplete.
         if !(1..=FORMAT).contains(&self.format) {
             return Err(format!("format = {} (allowed: 1 to {FORMAT})", self.format));
         }

@@ -30,7 +30,7 @@ pub struct RecordSource<'a> {
     pub hashes: &'a SourceHashes,
     /// The session's assessment and frames.
     pub graded: &'a AssessedSession,
-    /// Defects placed by the session's seed.
+    /// Defects placed according to the session's seed.
     pub placed: &'a [PlacedDefect],
     /// Questionnaire answers; `None` if the questionnaire was not started.
     pub answers: Option<&'a Answers>,

@@ -20,12 +20,12 @@ pub struct TaskRecord {
     /// Whether the task is done, partly flown or not attempted; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<TaskState>,
-    /// Flown fraction of the task's path, 0 to 1; absent in format 1 records.
+    /// Fraction of the task's path that was flown, 0 to 1; absent in format 1 records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered: Option<f64>,
     /// Time from the first to the last on-path frame, s.
     pub seconds: f64,
-    /// Fraction of that time on the path, 0 to 1.
+    /// Fraction of that time spent on the path, 0 to 1.
     pub on_path: f64,
     /// Speeding loss, as defined in the TASBID paper.
     pub speeding: f64,
@@ -43,7 +43,7 @@ pub struct TaskRecord {
     pub crashes: Crashes,
     /// Number of defects nearest to this path.
     pub defects_placed: usize,
-    /// Number of those defects that were found.
+    /// Number of these defects that were found.
     pub defects_found: usize,
 }
 
@@ -128,7 +128,7 @@ pub struct DefectRecord {
     pub task: Option<u32>,
     /// Whether any snapshot shows the defect.
     pub found: bool,
-    /// Reasons that the best picture of a missed defect did not count; empty if there was no picture.
+    /// Reasons why the best picture of a missed defect did not count; empty if there was no picture.
     pub lacked: Vec<String>,
     /// Time during which a picture would have shown the missed defect, s. Computed only for session reports.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -21,7 +21,7 @@ pub const UPLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
 pub const THREE_CORE: &str = include_str!("assets/three.core.min.js");
 /// The three.js renderer, `build/three.module.min.js`; imports the core as [`THREE_CORE_NAME`].
 pub const THREE: &str = include_str!("assets/three.module.min.js");
-/// Module specifier with which the renderer imports the core. The page's script replaces it with the actual URL.
+/// Module specifier that the renderer uses to import the core. The page's script replaces it with the actual URL.
 pub const THREE_CORE_NAME: &str = "./three.core.min.js";
 
 /// Encodes bytes as Base64.
@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn val_embedded_libraries_match_published_hashes() {
-        // SHA-256 of the files in the npm packages uplot-1.6.32.tgz and three-0.184.0.tgz.
+        // SHA-256 hashes of the files in the npm packages uplot-1.6.32.tgz and three-0.184.0.tgz.
         let published = [
             (UPLOT, "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f"),
             (UPLOT_STYLE, "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04"),
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn exact_policy_allows_only_listed_scripts_and_styles() {
-        // SHA-256 of the empty string, Base64.
+        // SHA-256 of the empty string in Base64.
         let empty = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='";
         let policy = policy(&[""], &[""]);
         assert!(policy.starts_with("default-src 'none'; "));

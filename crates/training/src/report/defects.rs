@@ -1,4 +1,4 @@
-//! Outcome of each defect and, for missed ones, how close the flight came to photographing them.
+//! Outcome of each defect. For missed defects, also how close the flight came to photographing them.
 
 use super::context::ReviewContext;
 use super::formatting;
@@ -13,8 +13,8 @@ use spandrel_monitor::measures::attention;
 
 /// Sampling interval for finding views of a defect in the flight.
 const SAMPLE_INTERVAL: SimTime = SimTime::from_ms(500);
-/// Distance from which the report's drawings show a missed defect, m (estimate: close enough to see a crack at the
-/// limit between two condition states).
+/// Distance from which the report's drawings show missed defects, m (estimate: close enough to see a crack at the limit
+/// between two condition states).
 const VIEW_DISTANCE_M: f64 = 4.0;
 
 /// Whether one defect was found, and how.

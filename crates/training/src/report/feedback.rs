@@ -157,7 +157,7 @@ fn episode(kind: usize, (from_s, to_s): (f64, f64), scene: &ReviewContext<'_>, t
     }
 }
 
-/// Returns the median of a list; `None` for an empty list.
+/// Returns the median of a list; `None` if it is empty.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);

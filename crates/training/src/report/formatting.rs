@@ -1,4 +1,4 @@
-//! Display names and number formats. Values are rounded nowhere else.
+//! Display names and number formats. No other code rounds values.
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;

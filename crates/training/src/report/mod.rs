@@ -116,7 +116,7 @@ impl Review {
         vehicle: &Vehicle,
         about: SessionMetadata,
     ) -> Result<Self, AssessError> {
-        // The replay runs first, because the monitor keeps its own copy of the flight until it is dropped.
+        // The replay runs first because the monitor keeps its own copy of the flight until it is dropped.
         let events = feedback::events(log, scenario, vehicle)?;
         let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
         timeline.push_log(log)?;
@@ -158,7 +158,7 @@ impl Review {
         })
     }
 
-    /// Returns the time of a frame, s since lift-off.
+    /// Returns the time of a frame in seconds since lift-off.
     #[must_use]
     pub fn t_s(&self, frame: usize) -> f64 {
         let first = self.frames.first().map_or(0.0, |frame| frame.time.s());
@@ -167,7 +167,7 @@ impl Review {
 }
 
 /// Returns the scenarios recommended by the default rules for this session alone; empty if the rules are invalid, which
-/// a test excludes.
+/// a test rules out.
 fn next(
     about: &SessionMetadata,
     scenario: &Scenario,

@@ -47,7 +47,7 @@ impl ParallelView {
         Self { right: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 0.0, 1.0) }
     }
 
-    /// Returns an oblique view toward `azimuth_deg` (clockwise from north), tilted down by `down_deg`.
+    /// Returns an oblique view in the direction `azimuth_deg` (clockwise from north), tilted down by `down_deg`.
     #[must_use]
     pub fn oblique(azimuth_deg: f64, down_deg: f64) -> Self {
         let (s, c) = math::sin_cos(azimuth_deg.to_radians());
@@ -176,7 +176,7 @@ mod tests {
             assert!(view.right.dot(view.up).abs() < 1e-12);
             assert!((view.right.norm() - 1.0).abs() < 1e-12 && (view.up.norm() - 1.0).abs() < 1e-12);
         }
-        assert!((ParallelView::plan().toward_viewer() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "plan view looks down");
+        assert!((ParallelView::plan().toward_viewer() - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-12, "the plan view looks down");
         assert!((ParallelView::from_south().toward_viewer() - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
         // The view looks north and down, so the viewer is to the south and above.
         let towards = ParallelView::oblique(0.0, 30.0).toward_viewer();

@@ -13,7 +13,7 @@ use spandrel_monitor::measures::attention;
 /// Maximum distance of the object in a picture's center, m; anything farther counts as sky.
 const MAX_TARGET_DISTANCE_M: f64 = 120.0;
 
-/// Verdict on a picture.
+/// The verdict on a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PictureVerdict {
     /// The first picture to show a defect.
@@ -47,7 +47,7 @@ impl PictureVerdict {
         }
     }
 
-    /// Returns the CSS class that colors it in the report.
+    /// Returns the CSS class that colors the verdict in the report.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {
@@ -70,7 +70,7 @@ pub struct PictureSubject {
     pub incidence_rad: f64,
     /// Ground sampling distance: size of a pixel at normal incidence, m.
     pub gsd_m: f64,
-    /// Illuminance including the lamp, lx.
+    /// Illuminance including lamp light, lx.
     pub lux: f64,
     /// Illuminance that the camera needs for a usable exposure, lx.
     pub needed_lux: f64,
@@ -204,8 +204,8 @@ fn member(scene: &ReviewContext<'_>, object: ObjectId) -> String {
     scene.site.members().get(object.0 as usize).map_or_else(|| scene.site.object_name(object), |member| member.name.clone())
 }
 
-/// Returns the shortest exposure for an illuminance of `lux` at the camera's maximum sensitivity in seconds. Limited to the
-/// camera's maximum exposure.
+/// Returns the shortest exposure in seconds for an illuminance of `lux` at the camera's maximum sensitivity, limited to
+/// the camera's maximum exposure.
 #[must_use]
 pub fn exposure_s(camera: &Camera, lux: f64) -> f64 {
     (needed_lux(camera) * camera.exposure_max_s / lux.max(f64::MIN_POSITIVE)).min(camera.exposure_max_s)

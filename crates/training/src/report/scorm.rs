@@ -1,5 +1,5 @@
-//! Exports a session as a SCORM 1.2 package for a learning management system (LMS): a page that reports score, status
-//! and duration through the LMS's script interface and shows the session report.
+//! Exports a session as a SCORM 1.2 package for a learning management system (LMS): a page that shows the session
+//! report and reports the score, status and duration through the LMS's script interface.
 
 use super::Review;
 use super::formatting;
@@ -89,7 +89,7 @@ fn index(review: &Review) -> String {
     page.into_string()
 }
 
-/// Formats a duration as HHHH:MM:SS.SS, the CMITimespan of SCORM.
+/// Formats a duration as a SCORM CMITimespan, HHHH:MM:SS.SS.
 fn scorm_timespan(seconds: f64) -> String {
     let hundredths = (seconds.max(0.0) * 100.0).round() as u64;
     let (s, rest) = (hundredths / 100, hundredths % 100);

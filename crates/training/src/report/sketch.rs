@@ -1,5 +1,5 @@
-//! Draws a camera's view from the collision geometry with flat shading, edges, haze and lamp light. The drawing is dark
-//! where there is too little light. The report labels it as a drawing, not a photograph.
+//! Draws a camera's view from the collision geometry with flat shading, edges, haze and lamp light. Areas with too
+//! little light are dark. The report labels the result as a drawing, not a photograph.
 
 use spandrel_model::elements::ElementMaterial;
 use spandrel_model::frames::{Enu, Vec3};
@@ -124,7 +124,7 @@ fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>,
 
 fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut Palette) -> Facet {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).unit();
-    // Skylight from above, a slight directional term that tells faces apart, and direct sunlight.
+    // Skylight from above, a slight directional term that makes faces distinguishable, and direct sunlight.
     let light = 0.50 + 0.16 * normal.up() + 0.06 * normal.east() + 0.10 * normal.north().abs() + 0.25 * normal.dot(sun).max(0.0);
     Facet { corners, shade: palette.number(base.map(|c| c * light)) }
 }

@@ -1,4 +1,4 @@
-//! The drone's position relative to the tasks in each frame, and totals for each task's window.
+//! The drone's position relative to the tasks in each frame, and totals for each task window.
 
 use super::context::ReviewContext;
 use spandrel_mavlink::telemetry::Frame;

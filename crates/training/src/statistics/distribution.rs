@@ -10,11 +10,11 @@ const NEWTON_STEPS: usize = 4;
 /// One- and two-tailed p values of a t statistic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TailProbabilities {
-    /// Upper-tail probability, for the alternative "increase".
+    /// Upper-tail probability; tests for an increase.
     pub upper: f64,
-    /// Lower-tail probability, for the alternative "decrease".
+    /// Lower-tail probability; tests for a decrease.
     pub lower: f64,
-    /// Two-tailed probability, for the alternative "change".
+    /// Two-tailed probability; tests for a change in either direction.
     pub two: f64,
 }
 

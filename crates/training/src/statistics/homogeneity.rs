@@ -1,4 +1,4 @@
-//! Chi-squared test of homogeneity for the answers or scores of multiple groups.
+//! Chi-squared homogeneity test for the answers or scores of multiple groups.
 
 use super::StatisticsError;
 use super::distribution::chi_squared_upper_tail;

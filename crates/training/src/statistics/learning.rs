@@ -10,7 +10,7 @@ pub const MIN_LEARNING_REPETITIONS: usize = 4;
 const EXPONENT_RANGE: (f64, f64) = (-4.0, 4.0);
 /// Number of steps in the initial grid search.
 const GRID_STEPS: usize = 400;
-/// Number of bisection steps, enough for machine precision.
+/// Number of bisection steps; enough for machine precision.
 const BISECTION_STEPS: usize = 120;
 
 /// A power law: `first * n^exponent` for the n-th repetition.
@@ -22,7 +22,7 @@ pub struct LearningCurve {
     pub first: f64,
     /// Exponent; positive if the measure increases with practice.
     pub exponent: f64,
-    /// Fraction of the variance explained by the curve; `None` if the measure does not vary.
+    /// Fraction of the variance that the curve explains; `None` if the measure does not vary.
     pub r_squared: Option<f64>,
     /// Prediction for the next repetition. It may exceed the maximum score, which the curve ignores.
     pub next: f64,

@@ -1,6 +1,6 @@
 //! Statistics across trainees and repetitions. The distributions behind p values come from the statrs library. Tests
 //! compare all results with SciPy and with values published in the TASBID paper. Results may differ between machines in
-//! the last bit but do not affect the simulation.
+//! the last bit, but they do not affect the simulation.
 
 mod correlation;
 mod distribution;
@@ -18,7 +18,7 @@ pub use paired::{PairedTest, holm, paired_t};
 pub use regression::{Coefficient, Regression, least_squares, solve};
 pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean, quantile, sd, summary};
 
-/// Reason that a statistic cannot be computed.
+/// Reason why a statistic cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StatisticsError {
     /// There are too few values.
@@ -38,7 +38,7 @@ pub enum StatisticsError {
         right: usize,
     },
     /// A value is infinite or NaN.
-    #[error("value number {at} is {value}, which is not a finite number")]
+    #[error("value {at} is {value}, which is not a finite number")]
     NotFinite {
         /// The value's position in the list, from 1.
         at: usize,

@@ -37,9 +37,9 @@ pub struct Regression {
     pub df: usize,
     /// Standard deviation of the residuals.
     pub residual_sd: f64,
-    /// Fraction of the variance explained by the predictors; `None` if the outcome is constant.
+    /// Fraction of the variance that the predictors explain; `None` if the outcome is constant.
     pub r_squared: Option<f64>,
-    /// F statistic compared with a mean-only model; `None` if `r_squared` is `None`.
+    /// F statistic for the comparison with a mean-only model; `None` if `r_squared` is `None`.
     pub f: Option<f64>,
     /// p value of the F statistic.
     pub p: Option<f64>,
@@ -101,7 +101,7 @@ fn coefficient(name: &str, estimate: f64, standard_error: f64, df: f64) -> Coeff
     }
 }
 
-/// Returns just the estimates of a weighted least-squares fit, computed from the normal equations. Used for
+/// Returns only the estimates of a weighted least-squares fit, computed from the normal equations. Used for
 /// bootstrapping, where a full [`Regression`] would be too slow. Rows contain the predictors without the intercept; the
 /// result starts with the intercept. `None` if the predictors are collinear.
 #[must_use]
@@ -121,7 +121,7 @@ pub fn solve<const P: usize>(rows: &[[f64; P]], outcome: &[f64], weights: &[u32]
     }
     let factor = normal.clone().cholesky()?;
     let lower = factor.l();
-    // The diagonal elements of the Cholesky factor are the lengths of the columns' components orthogonal to the preceding
+    // Each diagonal element of the Cholesky factor is the length of a column's component orthogonal to the preceding
     // columns.
     let distinct = (0..=P).all(|k| lower[(k, k)] > COLLINEARITY_TOLERANCE.sqrt() * normal[(k, k)].sqrt());
     distinct.then(|| factor.solve(&right).iter().copied().collect())

@@ -29,7 +29,7 @@ pub struct Visitor {
 }
 
 impl Visitor {
-    /// Returns whether the visitor is logged in or login is not required.
+    /// Returns whether the visitor is logged in or does not have to log in.
     #[must_use]
     pub fn is_known(&self) -> bool {
         self.open || self.name.is_some()

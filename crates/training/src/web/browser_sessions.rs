@@ -1,5 +1,5 @@
-//! Login sessions of browsers, identified by a cookie. They are kept in memory under the hash of the cookie so that
-//! neither a memory dump nor a log reveals a usable cookie. A restart logs everyone out. Callers pass the time and
+//! Login sessions of browsers, identified by a cookie. The server stores them in memory under the hash of the cookie,
+//! so neither a memory dump nor a log reveals a usable cookie. A restart logs everyone out. Callers pass the time and
 //! random bytes.
 
 use sha2::{Digest, Sha256};
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// Time after which an idle login session expires, µs: two hours, which keeps users logged in during a flight.
 const IDLE_TIMEOUT_US: u64 = 2 * 3_600_000_000;
-/// Time after which every login session expires, µs: a working day.
+/// Time after which every login session expires, µs: one working day.
 const MAX_SESSION_AGE_US: u64 = 12 * 3_600_000_000;
 /// Maximum number of anonymous browser sessions. Limits the memory that clients without cookies can use.
 const MAX_ANONYMOUS_SESSIONS: usize = 4_096;
@@ -105,7 +105,7 @@ impl BrowserSessions {
             self.0.iter().filter(|(_, visit)| visit.name.is_none()).map(|(key, visit)| (visit.last_used_us, *key)).collect();
         if strangers.len() >= MAX_ANONYMOUS_SESSIONS {
             strangers.sort_unstable();
-            // Removes a quarter of them so that further anonymous requests don't each trigger a scan.
+            // Removes a quarter of them so that not every further anonymous request triggers a scan.
             for (_, key) in strangers.into_iter().take(MAX_ANONYMOUS_SESSIONS / 4) {
                 self.0.remove(&key);
             }

@@ -1,6 +1,6 @@
 //! Browsers from which a user has logged in before, similar to OWASP's device cookies. Their failed logins are counted
-//! separately from those of their IP address, so that others at the same address cannot lock the user out. They are
-//! kept in memory as a hash of cookie and name, so after a restart, browsers are unknown until the next login. Callers
+//! separately from those of their IP address, so others at the same address cannot lock the user out. The server stores
+//! them in memory as a hash of cookie and name. After a restart, a browser is unknown until the next login. Callers
 //! pass the time and random bytes.
 
 use super::browser_sessions::{TokenBytes, encode_token};
@@ -59,7 +59,7 @@ mod tests {
         assert_eq!(devices.find(&cookie, "anna", BROWSER_EXPIRY_US), None);
         assert_eq!(devices.find(&cookie, "ben", 1), None);
         assert_eq!(devices.find("guessed", "anna", 1), None);
-        assert_eq!(devices.remember(Some(&cookie), "anna", &[2; 32], 1), cookie, "known browser keeps its cookie");
+        assert_eq!(devices.remember(Some(&cookie), "anna", &[2; 32], 1), cookie, "a known browser keeps its cookie");
         assert_ne!(devices.remember(Some("planted"), "anna", &[3; 32], 1), "planted");
         assert!(devices.find(&cookie, "anna", BROWSER_EXPIRY_US).is_some(), "a login restarts the expiry");
     }

@@ -5,7 +5,7 @@ use super::assets;
 use super::layout::{page_with_script, section, token};
 use maud::{Markup, PreEscaped, html};
 
-/// Maximum length of an instructor's note, characters; a note is sent as one MAVLink message.
+/// Maximum length of an instructor's note, characters. A note must fit in one MAVLink message.
 pub const MAX_NOTE_LEN: usize = 100;
 /// Maximum wind speed, m/s, from the vehicle parameter's upper limit.
 pub const MAX_WIND_M_S: f64 = 25.0;
@@ -130,13 +130,13 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("wind"))
-            label { "Wind, m/s" input type="number" name="speed" required min="0" max=(MAX_WIND_M_S) step="0.5" value="6"; }
-            label { "From, degrees" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
+            label { "Wind speed (m/s)" input type="number" name="speed" required min="0" max=(MAX_WIND_M_S) step="0.5" value="6"; }
+            label { "Wind direction (degrees)" input type="number" name="from" required min="0" max="360" step="5" value="270"; }
             button type="submit" { "Set wind" }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("traffic"))
-            p.note { "Closing stops new traffic; vehicles on the bridge leave." }
+            p.note { "Closing a bridge stops new traffic; vehicles already on it leave." }
             div.row {
                 button type="submit" name="open" value="no" { "Close bridges" }
                 button type="submit" name="open" value="yes" { "Open bridges" }

@@ -20,7 +20,7 @@ use std::collections::VecDeque;
 const PLACEHOLDER_ORIGIN: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
 /// Maximum number of messages kept for the page.
 const MAX_MESSAGES: usize = 40;
-/// Identifies the job being flown.
+/// Identity of the job being flown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct JobIdentity {
     /// Scenario CRC.

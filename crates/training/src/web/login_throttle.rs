@@ -8,7 +8,7 @@ use super::known_browsers::KnownBrowser;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
-/// How long failures are remembered, µs.
+/// Time for which failures are remembered, µs.
 const WINDOW_US: u64 = 15 * 60_000_000;
 /// First wait after the limit is reached, µs; doubles with each further failure (estimate: long enough to slow down
 /// guessing, short enough after a typo).
@@ -44,7 +44,7 @@ impl LoginOrigin {
 pub struct LoginThrottle(BTreeMap<LoginOrigin, Vec<(u64, String)>>);
 
 impl LoginThrottle {
-    /// Returns how long a login must wait in µs; `None` if it may be attempted immediately.
+    /// Returns the wait before the next login attempt in µs; `None` if it may be made immediately.
     #[must_use]
     pub fn wait_us(&self, from: LoginOrigin, name: &str, now_us: u64) -> Option<u64> {
         let failures = self.0.get(&from)?;
@@ -86,7 +86,7 @@ impl LoginThrottle {
     }
 }
 
-/// Returns the wait for the given number of failures above the limit in µs.
+/// Returns the wait in µs for the given number of failures above the limit.
 fn wait_after(beyond: usize) -> u64 {
     let doublings = u32::try_from(beyond).unwrap_or(u32::MAX);
     FIRST_WAIT_US.checked_shl(doublings).filter(|wait| *wait >= FIRST_WAIT_US).map_or(MAX_WAIT_US, |wait| wait.min(MAX_WAIT_US))

@@ -1,5 +1,5 @@
-//! The questionnaire as a web form. A small script saves every answer immediately, so users can stop at any time and continue
-//! later. Without the script, they save with the button.
+//! The questionnaire as a web form. A small script saves every answer immediately, so users can stop at any time and
+//! continue later. Without the script, users save with the button.
 
 use super::access::Visitor;
 use super::assets;
@@ -105,7 +105,8 @@ pub fn page(visitor: &Visitor, context: &FormContext<'_>) -> Markup {
     page_in_language(visitor, "/sessions", &context.wording.title, (&context.wording.language, Some(assets::FORM_NAME)), &body)
 }
 
-/// Renders the language selection, with each language in its own name. Answers are already saved, so switching loses none.
+/// Renders the language selection, with each language in its own name. Answers are already saved, so switching
+/// languages loses none.
 fn language_selection(context: &FormContext<'_>) -> Markup {
     let words = &context.wording.form;
     html! {

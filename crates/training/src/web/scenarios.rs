@@ -80,7 +80,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         p.lead { (scenario.title) }
         (section("facts", "Summary", &facts))
         @if !scenario.tasks.is_empty() {
-            (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance, m", true)], &rows)))
+            (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance (m)", true)], &rows)))
         }
         (section("site", "Site plan", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
         @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "File", &html! {
@@ -93,7 +93,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
 }
 
-/// Reason that a recording was not imported.
+/// Reason why a recording was not imported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UploadMessage<'a> {
     /// The recording is invalid.

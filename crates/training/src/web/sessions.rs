@@ -110,7 +110,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageDa
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
             @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
-            (formatting::duration(record.seconds)) " of flight, ended: " (record.end_reason.replace('_', " "))
+            "flight time " (formatting::duration(record.seconds)) ", ended: " (record.end_reason.replace('_', " "))
         }
         (actions(record, beside))
         (section("scores", "Scores", &scores(record)))
@@ -186,7 +186,7 @@ fn tasks(record: &SessionRecord) -> Markup {
             figure { figcaption { "On-path share by task" } (shares(&rows, "On-path share by task")) }
             (table(
                 "Task results",
-                &[("Task", false), ("Path flown", false), ("On path, %", true), ("Too fast, s", true), ("Crashes", true), ("Defects found", true)],
+                &[("Task", false), ("Path flown", false), ("On-path share (%)", true), ("Speeding time (s)", true), ("Crashes", true), ("Defects found", true)],
                 &html! {
                     @for task in &record.tasks {
                         tr {

@@ -82,7 +82,7 @@ fn retention(visitor: &Visitor) -> Markup {
     html! {
         form.stacked method="post" action="/settings/retention" {
             (token(visitor))
-            label { "Erase sessions and session folders older than (days)" input type="number" name="days" required min="1" max="36525"; }
+            label { "Erase sessions and session folders older than this (days)" input type="number" name="days" required min="1" max="36525"; }
             label { input type="checkbox" name="sure" value="yes" required; " I understand that this cannot be undone" }
             button.danger type="submit" { "Erase" }
         }

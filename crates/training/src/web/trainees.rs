@@ -130,7 +130,7 @@ fn details(visitor: &Visitor, person: &Trainee) -> Markup {
         p { "Role: " (person.role.word()) ". The following information is optional and used only for the study." }
         form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
             (token(visitor))
-            (choice("age_band", "Age, years", person.age_band.as_deref(), AGE_BANDS))
+            (choice("age_band", "Age (years)", person.age_band.as_deref(), AGE_BANDS))
             (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE))
             (choice("gaming_experience", "Experience with video games", person.gaming_experience.as_deref(), EXPERIENCE))
             button type="submit" { "Save" }
@@ -144,7 +144,7 @@ fn erase(visitor: &Visitor, name: &str) -> Markup {
             summary { "Erase" }
             form.stacked method="post" action={ "/trainees/" (name) "/erase" } {
                 (token(visitor))
-                p { "This erases " (name) " and all their sessions, answers and session folders. It cannot be undone." }
+                p { "This erases " (name) " and all their sessions, answers and session folders. This cannot be undone." }
                 label { "Enter the pseudonym to confirm" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
                 button.danger type="submit" { "Erase permanently" }
             }

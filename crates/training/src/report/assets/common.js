@@ -20,8 +20,8 @@ const Flight = (function () {
     return low > 0 && t - times[low - 1] < times[low] - t ? low - 1 : low;
   }
 
-  // Moves the drone's mark in a drawing, whose matrix maps east, north and up to the drawing's coordinates. In a bridge's side
-  // view, the mark is faint while the drone is far from that bridge.
+  // Moves the drone's mark in a drawing. The drawing's matrix maps east, north and up to its coordinates. In a bridge's
+  // side view, the mark is faint while the drone is far from that bridge.
   const numbers = (text) => (text ? text.split(' ').map(Number) : null);
   const drone = (node) => ({ node, m: numbers(node.dataset.matrix), near: numbers(node.dataset.near) });
   function place({ node, m, near }, e, n, u) {
@@ -35,8 +35,8 @@ const Flight = (function () {
     node.setAttribute('transform', 'translate(' + x.toFixed(1) + ' ' + y.toFixed(1) + ')');
   }
 
-  // Play and pause for a slider. `advance` moves the slider by the given number of seconds and returns whether the end is still
-  // ahead.
+  // Play/pause control for a slider. `advance` moves the slider by the given number of seconds and returns `false` once
+  // it reaches the end.
   function player(button, begin, advance) {
     let timer = null;
     function stop() {

@@ -65,7 +65,7 @@
   function lineUp() {
     const from = Math.min(...flights.map((flight, k) => flight.series.t[0] - start(k)));
     const to = Math.max(...flights.map((flight, k) => flight.series.t[flight.series.t.length - 1] - start(k)));
-    // 0 is always one of the steps so that the slider can show the exact alignment point.
+    // The steps always include 0 so that the slider can show the exact alignment point.
     const first = Math.floor(from / STEP), count = Math.ceil(to / STEP) - first + 1;
     times = Array.from({ length: count }, (_, k) => (first + k) * STEP);
     slider.max = String(count - 1);

@@ -42,7 +42,7 @@ pub struct AveragePicture {
     pub gsd_m: f64,
     /// Motion blur, px.
     pub blur_px: f64,
-    /// Illuminance including the lamp, lx (geometric mean, because perceived brightness depends on ratios).
+    /// Illuminance including lamp light, lx (geometric mean, because perceived brightness depends on ratios).
     pub lux: f64,
 }
 
@@ -82,19 +82,19 @@ impl ElementSurface {
         sums.ln_lux += more.ln_lux;
     }
 
-    /// Returns the area with this outcome, m².
+    /// Returns the area with this outcome in m².
     #[must_use]
     pub fn area_m2(&self, outcome: SurfaceOutcome) -> f64 {
         self.area_by_outcome_m2.get(&outcome).copied().unwrap_or_default()
     }
 
-    /// Returns the area with this outcome or a better one, m².
+    /// Returns the area with this outcome or a better one in m².
     #[must_use]
     pub fn at_least_m2(&self, outcome: SurfaceOutcome) -> f64 {
         self.area_by_outcome_m2.range(outcome..).map(|(_, area_m2)| area_m2).sum()
     }
 
-    /// Returns the area photographed at the required pixel size and angle, m².
+    /// Returns the area in m² that was photographed at the required pixel size and angle.
     #[must_use]
     pub fn pictured_m2(&self) -> f64 {
         self.at_least_m2(SurfaceOutcome::DarkLampOff)

@@ -1,6 +1,6 @@
-//! Surface coverage: how much of the inspectable surface the pictures capture well, why the rest does not count, and
-//! how much of it was in the camera's view during the flight. Size, angle and light are evaluated with the scorer's
-//! functions.
+//! Surface coverage: the inspectable surface that the pictures capture well, the reasons why the rest does not count,
+//! and the part of the rest that was in the camera's view during the flight. The scorer's functions evaluate size,
+//! angle and light.
 
 mod element;
 mod outcome;
@@ -26,16 +26,16 @@ use spandrel_model::vehicle::Camera;
 use spandrel_monitor::measures::attention;
 use std::collections::BTreeMap;
 
-/// Maximum motion blur, px (one pixel, as published for defect detection).
+/// Maximum motion blur, px (the published limit for defect detection).
 pub const BLUR_MAX_PX: f64 = 1.0;
-/// Multiple of the required-pixel-size distance beyond which a surface counts as background.
+/// A surface counts as background beyond this multiple of the distance at which pixels have the required size.
 const BACKGROUND_DISTANCE_FACTOR: f64 = 3.0;
 /// Sampling interval for evaluating the camera's view during the flight.
 const VIEW_SAMPLE_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// Size of the cells in which patches with the same orientation share ambient light, m.
 const LIGHT_CELL_M: f64 = 5.0;
 
-/// A surface patch with the best picture of it.
+/// A surface patch and the best picture of it.
 struct EvaluatedPatch {
     patch: SurfacePatch,
     in_view: bool,
@@ -67,8 +67,8 @@ impl EvaluatedPatch {
     }
 }
 
-/// Returns the distance, m, and the cosine of the incidence angle for a patch that is inside the image and faces the
-/// camera. Does not check for a clear line of sight.
+/// Returns the distance in meters and the cosine of the incidence angle for a patch that is inside the image and faces
+/// the camera. Does not check for a clear line of sight.
 fn in_image(patch: &SurfacePatch, pose: &CameraPose, camera: &Camera, farthest_m: f64) -> Option<(f64, f64)> {
     let to = patch.point_m - pose.position_m;
     let away_m = to.norm();
@@ -149,8 +149,8 @@ struct LightCache<'a> {
 }
 
 impl LightCache<'_> {
-    /// Returns a patch's illuminance in a picture, including the lamp, lx, and the motion blur at the shortest exposure
-    /// possible in this light, px.
+    /// Returns a patch's illuminance in a picture in lx, including lamp light, and the motion blur in px at the
+    /// shortest exposure possible in this light.
     fn with_motion_blur(&mut self, patch: &SurfacePatch, picture: &ReviewedPicture) -> (f64, f64) {
         let (pose, camera) = (&picture.pose, &picture.camera);
         let lamp = lamp_lux(&self.scene.vehicle.lamp, pose, patch.point_m, patch.normal);

@@ -49,7 +49,7 @@ impl SurfaceOutcome {
         }
     }
 
-    /// Returns the CSS class that colors it in the report.
+    /// Returns the CSS class that colors the outcome in the report.
     #[must_use]
     pub fn class(self) -> &'static str {
         match self {

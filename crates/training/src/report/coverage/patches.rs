@@ -12,7 +12,7 @@ use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 const PATCH_M: f64 = 1.0;
 /// Minimum face area, m². Smaller faces, such as the edges of plates and posts, are skipped.
 const MIN_FACE_M2: f64 = 0.1;
-/// Distance between the surface and the start of a line of sight, m.
+/// Distance between the surface and a sight line's start, m.
 const SURFACE_OFFSET_M: f64 = 0.02;
 /// Maximum number of reference points tested per patch, nearest first.
 const MAX_POINTS_TESTED: usize = 8;

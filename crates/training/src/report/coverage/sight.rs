@@ -9,10 +9,10 @@ use spandrel_model::vehicle::Camera;
 const CRACK_WIDTH_M: f64 = 0.001_27;
 /// Pixel size on the surface at which that crack covers half a pixel, as a hit requires, m.
 pub const REQUIRED_GSD_M: f64 = CRACK_WIDTH_M / MIN_LINE_WIDTH_PX;
-/// Distance between the end of a line of sight and the surface, m.
+/// Distance between a sight line's end and the surface, m.
 const SIGHT_LINE_MARGIN_M: f64 = 0.02;
 
-/// Returns the distance at which pixels have the required size on the surface in meters.
+/// Returns the distance in meters at which pixels have the required size on the surface.
 #[must_use]
 pub fn reach_m(camera: &Camera) -> f64 {
     REQUIRED_GSD_M * camera.focal_px()

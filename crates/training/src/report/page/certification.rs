@@ -19,7 +19,7 @@ pub fn section(review: &Review) -> Markup {
         ("at least 20% battery at landing", c.gates.battery_reserve),
     ];
     html! {
-        p { "This second profile adds pass/fail requirements that close loopholes in the four TASBID scores. "
+        p { "The certification profile adds pass/fail requirements that close loopholes in the four TASBID scores. "
             b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet)) "." } } }
         ul.gates {
             @for (words, open) in gates {
@@ -28,7 +28,7 @@ pub fn section(review: &Review) -> Markup {
         }
         @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
         p { "Closer than " (formatting::number(review.scenario.scoring.clearance_m, 1)) " m to a surface for " (formatting::number(c.exposure_s, 1))
-            " s; " (c.crash_onsets) " contacts, or " (c.crashes.len()) " after merging contacts less than a second apart; "
+            " s; " (c.crash_onsets) " contacts (" (c.crashes.len()) " after merging those less than a second apart); "
             (formatting::number(c.battery_at_end_pct, 0)) "% battery remaining at the end." }
         (visits_table(review).folded())
         (detection_table(review).folded())
@@ -48,7 +48,7 @@ fn visits_table(review: &Review) -> Table {
     Table {
         name: "visits",
         caption: "task visits",
-        columns: vec!["task", "visits", "path flown, %", "on path, %", "speeding loss"],
+        columns: vec!["task", "visits", "path flown (%)", "on-path share (%)", "speeding loss"],
         rows: review.assessment.certification.tasks.iter().map(row).collect(),
     }
 }

@@ -1,4 +1,4 @@
-//! Surface coverage by element: the area that the pictures capture well, and why the rest does not count.
+//! Surface coverage by element: the area that the pictures capture well, and the reasons why the rest does not count.
 
 use super::figure::{figure, legend};
 use crate::report::Review;
@@ -12,7 +12,7 @@ use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 
 /// Maximum number of reasons named in the summary.
 const MAX_REASONS: usize = 3;
-/// Minimum fraction of the inspectable surface for a reason to be named.
+/// Minimum fraction of the inspectable surface that a reason must affect to be named.
 const MIN_REASON_SHARE: f64 = 0.01;
 
 /// Renders the "Coverage" section of a session report.
@@ -27,9 +27,9 @@ pub fn section(review: &Review) -> Markup {
         p { "The pictures capture " b { (share(total.area_m2(SurfaceOutcome::Shown))) "%" } " of the inspectable bridge surface well ("
             (formatting::number(total.inspectable_m2, 0)) " m² can be inspected from the reference paths)." @if let Some(why) = reasons_not_captured(&total) { " The rest: " (why) "." } }
         p.note { "A surface is inspectable if it is visible from at least one point of a reference path at " (formatting::number(1000.0 * REQUIRED_GSD_M, 2))
-            " mm per pixel or finer (a 1.27 mm crack, the limit between condition states 2 and 3, then covers half a pixel; with this camera, this corresponds to a distance of "
-            (formatting::number(reach_m(&review.vehicle.camera), 1)) " m) and at an angle of at most "
-            (formatting::number(MAX_INCIDENCE_RAD.to_degrees(), 0)) "° from the surface normal. It is captured well if a picture meets both limits, has enough light (including the lamp) for an exposure within the camera's limits, and has at most "
+            " mm per pixel or finer (at this resolution, a 1.27 mm crack, the limit between condition states 2 and 3, covers half a pixel; this camera achieves it from up to "
+            (formatting::number(reach_m(&review.vehicle.camera), 1)) " m away) and at an angle of at most "
+            (formatting::number(MAX_INCIDENCE_RAD.to_degrees(), 0)) "° from the surface normal. It is captured well if a picture meets both limits, has enough light (including lamp light) for an exposure within the camera's limits, and has at most "
             (formatting::number(BLUR_MAX_PX, 0)) " px of motion blur. If several pictures show the same patch of surface, the best one counts." }
         (figure("Coverage of each element's inspectable surface", &html! {
             (legend(&key))
@@ -45,7 +45,7 @@ pub fn section(review: &Review) -> Markup {
     }
 }
 
-/// Returns the main reasons that surface is not captured well; `None` if each is below [`MIN_REASON_SHARE`].
+/// Returns the main reasons why surface is not captured well; `None` if each affects less than [`MIN_REASON_SHARE`].
 fn reasons_not_captured(total: &ElementSurface) -> Option<String> {
     let share = |outcome: &SurfaceOutcome| total.area_m2(*outcome) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> = SurfaceOutcome::ALL
@@ -84,20 +84,20 @@ fn table(coverage: &SurfaceCoverage) -> Table {
         .map(|(element, surface)| row(surface, [u32::from(element.number()).into(), element.name().into()]))
         .collect();
     rows.push(row(&coverage.total(), ["all".into(), TableCell::Empty]));
-    let mut columns = vec!["element", "name", "inspectable, m²"];
+    let mut columns = vec!["element", "name", "inspectable area (m²)"];
     columns.extend([
-        "captured well, m²",
-        "blurred, m²",
-        "too dark, lamp on, m²",
-        "too dark, lamp off, m²",
-        "too oblique, m²",
-        "too far, m²",
-        "in view, not photographed, m²",
-        "never in view, m²",
-        "pixel size, mm",
-        "angle from normal, deg",
-        "light, lx",
-        "motion blur, px",
+        "captured well (m²)",
+        "blurred (m²)",
+        "too dark, lamp on (m²)",
+        "too dark, lamp off (m²)",
+        "too oblique (m²)",
+        "too far (m²)",
+        "in view, not photographed (m²)",
+        "never in view (m²)",
+        "pixel size (mm)",
+        "angle from normal (deg)",
+        "illuminance (lx)",
+        "motion blur (px)",
     ]);
     Table {
         name: "coverage",
@@ -126,7 +126,7 @@ mod tests {
         assert_eq!(reasons_not_captured(&element).unwrap(), "35% too dark, lamp off; 20% blurred; 5% too far");
         let table = table(&SurfaceCoverage { elements: [(Element::RcBoxGirder, element)].into() });
         for (k, fate) in SurfaceOutcome::ALL.iter().enumerate() {
-            assert_eq!(table.columns[3 + k], format!("{}, m²", fate.name()));
+            assert_eq!(table.columns[3 + k], format!("{} (m²)", fate.name()));
         }
         assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));
         assert_eq!(table.rows[1][6], TableCell::Number(35.0, 1), "the total of a single element equals that element");

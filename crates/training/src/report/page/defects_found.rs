@@ -1,5 +1,5 @@
-//! Found and missed defects, marked on the bridges. For missed defects, also shows how close the flight came and how
-//! they would have looked.
+//! Found and missed defects, marked on the bridges. For missed defects, also shows how close the flight came to them
+//! and how they would have looked.
 
 use super::figure::figure;
 use super::gallery::{DefectMark, frame};
@@ -109,14 +109,14 @@ fn table(review: &Review) -> Table {
             "element",
             "element name",
             "member",
-            "length, mm",
-            "width, mm",
-            "east, m",
-            "north, m",
-            "up, m",
+            "length (mm)",
+            "width (mm)",
+            "east (m)",
+            "north (m)",
+            "height (m)",
             "found",
-            "clearly visible, s",
-            "nearest, m",
+            "time clearly visible (s)",
+            "closest approach (m)",
             "outcome",
         ],
         rows: review.defects.iter().map(row).collect(),

@@ -22,7 +22,7 @@ pub fn section(review: &Review) -> Markup {
         @if present.is_empty() { p.calm { "No feedback was given." } } @else {
             div.scroll tabindex="0" role="region" aria-label="Feedback summary" {
                 table {
-                    thead { tr { th scope="col" { "feedback" } th scope="col" { "times" } th scope="col" { "total duration, s" } th scope="col" { "stick reactions" } th scope="col" { "median reaction, s" } } }
+                    thead { tr { th scope="col" { "feedback" } th scope="col" { "count" } th scope="col" { "total duration (s)" } th scope="col" { "stick reactions" } th scope="col" { "median reaction time (s)" } } }
                     tbody { @for kind in &present { (row(review, *kind)) } }
                 }
             }
@@ -106,7 +106,7 @@ fn episodes(review: &Review) -> Table {
     Table {
         name: "feedback",
         caption: "feedback shown",
-        columns: vec!["time", "feedback", "duration, s", "reaction time, s", "task"],
+        columns: vec!["time", "feedback", "duration (s)", "reaction time (s)", "task"],
         rows: review.feedback.episodes.iter().map(row).collect(),
     }
 }

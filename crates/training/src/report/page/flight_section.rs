@@ -10,10 +10,10 @@ use maud::{Markup, html};
 
 /// ID, title and data columns of each chart.
 const CHARTS: [(&str, &str, &str); 5] = [
-    ("speed", "Speed, m/s", "speed"),
-    ("distance", "Distance to the current task's path, m", "distance"),
-    ("clearance", "Clearance to the nearest surface, m", "clearance"),
-    ("battery", "Battery, %", "battery"),
+    ("speed", "Speed (m/s)", "speed"),
+    ("distance", "Distance to the current task's path (m)", "distance"),
+    ("clearance", "Clearance to the nearest surface (m)", "clearance"),
+    ("battery", "Battery (%)", "battery"),
     ("sticks", "Stick positions (full travel = 1)", "fb rl ud rt"),
 ];
 
@@ -243,10 +243,10 @@ fn series_table(review: &Review) -> Table {
             "time",
             "task",
             "path",
-            "distance, m",
-            "speed, m/s",
-            "clearance, m",
-            "battery, %",
+            "distance (m)",
+            "speed (m/s)",
+            "clearance (m)",
+            "battery (%)",
             "forward",
             "right",
             "up",

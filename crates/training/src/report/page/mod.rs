@@ -67,8 +67,8 @@ enum PageScripts {
     Comparison(String),
 }
 
-/// Renders a complete document: content security policy, styles, body, data and scripts. Styles and scripts are Spandrel's or a
-/// library's and contain no user input.
+/// Renders a complete document: content security policy, styles, body, data and scripts. Styles and scripts are part of
+/// Spandrel or a library and contain no user input.
 fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
     html! {
         (DOCTYPE)

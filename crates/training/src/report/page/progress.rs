@@ -58,7 +58,7 @@ pub fn progress_figures(progress: &TraineeProgress, tasks: &[(u32, String)]) -> 
         div.three {
             (figure("The four scores by repetition", &html! { (key(&scores)) (lines(&scores, 100.0, "Scores by repetition")) }))
             @if !tasks.is_empty() {
-                (figure("On-path share by task, %", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
+                (figure("On-path share by task (%)", &html! { (key(&shares)) (lines(&shares, 100.0, "On-path share by task and repetition")) }))
             }
             (figure("Crashes by object", &html! {
                 @if seen.is_empty() { p.calm { "None." } } @else { (legend(&seen)) (counts(&rows, "Crashes by kind and repetition")) }
@@ -127,7 +127,7 @@ fn curve_table(curves: &[ScoreCurve]) -> Table {
     };
     Table {
         name: "learning_curves",
-        caption: "learning curves, first × repetition ^ exponent",
+        caption: "learning curves (score = first score × repetition ^ exponent)",
         columns: vec!["score", "repetitions", "first", "exponent", "R²", "next"],
         rows: curves.iter().map(row).collect(),
     }
@@ -160,12 +160,12 @@ fn on_path_table(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Table {
     Table {
         name: "on_path",
         caption: "on-path share by task",
-        columns: vec!["repetition", "task", "name", "on path, %"],
+        columns: vec!["repetition", "task", "name", "on-path share (%)"],
         rows: progress.repetitions.iter().flat_map(|one| tasks.iter().map(move |task| row(one, task))).collect(),
     }
 }
 
-/// Returns the message for too few repetitions for a learning curve.
+/// Returns the message that there are too few repetitions for a learning curve.
 pub fn too_few_repetitions() -> String {
     format!(
         "A learning curve requires {} repetitions of the same job.",
@@ -194,8 +194,8 @@ mod tests {
     fn exact_progress_lists_each_repetition() {
         let text = progress_page(3).into_string();
         assert_eq!(text.matches("class=\"lines\"").count(), 2);
-        // Four score lines with three points each. The task lines have one point fewer, because one task was once not
-        // attempted.
+        // Four score lines with three points each. The task lines have one point fewer because one task was not
+        // attempted in one session.
         assert_eq!(text.matches("<circle class=\"dot-").count(), 12 + 11);
         assert!(text.contains("water: 2") && text.contains("person or vehicle: 1") && !text.contains("bridge: "), "{text}");
         assert!(text.contains("not attempted") && text.contains("&lt;b&gt;slab") && !text.contains("<b>slab"));

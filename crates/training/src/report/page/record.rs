@@ -11,7 +11,7 @@ pub fn section(review: &Review) -> Markup {
     html! {
         p { (gaps(review)) }
         @if telemetry.missing_frames > 0 {
-            p.note { "In gaps longer than 1 s, missing frames repeat the last known position and are scored there." }
+            p.note { "In gaps longer than 1 s, missing frames repeat the last known position and are scored at that position." }
         }
         (control_intervals(review).shown())
         (files(review).shown())
@@ -25,7 +25,7 @@ fn gaps(review: &Review) -> String {
         return "The telemetry has no gaps longer than 0.2 s.".into();
     }
     format!(
-        "The telemetry has {} gaps longer than 0.2 s: {} frames were interpolated, {} are missing; {}% of the session is covered.",
+        "Telemetry gaps longer than 0.2 s: {}. Interpolated frames: {}. Missing frames: {}. Telemetry covers {}% of the session.",
         t.gaps,
         t.interpolated_frames,
         t.missing_frames,
@@ -64,10 +64,10 @@ fn files(review: &Review) -> Table {
             row("purpose", about.purpose.clone().unwrap_or_else(|| "not specified".into()).into()),
             row("started", about.started_utc.clone().into()),
             row("scenario", review.scenario.name.clone().into()),
-            row("scenario, SHA-256", about.scenario_sha256.clone().into()),
+            row("scenario SHA-256", about.scenario_sha256.clone().into()),
             row("aircraft", review.vehicle.id.clone().into()),
-            row("aircraft, SHA-256", about.vehicle_sha256.clone().into()),
-            row("telemetry, SHA-256", about.telemetry_sha256.clone().into()),
+            row("aircraft SHA-256", about.vehicle_sha256.clone().into()),
+            row("telemetry SHA-256", about.telemetry_sha256.clone().into()),
             row("seed", review.seed.to_string().into()),
             row("scorer", concat!("spandrel ", env!("CARGO_PKG_VERSION")).into()),
             row("frames scored", review.frames.len().into()),

@@ -15,7 +15,8 @@ const RATE_HZ: f64 = 10.0;
 const MAX_SAMPLES: usize = 15_000;
 /// Number of terrain samples along each side of the 3D model.
 const TERRAIN_SAMPLES: usize = 72;
-/// Offset of a defect's mark from the surface along the normal, m, so that the mark cannot be seen from the other side.
+/// Distance between a defect's mark and the surface along the normal, m. It makes the mark invisible from the other
+/// side.
 const DEFECT_MARK_OFFSET_M: f64 = 0.5;
 
 /// Returns a session report's data block as JSON.
@@ -38,8 +39,8 @@ pub fn data(review: &Review) -> String {
     escape_json(&block.to_string())
 }
 
-/// Returns a comparison's data block as JSON: the time series of both flights and the events at which they can be
-/// aligned.
+/// Returns a comparison's data block as JSON: the time series of both flights and the events that can be used to align
+/// them.
 #[must_use]
 pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> String {
     let flight = |k: usize| {
@@ -55,7 +56,7 @@ pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> St
     escape_json(&block.to_string())
 }
 
-/// An event in both flights at which they can be aligned in time.
+/// An event in both flights that can be used to align them in time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlignmentEvent {
     /// Name of the event, shown in the alignment menu.
@@ -108,7 +109,7 @@ fn mesh(mesh: &QuantizedMesh) -> Value {
         "triangles": base64(&bytes(&mesh.triangles)) })
 }
 
-/// Returns terrain heights over a square around the origin, row by row from the southwest corner, m.
+/// Returns terrain heights in meters over a square around the origin, row by row from the southwest corner.
 fn ground(review: &Review) -> Value {
     let half = 0.5 * review.scenario.terrain.size_m;
     let coordinate = |k: usize| -half + 2.0 * half * k as f64 / (TERRAIN_SAMPLES - 1) as f64;

@@ -25,7 +25,7 @@ pub fn header(review: &Review) -> Markup {
                     b { (review.about.trainee) } " · " (utc(&review.about.started_utc)) " · " (review.vehicle.name)
                     @if let Some(purpose) = &review.about.purpose { " · " (purpose) }
                 }
-                p { (formatting::duration(end.seconds)) " of flight, " (formatting::end_reason_label(end.reason)) ". " (telemetry_summary(review)) }
+                p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) ". " (telemetry_summary(review)) }
             }
             div.overall {
                 @if review.assessment.completion.complete {
@@ -98,7 +98,7 @@ fn score_explanation(review: &Review, name: &str) -> String {
             if assessment.end.battery_failed {
                 "did not land near the ground team before the battery or time ran out".into()
             } else {
-                format!("{} of flight; full score up to {best}", formatting::duration(assessment.end.seconds))
+                format!("flight time {}; full score up to {best}", formatting::duration(assessment.end.seconds))
             }
         }
         "Safety" => {
@@ -151,5 +151,10 @@ fn table(review: &Review) -> Table {
     if review.assessment.completion.complete {
         rows.push(vec!["Overall".into(), TableCell::Empty, TableCell::Number(scores.overall, 2), TableCell::Empty]);
     }
-    Table { name: "scores", caption: "scores", columns: vec!["score", "raw", "of 100", "certification profile, of 100"], rows }
+    Table {
+        name: "scores",
+        caption: "scores",
+        columns: vec!["score", "raw", "score (of 100)", "certification profile (of 100)"],
+        rows,
+    }
 }

@@ -49,7 +49,7 @@ pub(super) fn lake(scenario: &Scenario, site: &Site, map: &PlotMap) -> Markup {
     }
 }
 
-/// Returns the position of the zero crossing between two samples.
+/// Returns the zero crossing between two samples.
 fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
     if (a.1 > 0.0) == (b.1 > 0.0) { b.0 } else { a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1) }
 }

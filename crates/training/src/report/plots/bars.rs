@@ -155,7 +155,7 @@ mod tests {
         let row = CountRow { name: "a".into(), kinds: vec![("x", 2), ("y", 0), ("z", 3)] };
         assert_eq!(parts(&[("x", 2.0), ("y", 0.0), ("z", 3.0)]), [("x", 0.0, 2.0), ("z", 2.0, 3.0)]);
         let figure = counts(&[row], "t").into_string();
-        assert!(figure.contains("class=\"z\" x=\"151.2\""), "bar of 5 counts is 368 wide and starts at 4: {figure}");
+        assert!(figure.contains("class=\"z\" x=\"151.2\""), "the bar for a count of 5 is 368 wide and starts at 4: {figure}");
     }
 
     #[test]

@@ -30,7 +30,7 @@ pub fn y_of(value: f64, (low, high): (f64, f64)) -> f64 {
 /// Draws box plots on a vertical scale from 0 to `most`.
 #[must_use]
 pub fn boxes(named: &[NamedBox<'_>], most: f64, title: &str) -> Markup {
-    // Keeps a minimum width so that a few boxes are not enlarged.
+    // Sets a minimum width so that a few boxes are not enlarged.
     let width = LEFT + BOX_SPACING * named.len().max(5) as f64 + 10.0;
     let y = |value: f64| y_of(value, (0.0, most));
     svg_figure(

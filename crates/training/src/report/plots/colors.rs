@@ -58,7 +58,7 @@ fn color_segments(
         let now = color_index(i);
         let here = map.at(frame.position_m);
         if now != color {
-            // A line between two points of different colors gets the first point's color.
+            // A line between two points of different colors has the color of the first.
             if !run.is_empty() {
                 run.push(here);
             }

@@ -89,7 +89,11 @@ mod tests {
         assert_eq!((x_of(-4.4, axis_range(&all)), x_of(1.4, axis_range(&all))), (220.0, 600.0));
         let figure = intervals(&all, "points", "t").into_string();
         assert_eq!((figure.matches("class=\"whisker\"").count(), figure.matches("<circle").count()), (2, 3));
-        assert_eq!(figure.matches("class=\"grid\"").count(), 3, "one tick each at -4, -2 and 0, none beyond the ends: {figure}");
+        assert_eq!(
+            figure.matches("class=\"grid\"").count(),
+            3,
+            "one tick each at -4, -2 and 0, and none beyond the ends: {figure}"
+        );
         assert!(figure.contains("class=\"zero\"") && figure.contains("&lt;a&gt;"), "{figure}");
         assert_eq!(axis_range(&[estimate(0.0, None)]), (-1.0, 1.0));
         assert_eq!(axis_range(&[]), (-1.0, 1.0));

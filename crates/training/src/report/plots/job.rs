@@ -12,7 +12,7 @@ use spandrel_model::site::Site;
 
 /// Margin beyond each end of a bridge in its side view, m.
 const END_MARGIN_M: f64 = 25.0;
-/// Margin above a bridge, m, which keeps a drone above the deck inside the drawing.
+/// Margin above a bridge, m, so that a drone above the deck stays inside the drawing.
 const TOP_MARGIN_M: f64 = 15.0;
 
 /// Draws the plan view with north up.
@@ -108,8 +108,8 @@ mod tests {
         for bridge in &scenario.bridges {
             let side = job_side(&scenario, &site, bridge).into_string();
             assert!(side.contains("class=\"ground\"") && side.contains("data-matrix"));
-            assert_eq!(side.matches("data-near=").count(), 2, "drone and trail are limited to this bridge");
-            assert!(side.matches("reference path of task").count() < 4, "only the paths at this bridge");
+            assert_eq!(side.matches("data-near=").count(), 2, "the drone and trail are limited to this bridge");
+            assert!(side.matches("reference path of task").count() < 4, "only the paths at this bridge are drawn");
         }
         let (scenario, site) = job(include_str!("../../../../../scenarios/drill-hover.toml"));
         assert!(job_south(&scenario, &site).into_string().contains("data-matrix"));

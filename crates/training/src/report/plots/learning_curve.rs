@@ -28,8 +28,8 @@ pub struct PracticeChart<'a> {
     pub most: f64,
 }
 
-/// Returns the position of a value in repetition `repetition` (from 1) of `count`. Repetition `count` + 1 is the position of the
-/// prediction.
+/// Returns the position of a value at repetition `repetition` (from 1) of `count`. The prediction is at repetition
+/// `count` + 1.
 #[must_use]
 pub fn place(repetition: f64, count: usize, value: f64, most: f64) -> (f64, f64) {
     let share = (repetition - 1.0) / count.max(1) as f64;

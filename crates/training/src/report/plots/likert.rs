@@ -10,7 +10,7 @@ const FULL_WIDTH: f64 = 300.0;
 /// Height of a question and its bar, in drawing units; extra lines of text add to it.
 const ROW: f64 = 42.0;
 const LINE: f64 = 15.0;
-/// Maximum number of characters per line of text (for a wide sans-serif font at the label size).
+/// Maximum number of characters per text line (for a wide sans-serif font at the label size).
 const MAX_LINE_CHARACTERS: usize = 84;
 
 /// A question with its answer counts.
@@ -112,7 +112,7 @@ mod tests {
         let figure = likert(&[question(&long), question("short")], "t").into_string();
         assert!(
             figure.contains(r#"y="49""#) && figure.contains(r#"y="91""#),
-            "bars are below the third line and in the next row: {figure}"
+            "the bars are below the third line of text and in the next row: {figure}"
         );
     }
 }

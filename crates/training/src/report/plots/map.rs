@@ -91,7 +91,7 @@ pub(super) fn is_near_bridge(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<>
     }
 }
 
-/// Fits the side view of a bridge, including these frames.
+/// Fits a bridge's side view, including these frames, to a drawing.
 pub(super) fn side_view_map<'a>(
     scenario: &Scenario,
     site: &Site,
@@ -156,7 +156,7 @@ pub(super) fn bounding_points(review: &Review) -> Vec<Vec3<Enu>> {
     all
 }
 
-/// Returns the points that bound a job, without deep foundations.
+/// Returns the points that bound a job, excluding deep foundations.
 pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     let water_m = scenario.terrain.water_level_m;
     let members = site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
@@ -177,7 +177,7 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
     }
 }
 
-/// Draws the reference paths (of one bridge or all), flight path, marks, drone and scale.
+/// Draws the reference paths (of one bridge or of all bridges), the flight path, marks, drone and scale.
 fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
         (reference_paths(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
@@ -192,7 +192,7 @@ fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&
     }
 }
 
-/// Draws the reference paths of one bridge or all.
+/// Draws the reference paths of one bridge or of all bridges.
 pub(super) fn reference_paths(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
     let of = |task: &&Task| {
         let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());
@@ -276,7 +276,7 @@ mod tests {
             assert!(y >= MARGIN - 1e-9 && y <= map.size.1 - MARGIN + 1e-9, "{y}");
             let m: Vec<f64> = map.matrix().split(' ').map(|value| value.parse().unwrap()).collect();
             let [e, n, u] = point.array();
-            // The matrix has four decimals, and coordinates are at most 60 m.
+            // The matrix elements have four decimals, and coordinates are at most 60 m.
             assert!((m[0] * e + m[1] * n + m[2] * u + m[3] - x).abs() < 0.02);
             assert!((m[4] * e + m[5] * n + m[6] * u + m[7] - y).abs() < 0.02);
         }

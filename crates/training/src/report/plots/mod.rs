@@ -1,5 +1,5 @@
-//! Figures in SVG, one file per figure. Colors are CSS classes so that light mode, dark mode and print can differ.
-//! Coordinates are in drawing units. The report has a table with the data for each figure.
+//! Figures in SVG, one file per figure. Colors are CSS classes so that they can differ between light mode, dark mode
+//! and print. Coordinates are in drawing units. For each figure, the report has a table with the data.
 
 mod backdrop;
 pub mod bars;
@@ -44,7 +44,8 @@ pub fn line(points: &[(f64, f64)], closed: bool) -> String {
     data
 }
 
-/// Simplifies a polyline with the Ramer-Douglas-Peucker algorithm. Omitted points are at most `within` from the result.
+/// Simplifies a polyline with the Ramer-Douglas-Peucker algorithm. Omitted points are at most `within` away from the
+/// result.
 #[must_use]
 pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
     if points.len() < 3 {

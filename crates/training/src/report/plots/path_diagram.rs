@@ -50,7 +50,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
         &html! {
             (labeled_box((DEMAND, ROW), "Demand", "mental, physical"))
             (labeled_box((STRAIN, ROW), "Strain", "pressure, frustration"))
-            (labeled_box((PERFORMANCE, ROW), "Performance", "overall score, %"))
+            (labeled_box((PERFORMANCE, ROW), "Performance", "overall score (%)"))
             (labeled_box(FEEDBACK, "Feedback", "helpfulness"))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
             (effect_text((crossing, middle + 24.0), &effects.on_strain))
@@ -85,7 +85,7 @@ fn arrow(points: &[(f64, f64)], effect: &PathEffect) -> Markup {
     }
 }
 
-/// Returns the corners of an arrowhead at the end of a line. The line's last segment must be parallel to an axis.
+/// Returns the corners of the arrowhead at a line's end. The line's last segment must be parallel to an axis.
 fn arrowhead(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let [.., (x0, y0), (x, y)] = points else { return Vec::new() };
     let (dx, dy) = ((x - x0).signum() * f64::from(u8::from(x != x0)), (y - y0).signum() * f64::from(u8::from(y != y0)));

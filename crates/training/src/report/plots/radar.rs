@@ -67,7 +67,7 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     )
 }
 
-/// Returns the position of a label. Labels at the top are moved up, because they have two lines.
+/// Returns the position of a label. Labels at the top are moved up because they have two lines.
 fn label((x, y): (f64, f64)) -> (f64, f64) {
     (x, if y < MIDDLE.1 - RADIUS { y - 18.0 } else { y })
 }

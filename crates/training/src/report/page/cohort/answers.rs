@@ -31,7 +31,7 @@ pub fn answers(cohort: &Cohort) -> Markup {
     let first = of(None);
     html! {
         (legend(&key))
-        (figure(&format!("All first sessions, up to {} answers", cohort.trainees), &chart(&first, "Answers from all first sessions")))
+        (figure(&format!("All first sessions (up to {} answers)", cohort.trainees), &chart(&first, "Answers from all first sessions")))
         @for (k, questions) in &later {
             details.numbers { summary { "Trainees with repeat sessions: repetition " (k) } (chart(questions, &format!("Answers for repetition {k}"))) }
         }
@@ -80,7 +80,7 @@ fn self_rating_table(cohort: &Cohort) -> Table {
     Table {
         name: "self_rating",
         caption: "self-rating vs. measured score",
-        columns: vec!["trainee", "self-rating, 1 to 5", "measured, %"],
+        columns: vec!["trainee", "self-rating (1 to 5)", "measured score (%)"],
         rows: rows.collect(),
     }
 }

@@ -78,7 +78,7 @@ fn effects_table(model: &MediationModel) -> Table {
     Table {
         name: "indirect_effects",
         caption: "indirect effect of demand on performance via strain, with bootstrap confidence intervals",
-        columns: vec!["feedback level", "feedback", "effect, %", "95% CI, lower", "upper"],
+        columns: vec!["feedback level", "feedback", "effect (%)", "95% CI lower bound", "95% CI upper bound"],
         rows,
     }
 }
@@ -103,7 +103,7 @@ fn coefficients(model: &MediationModel) -> Table {
     Table {
         name: "causal_model",
         caption: "coefficients of the two regressions",
-        columns: vec!["outcome", "term", "estimate", "standard error", "t", "p", "95% CI, lower", "upper"],
+        columns: vec!["outcome", "term", "estimate", "standard error", "t", "p", "95% CI lower bound", "95% CI upper bound"],
         rows: [of("strain", &model.strain), of("performance", &model.performance)].concat(),
     }
 }

@@ -8,12 +8,12 @@ use crate::report::table::{Table, TableCell};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
 
-/// Maximum number of individual curves drawn behind the group's curve; more would be hard to tell apart.
+/// Maximum number of individual curves drawn behind the group's curve; readers could not tell more of them apart.
 const MAX_INDIVIDUAL_CURVES: usize = 40;
 /// Maximum number of trainees shown individually.
 const MAX_INDIVIDUAL_TRAINEES: usize = 24;
 
-/// Renders the group's curves, or the reason that there are none.
+/// Renders the group's curves, or the reason why there are none.
 pub fn curves(cohort: &Cohort) -> Markup {
     let key = [
         ("dot-1", "mean".to_owned()),

@@ -43,7 +43,7 @@ pub fn tasks(cohort: &Cohort) -> Markup {
     html! {
         (too_many_trainees_note(cohort, "individuals.csv"))
         @if !all.is_empty() {
-            (figure("On-path share by task, %", &draw_boxes(&all, 100.0, "On-path share by task")))
+            (figure("On-path share by task (%)", &draw_boxes(&all, 100.0, "On-path share by task")))
             (table("on_path_by_task", "on-path share by task, %, only for trainees who attempted the task", "task", &all).shown())
         }
     }
@@ -79,7 +79,7 @@ fn bins(counts: &[usize]) -> Vec<HistogramBin> {
     (0..=most).step_by(wide).map(bin).collect()
 }
 
-/// Renders measured scores by self-rating, rounded to an integer.
+/// Renders measured scores grouped by self-rating, which is rounded to an integer.
 pub fn self_rating(cohort: &Cohort) -> Markup {
     let rated = |rating: usize| {
         let people = cohort.self_rating.people.iter();
@@ -91,7 +91,7 @@ pub fn self_rating(cohort: &Cohort) -> Markup {
         (too_many_trainees_note(cohort, "self_rating.csv"))
         @if !all.is_empty() {
             (figure("Overall score (% of maximum) by self-rating (5 is best)", &draw_boxes(&all, 100.0, "Measured score by self-rating")))
-            (table("measured_by_self_rating", "measured score by self-rating, %", "self-rating", &all).shown())
+            (table("measured_by_self_rating", "measured score by self-rating (%)", "self-rating", &all).shown())
         }
         p { (cohort.self_rating.contradictions.len()) " contradictions are listed in contradictions.csv." }
     }

@@ -10,10 +10,10 @@ use maud::{Markup, html};
 
 /// Series column and title of each chart.
 const CHARTS: [(&str, &str); 4] = [
-    ("speed", "Speed, m/s"),
-    ("distance", "Distance to the current task's path, m"),
-    ("clearance", "Clearance to the nearest surface, m"),
-    ("battery", "Battery, %"),
+    ("speed", "Speed (m/s)"),
+    ("distance", "Distance to the current task's path (m)"),
+    ("clearance", "Clearance to the nearest surface (m)"),
+    ("battery", "Battery (%)"),
 ];
 /// Columns of the slider's readout: script key and heading.
 const READOUT: [(&str, &str); 5] =
@@ -103,16 +103,16 @@ fn table(both: [&Review; 2]) -> Table {
     let rows: Vec<Vec<TableCell>> = rows.collect();
     let columns = vec![
         "time since lift-off",
-        "1: task",
-        "1: distance, m",
-        "1: speed, m/s",
-        "1: clearance, m",
-        "1: battery, %",
-        "2: task",
-        "2: distance, m",
-        "2: speed, m/s",
-        "2: clearance, m",
-        "2: battery, %",
+        "session 1: task",
+        "session 1: distance (m)",
+        "session 1: speed (m/s)",
+        "session 1: clearance (m)",
+        "session 1: battery (%)",
+        "session 2: task",
+        "session 2: distance (m)",
+        "session 2: speed (m/s)",
+        "session 2: clearance (m)",
+        "session 2: battery (%)",
     ];
     Table { name: "both-flights", caption: "both flights, sampled every few seconds", columns, rows }
 }

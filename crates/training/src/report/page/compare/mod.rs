@@ -91,14 +91,14 @@ fn table(first: &Review, second: &Review) -> Table {
         put(name, 1, [a, b].map(|score| score.map(|score| score.pct)));
     }
     put("Overall", 1, both.map(|review| review.assessment.completion.complete.then_some(review.assessment.scores.overall)));
-    put("Path flown, %", 0, both.map(|review| Some(100.0 * review.assessment.completion.path_share)));
-    put("Flight time, s", 0, both.map(|review| Some(review.assessment.end.seconds)));
+    put("Path flown (%)", 0, both.map(|review| Some(100.0 * review.assessment.completion.path_share)));
+    put("Flight time (s)", 0, both.map(|review| Some(review.assessment.end.seconds)));
     put("Contacts", 0, both.map(|review| Some(review.crashes.len() as f64)));
     put("Pictures", 0, both.map(|review| Some(review.pictures.len() as f64)));
     put("Defects found", 0, both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
     put("Cues", 0, both.map(|review| Some(review.feedback.episodes.len() as f64)));
-    put("Time too close or off path, s", 1, both.map(|review| Some(warning_duration_s(review))));
-    put("Surface captured well, m²", 0, both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))));
+    put("Time too close or off path (s)", 1, both.map(|review| Some(warning_duration_s(review))));
+    put("Surface captured well (m²)", 0, both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))));
     Table { name: "comparison", caption: "results of both sessions", columns: vec!["measure", "first", "second", "change"], rows }
 }
 
