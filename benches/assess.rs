@@ -105,7 +105,7 @@ fn main() -> ExitCode {
     let megabytes = log.len() as f64 / 1e6;
     println!("log: {} MAVLink frames, {megabytes:.1} MB; session: {frames:?} frames", datagrams.len());
     println!(
-        "assess: {:.3} s, {:.0} x real time, {:.1} x the time to hash the log once; limit {:.1} s: {}",
+        "scoring: {:.3} s ({:.0} x real time, {:.1} x the time to hash the log once); limit {:.1} s: {}",
         assess.as_secs_f64(),
         FLIGHT_S / assess.as_secs_f64(),
         assess.as_secs_f64() / read.as_secs_f64(),
@@ -114,7 +114,7 @@ fn main() -> ExitCode {
     );
     let (slowest, change) = cue_latency(&scenario, &datagrams);
     println!(
-        "cue latency: at most {:.3} ms if the cue changes, {:.3} ms for any datagram; limit {} ms: {}",
+        "maximum cue latency: {:.3} ms for datagrams that change a cue, {:.3} ms for all datagrams; limit {} ms: {}",
         change.as_secs_f64() * 1e3,
         slowest.as_secs_f64() * 1e3,
         MAX_CUE_LATENCY.as_millis(),

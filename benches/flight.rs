@@ -66,5 +66,5 @@ fn main() {
         }),
     );
     let mut whole = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
-    print_cost("all together", best(ROUNDS, || whole.run(SECONDS, |_| ())));
+    print_cost("complete simulation", best(ROUNDS, || whole.run(SECONDS, |_| ())));
 }

@@ -193,7 +193,7 @@ fn main() {
     );
     let (pace, rate) = speed_factor_under_flood(&mut client, port);
     println!(
-        "with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {MIN_SPEED_FACTOR})"
+        "with {rate:.0} messages per second from one peer: {pace:.4} simulated seconds per real second (minimum {MIN_SPEED_FACTOR})"
     );
     good &= pace >= MIN_SPEED_FACTOR;
     assert!(good, "target missed");

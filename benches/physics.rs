@@ -174,9 +174,9 @@ fn cases(model: &AirframeModel, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
     let mut scrape = stand.clone();
     scrape.rigid.velocity_m_s = Vec3::new(4.0, 0.0, 0.0);
     vec![
-        Case::new("free flight, 60 m above the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
-        Case::new("near, 2 m above the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
-        Case::new("close, 0.5 m above the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
+        Case::new("hovering 60 m above the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
+        Case::new("hovering 2 m above the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
+        Case::new("hovering 0.5 m above the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
         Case::on_deck("standing on the deck, motors off", MAX_STANDING, stand),
         Case::on_deck("scraping along the deck", MAX_SCRAPING, scrape),
     ]

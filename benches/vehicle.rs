@@ -77,7 +77,7 @@ impl Job {
             }
             crashes += std::iter::from_fn(|| sim.poll_event()).filter(|event| matches!(event, SimEvent::Crash { .. })).count();
         }
-        let how = pilot.finished().map_or("did not end".to_owned(), |report| report.reason.clone());
+        let how = pilot.finished().map_or("unfinished".to_owned(), |report| report.reason.clone());
         (inputs, sim.now(), crashes, how)
     }
 

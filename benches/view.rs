@@ -196,8 +196,8 @@ fn main() {
     let (small, _) = measure(&mut views, (640, 360), presets[0]);
     let (pace, rate_hz, late) = measure_simulator_while_rendering(&mut views);
     println!(
-        "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_SPEED_FACTOR}), ticks at \
-         most {:.1} ms late, {} clock slips (maximum {MAX_SLIPS})",
+        "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} simulated seconds per real second (minimum {MIN_SPEED_FACTOR}), \
+         longest tick delay {:.1} ms, {} clock slips (maximum {MAX_SLIPS})",
         late.latest_ms, late.slips
     );
     if presets[1] != presets[0] {

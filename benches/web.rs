@@ -134,7 +134,7 @@ fn main() {
         let (took, size) = server.median(&path, rounds);
         let times = took.as_secs_f64() / empty.as_secs_f64();
         println!(
-            "{name}: median {:.1} ms, {times:.1} x an empty list, {} kB (limit {} ms)",
+            "{name}: median {:.1} ms, {times:.1} x the time for an empty list, {} kB (limit {} ms)",
             took.as_secs_f64() * 1e3,
             size / 1000,
             ceiling.as_millis()

@@ -145,10 +145,10 @@ impl CalibrationWizard {
     #[must_use]
     pub fn prompt(&self) -> String {
         let asked = match self.step {
-            WizardStep::Release => "Let go of both sticks (center a throttle that has no spring), then press Enter.".to_owned(),
+            WizardStep::Release => "Release both sticks (center the throttle if it has no spring), then press Enter.".to_owned(),
             WizardStep::Rest => "Do not touch the sticks ...".to_owned(),
             WizardStep::Range => format!(
-                "Move both sticks around their full range, then press Enter. Axes found: {} of 4.",
+                "Move both sticks through their full range, then press Enter. Axes found: {} of 4.",
                 self.statistics.values().filter(|seen| is_fully_moved(seen)).count().min(4)
             ),
             WizardStep::Center(_) => "Center the sticks ...".to_owned(),
@@ -297,7 +297,7 @@ impl CalibrationWizard {
         }
         let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= PUSHED_DURATION_S) else { return };
         if !self.fully_moved.contains(&axis) {
-            self.note = Some("That stick was not moved through its full range.");
+            self.note = Some("You did not move that stick through its full range.");
             return self.start_step(WizardStep::Range, now);
         }
         if self.is_known(axis) {
@@ -586,7 +586,7 @@ mod tests {
         person.axis(5, 1.0);
         person.wait(0.5);
         let told = person.wizard.prompt();
-        assert!(told.starts_with("That stick was not moved through its full range. Move both sticks"), "{told}");
+        assert!(told.starts_with("You did not move that stick through its full range. Move both sticks"), "{told}");
         for value in [-1.0, 0.0] {
             person.axis(5, value);
         }

@@ -180,7 +180,7 @@ pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
     const MAX_SHOWN_CHARS: usize = 120;
     serde_json::from_str(line).map_err(|error| {
         let shown: String = line.chars().take(MAX_SHOWN_CHARS).collect();
-        format!("'{shown}' is not a valid message between train and its window: {error}")
+        format!("'{shown}' is not a valid message between `spandrel train` and its window: {error}")
     })
 }
 

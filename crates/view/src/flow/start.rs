@@ -69,11 +69,11 @@ impl WindowFlow {
         let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
         let purpose = match self.choice.purpose {
             Purpose::Practice => "You can pause and restart; the map shows the paths.",
-            Purpose::Assessment => "One attempt: no pause, restart or map.",
+            Purpose::Assessment => "One attempt: no pause, restart, or map.",
         };
         let mut told = vec![("Trainee", who), ("Job", job), ("Purpose", purpose.to_owned())];
         if let Some(web) = offers.and_then(|o| o.web.as_ref()) {
-            told.push(("Sessions in a browser", web.clone()));
+            told.push(("View sessions in browser", web.clone()));
         }
         told
     }

@@ -7,15 +7,15 @@ use std::sync::{Arc, OnceLock};
 pub enum GpuError {
     /// No graphics device is available.
     #[error(
-        "no Vulkan, Metal or Direct3D 12 device found: install a graphics driver or a software renderer \
-         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); other features do not need one ({0})"
+        "no Vulkan, Metal, or Direct3D 12 device found: install a graphics driver or a software renderer \
+         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); all other features work without one ({0})"
     )]
     NoDevice(String),
     /// The device stopped working.
     #[error("the graphics device failed: {0}")]
     Failed(String),
     /// The picture exceeds the device's maximum texture size: width, height and maximum side, px.
-    #[error("picture of {0} x {1} px is too large for this graphics device (at most {2} px per side)")]
+    #[error("a picture of {0} x {1} px is too large for this graphics device (at most {2} px per side)")]
     TooLarge(u32, u32, u32),
 }
 

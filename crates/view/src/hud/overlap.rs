@@ -86,13 +86,13 @@ fn is_map(block: &DisplayBlock) -> bool {
 
 fn check_block(block: &DisplayBlock, what: &str) {
     for shape in &block.shapes {
-        assert!(contains(&block.ground, shape), "{what}: a shape at {shape:?} leaves {:?}", block.ground);
+        assert!(contains(&block.ground, shape), "{what}: a shape at {shape:?} extends beyond {:?}", block.ground);
     }
     if is_map(block) {
         return;
     }
     for (k, (place, words)) in block.texts.iter().enumerate() {
-        assert!(contains(&block.ground, place), "{what}: '{words}' at {place:?} leaves {:?}", block.ground);
+        assert!(contains(&block.ground, place), "{what}: '{words}' at {place:?} extends beyond {:?}", block.ground);
         for (other, over) in &block.texts[..k] {
             assert!(are_separate(place, other), "{what}: '{words}' overlaps '{over}'");
         }
@@ -101,7 +101,7 @@ fn check_block(block: &DisplayBlock, what: &str) {
     for (k, one) in block.shapes.iter().enumerate() {
         // A shape may contain another one, as the battery outline contains its level.
         let fine = |other: &PictureRect| are_separate(one, other) || contains(one, other) || contains(other, one);
-        assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block overlap");
+        assert!(block.shapes[..k].iter().all(fine), "{what}: shapes in the same block overlap");
     }
 }
 

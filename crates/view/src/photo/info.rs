@@ -8,7 +8,7 @@ use spandrel_model::vehicle::Camera;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PhotoError {
     /// The photo exceeds the limits of JPEG or EXIF.
-    #[error("the picture cannot be written as JPEG: {0}")]
+    #[error("cannot encode the picture as JPEG: {0}")]
     Refused(String),
 }
 

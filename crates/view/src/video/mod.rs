@@ -18,7 +18,7 @@ pub enum VideoError {
     #[error("the video encoder failed: {0}")]
     Encoder(String),
     /// The file format cannot represent the data.
-    #[error("the video file cannot be written: {0}")]
+    #[error("cannot write the video file: {0}")]
     File(String),
 }
 

@@ -128,7 +128,7 @@ fn regress_lamp_lights_dark_places() {
             lumas.push(picture.luma((w / 3, h / 3), (w - w / 3, h - h / 3)));
             wall.check(&format!("{name}-{state}"), &picture);
         }
-        println!("{name}: middle of the picture {lumas:.0?} of 255");
+        println!("{name}: middle of the picture {lumas:.0?} (0 to 255)");
         if lumas[0] > MAX_DARK_LUMA || lumas[1] < MIN_LAMP_FACTOR * lumas[0] {
             wall.errors.push(format!("{name}: lamp off {:.0} (at most {MAX_DARK_LUMA}), on {:.0}", lumas[0], lumas[1]));
         }

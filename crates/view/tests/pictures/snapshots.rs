@@ -168,10 +168,10 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
             }
         }
     }
-    println!("according to the measures, {} photos show a defect; by kind: {kinds:?}", shown.len());
+    println!("photos that show a defect, according to the measures: {}; by kind: {kinds:?}", shown.len());
     println!("signal-to-noise ratios: {}; from behind: {}", summary(&shown), summary(&behind));
     assert!(behind.len() >= 30, "too few photos from behind: {}", behind.len());
-    assert!(kinds.len() >= 6, "too few kinds: {kinds:?}");
+    assert!(kinds.len() >= 6, "too few kinds of defects: {kinds:?}");
     assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
 }
 
@@ -180,5 +180,5 @@ fn summary(all: &[DefectVisibility]) -> String {
     let mut values: Vec<f64> = all.iter().map(|shows| shows.signal_to_noise).collect();
     values.sort_by(f64::total_cmp);
     let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share) as usize).copied().unwrap_or(f64::NAN);
-    format!("least {:.1}, 10% {:.1}, median {:.1}, most {:.1}", at(0.0), at(0.1), at(0.5), at(1.0))
+    format!("minimum {:.1}, 10th percentile {:.1}, median {:.1}, maximum {:.1}", at(0.0), at(0.1), at(0.5), at(1.0))
 }
