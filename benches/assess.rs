@@ -1,7 +1,7 @@
-//! Measures how long it takes to score a recorded 25-minute flight. The log contains position and stick samples at
-//! about 50 Hz among half a million other frames, four tasks, and ten photographs. Prints the speed as a multiple of
-//! real time, and the ratio to the time needed to hash the log once, which does not depend on the machine. Also checks
-//! the scoring time against its limit.
+//! Measures how long it takes to score a recorded 25-minute flight. The log covers four tasks and ten photographs; it
+//! contains position and stick samples at about 50 Hz among half a million other frames. Prints the scoring speed as a
+//! multiple of real time. Also prints the ratio of the scoring time to the time needed to hash the log once; this ratio
+//! does not depend on the machine. Checks the scoring time against its limit.
 
 #[path = "support/best.rs"]
 mod best;
@@ -21,8 +21,8 @@ const MAX_CUE_LATENCY: Duration = Duration::from_millis(100);
 const FLIGHT_S: f64 = 1500.0;
 const ROUNDS: usize = 7;
 
-/// Generates a long flight with the message rates of a busy link: 340 frames per second, including `clearance` at 30
-/// Hz.
+/// Generates a long flight with typical message rates of a busy link: 340 frames per second, including `clearance` at
+/// 30 Hz.
 fn long_flight() -> Vec<Vec<u8>> {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -58,7 +58,7 @@ fn long_flight() -> Vec<Vec<u8>> {
     busy
 }
 
-/// Returns the longest time from receiving a datagram to sending the cue in a flight: over all datagrams, and over
+/// Returns a flight's maximum cue latency, from receiving a datagram to sending the cue: for all datagrams, and for
 /// those that changed a cue.
 #[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duration) {

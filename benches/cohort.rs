@@ -1,5 +1,5 @@
-//! Measures the time to process a cohort of 10,000 sessions, from parsing the records to the last statistic. The
-//! sessions are renamed copies of the example study.
+//! Measures how long it takes to process a cohort of 10,000 sessions, from parsing the records to computing the last
+//! statistic. The sessions are renamed copies of the example study.
 
 #[path = "support/best.rs"]
 mod best;

@@ -1,4 +1,4 @@
-//! Measures the cost of queries to the site's static geometry at different locations: in the open, near the structure,
+//! Measures the cost of queries to the site's static geometry at different locations: in open air, near the structure,
 //! in the interlayer, and above the ground.
 
 #[path = "support/best.rs"]

@@ -82,7 +82,7 @@ struct Case {
     /// Maximum median, as a ratio to the baseline.
     limit: f64,
     start: PhysicsState,
-    /// Simulation time of the state.
+    /// Simulation time at the start.
     start_time: SimTime,
     actuators: Actuators,
     /// Whether the aircraft is in contact with the deck in almost every step.
@@ -129,7 +129,7 @@ fn vehicle() -> Vehicle {
     spandrel_model::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Returns a point on a bridge deck with only road around it.
+/// Returns a point on a bridge deck surrounded only by road.
 fn deck(site: &Site) -> Vec3<Enu> {
     let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("the site must have a road lane");
     // The ends of a lane are on the approach road, so its middle is on the bridge.
@@ -150,7 +150,7 @@ fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
     state
 }
 
-/// Simulation time that an aircraft placed on the deck needs to settle.
+/// Simulation time by which an aircraft placed on the deck has settled.
 const SETTLED_AT: SimTime = SimTime::from_ms(2000);
 
 /// Returns the state of an aircraft standing on the deck at [`SETTLED_AT`].

@@ -1,12 +1,12 @@
-//! Measures the report of a 25-minute session: the time to read the log, score it and write the page, and the size of
-//! the page. Checks both against their limits.
+//! Measures how long it takes to generate the report of a 25-minute session (read the log, score it, and write the
+//! page). Also measures the page size. Checks both against their limits.
 
 use spandrel_testkit::inspection;
 use spandrel_training::report::{Review, SessionMetadata, page};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Limits of the report time and the page size (requirements).
+/// Limits for the report time and the page size (requirements).
 const MAX_TIME: Duration = Duration::from_secs(2);
 const MAX_PAGE_BYTES: usize = 10_000_000;
 const FLIGHT_S: f64 = 1480.0;

@@ -1,5 +1,5 @@
 //! Measures the speed of the whole vehicle as a multiple of real time on one core: physics, site, sensors, estimator,
-//! autopilot, and telemetry encoding for a ground station, an SDK and the monitor. The runs are complete demo flights
+//! autopilot, and telemetry encoding for a ground station, an SDK and the monitor. Each run is a complete demo flight
 //! at the two bridges, including contacts. The synthetic trainee flies each one once to record its inputs. The timed
 //! runs replay these inputs, so the measurement does not include the trainee.
 
@@ -100,7 +100,7 @@ impl Job {
     }
 }
 
-/// Returns the simulation time of the first message on the ground station's link that satisfies `said`.
+/// Returns the simulation time of the first message that satisfies `said` on the ground station link.
 fn first(job: &Job, mut said: impl FnMut(&MavMessage) -> bool) -> SimTime {
     let (mut sim, mut decoder) = (job.sim(false), Decoder::new());
     while sim.now() < MAX_FLIGHT {
@@ -115,7 +115,7 @@ fn first(job: &Job, mut said: impl FnMut(&MavMessage) -> bool) -> SimTime {
     SimTime::NEVER
 }
 
-/// Returns the current and the maximum resident memory, MB (Linux).
+/// Returns the current and peak resident memory, in MB (Linux only).
 fn memory() -> Option<(f64, f64)> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let mb = |key: &str| {

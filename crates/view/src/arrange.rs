@@ -56,8 +56,8 @@ const INSET_SIZE: f64 = 0.3;
 const INSET_TOP: f64 = 0.23;
 
 impl ViewRect {
-    /// Returns the largest centered rectangle with the aspect ratio `aspect` (width over height), in a window with the
-    /// aspect ratio `window`. This way, the view never shows more than the camera's sensor covers.
+    /// Returns the largest centered rectangle of the given `aspect` ratio (width over height) in a window with the
+    /// `window` aspect ratio. This way, the view never shows more than the camera's sensor covers.
     #[must_use]
     pub fn fit_aspect(self, aspect: f64, window: f64) -> Self {
         let own = self.width / self.height * window;
@@ -68,8 +68,8 @@ impl ViewRect {
     }
 }
 
-/// Returns the largest picture size with this aspect ratio (width over height) that fits in a size, px. Both sides are
-/// even, as video requires, and at least 2 px.
+/// Returns the largest picture size with the given aspect ratio (width over height) that fits into a size, in px. Both
+/// sides are even, as video requires, and at least 2 px.
 #[must_use]
 pub fn largest_even_size_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
     let (width, height) = ((width & !1).max(2), (height & !1).max(2));
@@ -79,7 +79,7 @@ pub fn largest_even_size_px((width, height): (u32, u32), aspect: f64) -> (u32, u
 }
 
 impl ViewLayout {
-    /// Returns the next layout in the order of the Tab key.
+    /// Returns the layout to which the Tab key switches next.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
@@ -127,8 +127,8 @@ impl ViewLayout {
     }
 }
 
-/// Returns the render size, px, of a view of the given screen size, limited to `most` pixels. Keeps the aspect ratio; both sides
-/// are even, as video requires.
+/// Returns the render size, in px, for a view of the given screen size, limited to `most` pixels. Keeps the aspect
+/// ratio; both sides are even, as video requires.
 #[must_use]
 pub fn render_size_px((width, height): (f64, f64), most: Option<f64>) -> (u32, u32) {
     let shrink = most.map_or(1.0, |most| (most / (width * height).max(1.0)).sqrt().min(1.0));

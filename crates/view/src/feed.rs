@@ -25,7 +25,7 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// Checks whether [`Self::handle_datagram`] uses a message; others need no decoding.
+    /// Checks whether [`Self::handle_datagram`] uses a message; other messages need not be decoded.
     #[must_use]
     pub fn is_relevant(message_id: u32) -> bool {
         matches!(message_id, HEARTBEAT_DATA::ID | GPS_RAW_INT_DATA::ID | NAMED_VALUE_INT_DATA::ID | STATUSTEXT_DATA::ID)

@@ -1,4 +1,4 @@
-//! Per-pixel labels for training detectors: the AASHTO element number and the defect ID in the session.
+//! Per-pixel labels for training detectors: the AASHTO element number and the session's defect ID.
 
 use serde_json::{Value, json};
 use spandrel_model::defect_codes;

@@ -32,9 +32,10 @@ use stick_response::StickResponse;
 use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
 
-/// Retry interval of a command that has not taken effect, s.
+/// Retry interval for a command that has not taken effect, s.
 const RETRY_INTERVAL_S: f64 = 1.5;
-/// Maximum horizontal distance from the pad's center for a descent, m (estimate: within reach of the last correction).
+/// Maximum horizontal distance from the pad's center at which the pilot descends, m (estimate: within reach of the last
+/// correction).
 const MAX_PAD_OFFSET_M: f64 = 2.5;
 /// Minimum height during the approach to the pad, m (estimate: clears the truck).
 const MIN_APPROACH_HEIGHT_M: f64 = 5.0;
@@ -142,8 +143,8 @@ impl Pilot {
         }
     }
 
-    /// Advances the pilot's clock until the first datagram arrives, and sends heartbeats so a vehicle that waits for a
-    /// connection can find the pilot.
+    /// Advances the pilot's clock until the first datagram arrives, and sends heartbeats so that a vehicle waiting for
+    /// a connection can find the pilot.
     pub fn handle_timeout(&mut self, now: SimTime) {
         if self.now == SimTime::ZERO {
             self.send_heartbeat(now);

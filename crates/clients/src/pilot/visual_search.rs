@@ -1,5 +1,5 @@
 //! Visual search: models what the pilot notices in the camera picture. Detection of a defect depends on its size in the
-//! picture and the pilot's probability-of-detection curve; noise makes stains and shadows cause false alarms (signal
+//! picture and the pilot's probability-of-detection curve; noise causes false alarms at stains and shadows (signal
 //! detection theory).
 
 use super::skill::Skill;
@@ -20,22 +20,23 @@ const CLEAR_PX: f64 = 40.0;
 const MIN_EXTENT_PX: f64 = 6.0;
 /// Maximum incidence angle for detection, rad (60 degrees; inspection practice rejects more oblique pictures).
 const MAX_INCIDENCE_RAD: f64 = 1.05;
-/// Surface noise that makes a surface look like a defect, in standard deviations of the trained pilot (estimate).
+/// Surface noise at which a surface looks like a defect, as a multiple of a trained pilot's standard deviation
+/// (estimate).
 const FALSE_ALARM_SIGMAS: f64 = 4.6;
 
 /// Result of a glimpse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Glimpse {
-    /// Nothing new noticed.
+    /// The pilot noticed nothing new.
     Nothing,
-    /// A real defect noticed.
+    /// The pilot noticed a real defect.
     Defect {
         /// Defect ID.
         id: u32,
-        /// Judgment error for this defect, in standard deviations of the trained pilot.
+        /// Judgment error for this defect, as a multiple of a trained pilot's standard deviation.
         judgment_error: f64,
     },
-    /// A false alarm.
+    /// The pilot mistook something else for a defect.
     Distractor,
 }
 

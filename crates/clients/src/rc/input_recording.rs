@@ -1,4 +1,4 @@
-//! Recording and playback of controller input as JSON lines.
+//! Recording and playback of controller input in JSON Lines format.
 //!
 //! The first line is `{"format":1,"device":NAME,"id":ID}`, followed by one line per event: `{"t_s":S,"axis":N,"value":V}`,
 //! `{"t_s":S,"button":N,"pressed":BOOL}`, `{"t_s":S,"lost":true}` or `{"t_s":S,"found":true}`. `t_s` is the time since the start
@@ -43,7 +43,7 @@ impl InputRecording {
     /// Parses a recording. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// Reports the first invalid line: file, line number, the problem, and the allowed values.
+    /// Returns the file, line number, problem, and allowed values of the first invalid line.
     pub fn read(file: &str, text: &str) -> Result<Self, String> {
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
         let (_, first) = lines

@@ -5,10 +5,10 @@ use spandrel_model::time::SimTime;
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 
-/// Stick deflection of a key (estimate: half, to keep beginners from flying at full speed).
+/// Stick deflection when a key is held (estimate: half, to keep beginners from flying at full speed).
 pub const DEFAULT_DEFLECTION: f64 = 0.5;
-/// Time that a key counts as held after its last event, s. Used in terminals, which do not report key releases. Longer
-/// than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
+/// Time for which a key counts as held after its last event, s. Used in terminals, which do not report key releases.
+/// Longer than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
 pub const KEY_HOLD_TIMEOUT_S: f64 = 0.7;
 /// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than the usual
 /// repeat interval of a held key, 0.03 s.
@@ -62,7 +62,7 @@ const ACTION_BINDINGS: [(ControllerAction, &str); 13] = [
     (ControllerAction::CameraZoomOut, "["),
 ];
 
-/// Action of a key in the viewer window; not available in a terminal.
+/// Key action in the viewer window; not available in a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WindowAction {
     /// Cycles the layout: both views side by side, camera large, inspector large.
@@ -106,7 +106,7 @@ const WINDOW_BINDINGS: [(&str, WindowAction, &str); 12] = [
     ("sound", WindowAction::Sound, "n"),
 ];
 
-/// Sounds of the viewer window.
+/// Sound settings of the viewer window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoundPreferences {
     /// Whether propeller sound is on.
@@ -132,7 +132,7 @@ pub struct KeyBindings {
     pushes: BTreeMap<String, StickDirection>,
     actions: BTreeMap<String, ControllerAction>,
     window_actions: BTreeMap<String, WindowAction>,
-    /// Sounds of the viewer window.
+    /// Sound settings of the viewer window.
     pub sounds: SoundPreferences,
 }
 
@@ -203,7 +203,7 @@ impl KeyBindings {
         self.pushes.contains_key(&key.to_lowercase())
     }
 
-    /// Returns the configuration file name of the stick direction or vehicle action of a key.
+    /// Returns the stick direction or vehicle action of a key, by its name in configuration files.
     #[must_use]
     pub fn binding_name(&self, key: &str) -> Option<&'static str> {
         let push = self.pushes.get(key).and_then(|push| STICK_BINDINGS.iter().find(|p| p.1 == *push)).map(|p| p.0);
@@ -279,7 +279,7 @@ fn read_binding(
     key
 }
 
-/// State of the held keys.
+/// Keys that are currently held.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct KeyboardState {
     keys: KeyBindings,

@@ -65,7 +65,7 @@ const BUTTONS: [(ControllerAction, &str); 7] = [
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct AxisStatistics {
-    /// Sum and count of the readings at rest, for their mean.
+    /// Sum and count of the readings at rest, used to compute their mean.
     sum: f64,
     count: u32,
     /// Minimum and maximum at rest.
@@ -74,7 +74,7 @@ struct AxisStatistics {
     rested: bool,
     /// Minimum and maximum overall.
     ends: (f64, f64),
-    /// Steady value, and the time when the axis reached it.
+    /// Steady value, and the time at which the axis reached it.
     steady: (f64, SimTime),
 }
 

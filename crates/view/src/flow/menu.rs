@@ -4,7 +4,7 @@ use super::KeyPress;
 use super::sheet::{PageWriter, SMALL, TEXT, text_width};
 use crate::hud::{HudColor, TextAlign};
 
-/// Height of a row, and spacing of rows.
+/// Row height and row spacing.
 const ROW_HEIGHT: f64 = 0.06;
 pub const ROW_SPACING: f64 = 0.07;
 
@@ -140,6 +140,6 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
     }
 }
 
-/// Start of the value, as a fraction of the row's width, and width of its arrows.
+/// Horizontal position of the value, as a fraction of the row's width, and the width of its arrows.
 const VALUE_START: f64 = 0.3;
 const ARROW_WIDTH: f64 = 0.06;

@@ -66,7 +66,7 @@ pub enum Page {
 /// A request to the program that hosts the window.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindowRequest {
-    /// Send this message to `train`.
+    /// Send this message to `spandrel train`.
     Send(FromWindow),
     /// Connect to this flight and show it.
     ShowFlight(Box<FlightStarted>),

@@ -1,4 +1,4 @@
-//! Messages between `train` and its window: JSON lines over the window's standard input and output.
+//! Messages between `spandrel train` and its window: JSON lines over the window's standard input and output.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -120,7 +120,7 @@ pub struct FlightSummary {
 /// Names of the four scores, in order.
 pub const SCORE_NAMES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
 
-/// Messages from `train` to its window.
+/// Messages from `spandrel train` to its window.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum ToWindow {
@@ -142,7 +142,7 @@ pub enum ToWindow {
     Ended(FlightSummary),
 }
 
-/// Messages from the window to `train`.
+/// Messages from the window to `spandrel train`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum FromWindow {
@@ -174,7 +174,7 @@ pub fn line<T: Serialize>(message: &T) -> String {
 /// Parses a message from a line.
 ///
 /// # Errors
-/// Returns a description of the problem, with the start of the line.
+/// Returns a description of the problem and the beginning of the line.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
     /// Maximum number of characters of the line to quote in an error message.
     const MAX_SHOWN_CHARS: usize = 120;

@@ -70,7 +70,7 @@ pub struct PageWriter {
 }
 
 impl PageWriter {
-    /// Creates an empty page for a window with this aspect ratio (width over height).
+    /// Creates an empty page for a window with the given aspect ratio (width over height).
     #[must_use]
     pub fn new(aspect: f64) -> Self {
         let width = aspect.min(MAX_PAGE_WIDTH);

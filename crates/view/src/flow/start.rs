@@ -6,8 +6,8 @@ use super::{Page, WindowFlow, controls, menu, paused, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
 
 impl WindowFlow {
-    /// Returns the page for a window with this aspect ratio (width over height). During a flight, it contains only the
-    /// button.
+    /// Returns the page for a window with the given aspect ratio (width over height). During a flight, it contains only
+    /// the button.
     #[must_use]
     pub fn sheet(&self, aspect: f64) -> PageLayout {
         let rows = self.rows();

@@ -1,5 +1,5 @@
-//! Tutorial before the first practice session, as in the TASBID protocol: pictures from the simulator with labels and
-//! arrows, and the HUD as in flight.
+//! Tutorial shown before the first practice session, as in the TASBID protocol: simulator pictures with labels and
+//! arrows, and the HUD as it appears in flight.
 
 use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};

@@ -18,7 +18,7 @@ impl<K: PartialEq, V> LruCache<K, V> {
         Self { entries: VecDeque::with_capacity(CAPACITY + 1) }
     }
 
-    /// Removes and returns the value of a key.
+    /// Removes and returns the value for a key.
     pub fn take(&mut self, key: &K) -> Option<V> {
         let at = self.entries.iter().position(|(known, _)| known == key)?;
         self.entries.remove(at).map(|(_, value)| value)

@@ -16,11 +16,11 @@ pub struct RenderTargets {
     pub mirror: wgpu::TextureView,
     /// Depth of the water reflection.
     pub mirror_depth: wgpu::TextureView,
-    /// Bind group of the shader `water`.
+    /// Bind group of the `water` shader.
     pub water: wgpu::BindGroup,
-    /// Bind group of the shader `develop`.
+    /// Bind group of the `develop` shader.
     pub develop: wgpu::BindGroup,
-    /// Uniforms of `develop`.
+    /// Uniforms of the `develop` shader.
     pub develop_data: wgpu::Buffer,
 }
 

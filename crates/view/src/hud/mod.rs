@@ -71,7 +71,7 @@ pub enum HudColor {
 }
 
 impl HudColor {
-    /// Returns red, green, blue and opacity in sRGB.
+    /// Returns the red, green, blue, and opacity components (sRGB).
     #[must_use]
     pub const fn rgba(self) -> [u8; 4] {
         match self {

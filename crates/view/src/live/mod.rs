@@ -38,7 +38,7 @@ pub const SYSTEM_ID: u8 = 253;
 const COMPONENT_ID: u8 = 192;
 const AUTOPILOT_COMPONENT: u8 = 1;
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
-/// Time without ground truth, after which the vehicle counts as a real one and this client requests its estimates.
+/// After this time without ground truth, this client assumes that the vehicle is real and requests its estimates.
 const TRUTH_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 /// Interval for repeating requests, in case one is lost.
 const REQUEST_INTERVAL: SimTime = SimTime::from_ms(5_000);
@@ -176,7 +176,7 @@ impl LiveFlight {
         &self.state.feed
     }
 
-    /// Processes a datagram received at a wall time.
+    /// Processes a datagram received at the given wall time.
     pub fn handle_datagram(&mut self, bytes: &[u8], wall: SimTime) {
         for frame in self.decoder.datagram(bytes) {
             self.handle_frame(&frame, wall);
@@ -349,8 +349,8 @@ impl LiveFlight {
         self.next_rotors.get_or_insert(SimTime::ZERO);
     }
 
-    /// Returns the rotor speeds from the autopilot's outputs in rad/s; empty if the rotors are stopped or their speed is
-    /// unknown.
+    /// Returns the rotor speeds, in rad/s, calculated from the autopilot's outputs; empty if the rotors are stopped or
+    /// their speed is unknown.
     #[must_use]
     pub fn rotors_rad_s(&self, vehicle: &Vehicle) -> Vec<f64> {
         let (idle, full) = (vehicle.rotor.idle_speed_rad_s, vehicle.rotor.max_speed_rad_s);
@@ -368,7 +368,7 @@ impl LiveFlight {
         self.out.pop_front()
     }
 
-    /// Returns the moment to draw at a wall time, or `None` before the first position.
+    /// Returns the moment to draw at the given wall time, or `None` before the first position.
     pub fn moment(&mut self, wall: SimTime, vehicle: &Vehicle) -> Option<LiveMoment> {
         let at = self.playhead.advance(wall)?;
         let state = &self.state;
@@ -395,7 +395,7 @@ impl LiveFlight {
     }
 }
 
-/// Returns a request to send a message at a rate in Hz.
+/// Returns a request to send a message at the given rate in Hz.
 fn message_interval_request(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
     let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))
