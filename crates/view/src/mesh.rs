@@ -35,7 +35,7 @@ pub enum Material {
     Light = 12,
     /// The landing pad.
     Pad = 13,
-    /// The translucent disk of a fast propeller.
+    /// The translucent disk of a fast-spinning propeller.
     Blur = 14,
     /// Paint with a color that instances do not override.
     Enamel = 15,
@@ -245,7 +245,7 @@ mod tests {
 
     const FINISH: SurfaceFinish = SurfaceFinish::new(Material::Paint, [128, 128, 128]);
 
-    /// Returns the volume by the divergence theorem; it is positive if the triangles face outward.
+    /// Returns the volume, calculated with the divergence theorem. It is positive if the triangles face outward.
     fn volume(mesh: &Mesh) -> f64 {
         let at = |k: u32| {
             let [x, y, z] = mesh.vertices[k as usize].position.map(f64::from);

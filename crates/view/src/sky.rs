@@ -1,5 +1,5 @@
 //! Sky model: radiance and color in every direction, scaled to the horizontal illuminance of the light model. The
-//! shader `sky.wgsl` contains the same function; its clouds are decorative and cast no light.
+//! `sky.wgsl` shader contains the same function; its clouds are decorative and cast no light.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -33,7 +33,8 @@ pub struct Sky {
     pub sky_rgb: [f64; 3],
     /// Cloud cover, 0 to 1.
     pub cloud: f64,
-    /// Factor on [`relative_radiance`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
+    /// Factor by which [`relative_radiance`] is multiplied; scales the hemisphere's illuminance to `sky_lux` (π times
+    /// luminance, lx).
     pub scale: f64,
 }
 
@@ -94,7 +95,7 @@ impl Sky {
         }
     }
 
-    /// Returns π times the luminance in a direction in lx.
+    /// Returns π times the luminance in the given direction, in lx.
     #[must_use]
     pub fn visible_lux(&self, direction: Vec3<Enu>) -> f64 {
         self.scale * luminance(relative_radiance(direction, self.sun, self.cloud))

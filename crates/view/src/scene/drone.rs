@@ -106,7 +106,7 @@ pub fn propeller(vehicle: &Vehicle) -> Mesh {
     mesh
 }
 
-/// Builds the disk of a fast propeller, visible from both sides.
+/// Builds the disk of a fast-spinning propeller, visible from both sides.
 pub fn disc(vehicle: &Vehicle) -> Mesh {
     const SIDES: u32 = 32;
     let mut mesh = Mesh::default();

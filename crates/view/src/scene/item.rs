@@ -29,7 +29,7 @@ impl Instance {
         Self { rows: [0, 1, 2].map(|k| [x[k], y[k], z[k], o[k]]), paint: [0.0; 4], around }
     }
 
-    /// Transforms and lights a vertex the same way as the shaders.
+    /// Transforms and lights a vertex the same way as the shaders do.
     pub(super) fn transformed(&self, v: &Vertex) -> Vertex {
         let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
         let [x, y, z] = turned(v.normal);
@@ -88,19 +88,19 @@ impl VisibleRange {
     /// Visible only in the lake's reflection, for simplified substitutes.
     pub const LAKE_ONLY: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
 
-    /// Returns the range of distances up to this one in meters.
+    /// Returns the range of distances up to `most_m`.
     #[must_use]
     pub const fn within(most_m: f64) -> [f64; 2] {
         [f64::NEG_INFINITY, most_m]
     }
 
-    /// Returns the range of distances beyond this one in meters.
+    /// Returns the range of distances beyond `least_m`.
     #[must_use]
     pub const fn beyond(least_m: f64) -> [f64; 2] {
         [least_m, f64::INFINITY]
     }
 
-    /// Checks whether the object is drawn at a distance, in the direct view or in the lake's reflection.
+    /// Checks whether the object is drawn at the given distance, in the direct view or in the lake's reflection.
     #[must_use]
     pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
         let [begins, ends] = if in_lake { self.in_lake_m } else { self.direct_m };

@@ -30,7 +30,7 @@ struct Globals {
     sun_rgb: vec4<f32>,
     // Color of the sky's light; horizontal illuminance of the sky.
     sky_rgb: vec4<f32>,
-    // Factor on the sky's relative radiance; water level; haze, 1/m.
+    // Factor for the sky's relative radiance; water level; haze, 1/m.
     scene: vec4<f32>,
     // Lamp: position, cosine of the half beam angle; direction, candela.
     lamp: vec4<f32>,
@@ -76,11 +76,11 @@ fn fbm(p: vec2<f32>, footprint: f32) -> f32 {
     if DETAIL {
         return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
     }
-    // Leaves the footprint of the pixel to the renderer, which costs a third as much in software.
+    // Lets the renderer determine the pixel footprint, which costs a third as much in software.
     return textureSample(noise_map, noise_sampler, p / 16.0).r;
 }
 
-// Noise that cheaper presets replace with the value `instead`.
+// Noise that cheaper presets replace with `instead`.
 fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
     if DETAIL {
         return fbm(p, footprint);

@@ -1,5 +1,5 @@
 //! Contrast of a crack as a function of the ground sampling distance (docs/src/reference/domain.md, "Resolution":
-//! detection from half a pixel's width, identification from one pixel); it must not jump.
+//! detection from half a pixel's width, identification from one pixel). The contrast must not jump.
 
 use spandrel_model::defect_codes;
 use spandrel_model::math;
@@ -53,12 +53,12 @@ impl Wall {
         Self { studio, crack, patches }
     }
 
-    /// Returns the size of a pixel on the wall at a distance in meters.
+    /// Returns the size of a pixel on the wall, in meters, at the given distance.
     fn gsd_m(&self, distance_m: f64) -> f64 {
         distance_m / self.studio.vehicle.camera.focal_px()
     }
 
-    /// Returns pictures of the wall with and without the crack at a ground sampling distance in meters.
+    /// Returns pictures of the wall with and without the crack at the given ground sampling distance (in meters).
     fn pair(&mut self, gsd_m: f64) -> [Picture; 2] {
         let focal_px = self.studio.vehicle.camera.focal_px();
         let hfov_deg = (2.0 * math::atan(0.5 * f64::from(CROP_PX.0) / focal_px)).to_degrees();
@@ -109,13 +109,13 @@ fn wall_variation(without: &Picture) -> f64 {
 
 #[test]
 fn val_crack_visibility_depends_on_its_width_in_pixels() {
-    // Multiples of the variation of the bare wall. 5 is Rose's limit of visibility (1948). Distinguishing a crack from
-    // a stain or a formwork line requires more (estimate: four times that).
+    // As multiples of the bare wall's variation. The value 5 is Rose's limit of visibility (1948). Distinguishing a
+    // crack from a stain or a formwork line requires more (estimate: four times that).
     const DETECTED: f64 = 5.0;
     const IDENTIFIED: f64 = 20.0;
     const UNDETECTED: f64 = 2.0;
-    // A line narrower than a pixel covers a fraction of it, so half the width has half the contrast. The tone curve
-    // causes a small deviation.
+    // A line narrower than a pixel covers a fraction of it, so a line of half the width has half the contrast. The tone
+    // curve causes a small deviation.
     const HALF_CONTRAST: f64 = 0.5;
     const HALF_TOLERANCE: f64 = 0.12;
     let mut wall = Wall::new();

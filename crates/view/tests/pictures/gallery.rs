@@ -1,4 +1,4 @@
-//! Pictures with contents that any viewer must recognize, compared with committed pictures.
+//! Pictures whose content any viewer must recognize, compared with committed pictures.
 
 use super::compare::{Difference, beside, check_picture, check_picture_at};
 use spandrel_mavlink::contract::cue;
@@ -30,7 +30,7 @@ const CLOSE_UP_FOV_DEG: [f64; 2] = [30.0, 15.0];
 const TUTORIAL_PX: (u32, u32) = (240, 180);
 const TUTORIAL_FOV_DEG: f64 = 30.0;
 
-/// Collects all errors, so one run reports on every picture.
+/// Collects all errors, so that one run reports on every picture.
 #[derive(Default)]
 struct Gallery {
     errors: Vec<String>,
@@ -88,8 +88,8 @@ fn regress_crew_and_drone_at_the_pad() {
     wall.assert_no_errors();
 }
 
-/// Distractors that may be mistaken for defects: a sealed crack, a web, spray paint. Formwork lines, tie holes, streaks
-/// and droppings are also visible.
+/// Distractors that may be mistaken for defects: a sealed crack, a spider web, spray paint. Formwork lines, tie holes,
+/// streaks and droppings are also visible.
 #[test]
 fn regress_distractors() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
@@ -158,7 +158,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
     }
 }
 
-/// Replaces all defects with this one, in the light at its position.
+/// Replaces all defects with the given one, lit as at its position.
 fn show_only_defect(studio: &mut Studio, defect: &PlacedDefect) {
     let light = spandrel_model::site::light::ray_bundle(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
@@ -169,7 +169,7 @@ fn show_only_defect(studio: &mut Studio, defect: &PlacedDefect) {
     renderer.set_patches(gpu, &patches);
 }
 
-/// Returns a picture of a defect from a distance along its normal, slightly from the side and from below.
+/// Returns a picture of a defect from the given distance along its normal, slightly from the side and from below.
 fn close_up(studio: &mut Studio, defect: &PlacedDefect, distance_m: f64, hfov_deg: f64, size: (u32, u32)) -> Picture {
     let aside = Vec3::new(0.0, 0.0, 1.0).cross(defect.normal).unit();
     let out = (defect.normal + aside * 0.25 - Vec3::new(0.0, 0.0, 0.12)).unit();

@@ -17,11 +17,11 @@ use std::collections::BTreeMap;
 
 /// Number of photos that show a defect.
 const PHOTO_COUNT: usize = 200;
-/// Number of photos tried for each defect.
+/// Number of photo attempts per defect.
 const TRIES_PER_DEFECT: usize = 4;
 /// Size of the rendered area around each defect, in camera pixels.
 const CROP_PX: (u32, u32) = (192, 144);
-/// Size of the picture for metering the exposure, px; any size will do.
+/// Size of the picture for metering the exposure, px; any size works.
 const FRAME: (u32, u32) = (400, 300);
 
 /// A photo of one defect.
@@ -175,7 +175,7 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
     assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
 }
 
-/// Returns the minimum, the 10% quantile, the median and the maximum as text.
+/// Returns the minimum, the 10th percentile, the median, and the maximum as text.
 fn summary(all: &[DefectVisibility]) -> String {
     let mut values: Vec<f64> = all.iter().map(|shows| shows.signal_to_noise).collect();
     values.sort_by(f64::total_cmp);
