@@ -75,8 +75,8 @@ impl Client {
         self.socket.send(&frame).expect("sending over loopback must work");
     }
 
-    /// Returns the ratio of simulation time to wall time, measured over at least this duration. Also returns the wall
-    /// time of the measurement, in seconds.
+    /// Returns the ratio of simulation time to wall time, measured over at least the given duration. Also returns the
+    /// wall time of the measurement, in seconds.
     pub fn speed_factor(&mut self, over: Duration) -> (f64, f64) {
         let (sim_begin, wall_begin) = self.clock();
         let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);

@@ -28,7 +28,7 @@ pub struct ViewRect {
     pub which: ViewKind,
     /// Left edge.
     pub left: f64,
-    /// Upper edge.
+    /// Top edge.
     pub top: f64,
     /// Width.
     pub width: f64,
@@ -43,7 +43,7 @@ pub struct TextAnchor {
     pub left_edge: f64,
     /// Top edge if `extends_down` is set, otherwise bottom edge.
     pub edge: f64,
-    /// Maximum width.
+    /// Maximum text width.
     pub width: f64,
     /// Whether the text extends down from the top edge instead of up from the bottom edge.
     pub extends_down: bool,

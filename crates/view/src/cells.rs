@@ -21,7 +21,7 @@ const BACKDROP_SECTORS: f64 = 16.0;
 pub struct BoundingSphere {
     /// Center, ENU, m.
     pub center_m: Vec3<Enu>,
-    /// Radius, m.
+    /// Sphere radius, m.
     pub radius_m: f64,
 }
 

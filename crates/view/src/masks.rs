@@ -14,7 +14,7 @@ pub struct LabelMask {
     pub height: u32,
     /// AASHTO element numbers.
     pub elements: Vec<u16>,
-    /// Defect IDs.
+    /// Defect IDs in the session.
     pub defects: Vec<u16>,
 }
 

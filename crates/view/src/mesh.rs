@@ -17,9 +17,9 @@ pub enum Material {
     Cable = 3,
     /// Grass, rock and shore. `aux` is the height above the water, m.
     Ground = 4,
-    /// Conifer needles.
+    /// Conifer foliage.
     Foliage = 5,
-    /// Bark.
+    /// Tree bark.
     Bark = 6,
     /// Boulders.
     Rock = 7,
@@ -31,7 +31,7 @@ pub enum Material {
     Rubber = 10,
     /// Cloth and skin.
     Cloth = 11,
-    /// Emissive.
+    /// Emissive surface of a light.
     Light = 12,
     /// The landing pad.
     Pad = 13,
@@ -46,7 +46,7 @@ pub enum Material {
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
 pub struct Vertex {
-    /// Position, m.
+    /// Vertex position, m.
     pub position: [f32; 3],
     /// Outward unit normal.
     pub normal: [f32; 3],
@@ -75,7 +75,7 @@ pub struct Mesh {
 /// Material and color of a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceFinish {
-    /// Material.
+    /// Surface material.
     pub material: Material,
     /// Color, linear, 0..255.
     pub tint: [u8; 3],

@@ -22,7 +22,7 @@ const LAMP_MARGIN: f64 = 1.08;
 /// A shadow map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShadowMap {
-    /// World-to-clip-space projection.
+    /// Projection from world to clip space.
     pub projection: Matrix,
     /// Texel size, m (for the lamp: at a distance of 1 m).
     pub texel_m: f64,

@@ -11,8 +11,8 @@ use spandrel_model::vehicle::Lamp;
 
 /// Camera noise at the lowest sensitivity, as a fraction of white (estimate: consumer sensors, about 40 dB).
 const NOISE_AT_ISO_100: f64 = 0.006;
-/// Vignetting strength: half of this fraction is the darkening of the corners. The darkening grows with the square of
-/// the distance from the center (estimate: small wide-angle lenses).
+/// Vignetting strength: the corners are darkened by half of this fraction. The darkening grows with the square of the
+/// distance from the center (estimate: small wide-angle lenses).
 const VIGNETTE: f64 = 0.45;
 
 /// Beam of a lamp.
@@ -49,7 +49,7 @@ impl LampBeam {
 /// Response of a sensor or an eye that converts light to a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorResponse {
-    /// Exposure.
+    /// Exposure of the picture.
     pub exposure: Exposure,
     /// Noise at mid-gray, as a fraction of white.
     pub noise: f64,
@@ -82,9 +82,9 @@ impl SensorResponse {
 /// Inputs of one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shot {
-    /// Camera.
+    /// Camera that takes the picture.
     pub eye: PinholeCamera,
-    /// Size, px.
+    /// Picture size, px.
     pub size_px: (u32, u32),
     /// Sun and sky.
     pub sky: Sky,
@@ -96,7 +96,7 @@ pub struct Shot {
     pub time_s: f64,
     /// Wind over the water: velocity toward the east and north, m/s.
     pub wind_m_s: (f64, f64),
-    /// Moving objects.
+    /// Models and instances of the moving objects.
     pub moving: Vec<(MoverModel, Instance)>,
 }
 

@@ -24,20 +24,20 @@ const DRONE_CLEARANCE_M: f64 = 0.5;
 /// Inputs that stay constant during a session.
 #[derive(Debug, Clone, Copy)]
 pub struct Stage<'a> {
-    /// The job.
+    /// Scenario of the job.
     pub scenario: &'a Scenario,
-    /// The aircraft.
+    /// Parameters of the aircraft.
     pub vehicle: &'a Vehicle,
-    /// The site.
+    /// Geometry and light of the site.
     pub site: &'a Site,
-    /// The site's scene.
+    /// Meshes of the site.
     pub scene: &'a Scene,
 }
 
 /// State of the aircraft and its camera at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneMoment {
-    /// Simulation time.
+    /// Simulation time of the state.
     pub at: SimTime,
     /// Pose of the aircraft.
     pub drone: DronePose,

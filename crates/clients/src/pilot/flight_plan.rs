@@ -41,7 +41,7 @@ const CMD_SET_ACTUATOR: u16 = 187;
 const CMD_MOUNT_CONTROL: u16 = 205;
 const CMD_START_CAPTURE: u16 = 2000;
 const CMD_STOP_CAPTURE: u16 = 2001;
-/// MAV_MOUNT_MODE_MAVLINK_TARGETING.
+/// Value of MAV_MOUNT_MODE_MAVLINK_TARGETING in a plan item.
 const MOUNT_MODE_TARGETING: f64 = 2.0;
 
 /// Builds a list of mission items in order.

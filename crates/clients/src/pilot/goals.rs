@@ -21,7 +21,7 @@ pub const PAD_HOVER_HEIGHT_M: f64 = 6.0;
 /// The next goal of the flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlightGoal {
-    /// Fly the task with this index.
+    /// Fly the task with the given index.
     Task(usize),
     /// Return to the landing pad.
     Home,
@@ -47,11 +47,11 @@ pub fn hover_point_over_pad(scenario: &Scenario) -> Vec3<Enu> {
 /// Inputs of the planner.
 #[derive(Clone, Copy)]
 pub struct PlanningContext<'a> {
-    /// The job.
+    /// Scenario of the job.
     pub scenario: &'a Scenario,
-    /// The site.
+    /// Geometry of the site.
     pub site: &'a Site,
-    /// The aircraft.
+    /// Parameters of the aircraft.
     pub vehicle: &'a Vehicle,
     /// Simulation time used for planning.
     pub at: SimTime,

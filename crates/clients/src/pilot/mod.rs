@@ -66,7 +66,7 @@ enum PilotPhase {
     Fly,
     /// Lands on the pad.
     Descend,
-    /// Finished.
+    /// The flight has ended.
     Done,
 }
 

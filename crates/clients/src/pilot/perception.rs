@@ -21,7 +21,7 @@ const HEADING_ERROR_RAD: f64 = 0.03;
 /// Motion of the aircraft at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionState {
-    /// Simulation time.
+    /// Simulation time of the sample.
     pub time: SimTime,
     /// Position, ENU, m.
     pub position_m: Vec3<Enu>,

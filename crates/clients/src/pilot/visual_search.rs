@@ -31,7 +31,7 @@ pub enum Glimpse {
     Nothing,
     /// The pilot noticed a real defect.
     Defect {
-        /// Defect ID.
+        /// ID of the defect.
         id: u32,
         /// Judgment error for this defect, as a multiple of a trained pilot's standard deviation.
         judgment_error: f64,

@@ -47,7 +47,7 @@ const AIM_WINDOW_S: f64 = 2.0;
 pub struct LastReported {
     /// System ID, once a heartbeat has arrived.
     pub system: Option<u8>,
-    /// Autopilot type.
+    /// Autopilot type from the heartbeat.
     pub autopilot: Option<MavAutopilot>,
     /// Whether the vehicle is armed.
     pub armed: bool,

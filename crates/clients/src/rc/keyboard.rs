@@ -17,17 +17,17 @@ const MIN_TAP_INTERVAL_S: f64 = 0.12;
 /// Direction of a stick deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum StickDirection {
-    /// Forward.
+    /// Fly forward.
     Forward,
-    /// Backward.
+    /// Fly backward.
     Back,
-    /// Left.
+    /// Fly left.
     Left,
-    /// Right.
+    /// Fly right.
     Right,
-    /// Up.
+    /// Climb.
     Up,
-    /// Down.
+    /// Descend.
     Down,
     /// Turn left.
     TurnLeft,
@@ -87,7 +87,7 @@ pub enum WindowAction {
     Pause,
     /// Restarts a practice session after confirmation.
     Restart,
-    /// Toggles sound.
+    /// Turns sound on or off.
     Sound,
 }
 

@@ -51,7 +51,7 @@ pub enum StickMode {
 }
 
 impl StickMode {
-    /// Returns the mode with this number, or `None` if the number is not 1 to 4.
+    /// Returns the mode with the given number, or `None` if the number is not 1 to 4.
     #[must_use]
     pub fn from_number(number: i64) -> Option<Self> {
         [Self::One, Self::Two, Self::Three, Self::Four].into_iter().find(|mode| mode.number() == number)
@@ -97,9 +97,9 @@ impl StickMode {
 /// A calibrated device.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControllerProfile {
-    /// The device.
+    /// Device to which the profile applies.
     pub device: Device,
-    /// Stick mode.
+    /// Stick mode in which the device is flown.
     pub mode: StickMode,
     /// Calibration of each stick axis.
     pub axes: BTreeMap<StickMotion, AxisCalibration>,

@@ -44,9 +44,9 @@ enum WizardStep {
     Range,
     /// Waiting for the sticks to return to the center.
     Center(usize),
-    /// Waiting for a push in this direction.
+    /// Waiting for a push in the given direction.
     Push(usize),
-    /// Waiting for the button for this action, or for Enter to skip it.
+    /// Waiting for the button for the given action, or for Enter to skip it.
     Button(usize),
     /// Calibration is complete.
     Done,

@@ -21,9 +21,9 @@ pub enum MenuAction {
     CheckController,
     /// Open the tutorial.
     OpenTutorial,
-    /// Toggle sound.
+    /// Turn sound on or off.
     Sound,
-    /// Quit.
+    /// Quit the program.
     Quit,
     /// Search for a controller.
     FindController,
@@ -83,9 +83,9 @@ pub struct MenuRow {
     pub action: MenuAction,
     /// Interaction of the row.
     pub kind: RowKind,
-    /// Label.
+    /// Label of the row.
     pub label: String,
-    /// Current value.
+    /// Current value; empty for a button.
     pub value: String,
 }
 

@@ -252,7 +252,7 @@ impl WindowFlow {
         true
     }
 
-    /// Toggles sound.
+    /// Turns sound on or off.
     pub fn toggle_sound(&mut self) {
         self.sound = !self.sound;
         self.out.push_back(WindowRequest::Sound(self.sound));

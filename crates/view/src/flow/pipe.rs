@@ -29,7 +29,7 @@ impl Purpose {
 /// A trainee who has flown on this machine.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TraineeSummary {
-    /// Pseudonym.
+    /// The trainee's pseudonym.
     pub name: String,
     /// Number of sessions.
     pub sessions: u32,
@@ -42,7 +42,7 @@ pub struct TraineeSummary {
 pub struct JobOffer {
     /// Name, or path of the file.
     pub name: String,
-    /// Display title.
+    /// Title shown to the user.
     pub title: String,
     /// Short description of the type of job.
     pub kind: String,
@@ -51,7 +51,7 @@ pub struct JobOffer {
 /// Selection of trainee, job and purpose.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightChoice {
-    /// Pseudonym.
+    /// The trainee's pseudonym.
     pub trainee: String,
     /// Name or path of the job.
     pub scenario: String,
@@ -87,7 +87,7 @@ pub struct FlightStarted {
     pub fly: Option<SocketAddr>,
 }
 
-/// A score.
+/// One of the four scores.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FinalScore {
     /// Score as defined in the TASBID paper.
@@ -124,7 +124,7 @@ pub const SCORE_NAMES: [&str; 4] = ["conformity", "efficiency", "safety", "accur
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum ToWindow {
-    /// Available choices.
+    /// Choices to offer on the start page.
     Offers(FlightOptions),
     /// A flight has started.
     Flying(FlightStarted),
@@ -135,7 +135,7 @@ pub enum ToWindow {
     },
     /// A request was rejected.
     Refused {
-        /// Reason.
+        /// Reason, shown to the user.
         words: String,
     },
     /// The flight has ended.
@@ -160,7 +160,7 @@ pub enum FromWindow {
     End,
     /// Fly the same job again.
     Again,
-    /// Quit.
+    /// Quit the program.
     Quit,
 }
 

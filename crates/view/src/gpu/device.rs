@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-/// GPU errors.
+/// Errors that occur while opening or using a GPU device.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
     /// No graphics device is available.
@@ -26,7 +26,7 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Command queue.
     pub queue: wgpu::Queue,
-    /// Adapter name.
+    /// Name of the graphics adapter.
     pub name: String,
     /// Whether the device is a software renderer.
     pub software: bool,

@@ -10,11 +10,11 @@ pub struct RenderTargets {
     pub light: wgpu::TextureView,
     /// Radiance, one sample per pixel; `None` if [`Self::light`] is not multisampled.
     pub resolved: Option<wgpu::TextureView>,
-    /// Depth.
+    /// Depth buffer.
     pub depth: wgpu::TextureView,
-    /// Water reflection.
+    /// Radiance of the water reflection.
     pub mirror: wgpu::TextureView,
-    /// Depth of the water reflection.
+    /// Depth buffer of the water reflection.
     pub mirror_depth: wgpu::TextureView,
     /// Bind group of the `water` shader.
     pub water: wgpu::BindGroup,

@@ -129,14 +129,14 @@ pub enum DrawItem {
     },
     /// A filled convex polygon.
     Fill {
-        /// Corners.
+        /// Corners of the polygon.
         points: Vec<ScreenPoint>,
         /// Fill color.
         color: HudColor,
     },
     /// A polyline.
     Line {
-        /// Points.
+        /// Points of the polyline.
         points: Vec<ScreenPoint>,
         /// Stroke width.
         width: f64,

@@ -40,7 +40,7 @@ pub struct Hud {
     pub speed_m_s: f64,
     /// Speed limit, m/s.
     pub limit_m_s: f64,
-    /// Battery, %.
+    /// Battery level, %.
     pub battery_pct: Option<f64>,
     /// Minimum battery level for a green display, %.
     pub green_pct: f64,

@@ -17,7 +17,7 @@ const SETTLE_S: f64 = 0.25;
 /// Maximum gap in telemetry that counts as jitter, s; in a longer gap, the picture freezes at the latest sample.
 const JITTER_LIMIT_S: f64 = 0.1;
 
-/// Playback position.
+/// Playback position and speed of the vehicle's clock.
 #[derive(Debug, Clone, Default)]
 pub struct Playhead {
     arrivals: VecDeque<(SimTime, SimTime)>,

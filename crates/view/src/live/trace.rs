@@ -36,12 +36,12 @@ impl MotionHistory {
         }
     }
 
-    /// Adds the gimbal's pitch above the horizon, rad.
+    /// Adds a sample of the gimbal's pitch above the horizon, in radians.
     pub fn push_gimbal(&mut self, time: SimTime, pitch_rad: f64) {
         self.gimbal.push(time, pitch_rad);
     }
 
-    /// Adds the camera's horizontal field of view, rad.
+    /// Adds a sample of the camera's horizontal field of view, in radians.
     pub fn push_lens(&mut self, time: SimTime, hfov_rad: f64) {
         self.lens.push(time, hfov_rad);
     }

@@ -37,7 +37,7 @@ pub struct PhotoInfo {
     pub lens: Camera,
     /// Exposure time, s.
     pub exposure_s: f64,
-    /// Sensitivity, ISO.
+    /// ISO sensitivity.
     pub iso: f64,
     /// Whether the lamp was on.
     pub lamp: bool,

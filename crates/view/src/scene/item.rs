@@ -53,11 +53,11 @@ impl Instance {
 /// A mesh and its instances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneItem {
-    /// Name.
+    /// Name of the item.
     pub name: &'static str,
-    /// Mesh.
+    /// Mesh in its own axes.
     pub mesh: Mesh,
-    /// Instances.
+    /// Instances of the mesh.
     pub instances: Vec<Instance>,
     /// Whether it is drawn into shadow maps.
     pub casts_shadows: bool,

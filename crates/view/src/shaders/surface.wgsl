@@ -1,4 +1,4 @@
-// Draws solids.
+// Draws solid surfaces.
 
 // Material group of the pipeline (material_groups.rs): 0 concrete, 1 deck, 2 steel, 3 simple, 4 ground.
 override LOOK: u32 = 3u;

@@ -15,9 +15,9 @@ const PPS: u8 = 8;
 /// Bytes to write at an offset in the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mp4Chunk {
-    /// Offset, bytes.
+    /// Offset in the file, bytes.
     pub at: u64,
-    /// Bytes.
+    /// Bytes to write at the offset.
     pub bytes: Vec<u8>,
 }
 

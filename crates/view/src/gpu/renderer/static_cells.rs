@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 /// Static objects of one cell.
 pub struct StaticCell {
-    /// Mesh.
+    /// The objects' mesh.
     pub solid: Arc<GpuMesh>,
-    /// Instances.
+    /// Instances of the mesh in this cell.
     pub copies: MeshInstances,
     /// Whether it is drawn into shadow maps.
     pub casts_shadows: bool,
