@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 const TICK_MS: f64 = 2.5;
-/// Target for the 99th percentile, two control ticks (requirement).
+/// Target for the 99th percentile: two control ticks (requirement).
 const TARGET_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
 /// Pause between measurements. It is not a multiple of any period in the vehicle, so the measurements sample every

@@ -1,4 +1,4 @@
-//! Inputs of one picture other than the scene, as plain data from telemetry and the scenario.
+//! Inputs for one picture, except the scene, as plain data from telemetry and the scenario.
 
 use super::camera::PinholeCamera;
 use super::exposure::Exposure;
@@ -79,7 +79,7 @@ impl SensorResponse {
     }
 }
 
-/// Inputs of one picture.
+/// Inputs for one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shot {
     /// Camera that takes the picture.

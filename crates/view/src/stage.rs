@@ -189,7 +189,7 @@ fn camera_at_shutter_open(eye: &PinholeCamera, moment: &SceneMoment, time_s: f64
     PinholeCamera { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
 }
 
-/// HUD inputs in addition to the moment and the feed.
+/// HUD inputs that neither the moment nor the feed contains.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HudInputs {
     /// Battery, %, once received.

@@ -42,7 +42,7 @@ const MIN_APPROACH_HEIGHT_M: f64 = 5.0;
 /// Timeout for the vehicle to become ready, and for the aircraft to climb, s of simulation time.
 const START_TIMEOUT_S: f64 = 60.0;
 
-/// End-of-flight report, as perceived by the pilot.
+/// End-of-flight report from the pilot's point of view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PilotReport {
     /// Reason for the end of the flight.

@@ -71,7 +71,7 @@ pub enum VehicleUpdate {
 }
 
 impl VehicleLink {
-    /// Creates a link before any communication.
+    /// Creates a link that has not exchanged any messages yet.
     #[must_use]
     pub fn new() -> Self {
         let encoder = Encoder::new(SYSTEM_ID, COMPONENT_ID);

@@ -48,7 +48,7 @@ pub struct VisualSearch {
     /// Detection threshold of each defect on this flight: uniform in [0, 1], drawn when the defect first comes into
     /// view.
     notice_threshold: BTreeMap<u32, f64>,
-    /// Time until which each defect is ignored.
+    /// Time at which the pilot stops ignoring each defect.
     ignored_until: BTreeMap<u32, SimTime>,
 }
 

@@ -113,8 +113,7 @@ impl Default for ControllerLink {
 }
 
 impl ControllerLink {
-    /// Sets the stick positions; `None` if there is no device. Only heartbeats are sent until a device has been
-    /// present.
+    /// Sets the stick positions; `None` if there is no device. Sends only heartbeats until a device has been connected.
     pub fn set_sticks(&mut self, sticks: Option<Sticks>, now: SimTime) {
         match sticks {
             Some(sticks) => {

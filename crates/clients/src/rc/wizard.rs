@@ -279,7 +279,8 @@ impl CalibrationWizard {
         })
     }
 
-    /// Measures the center of axes that have just returned to it. Some systems do not report an axis before it moves.
+    /// Measures the center of each axis that has just returned to it. Some systems do not report an axis before it
+    /// moves.
     fn measure_center(&mut self) {
         for axis in self.fully_moved.clone() {
             let Some((value, part)) = self.deflection(axis) else { continue };

@@ -24,7 +24,7 @@ impl<K: PartialEq, V> LruCache<K, V> {
         self.entries.remove(at).map(|(_, value)| value)
     }
 
-    /// Inserts a value as the most recently used and evicts the least recently used one if the cache is full.
+    /// Inserts a value as the most recently used one and evicts the least recently used one if the cache is full.
     pub fn put(&mut self, key: K, value: V) {
         self.entries.retain(|(known, _)| *known != key);
         self.entries.push_back((key, value));

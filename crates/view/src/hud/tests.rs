@@ -8,7 +8,7 @@ const WIDE: f64 = 16.0 / 9.0;
 /// All cues shown in the lower left corner.
 pub(super) const ALL_CUES: i32 = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
 
-/// Returns the HUD of a normal flight.
+/// Returns the HUD during a normal flight.
 pub(super) fn hud() -> Hud {
     Hud {
         speed_m_s: 3.2,

@@ -5,7 +5,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::light::ray_bundle;
 use spandrel_model::site::{QueryTime, RayHit, Site};
 
-/// Distance of samples from the edges of their face, m; prevents adjoining members from darkening them.
+/// Distance between samples and the edges of their face, m; prevents adjoining members from darkening them.
 pub const INSET_M: f64 = 0.25;
 /// Maximum distance between a probe and a solid that covers the sample, m.
 const COVERED_DISTANCE_M: f64 = 0.04;

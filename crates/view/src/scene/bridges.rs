@@ -37,7 +37,7 @@ pub(super) fn material_and_paint(element: Element) -> (Material, [u8; 3]) {
     }
 }
 
-/// Axes of a bridge for surface coordinates.
+/// A bridge's axes, used to compute surface coordinates.
 struct TextureAxes {
     origin_m: Vec3<Enu>,
     along: Vec3<Enu>,
@@ -50,7 +50,7 @@ struct TextureAxes {
 const COVER_PROBE_M: (f64, f64) = (0.5, 0.02);
 /// Minimum number of probe steps, so that the center is always probed.
 const MIN_PROBE_STEPS: f64 = 2.0;
-/// Minimum vertical component of the normal of an upward face; the lake's reflection never shows such faces.
+/// Minimum vertical component of an upward face's normal; the lake's reflection never shows such faces.
 const MIN_UPWARD_COMPONENT: f64 = 0.999;
 
 /// Hangers and railings, which are not visible in the small reflection of a distant bridge.

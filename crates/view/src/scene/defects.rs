@@ -33,7 +33,7 @@ pub struct DefectPatch {
     pub tint: [f32; 4],
 }
 
-/// Returns the patches of all defects of a site.
+/// Returns the patches for all of a site's defects.
 pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
     let bake = LightBaker::new(site, sun, RAYS);
     site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()

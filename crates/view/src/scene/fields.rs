@@ -6,7 +6,7 @@ use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// Largest square drawn as two triangles, cells.
+/// Maximum side of a square drawn as two triangles, cells.
 const MAX_SQUARE_CELLS: usize = 8;
 /// Maximum angular error of the ground as seen from people and aircraft, rad: four pixels of a view 640 px and 84 degrees wide,
 /// on rolling hills.
@@ -21,7 +21,7 @@ pub const INVISIBLE_DEPTH_M: f64 = 5.0;
 /// Range around a bridge where the light varies between cells, m, and maximum square size there, cells.
 const BRIDGE_DETAIL: (f64, usize) = (30.0, 2);
 
-/// Returns all triangles of the ground.
+/// Returns all ground triangles.
 pub fn all(site: &Site) -> Vec<[u32; 3]> {
     site.geometry().terrain.ground.triangles().1
 }

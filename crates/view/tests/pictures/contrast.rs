@@ -93,8 +93,7 @@ fn peak_difference([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64)
     (0..with.height).map(of).sum::<f64>() / f64::from(with.height)
 }
 
-/// Returns the variation of the bare wall between pixels that are two apart, as a fraction of its brightness: grain,
-/// sand, streaks.
+/// Returns the bare wall's variation between pixels two apart, as a fraction of its brightness (grain, sand, streaks).
 fn wall_variation(without: &Picture) -> f64 {
     let (mut squares, mut count) = (0.0, 0.0);
     for y in 0..without.height {

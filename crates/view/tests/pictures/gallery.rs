@@ -235,7 +235,7 @@ fn regress_tutorial_shows_defects_at_true_scale() {
     wall.assert_no_errors();
 }
 
-/// Returns the HUD of a normal flight.
+/// Returns the HUD during a normal flight.
 fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
     let track = |task: &spandrel_model::scenario::Task| MapPath { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
     Hud {

@@ -97,7 +97,7 @@ fn defect_mask(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec
     (0..CROP_PX.0 * CROP_PX.1).map(on).collect()
 }
 
-/// Visibility of a defect in its region.
+/// A defect's visibility within its region of the picture.
 #[derive(Debug, Clone, Copy)]
 struct DefectVisibility {
     /// Change caused by the defect relative to the variation of the bare surface (grain and texture), summed as for an
