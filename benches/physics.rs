@@ -110,7 +110,7 @@ impl Case {
             touched += i64::from(state.contact.touching());
         }
         let wanted = if self.in_contact { STEPS * 9 / 10..=STEPS } else { 0..=0 };
-        assert!(wanted.contains(&touched), "{}: contact in {touched} of {STEPS} steps", self.name);
+        assert!(wanted.contains(&touched), "{}: in contact in {touched} of {STEPS} steps", self.name);
         state
     }
 }

@@ -1,5 +1,5 @@
 //! Measures the cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup
-//! time. Uses software rendering, as on a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best
+//! time. Uses software rendering, like a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best
 //! available device and higher presets, and fails if a graphics card does not reach the target frame rate.
 
 #[path = "support/running.rs"]
@@ -44,8 +44,8 @@ fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
 /// Minimum ratio of simulation time to wall time for a simulator that runs while this process renders continuously.
 const MIN_SPEED_FACTOR: f64 = 0.99;
 /// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip shortens the
-/// flight. Pilots notice control delays above 0.1 s. Such delays are printed but not limited, because other load on the
-/// machine can cause them.
+/// flight. Pilots notice control delays above 0.1 s. The benchmark prints such delays but does not limit them, because
+/// other load on the machine can cause them.
 const MAX_SLIPS: u64 = 0;
 /// Duration of the measurement with a running simulator.
 const MEASUREMENT_DURATION: Duration = Duration::from_secs(10);

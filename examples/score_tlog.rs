@@ -14,7 +14,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     score(&arguments)
 }
 
-/// Prints the scores of a log, or the usage message if there are not three arguments.
+/// Prints the scores of a log, or the usage message if the number of arguments is not three.
 pub fn score(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let [log, job, aircraft] = arguments else {
         println!("usage: score_tlog TLOG SCENARIO VEHICLE");

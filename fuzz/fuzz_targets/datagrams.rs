@@ -1,6 +1,6 @@
 //! Feeds arbitrary bytes to the codec and the monitor. Length bytes split the input into datagrams. The first byte of a
-//! datagram selects whether the rest is fed in unchanged or as the payload of a message with a valid checksum. Neither
-//! the codec nor the monitor may panic, and no decoded frame may be longer than its datagram.
+//! datagram determines whether the rest is fed in unchanged or as the payload of a message with a valid checksum.
+//! Neither the codec nor the monitor may panic, and no decoded frame may be longer than its datagram.
 #![no_main]
 
 use mavlink::Message;

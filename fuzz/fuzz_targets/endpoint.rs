@@ -1,6 +1,6 @@
 //! Feeds arbitrary bytes to the vehicle in flight. Length bytes split the input into chunks. The first byte of a chunk
-//! selects whether the rest is sent as a raw datagram or, with a valid checksum, as the payload of a message that the
-//! vehicle handles. The vehicle must not panic, and its state must stay finite.
+//! determines whether the rest is sent as a raw datagram or, with a valid checksum, as the payload of a message that
+//! the vehicle handles. The vehicle must not panic, and its state must stay finite.
 #![no_main]
 
 use mavlink::Message;

@@ -9,7 +9,7 @@ use spandrel_model::vehicle::Camera;
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Near plane, m.
 pub const NEAR_M: f64 = 0.05;
-/// Vertical field of view of the inspector's view, rad (60 deg: close to a natural perspective on a screen; estimate).
+/// The inspector's vertical field of view, rad (60 deg: close to a natural perspective on a screen; estimate).
 pub const INSPECTOR_FOV_RAD: f64 = 1.05;
 /// Eye height of the inspector above the ground, m (estimate).
 pub const EYE_HEIGHT_M: f64 = 1.65;

@@ -142,7 +142,7 @@ mod tests {
 
     /// Number of metered points.
     const METERED_POINTS: usize = (METERING_GRID.0 * METERING_GRID.1) as usize;
-    /// Relative rounding error of a sum of 35 numbers.
+    /// Relative rounding error when adding 35 numbers.
     const ROUNDING: f64 = 1e-12;
 
     fn near(found: f64, expected: f64) -> bool {

@@ -10,7 +10,7 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// Timeout of a cue that is not repeated; the monitor repeats active cues at 5 Hz.
+/// Timeout for a cue that is not repeated; the monitor repeats active cues at 5 Hz.
 const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);

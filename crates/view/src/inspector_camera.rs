@@ -8,7 +8,7 @@ use spandrel_model::math;
 const AUTO_ZOOM_START_M: f64 = 60.0;
 /// Minimum field of view when zooming in automatically, rad.
 const MIN_AUTO_FOV_RAD: f64 = 0.22;
-/// Distance of the camera in front of the inspector's position, m; keeps the inspector's body out of the picture.
+/// Distance from the inspector's position forward to the camera, m; keeps the inspector's body out of the picture.
 const EYE_OFFSET_M: f64 = 0.45;
 /// Maximum elevation, rad.
 const MAX_PITCH_RAD: f64 = 1.4;

@@ -54,8 +54,8 @@ pub struct Vertex {
     pub uv: [f32; 2],
     /// Indirect light: fractions of the sky and sun illuminance (see `LightModel::indirect_fractions`).
     pub light: [f32; 2],
-    /// [`Material`] in the lowest eight bits; AASHTO element number in the bits above, or 0 for anything that is not
-    /// part of a bridge.
+    /// [`Material`] in the lowest eight bits; AASHTO element number in the bits above, or 0 for anything not part of a
+    /// bridge.
     pub material: u32,
     /// Color, linear RGBA in 1/255.
     pub tint: [u8; 4],

@@ -15,7 +15,7 @@ const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
 /// with slight haze; estimate).
 const AIR_OPTICAL_DEPTH: [f64; 3] = [0.07, 0.12, 0.24];
 
-/// Fraction of the blue tint of shadows that a camera's white balance removes (estimate).
+/// Fraction of the shadows' blue tint that a camera's white balance removes (estimate).
 const WHITE_BALANCE_FRACTION: f64 = 0.55;
 
 /// Sky parameters of the shaders.
@@ -33,8 +33,7 @@ pub struct Sky {
     pub sky_rgb: [f64; 3],
     /// Cloud cover, 0 to 1.
     pub cloud: f64,
-    /// Factor by which [`relative_radiance`] is multiplied; scales the hemisphere's illuminance to `sky_lux` (π times
-    /// luminance, lx).
+    /// Factor for [`relative_radiance`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
     pub scale: f64,
 }
 

@@ -17,8 +17,7 @@ use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// Maximum distance in front of the aircraft within which objects do not count as hiding it, m (about the size of the
-/// aircraft).
+/// Objects within this distance in front of the aircraft do not count as hiding it, m (about the aircraft's size).
 const DRONE_CLEARANCE_M: f64 = 0.5;
 
 /// Inputs that stay constant during a session.

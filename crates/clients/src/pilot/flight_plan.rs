@@ -44,7 +44,7 @@ const CMD_STOP_CAPTURE: u16 = 2001;
 /// Value of MAV_MOUNT_MODE_MAVLINK_TARGETING in a plan item.
 const MOUNT_MODE_TARGETING: f64 = 2.0;
 
-/// Builds a list of mission items in order.
+/// Builds an ordered list of mission items.
 struct PlanWriter {
     plane: LocalPlane,
     pad_up_m: f64,

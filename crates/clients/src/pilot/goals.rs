@@ -1,5 +1,5 @@
-//! Planning of a job as a sequence of legs: transits around obstacles, tasks along their reference paths, and the
-//! flight home.
+//! Plans a job as a sequence of legs: transits around obstacles, tasks along their reference paths, and the flight
+//! home.
 
 use super::route_search;
 use super::track::TrackLeg;

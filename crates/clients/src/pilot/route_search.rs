@@ -13,9 +13,9 @@ const PREFERRED_CLEARANCE_M: f64 = 4.0;
 /// Radius around an endpoint with too little clearance, m; within it, the route may come as close to obstacles as the
 /// endpoint (estimate: within the task's "too close" distance).
 const ENDPOINT_RADIUS_M: f64 = 8.0;
-/// Tolerance of the clearance at such an endpoint, m (estimate: stand-offs are rounded).
+/// Clearance tolerance at such an endpoint, m (estimate: stand-offs are rounded).
 const ENDPOINT_MARGIN_M: f64 = 0.1;
-/// Clearances to try, in order, as fractions of the difference between the preferred and the minimum clearance.
+/// Clearances to try, in order, as fractions of the range from the minimum to the preferred clearance.
 const CLEARANCE_FRACTIONS: [f64; 3] = [1.0, 0.7, 0.4];
 /// Search margin around the two endpoints, m.
 const SEARCH_MARGIN_M: f64 = 40.0;

@@ -43,7 +43,7 @@ pub struct VehicleStatus {
     pub battery_pct: Option<f64>,
     /// The session's seed.
     pub seed: Option<u64>,
-    /// Number of respawns of the aircraft.
+    /// Number of times the aircraft has respawned.
     pub respawns: i32,
     /// Kind of object that the aircraft is in contact with.
     pub contact: ContactKind,

@@ -16,7 +16,7 @@ const GLIMPSE_INTERVAL_S: f64 = 0.25;
 const POD_SIGMA_LN: f64 = 1.147;
 /// Minimum extent of a clearly visible object, px (estimate).
 const CLEAR_PX: f64 = 40.0;
-/// Minimum extent for detection, px (a tenth of the pixels of a clear picture; estimate).
+/// Minimum extent for detection, px (a tenth of the pixels in a clear picture; estimate).
 const MIN_EXTENT_PX: f64 = 6.0;
 /// Maximum incidence angle for detection, rad (60 degrees; inspection practice rejects more oblique pictures).
 const MAX_INCIDENCE_RAD: f64 = 1.05;
@@ -76,7 +76,7 @@ impl VisualSearch {
         self.next_glimpse = now + SimTime::from_s(GLIMPSE_INTERVAL_S);
         let deceived = self.random.normal() * skill.noise > FALSE_ALARM_SIGMAS;
         for view in views() {
-            // The pilot cannot notice a defect that is edge-on, too small or in the dark, but it may become detectable
+            // The pilot cannot notice a defect that is edge-on, too small, or in the dark, but it may become detectable
             // later.
             let lit = view.illuminance_lux >= view.needed_lux;
             let plain = lit && view.unoccluded && view.extent_px >= MIN_EXTENT_PX && view.incidence_rad < MAX_INCIDENCE_RAD;

@@ -263,7 +263,7 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
     sounds
 }
 
-/// Reads the key of a binding, which must be a valid key that is not bound to anything else.
+/// Reads a binding's key, which must be valid and not bound to anything else.
 fn read_binding(
     r: &mut Reader,
     s: &mut Section,
@@ -323,7 +323,7 @@ impl KeyboardState {
         }
     }
 
-    /// Releases all keys, such as when the window loses focus.
+    /// Releases all keys, for example when the window loses focus.
     pub fn release_all(&mut self) {
         self.held.clear();
     }

@@ -1,4 +1,4 @@
-//! Controller profile: assignment of axes to sticks and of buttons to actions, with its file format.
+//! Controller profiles, which assign axes to sticks and buttons to actions, and their file format.
 
 use super::action::{self, ControllerAction};
 use super::axis::{AxisCalibration, MIN_ENDPOINT_DISTANCE};
@@ -99,7 +99,7 @@ impl StickMode {
 pub struct ControllerProfile {
     /// Device to which the profile applies.
     pub device: Device,
-    /// Stick mode in which the device is flown.
+    /// Stick mode selected for the device.
     pub mode: StickMode,
     /// Calibration of each stick axis.
     pub axes: BTreeMap<StickMotion, AxisCalibration>,

@@ -7,7 +7,7 @@ use super::pipe::{FlightStarted, FromWindow};
 pub enum ProfileChange {
     /// Stick mode, 1 to 4.
     Mode(i64),
-    /// Dead band of every axis as a fraction of the travel, 0 to 0.5.
+    /// Dead band of every axis as a fraction of the axis travel, 0 to 0.5.
     DeadBand(f64),
     /// Expo of every axis, 0 to 1.
     Expo(f64),

@@ -44,7 +44,7 @@ pub struct JobOffer {
     pub name: String,
     /// Title shown to the user.
     pub title: String,
-    /// Short description of the type of job.
+    /// Short description of the job type.
     pub kind: String,
 }
 
@@ -109,9 +109,9 @@ pub struct FlightSummary {
     pub complete: bool,
     /// "Certified", or the first requirement not met.
     pub verdict: Option<String>,
-    /// Why the flight ended, or why there are no scores.
+    /// Reason why the flight ended or why it has no scores.
     pub why: String,
-    /// Address of the report, if there is one.
+    /// Address of the report, if one was written.
     pub report: Option<String>,
     /// Address of the questionnaire if a server is running, otherwise the command that starts it.
     pub questionnaire: String,
@@ -176,7 +176,7 @@ pub fn line<T: Serialize>(message: &T) -> String {
 /// # Errors
 /// Returns a description of the problem and the beginning of the line.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
-    /// Maximum number of characters of the line to quote in an error message.
+    /// Maximum number of characters of a line that an error message quotes.
     const MAX_SHOWN_CHARS: usize = 120;
     serde_json::from_str(line).map_err(|error| {
         let shown: String = line.chars().take(MAX_SHOWN_CHARS).collect();

@@ -44,7 +44,7 @@ mod tests {
         for size in 0..CAPACITY {
             recent.put(size, 'a');
         }
-        // Uses the oldest entry again, so that the second is evicted next.
+        // Uses the oldest entry again, so that the second-oldest entry is evicted next.
         let again = recent.take(&0).unwrap();
         recent.put(0, again);
         recent.put(CAPACITY, 'b');

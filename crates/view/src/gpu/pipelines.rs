@@ -344,7 +344,7 @@ impl Pipelines {
         let see_through = [preset_constants.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
         let translucent =
             PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
-        // Biased toward the camera, so that defects appear in front of the faces that they are on.
+        // Biased toward the camera, so that defects appear in front of the surfaces that they are on.
         let flat =
             PipelineKey { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
         let lake =

@@ -31,8 +31,8 @@ pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     items
 }
 
-/// Returns the HUD items for a picture of the given size, in px (at standard pixel density). A picture that is too
-/// small for all items shows only the essential ones.
+/// Returns the HUD items for a picture of the given size, in px (at standard pixel density). If the picture is too
+/// small for all items, only the essential ones are included.
 #[must_use]
 pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
     let size_px = (width.max(1.0), height.max(1.0));

@@ -29,7 +29,7 @@ pub struct ActiveCue {
     pub color: HudColor,
     /// Message text.
     pub text: &'static str,
-    /// Detail appended to the text, such as the speed limit.
+    /// Additional detail, such as the speed limit.
     pub detail: Option<String>,
 }
 

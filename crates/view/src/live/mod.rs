@@ -45,8 +45,8 @@ const REQUEST_INTERVAL: SimTime = SimTime::from_ms(5_000);
 /// Messages used instead of ground truth, and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
 const ESTIMATE_STREAMS: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
-/// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of a tenth of a second between sound and
-/// picture is noticeable).
+/// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of 0.1 s between picture and sound is
+/// noticeable).
 const ROTOR_STREAM: (u32, f32) = (36, 20.0);
 /// FLIGHT_INFORMATION, which contains the takeoff time, for viewers that connect during a flight.
 const FLIGHT_INFORMATION_ID: u32 = 264;
@@ -295,8 +295,8 @@ impl LiveFlight {
         self.state = SimulatorRun::default();
     }
 
-    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if it is off.
-    /// The vehicle receives the status every second and announces the stream.
+    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if the stream is
+    /// off. The vehicle receives the status every second and announces the stream.
     pub fn set_video_status(&mut self, video: Option<VideoStatus>, wall: SimTime) {
         match video {
             Some(video) => self.video = Some((video, wall)),

@@ -234,7 +234,7 @@ fn exact_late_viewer_requests_the_takeoff_time() {
     assert_eq!(
         wire.now(20).unwrap().hud.lift_off,
         Some(SimTime::from_ms(300_000)),
-        "the takeoff time is that of the first position until the real one arrives"
+        "until the actual takeoff time arrives, the first position must define it"
     );
     wire.live.handle_timeout(SimTime::from_ms(20));
     let mut decoder = Decoder::new();

@@ -9,7 +9,7 @@ use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the general delay
+/// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the playback delay
 /// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it leaves enough time for the next sample to arrive,
 /// including 20 ms of jitter (estimate).
 const LENS_DELAY: SimTime = SimTime::from_ms(160);

@@ -3,7 +3,7 @@
 use crate::mesh::{Mesh, Vertex, single};
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Transform and attributes of an instance of a mesh.
+/// Transform and attributes of a mesh instance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]

@@ -48,12 +48,12 @@ pub fn color(kind: MoverKind, k: usize) -> [f32; 3] {
     }
 }
 
-/// Number of sides of wheels and limbs.
+/// Level of detail of round parts such as wheels and limbs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RoundDetail {
-    /// Full number of sides, for close views.
+    /// All sides, for close views.
     Fine,
-    /// Half the number of sides, for views across a road.
+    /// Half of the sides, for views across a road.
     Plain,
 }
 

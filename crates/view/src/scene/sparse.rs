@@ -34,9 +34,9 @@ impl GridSquare {
     }
 }
 
-/// Returns the triangles of a grid with `side` vertices per row as vertex indices, counterclockwise from above. Squares
-/// of up to `largest` cells (a power of two) stay whole where `whole` returns true. The diagonal runs from southwest to
-/// northeast, as in single cells.
+/// Returns the triangles of a grid with `side` vertices per row. The triangles are lists of vertex indices,
+/// counterclockwise as seen from above. Squares of up to `largest` cells (a power of two) stay whole where `whole`
+/// returns true. The diagonal runs from southwest to northeast, as in single cells.
 #[must_use]
 pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> bool) -> Vec<[u32; 3]> {
     let cells = side.saturating_sub(1);

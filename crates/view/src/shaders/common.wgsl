@@ -66,7 +66,7 @@ fn hash2(p: vec2<i32>) -> f32 {
     return f32(h >> 8u) / 16777216.0;
 }
 
-// Smooth noise of one octave with cells of size 1.
+// Smooth single-octave noise with cells of size 1.
 fn noise(p: vec2<f32>) -> f32 {
     return textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0).g;
 }
@@ -135,7 +135,7 @@ fn shadow_compare(layer: i32, uv: vec2<f32>, depth: f32) -> f32 {
     return textureSampleCompareLevel(shadow_map, shadow_sampler, uv, layer, depth);
 }
 
-// Mean visibility over a square of texels around a point of a map.
+// Mean visibility over a square of texels around a point in a shadow map.
 fn map_visible(layer: i32, q: vec3<f32>) -> f32 {
     let uv = vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
     let s = 1.0 / f32(textureDimensions(shadow_map).x);

@@ -20,13 +20,14 @@ use std::path::Path;
 const SCENE_PX: (u32, u32) = (640, 360);
 /// Size of each view with a HUD, large enough for legible text.
 const VIEW_PX: (u32, u32) = (640, 360);
-/// Size of each close-up of a defect, px.
+/// Size of each defect close-up, px.
 const CLOSE_UP_PX: (u32, u32) = (320, 240);
 /// Fields of view at 1 m and 3 m, which fit an object half a meter wide. At 8 m, the picture is a full-resolution crop
 /// of the camera's picture.
 const CLOSE_UP_FOV_DEG: [f64; 2] = [30.0, 15.0];
 
-/// Size of the tutorial's defect pictures, px, and the field of view for all of them; at 1 m, half a meter just fits.
+/// Size of the tutorial's defect pictures, px, and their shared field of view, in which half a meter just fits at a
+/// distance of 1 m.
 const TUTORIAL_PX: (u32, u32) = (240, 180);
 const TUTORIAL_FOV_DEG: f64 = 30.0;
 

@@ -172,7 +172,13 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
     println!("signal-to-noise ratios: {}; from behind: {}", summary(&shown), summary(&behind));
     assert!(behind.len() >= 30, "too few photos from behind: {}", behind.len());
     assert!(kinds.len() >= 6, "too few kinds of defects: {kinds:?}");
-    assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
+    assert!(
+        wrong.is_empty(),
+        "{} of {} photos disagree with the measures:\n{}",
+        wrong.len(),
+        shown.len() + behind.len(),
+        wrong.join("\n")
+    );
 }
 
 /// Returns the minimum, the 10th percentile, the median, and the maximum as text.
