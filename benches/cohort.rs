@@ -12,7 +12,7 @@ use std::time::Duration;
 
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
 const SESSIONS: usize = 10_000;
-/// Maximum time (requirement).
+/// Maximum processing time (requirement).
 const MAX_TIME: Duration = Duration::from_secs(2);
 const ROUNDS: usize = 5;
 

@@ -26,7 +26,8 @@ const MAX_CLOSE: f64 = 20.0;
 const MAX_STANDING: f64 = 200.0;
 const MAX_SCRAPING: f64 = 200.0;
 
-/// Baseline: minimal code that integrates a rigid body (13 numbers: position, velocity, attitude and angular rates) and four rotor speeds.
+/// Baseline: minimal code that integrates a rigid body (13 numbers: position, velocity, attitude, and angular rates)
+/// and four rotor speeds.
 mod baseline {
     pub type Y = [f64; 17];
 

@@ -1,4 +1,4 @@
-//! Measures the cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup
+//! Measures the cost of rendering both views of a flight: frame time, triangles, and draw calls per frame, and startup
 //! time. Uses software rendering, like a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best
 //! available device and higher presets, and fails if a graphics card does not reach the target frame rate.
 

@@ -1,5 +1,5 @@
-//! Creates a job from a shipped scenario and queries its site for members, defects and distances. Run it with `cargo run --example
-//! custom_job`.
+//! Creates a job from a shipped scenario and queries its site for members, defects, and distances. Run it with `cargo
+//! run --example custom_job`.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::site::Site;

@@ -1,4 +1,4 @@
-//! Additional HUD inputs, decoded from the telemetry frames: flight mode, satellites, cues and texts.
+//! Additional HUD inputs, decoded from the telemetry frames: flight mode, satellites, cues, and texts.
 
 use super::hud::GnssStatus;
 use mavlink::MessageData;

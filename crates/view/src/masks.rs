@@ -38,7 +38,7 @@ impl LabelMask {
     }
 
     /// Returns the legend of the labels as JSON: elements with their pixel counts; defects with kind, condition state,
-    /// pixel count and bounding box (left, top, width, height, px).
+    /// pixel count, and bounding box (left, top, width, height, px).
     #[must_use]
     pub fn legend(&self, placed: &[PlacedDefect]) -> Value {
         let elements: Vec<Value> = self

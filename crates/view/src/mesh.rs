@@ -15,7 +15,7 @@ pub enum Material {
     Steel = 2,
     /// Galvanized wire.
     Cable = 3,
-    /// Grass, rock and shore. `aux` is the height above the water, m.
+    /// Grass, rock, and shore. `aux` is the height above the water, m.
     Ground = 4,
     /// Conifer foliage.
     Foliage = 5,

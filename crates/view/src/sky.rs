@@ -11,7 +11,7 @@ const ZENITH: [f64; 3] = [0.62, 0.97, 2.0];
 const HORIZON: [f64; 3] = [0.94, 0.995, 1.24];
 /// Color of clouds, luminance 1 (estimate: about 6,500 K).
 const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
-/// Optical depths of clear air for red, green and blue light, per air mass (Rayleigh scattering, inverse fourth power,
+/// Optical depths of clear air for red, green, and blue light, per air mass (Rayleigh scattering, inverse fourth power,
 /// with slight haze; estimate).
 const AIR_OPTICAL_DEPTH: [f64; 3] = [0.07, 0.12, 0.24];
 

@@ -78,7 +78,7 @@ pub fn ground() -> MipLevels {
     levels((0..SIDE * SIDE).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
 }
 
-/// Returns the concrete tile: tone around 0.5 (blotches and boards), and fractions of rain streaks, soot and bird
+/// Returns the concrete tile: tone around 0.5 (blotches and boards), and fractions of rain streaks, soot, and bird
 /// droppings.
 #[must_use]
 pub fn concrete() -> MipLevels {

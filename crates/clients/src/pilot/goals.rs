@@ -44,7 +44,7 @@ pub fn hover_point_over_pad(scenario: &Scenario) -> Vec3<Enu> {
     scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, PAD_HOVER_HEIGHT_M)
 }
 
-/// Inputs of the planner.
+/// Planner inputs.
 #[derive(Clone, Copy)]
 pub struct PlanningContext<'a> {
     /// Scenario of the job.
@@ -141,8 +141,8 @@ fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
     }
 }
 
-/// Returns the path indices in flying order: from the nearer end, or, on a closed path, from the nearest point with a
-/// short overlap.
+/// Returns the path indices in the order in which they are flown: from the nearer end, or, on a closed path, from the
+/// nearest point with a short overlap.
 fn flying_order(task: &Task, from: Vec3<Enu>) -> Vec<usize> {
     const OVERLAP: usize = 4;
     let n = task.path_m.len();

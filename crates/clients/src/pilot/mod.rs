@@ -1,5 +1,5 @@
 //! A synthetic trainee that flies over MAVLink like a person at a ground station. It uses only MANUAL_CONTROL and the
-//! lamp, gimbal and camera commands. It has the job's data (scenario, reference paths, lines of sight) and perceives
+//! lamp, gimbal, and camera commands. It has the job's data (scenario, reference paths, lines of sight) and perceives
 //! the aircraft with delay and error. Its errors arise from noise; none are scripted. Sans-IO: it consumes and produces
 //! datagrams, and takes the time from the vehicle.
 
@@ -96,7 +96,7 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// Creates a pilot for a job, an aircraft and a skill.
+    /// Creates a pilot for a job, an aircraft, and a skill.
     #[must_use]
     pub fn new(config: PilotConfig) -> Self {
         let jobs = (0..config.scenario.tasks.len()).map(FlightGoal::Task).chain([FlightGoal::Home]).collect();

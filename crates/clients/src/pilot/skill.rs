@@ -76,8 +76,8 @@ impl Skill {
     }
 
     /// Returns the defect length, in mm, that is detected with a probability of 50%: 26 for the trained pilot (Campbell
-    /// et al. 2020), 15 for the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power
-    /// law in the noise parameter fits these values within 10%.
+    /// et al. 2020), 15 for the expert, and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A
+    /// power law in the noise parameter fits these values within 10%.
     #[must_use]
     pub fn median_length_mm(&self) -> f64 {
         26.0 * spandrel_model::math::pow(self.noise, 1.3)

@@ -1,4 +1,4 @@
-//! Calibration of one raw axis: endpoints, center, dead band and expo.
+//! Calibration of one raw axis: endpoints, center, dead band, and expo.
 
 /// Minimum distance of each endpoint from the center, in raw units (full range: 2; estimate: a stick axis moves
 /// farther).

@@ -292,7 +292,7 @@ impl ControllerLink {
         let Some(target) = self.vehicle.system else { return };
         let scale = |value: f64| (value.clamp(-1.0, 1.0) * 1000.0).round() as i16;
         let s = self.sticks;
-        // Throttle ranges from 0 to 1000 and is centered at 500, as in PX4, ArduPilot and QGroundControl.
+        // Throttle ranges from 0 to 1000 and is centered at 500, as in PX4, ArduPilot, and QGroundControl.
         let z = (500.0 + 500.0 * s.up.clamp(-1.0, 1.0)).round() as i16;
         self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
             target,

@@ -152,7 +152,7 @@ impl KeyBindings {
     /// Reads a key file; omitted bindings keep their defaults. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// Reports all errors in the file, each with its line, key, value and allowed range.
+    /// Reports all errors in the file, each with its line, key, value, and allowed range.
     pub fn read(file: &str, text: &str) -> Result<Self, Problems> {
         let mut r = Reader::new(file, text);
         let keys = r.parse().map(|document| {
@@ -210,8 +210,8 @@ impl KeyBindings {
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
 
-    /// Returns the display name of the key for a stick direction, vehicle action or window action, given by its name in
-    /// configuration files; empty if the name is unknown.
+    /// Returns the display name of the key for a stick direction, vehicle action, or window action, given by its name
+    /// in configuration files; empty if the name is unknown.
     #[must_use]
     pub fn label(&self, name: &str) -> String {
         self.of(name).map_or(String::new(), key::label)
@@ -226,7 +226,7 @@ impl KeyBindings {
         sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
     }
 
-    /// Returns the key for a stick direction, vehicle action or window action, given by its name in configuration
+    /// Returns the key for a stick direction, vehicle action, or window action, given by its name in configuration
     /// files.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&str> {

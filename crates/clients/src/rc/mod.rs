@@ -5,7 +5,7 @@
 //! stick directions, with their centers and endpoints, and buttons to actions; the [`wizard`] creates one
 //! interactively. The [`keyboard`] replaces a missing device, and [`key`] defines the key names. [`controller_link`]
 //! sends the result to a vehicle; [`input_recording`] records and replays events. This module does not access clocks,
-//! devices or sockets.
+//! devices, or sockets.
 
 pub mod action;
 pub mod axis;

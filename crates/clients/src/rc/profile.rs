@@ -148,7 +148,7 @@ impl ControllerProfile {
     /// Parses a profile. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// Reports all errors in the file, each with its line, key, value and allowed range.
+    /// Reports all errors in the file, each with its line, key, value, and allowed range.
     pub fn read(file: &str, text: &str) -> Result<Self, Problems> {
         let mut reader = Reader::new(file, text);
         let profile = reader.parse().map(|document| {

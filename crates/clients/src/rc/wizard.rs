@@ -23,20 +23,20 @@ const MIN_DISPLACEMENT: f64 = 0.5;
 /// stick).
 const STILL_TOLERANCE: f64 = 0.2;
 /// Time that sticks must be still at the center, s. An axis that stays elsewhere for [`NON_RETURNING_S`] counts as a
-/// trigger, switch or knob that does not return (estimates).
+/// trigger, switch, or knob that does not return (estimates).
 const STILL_DURATION_S: f64 = 0.2;
 const NON_RETURNING_S: f64 = 1.0;
 /// Dead band as a multiple of the noise at rest. It is at least the default and at most [`MAX_DEAD_BAND`].
 const NOISE_FACTOR: f64 = 2.0;
 const MAX_DEAD_BAND: f64 = 0.2;
-/// Maximum distance of a spring-centered rest position from the middle, as a fraction of the range. A throttle without
-/// a spring may rest farther out.
+/// Maximum distance between a spring-centered rest position and the middle, as a fraction of the range. A throttle
+/// without a spring may rest farther out.
 const MAX_CENTER_OFFSET: f64 = 0.25;
 
 /// A step of the calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum WizardStep {
-    /// Waiting for the user to release everything and confirm.
+    /// Waiting for the user to release all controls and confirm.
     Release,
     /// Measuring the axes at rest.
     Rest,
@@ -168,7 +168,7 @@ impl CalibrationWizard {
         self.raw.lost
     }
 
-    /// Returns the position of each axis for display: number, reading, minimum and maximum.
+    /// Returns the position of each axis for display: number, reading, minimum, and maximum.
     pub fn axes(&self) -> impl Iterator<Item = (u32, f64, (f64, f64))> + '_ {
         self.raw.axes.iter().filter_map(|(axis, value)| Some((*axis, *value, self.statistics.get(axis)?.ends)))
     }
@@ -370,8 +370,8 @@ fn is_fully_moved(seen: &AxisStatistics) -> bool {
     seen.ends.1 - seen.ends.0 >= MIN_TRAVEL
 }
 
-/// Returns the rest position of the stick: the measured one, or the middle of the range if the stick rests near an end,
-/// like a throttle without a spring.
+/// Returns the stick's rest position: the measured one, or the middle of the range if the stick rests near an end, like
+/// a throttle without a spring.
 fn rest_position(seen: &AxisStatistics) -> f64 {
     let middle = f64::midpoint(seen.ends.0, seen.ends.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };

@@ -1,4 +1,4 @@
-//! Menu rows: buttons, choices and text fields, operated with keys or clicks.
+//! Menu rows: buttons, choices, and text fields, operated with keys or clicks.
 
 use super::KeyPress;
 use super::sheet::{PageWriter, SMALL, TEXT, text_width};

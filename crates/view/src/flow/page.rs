@@ -1,4 +1,4 @@
-//! Input events, pages and requests of the window.
+//! Input events, pages, and requests of the window.
 
 use super::pipe::{FlightStarted, FromWindow};
 
@@ -43,7 +43,7 @@ pub enum KeyPress {
 pub enum Page {
     /// Waiting for the first message.
     Opening,
-    /// Selection of trainee, job and purpose.
+    /// Selection of trainee, job, and purpose.
     Start,
     /// Controller check.
     Controls,

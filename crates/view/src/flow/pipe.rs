@@ -11,7 +11,7 @@ pub enum Purpose {
     /// The flight may be paused and restarted; the map is available.
     #[default]
     Practice,
-    /// No pause, restart or map.
+    /// No pause, restart, or map.
     Assessment,
 }
 
@@ -48,7 +48,7 @@ pub struct JobOffer {
     pub kind: String,
 }
 
-/// Selection of trainee, job and purpose.
+/// Selection of trainee, job, and purpose.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightChoice {
     /// The trainee's pseudonym.
@@ -75,7 +75,7 @@ pub struct FlightOptions {
 /// A flight that has started.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightStarted {
-    /// Trainee, job and purpose.
+    /// Trainee, job, and purpose.
     pub choice: FlightChoice,
     /// Name or path of the aircraft.
     pub vehicle: String,
@@ -99,7 +99,7 @@ pub struct FinalScore {
 /// Result of a flight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlightSummary {
-    /// Scores for conformity, efficiency, safety and accuracy; `None` if not applicable.
+    /// Scores for conformity, efficiency, safety, and accuracy; `None` if not applicable.
     pub scores: [Option<FinalScore>; 4],
     /// Sum and maximum possible sum; `None` if the session is incomplete.
     pub overall: Option<(f64, f64)>,

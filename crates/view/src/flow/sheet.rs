@@ -1,4 +1,4 @@
-//! A page as plain data: items to draw, clickable areas and pictures. Sizes are fractions of the window's height, so
+//! A page as plain data: items to draw, clickable areas, and pictures. Sizes are fractions of the window's height, so
 //! text scales with the window. During layout, horizontal positions use the same unit; at the end, they become
 //! fractions of the width.
 

@@ -1,4 +1,4 @@
-//! Start page, where the user chooses trainee, job and purpose, and the waiting page.
+//! Start page, where the user chooses trainee, job, and purpose, and the waiting page.
 
 use super::pipe::Purpose;
 use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL, TEXT, TITLE, wrap_text};

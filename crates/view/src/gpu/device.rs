@@ -14,7 +14,7 @@ pub enum GpuError {
     /// The device stopped working.
     #[error("the graphics device failed: {0}")]
     Failed(String),
-    /// The picture exceeds the device's maximum texture size: width, height and maximum side, px.
+    /// The picture exceeds the device's maximum texture size: width, height, and maximum side, px.
     #[error("a picture of {0} x {1} px is too large for this graphics device (at most {2} px per side)")]
     TooLarge(u32, u32, u32),
 }

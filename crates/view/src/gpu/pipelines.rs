@@ -23,7 +23,7 @@ pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// One pipeline per material group.
 pub type MaterialPipelines = Vec<(MaterialGroup, wgpu::RenderPipeline)>;
 
-/// Layouts, samplers and pipelines of a renderer.
+/// Layouts, samplers, and pipelines of a renderer.
 pub struct Pipelines {
     /// Layout of globals, shadow maps and their sampler.
     pub globals_layout: wgpu::BindGroupLayout,

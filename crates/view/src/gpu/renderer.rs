@@ -371,7 +371,7 @@ fn shadow_map_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
     })
 }
 
-/// Returns the view, projection buffer and bind group of a shadow map layer.
+/// Returns the view, projection buffer, and bind group of a shadow map layer.
 fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup) {
     let view = maps.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2),

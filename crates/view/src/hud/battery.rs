@@ -1,4 +1,4 @@
-//! Battery display at the upper right: level bar, percentage and status icon.
+//! Battery display at the upper right: level bar, percentage, and status icon.
 
 use super::icons::IconShape;
 use super::metrics::{EDGE, MIDDLE};

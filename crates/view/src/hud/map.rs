@@ -1,4 +1,4 @@
-//! Inset map: reference paths, landing pad and drone, north up.
+//! Inset map: reference paths, landing pad, and drone, north up.
 
 use super::pane::Pane;
 use super::state::Hud;
@@ -10,7 +10,7 @@ use spandrel_model::math;
 const HALF_SIZE: f64 = 0.135;
 /// Distance of the map's center from the right and bottom edges.
 const CENTER_OFFSET: f64 = 0.16;
-/// Font size, height and width of a label.
+/// Font size, height, and width of a label.
 const FONT_SIZE: f64 = 0.022;
 const LABEL_HEIGHT: f64 = 0.02;
 const LABEL_WIDTH: f64 = 0.018;

@@ -1,4 +1,4 @@
-//! Reduced HUD for small pictures: speed, battery and warnings in a legible font size. The unit is the font size.
+//! Reduced HUD for small pictures: speed, battery, and warnings in a legible font size. The unit is the font size.
 
 use super::battery::{ChargeStyle, charge_style};
 use super::icons::IconShape;

@@ -1,4 +1,4 @@
-//! Tests of the HUD's texts, colors and positions.
+//! Tests of the HUD's texts, colors, and positions.
 
 use super::*;
 use spandrel_mavlink::contract::cue;

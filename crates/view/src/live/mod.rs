@@ -170,7 +170,7 @@ impl LiveFlight {
         !self.truth_requested && self.first_message_at.is_some_and(|met| wall >= met + TRUTH_TIMEOUT + TRUTH_TIMEOUT)
     }
 
-    /// Returns the flight mode, satellites, cues and texts.
+    /// Returns the flight mode, satellites, cues, and texts.
     #[must_use]
     pub fn feed(&self) -> &Feed {
         &self.state.feed

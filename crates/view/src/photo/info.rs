@@ -31,7 +31,7 @@ pub struct PhotoInfo {
     pub yaw_deg: f64,
     /// Pitch of the optical axis above the horizon, degrees, down negative.
     pub pitch_deg: f64,
-    /// Heading, pitch and roll of the aircraft, degrees.
+    /// Heading, pitch, and roll of the aircraft, degrees.
     pub aircraft_deg: [f64; 3],
     /// Lens at its current zoom.
     pub lens: Camera,

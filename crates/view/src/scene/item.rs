@@ -59,11 +59,11 @@ pub struct SceneItem {
     pub mesh: Mesh,
     /// Instances of the mesh.
     pub instances: Vec<Instance>,
-    /// Whether it is drawn into shadow maps.
+    /// Whether the item is drawn into shadow maps.
     pub casts_shadows: bool,
     /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
-    /// Whether it belongs to the backdrop, which is split into sectors.
+    /// Whether the item belongs to the backdrop, which is split into sectors.
     pub backdrop: bool,
 }
 

@@ -1,5 +1,5 @@
 //! Conifers and boulders for visual scale. They have no collision geometry, so they are kept clear of bridges, task
-//! paths and the pad.
+//! paths, and the pad.
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish, Vertex, single};
 use super::super::quality::Quality;

@@ -1,5 +1,5 @@
-// Solids for cheaper presets (appended to surface.wgsl): light without sun shadows, haze and reflections are computed per vertex,
-// and slow patterns come from precomputed tiles (tiles.rs).
+// Solids for cheaper presets (appended to surface.wgsl): light without sun shadows, haze, and reflections are computed
+// per vertex, and slow patterns come from precomputed tiles (tiles.rs).
 
 // Ground: patches, blocks, beds, fine detail. Concrete: tone, and fractions of streaks, soot, droppings.
 @group(0) @binding(5) var ground_tile: texture_2d<f32>;

@@ -90,7 +90,7 @@ fn regress_crew_and_drone_at_the_pad() {
 }
 
 /// Distractors that may be mistaken for defects: a sealed crack, a spider web, spray paint. Formwork lines, tie holes,
-/// streaks and droppings are also visible.
+/// streaks, and droppings are also visible.
 #[test]
 fn regress_distractors() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));

@@ -12,7 +12,7 @@ pub struct StaticCell {
     pub solid: Arc<GpuMesh>,
     /// Instances of the mesh in this cell.
     pub copies: MeshInstances,
-    /// Whether it is drawn into shadow maps.
+    /// Whether the objects are drawn into shadow maps.
     pub casts_shadows: bool,
     /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
