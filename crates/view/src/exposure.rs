@@ -17,7 +17,7 @@ const METERING_TARGET: f64 = 0.24;
 const ALBEDO: f64 = 0.25;
 /// Maximum weight of a bright point relative to the middle points; keeps a bright sky from underexposing a soffit.
 const MAX_HIGHLIGHT_WEIGHT: f64 = 5.0;
-/// Minimum illuminance for the inspector's eyes to adapt to, lx (estimate: limit of color vision).
+/// Minimum illuminance to which the inspector's eyes adapt, lx (estimate: limit of color vision).
 const MIN_EYE_ADAPTATION_LUX: f64 = 3.0;
 /// Lowest ISO sensitivity of any camera.
 const ISO_MIN: f64 = 100.0;

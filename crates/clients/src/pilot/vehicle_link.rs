@@ -71,7 +71,7 @@ pub enum VehicleUpdate {
 }
 
 impl VehicleLink {
-    /// Creates a link that has not exchanged any messages yet.
+    /// Creates a link that has not exchanged messages yet.
     #[must_use]
     pub fn new() -> Self {
         let encoder = Encoder::new(SYSTEM_ID, COMPONENT_ID);

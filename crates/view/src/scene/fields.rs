@@ -18,7 +18,7 @@ const HEIGHT_TOLERANCE_M: (f64, f64) = (0.15, 3.0);
 const SHORE_TOLERANCE: (f64, f64) = (0.4, 1.0);
 /// Maximum depth of a visible lake bed, m (in the `water` shader, 99% of the light is lost on the way down and back).
 pub const INVISIBLE_DEPTH_M: f64 = 5.0;
-/// Range around a bridge where the light varies between cells, m, and maximum square size there, cells.
+/// Range around a bridge within which the light varies between cells, m, and the maximum square size there, cells.
 const BRIDGE_DETAIL: (f64, usize) = (30.0, 2);
 
 /// Returns all ground triangles.

@@ -139,7 +139,7 @@ fn val_crack_visibility_depends_on_its_width_in_pixels() {
 #[test]
 fn prop_contrast_decreases_smoothly() {
     const STEP: f64 = 0.94;
-    // Rounding to 8 bits, and different rows of the wall in the picture.
+    // Allows for rounding to 8 bits and for different rows of the wall in the picture.
     const MAX_RISE: f64 = 0.01;
     // The contrast is inversely proportional to the distance, so a step changes it by 6%, or by up to twice that where
     // the edge of the line leaves the adjacent pixel.
@@ -163,7 +163,7 @@ fn prop_contrast_decreases_smoothly() {
 #[test]
 fn prop_leakage_contrast_decreases_smoothly() {
     const STEP: f64 = 0.94;
-    // Rounding to 8 bits, different rows of the wall, and ends of the leakage that enter the picture.
+    // Allows for rounding to 8 bits, different rows of the wall, and ends of the leakage that enter the picture.
     const MAX_RISE: f64 = 0.03;
     const MAX_FALL: f64 = 0.08;
     for (kind, own) in [(defect_codes::CRACK, SEED_WITH_LIME), (defect_codes::FATIGUE, SEED_WITHOUT_LIME)] {

@@ -159,7 +159,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
     }
 }
 
-/// Replaces all defects with the given one, lit as at its position.
+/// Replaces all defects with the given one, using the light at its position.
 fn show_only_defect(studio: &mut Studio, defect: &PlacedDefect) {
     let light = spandrel_model::site::light::ray_bundle(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
