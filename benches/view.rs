@@ -153,8 +153,9 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
     (cpu, 1.0 / whole)
 }
 
-/// Measures a simulator that runs in real time while this process renders both views continuously at the same priority (the real window has a lower
-/// priority). Returns the simulator's speed relative to real time, the frame rate, and the simulator's delays.
+/// Measures a simulator that runs in real time while this process renders both views continuously at the same priority
+/// (the real window has a lower priority). Returns the simulator's speed relative to real time, the frame rate, and the
+/// simulator's delays.
 fn measure_simulator_while_rendering(views: &mut Views) -> (f64, f64, Lateness) {
     let (running, port) = start();
     let stop = Arc::new(AtomicBool::new(false));

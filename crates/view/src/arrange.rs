@@ -119,8 +119,8 @@ impl ViewLayout {
         let small = |which, (left, top)| ViewRect { which, left, top, width: INSET_SIZE, height: INSET_SIZE };
         match self {
             Self::SideBySide => [half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
-            // The HUD has text in all corners and along the top, and its warnings extend far along the bottom. The inset view
-            // goes between the speed readout and the warnings.
+            // The HUD has text in all corners and along the top, and its warnings extend far along the bottom. The
+            // inset view goes between the speed readout and the warnings.
             Self::Camera => [whole(ViewKind::Camera), small(ViewKind::Inspector, (0.0, INSET_TOP))],
             Self::Inspector => [whole(ViewKind::Inspector), small(ViewKind::Camera, (0.5 - 0.5 * INSET_SIZE, 1.0 - INSET_SIZE))],
         }

@@ -95,7 +95,8 @@ impl Feed {
         self.gnss
     }
 
-    /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not time out.
+    /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not
+    /// time out.
     #[must_use]
     pub fn cues(&self, now: SimTime, held: bool) -> i32 {
         self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUE_TIMEOUT).map_or(0, |(_, mask)| mask)

@@ -7,8 +7,8 @@ pub struct Quality {
     pub name: &'static str,
     /// Multisampling: 1 or 4 samples per pixel.
     pub samples: u32,
-    /// Number of sun shadow maps: 1 covers the whole site and is drawn once; more follow the camera and are drawn for every
-    /// picture.
+    /// Number of sun shadow maps: 1 covers the whole site and is drawn once; more follow the camera and are drawn for
+    /// every picture.
     pub cascades: u32,
     /// Side of each shadow map, px.
     pub shadow_px: u32,

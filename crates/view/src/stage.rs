@@ -201,8 +201,8 @@ pub struct HudInputs {
     pub pictures: usize,
     /// Time of the last picture.
     pub last_picture: Option<SimTime>,
-    /// Time base of blinking elements, s: wall-clock time in a live flight, because simulation time may be paused or accelerated;
-    /// video time otherwise.
+    /// Time base of blinking elements, s: wall-clock time in a live flight, because simulation time may be paused or
+    /// accelerated; video time otherwise.
     pub blink_time_s: f64,
 }
 

@@ -1,4 +1,5 @@
-//! In-flight guidance: follows the leg, avoids obstacles, searches for defects, takes pictures, and recovers from upsets.
+//! In-flight guidance: follows the leg, avoids obstacles, searches for defects, takes pictures, and recovers from
+//! upsets.
 
 use super::config::PilotConfig;
 use super::goals::{FlightGoal, PlanningContext};

@@ -10,8 +10,8 @@ pub struct Skill {
     pub delay_s: f64,
     /// Gain of the position and heading loops, relative to the trained pilot.
     pub gain: f64,
-    /// Noise of perception and motor control, relative to the trained pilot. Also scales the smallest defect that the pilot
-    /// notices.
+    /// Noise of perception and motor control, relative to the trained pilot. Also scales the smallest defect that the
+    /// pilot notices.
     pub noise: f64,
     /// Visual preview time, s.
     pub preview_s: f64,

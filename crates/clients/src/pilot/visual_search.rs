@@ -111,7 +111,8 @@ fn normal_cdf(x: f64) -> f64 {
     0.5 * libm::erfc(-x / std::f64::consts::SQRT_2)
 }
 
-/// Returns the camera pose for an aircraft at `position` with its heading and gimbal pitch (the gimbal keeps the horizon level).
+/// Returns the camera pose for an aircraft at `position` with its heading and gimbal pitch (the gimbal keeps the
+/// horizon level).
 #[must_use]
 pub fn camera_pose(
     motion: &super::perception::MotionState,

@@ -1,8 +1,8 @@
 //! Recording and playback of controller input in JSON Lines format.
 //!
-//! The first line is `{"format":1,"device":NAME,"id":ID}`, followed by one line per event: `{"t_s":S,"axis":N,"value":V}`,
-//! `{"t_s":S,"button":N,"pressed":BOOL}`, `{"t_s":S,"lost":true}` or `{"t_s":S,"found":true}`. `t_s` is the time since the start
-//! and never decreases.
+//! The first line is `{"format":1,"device":NAME,"id":ID}`, followed by one line per event:
+//! `{"t_s":S,"axis":N,"value":V}`, `{"t_s":S,"button":N,"pressed":BOOL}`, `{"t_s":S,"lost":true}` or
+//! `{"t_s":S,"found":true}`. `t_s` is the time since the start and never decreases.
 
 use super::{Device, DeviceEvent};
 use serde_json::{Value, json};

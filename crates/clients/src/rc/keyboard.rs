@@ -10,8 +10,8 @@ pub const DEFAULT_DEFLECTION: f64 = 0.5;
 /// Time for which a key counts as held after its last event, s. Used in terminals, which do not report key releases.
 /// Longer than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
 pub const KEY_HOLD_TIMEOUT_S: f64 = 0.7;
-/// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than the usual
-/// repeat interval of a held key, 0.03 s.
+/// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than
+/// the usual repeat interval of a held key, 0.03 s.
 const MIN_TAP_INTERVAL_S: f64 = 0.12;
 
 /// Direction of a stick deflection.

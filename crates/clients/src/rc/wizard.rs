@@ -399,7 +399,8 @@ mod tests {
     use super::*;
     use crate::rc::input_recording;
 
-    /// A simulated user with a transmitter: axes 0 roll, 1 pitch (reversed), 2 throttle (no spring), 3 yaw; 5 is a knob.
+    /// A simulated user with a transmitter: axes 0 roll, 1 pitch (reversed), 2 throttle (no spring), 3 yaw; 5 is a
+    /// knob.
     struct SimulatedUser {
         wizard: CalibrationWizard,
         now: SimTime,

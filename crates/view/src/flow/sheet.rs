@@ -13,7 +13,8 @@ pub const TEXT: f64 = 0.038;
 pub const SMALL: f64 = 0.032;
 /// Line spacing in multiples of the font size.
 pub const LINE_SPACING: f64 = 1.35;
-/// Mean character width as a fraction of the font size (egui's Ubuntu Light, lowercase; slightly wide to prevent overflow).
+/// Mean character width as a fraction of the font size (egui's Ubuntu Light, lowercase; slightly wide to prevent
+/// overflow).
 const CHAR_WIDTH: f64 = 0.48;
 /// Maximum width of a page; keeps lines readable on wide windows.
 pub const MAX_PAGE_WIDTH: f64 = 2.3;

@@ -117,7 +117,8 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
     }
 }
 
-/// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the map.
+/// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the
+/// map.
 fn states() -> Vec<(&'static str, Hud)> {
     let dark = |satellites| Some(GnssStatus { fixed: false, satellites });
     let hit = |words: &str| Hud { cues: ALL_CUES, hit: Some(words.to_owned()), ..hud() };

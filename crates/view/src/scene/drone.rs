@@ -1,5 +1,5 @@
-//! Mesh of the aircraft from its parameters: arms, body, legs, gimbal camera, and a cage if it has one. The mesh axes x, y, z are
-//! the body axes (forward, right, down).
+//! Mesh of the aircraft from its parameters: arms, body, legs, gimbal camera, and a cage if it has one. The mesh axes
+//! x, y, z are the body axes (forward, right, down).
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish};
 use spandrel_model::frames::{Enu, Frd, Vec3};

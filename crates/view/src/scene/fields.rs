@@ -8,8 +8,8 @@ use spandrel_model::site::Site;
 
 /// Maximum side of a square drawn as two triangles, cells.
 const MAX_SQUARE_CELLS: usize = 8;
-/// Maximum angular error of the ground as seen from people and aircraft, rad: four pixels of a view 640 px and 84 degrees wide,
-/// on rolling hills.
+/// Maximum angular error of the ground as seen from people and aircraft, rad: four pixels of a view 640 px and 84
+/// degrees wide, on rolling hills.
 const MAX_ANGULAR_ERROR_RAD: f64 = 0.012;
 /// Minimum and maximum height tolerance, m (estimates: the thickness of grass, and a barely noticeable step).
 const HEIGHT_TOLERANCE_M: (f64, f64) = (0.15, 3.0);

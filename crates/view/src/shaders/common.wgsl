@@ -4,7 +4,8 @@ diagnostic(off, derivative_uniformity);
 // Radiance is stored as pi times radiance, in lux, divided by the exposure's white. A white matte surface at white
 // illuminance has the value 1.
 
-// Settings of the preset (pipelines.rs): number of sun shadow maps; filter size in texels; lamp shadows; lake reflection.
+// Settings of the preset (pipelines.rs): number of sun shadow maps; filter size in texels; lamp shadows; lake
+// reflection.
 override CASCADES: u32 = 4u;
 override TAPS: u32 = 3u;
 override LAMP_CASTS: bool = true;
@@ -20,7 +21,8 @@ struct Globals {
     view_proj: mat4x4<f32>,
     // Camera position; time, s.
     eye: vec4<f32>,
-    // Right and up, scaled by the half sizes of the picture at distance 1, and forward; w of the last: radians per pixel.
+    // Right and up, scaled by the half sizes of the picture at distance 1, and forward; w of the last: radians per
+    // pixel.
     right: vec4<f32>,
     up: vec4<f32>,
     forward: vec4<f32>,

@@ -73,8 +73,8 @@ fn crack_offset(x: f32, seed: f32, footprint: f32) -> f32 {
     return y;
 }
 
-// Fraction of the pixel covered by the crack; its width ranges from a quarter of the rated width at its ends to 1.3 times the
-// rated width.
+// Fraction of the pixel covered by the crack; its width ranges from a quarter of the rated width at its ends to 1.3
+// times the rated width.
 fn crack(in: Fragment, footprint: f32, off: f32) -> f32 {
     let half = 0.5 * in.along.w;
     let x = in.q.x;
