@@ -1,7 +1,7 @@
-//! Measures how long it takes to score a recorded 25-minute flight. The log contains position and stick samples at
-//! about 50 Hz among half a million other frames, four tasks, and ten photographs. Prints the speed as a multiple of
-//! real time, and the ratio to the time needed to hash the log once, which does not depend on the machine. Also checks
-//! the scoring time against its limit.
+//! Measures how long it takes to score a recorded 25-minute flight. The log covers four tasks and ten photographs; it
+//! contains position and stick samples at about 50 Hz among half a million other frames. Prints the scoring speed as a
+//! multiple of real time. Also prints the ratio of the scoring time to the time needed to hash the log once; this ratio
+//! does not depend on the machine. Checks the scoring time against its limit.
 
 #[path = "support/best.rs"]
 mod best;
@@ -21,8 +21,8 @@ const MAX_CUE_LATENCY: Duration = Duration::from_millis(100);
 const FLIGHT_S: f64 = 1500.0;
 const ROUNDS: usize = 7;
 
-/// Generates a long flight with the message rates of a busy link: 340 frames per second, including `clearance` at 30
-/// Hz.
+/// Generates a long flight with typical message rates of a busy link: 340 frames per second, including `clearance` at
+/// 30 Hz.
 fn long_flight() -> Vec<Vec<u8>> {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
@@ -58,7 +58,7 @@ fn long_flight() -> Vec<Vec<u8>> {
     busy
 }
 
-/// Returns the longest time from receiving a datagram to sending the cue in a flight: over all datagrams, and over
+/// Returns a flight's maximum cue latency, from receiving a datagram to sending the cue: for all datagrams, and for
 /// those that changed a cue.
 #[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
 fn cue_latency(scenario: &Scenario, datagrams: &[Vec<u8>]) -> (Duration, Duration) {
@@ -105,7 +105,7 @@ fn main() -> ExitCode {
     let megabytes = log.len() as f64 / 1e6;
     println!("log: {} MAVLink frames, {megabytes:.1} MB; session: {frames:?} frames", datagrams.len());
     println!(
-        "assess: {:.3} s, {:.0} x real time, {:.1} x the time to hash the log once; limit {:.1} s: {}",
+        "scoring: {:.3} s ({:.0} x real time, {:.1} x the time to hash the log once); limit {:.1} s: {}",
         assess.as_secs_f64(),
         FLIGHT_S / assess.as_secs_f64(),
         assess.as_secs_f64() / read.as_secs_f64(),
@@ -114,7 +114,7 @@ fn main() -> ExitCode {
     );
     let (slowest, change) = cue_latency(&scenario, &datagrams);
     println!(
-        "cue latency: at most {:.3} ms if the cue changes, {:.3} ms for any datagram; limit {} ms: {}",
+        "maximum cue latency: {:.3} ms for datagrams that change a cue, {:.3} ms for all datagrams; limit {} ms: {}",
         change.as_secs_f64() * 1e3,
         slowest.as_secs_f64() * 1e3,
         MAX_CUE_LATENCY.as_millis(),

@@ -1,5 +1,5 @@
-//! Measures the time to process a cohort of 10,000 sessions, from parsing the records to the last statistic. The
-//! sessions are renamed copies of the example study.
+//! Measures how long it takes to process a cohort of 10,000 sessions, from parsing the records to computing the last
+//! statistic. The sessions are renamed copies of the example study.
 
 #[path = "support/best.rs"]
 mod best;
@@ -12,7 +12,7 @@ use std::time::Duration;
 
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
 const SESSIONS: usize = 10_000;
-/// Maximum time (requirement).
+/// Maximum processing time (requirement).
 const MAX_TIME: Duration = Duration::from_secs(2);
 const ROUNDS: usize = 5;
 

@@ -1,6 +1,6 @@
-//! Measures the CPU time per simulated second of flight: for the sensors, the estimator and the autopilot separately,
-//! and for all of them together with the physics. Also prints the speed as a multiple of real time on one core. (The
-//! `vehicle` benchmark adds the telemetry.)
+//! Measures the CPU time per simulated second of flight: separately for the sensors, the estimator, and the autopilot,
+//! and then for the complete simulation including the physics. Also prints the speed as a multiple of real time on one
+//! core. (The `vehicle` benchmark adds the telemetry.)
 
 #[path = "support/best.rs"]
 mod best;
@@ -22,7 +22,8 @@ fn print_cost(what: &str, taken: Duration) {
     println!("{what:<40} {per_second_us:>9.1} us per simulated second {:>9.0} x real time", 1e6 / per_second_us);
 }
 
-/// Returns sensor readings recorded while hovering, for timing the autopilot without the physics and the sensors.
+/// Returns sensor readings recorded while hovering. They are used to time the autopilot without the physics or the
+/// sensors.
 fn recorded_readings(start: &Bench) -> Vec<(SimTime, Readings)> {
     let mut sensors = start.sensors.clone();
     let battery = BatteryReading { voltage_v: 11.5, current_a: 12.0, remaining_pct: 80.0 };
@@ -66,5 +67,5 @@ fn main() {
         }),
     );
     let mut whole = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
-    print_cost("all together", best(ROUNDS, || whole.run(SECONDS, |_| ())));
+    print_cost("complete simulation", best(ROUNDS, || whole.run(SECONDS, |_| ())));
 }

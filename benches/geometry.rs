@@ -1,4 +1,4 @@
-//! Measures the cost of queries to the site's static geometry at different locations: in the open, near the structure,
+//! Measures the cost of queries to the site's static geometry at different locations: in open air, near the structure,
 //! in the interlayer, and above the ground.
 
 #[path = "support/best.rs"]
@@ -43,7 +43,7 @@ fn main() {
     let path =
         |kind: TaskKind| &scenario.tasks.iter().find(|t| t.kind == kind).expect("the job must have a task of each kind").path_m;
     let places = [
-        ("in the open", around(&[Vec3::new(0.0, 75.0, 60.0)], 20.0, 1)),
+        ("in open air", around(&[Vec3::new(0.0, 75.0, 60.0)], 20.0, 1)),
         ("along the slab", around(path(TaskKind::SlabSide), 1.0, 2)),
         ("under the arch", around(path(TaskKind::ArchBottom), 1.0, 3)),
         ("in the interlayer", around(path(TaskKind::Interlayer), 0.7, 4)),
@@ -52,11 +52,11 @@ fn main() {
     ];
     let diagonal = Vec3::<Enu>::new(1.0, 2.0, -0.5).unit();
     for (place, points) in &places {
-        print_cost(&format!("nearest within 3 m, {place}"), points, |p| geometry.nearest(p, 3.0));
-        print_cost(&format!("nearest within 200 m, {place}"), points, |p| geometry.nearest(p, 200.0));
-        print_cost(&format!("ray up 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, 1.0), 30.0));
-        print_cost(&format!("ray down 30 m, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, -1.0), 30.0));
-        print_cost(&format!("diagonal ray 200 m, {place}"), points, |p| geometry.ray(p, diagonal, 200.0));
+        print_cost(&format!("nearest object within 3 m, {place}"), points, |p| geometry.nearest(p, 3.0));
+        print_cost(&format!("nearest object within 200 m, {place}"), points, |p| geometry.nearest(p, 200.0));
+        print_cost(&format!("30 m ray up, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, 1.0), 30.0));
+        print_cost(&format!("30 m ray down, {place}"), points, |p| geometry.ray(p, Vec3::new(0.0, 0.0, -1.0), 30.0));
+        print_cost(&format!("200 m diagonal ray, {place}"), points, |p| geometry.ray(p, diagonal, 200.0));
         let mut found = Vec::new();
         let taken = best(ROUNDS, || {
             for p in points {

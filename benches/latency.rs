@@ -1,6 +1,7 @@
-//! Measures the response times of a simulator that runs in real time, over loopback: from a command to its acknowledgment, and from a stick movement
-//! to the first telemetry that shows it (the echoed stick position and, in flight, the roll rate). Also measures whether the simulator keeps up while
-//! a peer floods it with messages. Results are printed in milliseconds and in control ticks of 2.5 ms.
+//! Measures the response times of a real-time simulator over loopback: from a command to its acknowledgment, and from a
+//! stick movement to the first telemetry that shows it (the echoed stick position and, in flight, the roll rate). Also
+//! measures whether the simulator keeps up while a peer floods it with messages. Prints the results in milliseconds and
+//! in 2.5 ms control ticks.
 
 #[path = "support/running.rs"]
 mod running;
@@ -12,7 +13,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 const TICK_MS: f64 = 2.5;
-/// Target for the 99th percentile, two control ticks (requirement).
+/// Target for the 99th percentile: two control ticks (requirement).
 const TARGET_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
 /// Pause between measurements. It is not a multiple of any period in the vehicle, so the measurements sample every
@@ -31,7 +32,7 @@ const CENTERED_DURATION: Duration = Duration::from_millis(400);
 const STICK_INTERVAL: Duration = Duration::from_millis(20);
 /// Minimum deviation of the roll rate from its mean at rest that counts as a response, in standard deviations.
 const NOISE_SIGMAS: f64 = 6.0;
-/// PX4's mode numbers: automatic takeoff, hold, and altitude mode.
+/// PX4 mode numbers for automatic takeoff, hold, and altitude mode.
 const TAKE_OFF: [f32; 3] = [1.0, 4.0, 2.0];
 const HOLD: u32 = 4 << 16 | 3 << 24;
 const ALTITUDE: [f32; 3] = [1.0, 2.0, 0.0];
@@ -100,7 +101,7 @@ fn roll_rate(client: &mut Client) -> f64 {
     client.wait(|m| if let MavMessage::ATTITUDE(a) = m { Some(f64::from(a.rollspeed)) } else { None })
 }
 
-/// Returns the roll rates while the stick is centered in rad/s.
+/// Returns the roll rates measured while the stick is centered, in rad/s.
 fn rest_roll_rates(client: &mut Client, time: Duration) -> Vec<f64> {
     let (begin, mut sent) = (now(), None::<Instant>);
     let mut rates = Vec::new();
@@ -114,7 +115,8 @@ fn rest_roll_rates(client: &mut Client, time: Duration) -> Vec<f64> {
     rates
 }
 
-/// Measures the time from a stick step in flight to the first roll rate outside the noise. This includes the response of the rotors and the airframe.
+/// Measures the time from a stick step in flight to the first roll rate that exceeds the noise. This includes the
+/// response of the rotors and the airframe.
 fn rates(client: &mut Client) -> (f64, f64) {
     command_and_wait(client, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [30.0, 2_500.0, 0.0]);
     rest_roll_rates(client, CENTERED_DURATION);
@@ -140,7 +142,7 @@ fn rates(client: &mut Client) -> (f64, f64) {
 }
 
 /// Returns the ratio of simulation time to wall time that one peer observes while another floods the simulator, and the
-/// message rate of the flood.
+/// flood's message rate.
 fn speed_factor_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
     let (stop, sent) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
     let flood = {
@@ -154,7 +156,7 @@ fn speed_factor_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
                 let due = (begin.elapsed().as_secs_f64() * FLOOD_HZ as f64) as u64;
                 let before = sent.load(Ordering::Relaxed);
                 for _ in before..due {
-                    // If the system buffer is full, it drops the message, as a network would.
+                    // A full system buffer drops the message, as a network would.
                     let _ = rude.socket.send(&frame);
                 }
                 sent.store(due.max(before), Ordering::Relaxed);
@@ -193,7 +195,7 @@ fn main() {
     );
     let (pace, rate) = speed_factor_under_flood(&mut client, port);
     println!(
-        "with {rate:.0} messages per second from one peer: {pace:.4} s of simulation time per second (minimum {MIN_SPEED_FACTOR})"
+        "with {rate:.0} messages per second from one peer: {pace:.4} simulated seconds per real second (minimum {MIN_SPEED_FACTOR})"
     );
     good &= pace >= MIN_SPEED_FACTOR;
     assert!(good, "target missed");

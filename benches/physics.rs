@@ -26,7 +26,8 @@ const MAX_CLOSE: f64 = 20.0;
 const MAX_STANDING: f64 = 200.0;
 const MAX_SCRAPING: f64 = 200.0;
 
-/// Baseline: minimal code that integrates a rigid body (13 numbers: position, velocity, attitude and angular rates) and four rotor speeds.
+/// Baseline: minimal code that integrates a rigid body (13 numbers: position, velocity, attitude, and angular rates)
+/// and four rotor speeds.
 mod baseline {
     pub type Y = [f64; 17];
 
@@ -82,7 +83,7 @@ struct Case {
     /// Maximum median, as a ratio to the baseline.
     limit: f64,
     start: PhysicsState,
-    /// Simulation time of the state.
+    /// Simulation time at the start.
     start_time: SimTime,
     actuators: Actuators,
     /// Whether the aircraft is in contact with the deck in almost every step.
@@ -110,7 +111,7 @@ impl Case {
             touched += i64::from(state.contact.touching());
         }
         let wanted = if self.in_contact { STEPS * 9 / 10..=STEPS } else { 0..=0 };
-        assert!(wanted.contains(&touched), "{}: contact in {touched} of {STEPS} steps", self.name);
+        assert!(wanted.contains(&touched), "{}: in contact in {touched} of {STEPS} steps", self.name);
         state
     }
 }
@@ -129,7 +130,7 @@ fn vehicle() -> Vehicle {
     spandrel_model::vehicle::read(file, &shipped(file)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Returns a point on a bridge deck with only road around it.
+/// Returns a point on a bridge deck surrounded only by road.
 fn deck(site: &Site) -> Vec3<Enu> {
     let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("the site must have a road lane");
     // The ends of a lane are on the approach road, so its middle is on the bridge.
@@ -150,7 +151,7 @@ fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
     state
 }
 
-/// Simulation time that an aircraft placed on the deck needs to settle.
+/// Simulation time by which an aircraft placed on the deck has settled.
 const SETTLED_AT: SimTime = SimTime::from_ms(2000);
 
 /// Returns the state of an aircraft standing on the deck at [`SETTLED_AT`].
@@ -174,9 +175,9 @@ fn cases(model: &AirframeModel, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
     let mut scrape = stand.clone();
     scrape.rigid.velocity_m_s = Vec3::new(4.0, 0.0, 0.0);
     vec![
-        Case::new("free flight, 60 m above the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
-        Case::new("near, 2 m above the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
-        Case::new("close, 0.5 m above the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
+        Case::new("hovering 60 m above the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
+        Case::new("hovering 2 m above the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
+        Case::new("hovering 0.5 m above the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
         Case::on_deck("standing on the deck, motors off", MAX_STANDING, stand),
         Case::on_deck("scraping along the deck", MAX_SCRAPING, scrape),
     ]

@@ -1,12 +1,12 @@
-//! Measures the report of a 25-minute session: the time to read the log, score it and write the page, and the size of
-//! the page. Checks both against their limits.
+//! Measures how long it takes to generate the report of a 25-minute session (read the log, score it, and write the
+//! page). Also measures the page size. Checks both against their limits.
 
 use spandrel_testkit::inspection;
 use spandrel_training::report::{Review, SessionMetadata, page};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Limits of the report time and the page size (requirements).
+/// Limits for the report time and the page size (requirements).
 const MAX_TIME: Duration = Duration::from_secs(2);
 const MAX_PAGE_BYTES: usize = 10_000_000;
 const FLIGHT_S: f64 = 1480.0;
@@ -20,7 +20,7 @@ fn main() -> ExitCode {
     for _ in 0..ROUNDS {
         let start = std::time::Instant::now();
         let review =
-            Review::of(&log, &scenario, &vehicle, SessionMetadata::default()).expect("the generated flight must be reviewable");
+            Review::of(&log, &scenario, &vehicle, SessionMetadata::default()).expect("reviewing the generated flight must work");
         let worked_out = start.elapsed();
         let page = page::session(&review);
         if start.elapsed() < best.1 {
@@ -31,7 +31,7 @@ fn main() -> ExitCode {
     let kept = |holds: bool| if holds { "ok" } else { "EXCEEDED" };
     println!("log: {:.1} MB, {pictures} pictures", log.len() as f64 / 1e6);
     println!(
-        "report: {:.2} s (including {:.2} s for reading and scoring); limit {:.0} s: {}",
+        "report: {:.2} s (including {:.2} s to read and score the log); limit {:.0} s: {}",
         whole.as_secs_f64(),
         worked_out.as_secs_f64(),
         MAX_TIME.as_secs_f64(),

@@ -1,7 +1,7 @@
-//! Measures the speed of the whole vehicle as a multiple of real time on one core: physics, site, sensors, estimator,
-//! autopilot, and telemetry encoding for a ground station, an SDK and the monitor. The runs are complete demo flights
-//! at the two bridges, including contacts. The synthetic trainee flies each one once to record its inputs. The timed
-//! runs replay these inputs, so the measurement does not include the trainee.
+//! Measures how fast the complete vehicle runs on one core, as a multiple of real time: physics, site, sensors,
+//! estimator, autopilot, and telemetry encoding for a ground station, an SDK, and the monitor. Each run is a complete
+//! demo flight at the two bridges, including contacts. The synthetic trainee flies each one once to record its inputs.
+//! The timed runs replay these inputs, so the measurement does not include the trainee.
 
 use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
 use spandrel_mavlink::codec::Decoder;
@@ -17,7 +17,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Minimum speed of the whole vehicle, as a multiple of real time (requirement).
+/// Minimum speed of the complete vehicle, as a multiple of real time (requirement).
 const MIN_SPEED: f64 = 300.0;
 const STEP: SimTime = SimTime::from_ms(20);
 /// Time limit of a flight. The battery runs out earlier.
@@ -77,7 +77,7 @@ impl Job {
             }
             crashes += std::iter::from_fn(|| sim.poll_event()).filter(|event| matches!(event, SimEvent::Crash { .. })).count();
         }
-        let how = pilot.finished().map_or("did not end".to_owned(), |report| report.reason.clone());
+        let how = pilot.finished().map_or("unfinished".to_owned(), |report| report.reason.clone());
         (inputs, sim.now(), crashes, how)
     }
 
@@ -100,7 +100,7 @@ impl Job {
     }
 }
 
-/// Returns the simulation time of the first message on the ground station's link that satisfies `said`.
+/// Returns the simulation time of the first message that satisfies `said` on the ground station link.
 fn first(job: &Job, mut said: impl FnMut(&MavMessage) -> bool) -> SimTime {
     let (mut sim, mut decoder) = (job.sim(false), Decoder::new());
     while sim.now() < MAX_FLIGHT {
@@ -115,7 +115,7 @@ fn first(job: &Job, mut said: impl FnMut(&MavMessage) -> bool) -> SimTime {
     SimTime::NEVER
 }
 
-/// Returns the current and the maximum resident memory, MB (Linux).
+/// Returns the current and peak resident memory, in MB (Linux only).
 fn memory() -> Option<(f64, f64)> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let mb = |key: &str| {
@@ -131,7 +131,7 @@ fn main() -> ExitCode {
     println!("first heartbeat after {}", first(&job, |said| matches!(said, MavMessage::HEARTBEAT(_))));
     let armable =
         |said: &MavMessage| matches!(said, MavMessage::SYS_STATUS(s) if s.onboard_control_sensors_health.contains(ready));
-    println!("armable after {}", first(&job, armable));
+    println!("ready to arm after {}", first(&job, armable));
     let mut misses = false;
     for (name, skill) in [("expert", Skill::EXPERT), ("novice", Skill::NOVICE)] {
         let (inputs, end, crashes, how) = job.fly(skill);

@@ -1,5 +1,5 @@
-//! Measures the cost of rendering both views of a flight: frame time, triangles and draw calls per frame, and startup
-//! time. Uses software rendering, as on a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best
+//! Measures the cost of rendering both views of a flight: frame time, triangles, and draw calls per frame, and startup
+//! time. Uses software rendering, like a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best
 //! available device and higher presets, and fails if a graphics card does not reach the target frame rate.
 
 #[path = "support/running.rs"]
@@ -18,12 +18,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Target frame rate of both views at 640 x 360 with the preset `low` on two cores, 1/s (requirement).
+/// Target frame rate of both views at 640 x 360 with the `low` preset on two cores, frames/s (requirement).
 const TARGET_HZ: f64 = 15.0;
 /// Maximum CPU time per frame, s: twice the time of the slowest viewpoints when the limit was set. CPU time barely
 /// depends on other load on the machine.
 const MAX_FRAME_CPU_S: f64 = 0.25;
-/// Minimum frame rate of both views at 1920 x 1080 with the preset `high` on a data center graphics card, 1/s
+/// Minimum frame rate of both views at 1920 x 1080 with the `high` preset on a data center graphics card, frames/s
 /// (requirement).
 const MIN_GPU_HZ: f64 = 144.0;
 /// Number of measured frames per viewpoint, after one frame that warms up the caches.
@@ -41,13 +41,13 @@ fn viewpoints() -> Vec<(&'static str, Vec3<Enu>, Vec3<Enu>)> {
     ]
 }
 
-/// Minimum ratio of simulation time to wall time for a simulator that runs during continuous rendering.
+/// Minimum ratio of simulation time to wall time for a simulator that runs while this process renders continuously.
 const MIN_SPEED_FACTOR: f64 = 0.99;
 /// Maximum number of clock slips of that simulator. The clock slips when a tick is 0.25 s late; each slip shortens the
-/// flight. Pilots notice control delays above 0.1 s. Such delays are printed but not limited, because other load on the
-/// machine can cause them.
+/// flight. Pilots notice control delays above 0.1 s. The benchmark prints such delays but does not limit them, because
+/// other load on the machine can cause them.
 const MAX_SLIPS: u64 = 0;
-/// Duration of the measurement with a simulator.
+/// Duration of the measurement with a running simulator.
 const MEASUREMENT_DURATION: Duration = Duration::from_secs(10);
 
 struct Cost {
@@ -106,8 +106,8 @@ impl Views {
     }
 }
 
-/// Returns the CPU time of this process so far in seconds. Linux reports it in hundredths of a second; other systems return
-/// `None`.
+/// Returns the CPU time that this process has used so far, in seconds. Linux reports it in hundredths of a second;
+/// other systems return `None`.
 fn cpu_s() -> Option<f64> {
     const TICKS_PER_S: f64 = 100.0;
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
@@ -122,7 +122,7 @@ fn median(mut times: Vec<Duration>) -> Duration {
     times[times.len() / 2]
 }
 
-/// Renders all viewpoints. Returns the CPU time per frame, s, if available, and the frame rate, 1/s.
+/// Renders all viewpoints. Returns the CPU time per frame in seconds, if available, and the frame rate in frames/s.
 fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>, f64) {
     let (mut medians, mut cpu) = (Vec::new(), Some(0.0));
     for (name, from, look) in viewpoints() {
@@ -153,8 +153,9 @@ fn measure(views: &mut Views, size_px: (u32, u32), preset: &str) -> (Option<f64>
     (cpu, 1.0 / whole)
 }
 
-/// Measures a simulator that runs in real time while this process renders both views continuously at the same priority (the real window has a lower
-/// priority). Returns the simulator's speed relative to real time, the frame rate, and the simulator's delays.
+/// Measures a simulator that runs in real time while this process renders both views continuously at the same priority
+/// (the real window has a lower priority). Returns the simulator's speed relative to real time, the frame rate, and the
+/// simulator's delays.
 fn measure_simulator_while_rendering(views: &mut Views) -> (f64, f64, Lateness) {
     let (running, port) = start();
     let stop = Arc::new(AtomicBool::new(false));
@@ -196,8 +197,8 @@ fn main() {
     let (small, _) = measure(&mut views, (640, 360), presets[0]);
     let (pace, rate_hz, late) = measure_simulator_while_rendering(&mut views);
     println!(
-        "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} s of simulation time per second (minimum {MIN_SPEED_FACTOR}), ticks at \
-         most {:.1} ms late, {} clock slips (maximum {MAX_SLIPS})",
+        "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} simulated seconds per real second (minimum {MIN_SPEED_FACTOR}), \
+         longest tick delay {:.1} ms, {} clock slips (maximum {MAX_SLIPS})",
         late.latest_ms, late.slips
     );
     if presets[1] != presets[0] {

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
 const SESSIONS: usize = 10_000;
 const ROUNDS: usize = 31;
-/// Limits (requirements): the median response time of a page, and the time for a cohort report.
+/// Limits (requirements) for the median response time of a page and the time to generate a cohort report.
 const MAX_PAGE_TIME: Duration = Duration::from_millis(100);
 const MAX_COHORT_TIME: Duration = Duration::from_secs(2);
 
@@ -134,7 +134,7 @@ fn main() {
         let (took, size) = server.median(&path, rounds);
         let times = took.as_secs_f64() / empty.as_secs_f64();
         println!(
-            "{name}: median {:.1} ms, {times:.1} x an empty list, {} kB (limit {} ms)",
+            "{name}: median {:.1} ms, {times:.1} x the time for an empty list, {} kB (limit {} ms)",
             took.as_secs_f64() * 1e3,
             size / 1000,
             ceiling.as_millis()

@@ -1,5 +1,5 @@
-//! Creates a job from a shipped scenario and queries its site for members, defects and distances. Run it with `cargo run --example
-//! custom_job`.
+//! Creates a job from a shipped scenario and queries its site for members, defects, and distances. Run it with `cargo
+//! run --example custom_job`.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::site::Site;
@@ -24,7 +24,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let above_pad_m = job.ground_team.pad_m + Vec3::new(0.0, 0.0, 10.0);
     if let Some(nearest) = site.nearest(above_pad_m, 200.0, SimTime::ZERO) {
         println!(
-            "the object nearest to a point 10 m above the pad is {}, {:.1} m away",
+            "nearest object to a point 10 m above the pad: {}, {:.1} m away",
             site.object_name(nearest.object),
             nearest.distance_m
         );

@@ -1,4 +1,5 @@
-//! Takes off, hovers in gusts for ten seconds, prints the largest position error, and lands. Run it with `cargo run --example hover`.
+//! Takes off, hovers in gusts for ten seconds, prints the largest position error, and lands. Run it with `cargo run
+//! --example hover`.
 
 use spandrel_model::shipped;
 use spandrel_model::time::SimTime;

@@ -1,5 +1,5 @@
-//! Scores a telemetry log. The scenario and the vehicle must be those of the recorded flight. Run it with
-//! `cargo run --example score_tlog -- flight.tlog scenario.toml vehicle.toml`.
+//! Scores a telemetry log. The scenario and the vehicle must match the recorded flight. Run it with `cargo run
+//! --example score_tlog -- flight.tlog scenario.toml vehicle.toml`.
 
 use spandrel_model::{scenario, vehicle};
 use spandrel_monitor::assess_log;
@@ -14,7 +14,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     score(&arguments)
 }
 
-/// Prints the scores of a log, or the usage if the arguments are not three files.
+/// Prints the scores of a log, or the usage message if the number of arguments is not three.
 pub fn score(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let [log, job, aircraft] = arguments else {
         println!("usage: score_tlog TLOG SCENARIO VEHICLE");

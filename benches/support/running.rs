@@ -1,4 +1,4 @@
-//! Starts a simulator process that runs in real time, and a client for it.
+//! Starts a real-time simulator process and a client for it.
 #![allow(dead_code, reason = "each benchmark uses only some of it")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -8,7 +8,7 @@ use std::net::UdpSocket;
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Maximum time without data before the simulator counts as exited.
+/// Maximum time without data. After that, the simulator is assumed to have exited.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(5);
 
 #[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
@@ -16,22 +16,22 @@ pub fn now() -> Instant {
     Instant::now()
 }
 
-/// A simulator process. Dropping this stops it.
+/// A simulator process. Dropping this value stops the process.
 pub struct SimulatorProcess {
     child: Child,
     told: BufReader<ChildStdout>,
 }
 
-/// Delays of a simulator relative to real time.
+/// Simulator delays relative to real time.
 pub struct Lateness {
-    /// Longest delay of a tick, ms.
+    /// Longest tick delay, ms.
     pub latest_ms: f64,
-    /// Number of times that the simulation clock skipped time instead of catching up.
+    /// Number of times the simulation clock skipped time instead of catching up.
     pub slips: u64,
 }
 
 impl SimulatorProcess {
-    /// Stops the simulator and returns its reported delays.
+    /// Stops the simulator and returns the delays that it reported.
     pub fn end(mut self) -> Lateness {
         drop(self.child.stdin.take());
         let told = self.line();
@@ -75,8 +75,8 @@ impl Client {
         self.socket.send(&frame).expect("sending over loopback must work");
     }
 
-    /// Returns the ratio of simulation time to wall time, measured over at least this duration, and the wall time of
-    /// the measurement, s.
+    /// Returns the ratio of simulation time to wall time, measured over at least the given duration. Also returns the
+    /// wall time of the measurement, in seconds.
     pub fn speed_factor(&mut self, over: Duration) -> (f64, f64) {
         let (sim_begin, wall_begin) = self.clock();
         let (mut sim_end, mut wall_end) = (sim_begin, wall_begin);
@@ -102,7 +102,7 @@ impl Client {
     }
 }
 
-/// Starts a simulator in real time and returns the port for ground stations.
+/// Starts a real-time simulator. Returns its process and its ground station port.
 pub fn start() -> (SimulatorProcess, u16) {
     let job = ["sim", "--scenario", "drill-hover", "--seed", "7", "--ports", "ephemeral", "--log", "warn"];
     let mut child = Command::new(env!("CARGO_BIN_EXE_spandrel"))

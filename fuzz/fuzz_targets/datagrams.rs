@@ -1,6 +1,6 @@
-//! Feeds arbitrary bytes to the codec and the monitor. The input is split into datagrams by length bytes. The first
-//! byte of a datagram selects whether the rest is fed in unchanged or as the payload of a message with a valid
-//! checksum. Neither the codec nor the monitor may panic, and no decoded frame may be longer than its datagram.
+//! Feeds arbitrary bytes to the codec and the monitor. Length bytes split the input into datagrams. The first byte of a
+//! datagram determines whether the rest is fed in unchanged or as the payload of a message with a valid checksum.
+//! Neither the codec nor the monitor may panic, and no decoded frame may be longer than its datagram.
 #![no_main]
 
 use mavlink::Message;
@@ -26,7 +26,7 @@ static MONITOR: LazyLock<Monitor> = LazyLock::new(|| {
     })
 });
 
-/// Creates a frame that the vehicle could send, with these payload bytes.
+/// Creates a frame that the vehicle could send, with the given payload bytes.
 fn build_frame(choice: u16, payload: &[u8]) -> Vec<u8> {
     let ids = MavMessage::all_ids();
     let id = ids[usize::from(choice) % ids.len()];

@@ -1,5 +1,5 @@
-//! Feeds arbitrary bytes to the vehicle in flight. The input is split into chunks by length bytes. The first byte of a
-//! chunk selects whether the rest is sent as a raw datagram or, with a valid checksum, as the payload of a message that
+//! Feeds arbitrary bytes to the vehicle in flight. Length bytes split the input into chunks. The first byte of a chunk
+//! determines whether the rest is sent as a raw datagram or, with a valid checksum, as the payload of a message that
 //! the vehicle handles. The vehicle must not panic, and its state must stay finite.
 #![no_main]
 
@@ -44,7 +44,7 @@ static FLYING: LazyLock<Sim> = LazyLock::new(|| {
     sim
 });
 
-/// Creates a frame with these payload bytes and a correct checksum.
+/// Creates a frame with the given payload bytes and a correct checksum.
 fn build_frame(choice: u8, payload: &[u8]) -> Vec<u8> {
     let id = HANDLED[usize::from(choice) % HANDLED.len()];
     let [a, b, c, _] = id.to_le_bytes();

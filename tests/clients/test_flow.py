@@ -278,4 +278,4 @@ def test_wire_invalid_lines_are_reported_once_without_closing_the_window(screen,
         spandrel.end(window)
         log.close()
     told = (tmp_path / "view.txt").read_text(encoding="utf-8")
-    assert told.count("is not a valid message between train and its window") == 1 and "rubbish" in told, told
+    assert told.count("is not a valid message between `spandrel train` and its window") == 1 and "rubbish" in told, told

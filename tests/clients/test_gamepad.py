@@ -80,9 +80,9 @@ def calibrate(pad, profiles):
     """Follows the wizard like a user who touches the triggers first."""
     wizard = Bridge(pad, profiles, "--calibrate")
     try:
-        wizard.hear("Let go of both sticks")
+        wizard.hear("Release both sticks")
         wizard.enter()
-        wizard.hear("Move both sticks around their full range")
+        wizard.hear("Move both sticks through their full range")
         for axis in (gamepad.LEFT_TRIGGER, gamepad.RIGHT_TRIGGER, *(axis for _, axis, _ in PUSHES)):
             for part in (-1, 1, -1 if gamepad.AXES[axis] == gamepad.TRIGGER else 0):
                 pad.axis(axis, part)

@@ -6,7 +6,7 @@
 //! ```
 //! use spandrel_clients::rc::keyboard::KeyBindings;
 //!
-//! // Rejects a key file that binds an unknown action and reports its location.
+//! // Binding an unknown action is an error; the message gives its location.
 //! let problems = KeyBindings::read("keys.toml", "[sticks]\nclimb = \"w\"\n").expect_err("no such action");
 //! assert!(problems.to_string().contains("keys.toml"));
 //! ```

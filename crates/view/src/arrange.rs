@@ -28,7 +28,7 @@ pub struct ViewRect {
     pub which: ViewKind,
     /// Left edge.
     pub left: f64,
-    /// Upper edge.
+    /// Top edge.
     pub top: f64,
     /// Width.
     pub width: f64,
@@ -43,7 +43,7 @@ pub struct TextAnchor {
     pub left_edge: f64,
     /// Top edge if `extends_down` is set, otherwise bottom edge.
     pub edge: f64,
-    /// Maximum width.
+    /// Maximum text width.
     pub width: f64,
     /// Whether the text extends down from the top edge instead of up from the bottom edge.
     pub extends_down: bool,
@@ -56,8 +56,8 @@ const INSET_SIZE: f64 = 0.3;
 const INSET_TOP: f64 = 0.23;
 
 impl ViewRect {
-    /// Returns the largest centered rectangle with the aspect ratio `aspect` (width over height), in a window with the
-    /// aspect ratio `window`. This way, the view never shows more than the camera's sensor covers.
+    /// Returns the largest centered rectangle of the given `aspect` ratio (width over height) in a window with the
+    /// `window` aspect ratio. This way, the view never shows more than the camera's sensor covers.
     #[must_use]
     pub fn fit_aspect(self, aspect: f64, window: f64) -> Self {
         let own = self.width / self.height * window;
@@ -68,8 +68,8 @@ impl ViewRect {
     }
 }
 
-/// Returns the largest picture size with this aspect ratio (width over height) that fits in a size, px. Both sides are
-/// even, as video requires, and at least 2 px.
+/// Returns the largest picture size with the given aspect ratio (width over height) that fits into a size, in px. Both
+/// sides are even, as video requires, and at least 2 px.
 #[must_use]
 pub fn largest_even_size_px((width, height): (u32, u32), aspect: f64) -> (u32, u32) {
     let (width, height) = ((width & !1).max(2), (height & !1).max(2));
@@ -79,7 +79,7 @@ pub fn largest_even_size_px((width, height): (u32, u32), aspect: f64) -> (u32, u
 }
 
 impl ViewLayout {
-    /// Returns the next layout in the order of the Tab key.
+    /// Returns the layout to which the Tab key switches next.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
@@ -119,16 +119,16 @@ impl ViewLayout {
         let small = |which, (left, top)| ViewRect { which, left, top, width: INSET_SIZE, height: INSET_SIZE };
         match self {
             Self::SideBySide => [half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
-            // The HUD has text in all corners and along the top, and its warnings extend far along the bottom. The inset view
-            // goes between the speed readout and the warnings.
+            // The HUD has text in all corners and along the top, and its warnings extend far along the bottom. The
+            // inset view goes between the speed readout and the warnings.
             Self::Camera => [whole(ViewKind::Camera), small(ViewKind::Inspector, (0.0, INSET_TOP))],
             Self::Inspector => [whole(ViewKind::Inspector), small(ViewKind::Camera, (0.5 - 0.5 * INSET_SIZE, 1.0 - INSET_SIZE))],
         }
     }
 }
 
-/// Returns the render size, px, of a view of the given screen size, limited to `most` pixels. Keeps the aspect ratio; both sides
-/// are even, as video requires.
+/// Returns the render size, in px, for a view of the given screen size, limited to `most` pixels. Keeps the aspect
+/// ratio; both sides are even, as video requires.
 #[must_use]
 pub fn render_size_px((width, height): (f64, f64), most: Option<f64>) -> (u32, u32) {
     let shrink = most.map_or(1.0, |most| (most / (width * height).max(1.0)).sqrt().min(1.0));

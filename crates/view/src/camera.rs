@@ -1,4 +1,4 @@
-//! Camera pose and projection of a picture.
+//! Camera poses and projections.
 
 use super::matrix::Matrix;
 use spandrel_model::frames::{Enu, Vec3};
@@ -9,7 +9,7 @@ use spandrel_model::vehicle::Camera;
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Near plane, m.
 pub const NEAR_M: f64 = 0.05;
-/// Vertical field of view of the inspector's view, rad (60 deg: close to a natural perspective on a screen; estimate).
+/// The inspector's vertical field of view, rad (60 deg: close to a natural perspective on a screen; estimate).
 pub const INSPECTOR_FOV_RAD: f64 = 1.05;
 /// Eye height of the inspector above the ground, m (estimate).
 pub const EYE_HEIGHT_M: f64 = 1.65;
@@ -28,8 +28,8 @@ pub struct PinholeCamera {
 }
 
 impl PinholeCamera {
-    /// Creates a camera without roll at `position_m` aimed at `target_m`, with a vertical field of view, rad, and `aspect` (width
-    /// over height).
+    /// Creates a camera without roll at `position_m` that is aimed at `target_m`. `vfov_rad` is the vertical field of
+    /// view; `aspect` is width over height.
     #[must_use]
     pub fn at(position_m: Vec3<Enu>, target_m: Vec3<Enu>, vfov_rad: f64, aspect: f64) -> Self {
         let to = target_m - position_m;
@@ -52,7 +52,7 @@ impl PinholeCamera {
         self.right.cross(self.forward)
     }
 
-    /// Returns half the width and height of the picture at distance 1.
+    /// Returns half the width and half the height of the picture at distance 1.
     #[must_use]
     pub fn half_sizes(&self, aspect: f64) -> (f64, f64) {
         let half = math::tan(0.5 * self.hfov_rad);
@@ -66,7 +66,7 @@ impl PinholeCamera {
         Matrix::perspective(w, h, NEAR_M).after(&Matrix::view(self.position_m, self.right, self.up(), -self.forward))
     }
 
-    /// Returns the unit direction through a point of the picture; `x` and `y` are in [-1, 1], right and up positive.
+    /// Returns the unit vector from the camera through a picture point; `x` (right) and `y` (up) are in [-1, 1].
     #[must_use]
     pub fn ray(&self, x: f64, y: f64, aspect: f64) -> Vec3<Enu> {
         let (w, h) = self.half_sizes(aspect);

@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 const CELL_M: f64 = 80.0;
 /// Minimum distance of the backdrop from the origin, m.
 const BACKDROP_M: f64 = 500.0;
-/// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. In a software renderer, a
-/// draw call costs as much as fifty triangles, or a sixth of a sector of mountains.
+/// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. With a software renderer,
+/// a draw call costs as much as fifty triangles, which is a sixth of a mountain sector.
 const BACKDROP_SECTORS: f64 = 16.0;
 
 /// Bounding sphere of a cell.
@@ -21,12 +21,12 @@ const BACKDROP_SECTORS: f64 = 16.0;
 pub struct BoundingSphere {
     /// Center, ENU, m.
     pub center_m: Vec3<Enu>,
-    /// Radius, m.
+    /// Sphere radius, m.
     pub radius_m: f64,
 }
 
 impl BoundingSphere {
-    /// Returns a sphere that encloses points, each with its own radius, m.
+    /// Returns a sphere that encloses all points, each with its own radius in meters.
     #[must_use]
     pub fn around(points: &[(Vec3<Enu>, f64)]) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
@@ -42,7 +42,7 @@ impl BoundingSphere {
         Self { center_m, radius_m }
     }
 
-    /// Returns the distance from a point to the sphere's surface in meters; negative within the sphere.
+    /// Returns the distance from a point to the sphere's surface, in meters; negative inside the sphere.
     #[must_use]
     pub fn distance_to_m(&self, point_m: Vec3<Enu>) -> f64 {
         (point_m - self.center_m).norm() - self.radius_m
@@ -83,7 +83,7 @@ impl From<BoundingSphere> for CellBounds {
     }
 }
 
-/// A grid cell (column and row) or a sector of the backdrop.
+/// A grid cell (column and row) or a backdrop sector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum SceneCell {
     Square(i64, i64),
@@ -100,7 +100,7 @@ fn cell(p: Vec3<Enu>, backdrop: bool) -> SceneCell {
 /// Maps vertex indices of the whole mesh to those of a cell.
 type VertexRemap = BTreeMap<u32, u32>;
 
-/// Splits a mesh into cells. With `backdrop`, splits it only into sectors.
+/// Splits a mesh into cells. If `backdrop` is true, splits it into sectors only.
 #[must_use]
 pub fn split_into_cells(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     let mut cells: BTreeMap<SceneCell, (Mesh, VertexRemap)> = BTreeMap::new();
@@ -119,7 +119,7 @@ pub fn split_into_cells(mesh: &Mesh, backdrop: bool) -> Vec<Mesh> {
     cells.into_values().map(|(part, _)| part).collect()
 }
 
-/// Returns the distance from the mesh's origin to its farthest vertex in meters.
+/// Returns the distance from the mesh's origin to its farthest vertex, in meters.
 #[must_use]
 pub fn max_vertex_distance_m(mesh: &Mesh) -> f64 {
     mesh.vertices.iter().map(|v| position(v).norm()).fold(0.0, f64::max)
@@ -180,7 +180,7 @@ impl Frustum {
     }
 }
 
-/// Returns the signed distance of a point from a plane, positive on the inner side, in units of the plane's normal.
+/// Returns the signed distance from a plane to a point, in units of the plane's normal; positive on the inner side.
 fn signed_distance([a, b, c, d]: &[f64; 4], p: Vec3<Enu>) -> f64 {
     let [x, y, z] = p.array();
     a * x + b * y + c * z + d
@@ -217,7 +217,7 @@ mod tests {
                 && frustum.may_be_visible(&ball(0.0, -4.0))
         );
         assert!(!frustum.may_be_visible(&ball(0.0, -20.0)) && !frustum.may_be_visible(&ball(100.0, 50.0)));
-        // In the lake's reflection, objects above appear below.
+        // In the lake's reflection, objects above the water appear below it.
         let mirrored = Frustum::of(&eye.view_projection(1.5).after(&Matrix::mirror(0.0)));
         let high = BoundingSphere { center_m: Vec3::new(0.0, 40.0, 60.0), radius_m: 5.0 };
         assert!(!frustum.may_be_visible(&high) && !mirrored.may_be_visible(&high));

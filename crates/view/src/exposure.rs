@@ -1,4 +1,4 @@
-//! Exposure of a picture: metering and the limits of the camera.
+//! Picture exposure: metering and camera limits.
 
 use super::camera::PinholeCamera;
 use super::sky::Sky;
@@ -10,18 +10,18 @@ use spandrel_model::vehicle::{Camera, Lamp};
 
 /// Number of metered points, horizontally and vertically.
 const METERING_GRID: (u32, u32) = (7, 5);
-/// Target value of the metered mean, as a fraction of white (estimate: typical outdoor setting; the tone curve accounts
-/// for a fifth of it).
+/// Target for the metered mean, as a fraction of white (estimate: typical outdoor setting; the tone curve accounts for
+/// a fifth of it).
 const METERING_TARGET: f64 = 0.24;
 /// Reflectance assumed for every surface (estimate: between wet concrete and grass).
 const ALBEDO: f64 = 0.25;
 /// Maximum weight of a bright point relative to the middle points; keeps a bright sky from underexposing a soffit.
 const MAX_HIGHLIGHT_WEIGHT: f64 = 5.0;
-/// Minimum illuminance for the inspector's eyes to adapt to, lx (estimate: limit of color vision).
+/// Minimum illuminance to which the inspector's eyes adapt, lx (estimate: limit of color vision).
 const MIN_EYE_ADAPTATION_LUX: f64 = 3.0;
-/// Lowest ISO sensitivity of cameras.
+/// Lowest ISO sensitivity of any camera.
 const ISO_MIN: f64 = 100.0;
-/// Range of the meter, m.
+/// Maximum metering distance, m.
 const METERING_RANGE_M: f64 = 600.0;
 
 /// Exposure of a picture.
@@ -65,19 +65,19 @@ impl Exposure {
     }
 }
 
-/// Time constant of the adaptation of a camera's exposure or a person's eyes, s (estimate: cameras settle in about a
+/// Adaptation time constant of a camera's exposure and of a person's eyes, s (estimate: cameras settle in about a
 /// second).
 const ADAPTATION_TIME_S: f64 = 0.35;
-/// Minimum gap that restarts the adaptation, s.
+/// Minimum time gap that restarts the adaptation, s.
 const ADAPTATION_RESET_S: f64 = 2.0;
 
-/// Smoothed meter for a sequence of pictures. Prevents flicker when an object crosses the picture.
+/// Smooths the metered illuminance over a sequence of pictures. Prevents flicker when an object crosses the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ExposureMeter(Option<(SimTime, f64)>);
 
 impl ExposureMeter {
-    /// Returns the smoothed illuminance, lx, for the picture at time `at`. The first picture, and the first after a jump in time,
-    /// uses the metered value directly.
+    /// Returns the smoothed illuminance for the picture at time `at`, in lx. The first picture, and the first one after
+    /// a jump in time, uses the metered value directly.
     pub fn smoothed_lux(&mut self, metered_lux: f64, at: SimTime) -> f64 {
         let before =
             self.0.filter(|(then, lux)| *then <= at && (at - *then).s() <= ADAPTATION_RESET_S && *lux > 0.0 && metered_lux > 0.0);
@@ -90,7 +90,7 @@ impl ExposureMeter {
     }
 }
 
-/// Returns the metered illuminance for exposing the picture in lx.
+/// Returns the metered illuminance that sets the picture's exposure, in lx.
 #[must_use]
 pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) -> f64 {
     let mut seen: Vec<f64> = Vec::new();
@@ -104,9 +104,10 @@ pub fn meter(site: &Site, eye: &PinholeCamera, aspect: f64, light: &Lighting) ->
     metered(seen)
 }
 
-/// Returns the mean of the metered values, lx, divided by the target value. A bright point counts at most [`MAX_HIGHLIGHT_WEIGHT`]
-/// times the geometric mean of the middle half, which starts at the lower quartile. When one point changes from dark to
-/// bright, this mean moves only slightly, whereas a median would jump from the soffit to the sky.
+/// Returns the mean of the metered values divided by the target, in lx. A bright point counts at most
+/// [`MAX_HIGHLIGHT_WEIGHT`] times the geometric mean of the middle half, which starts at the lower quartile. When one
+/// point changes from dark to bright, this mean moves only slightly, whereas a median would jump from the soffit to the
+/// sky.
 fn metered(mut seen: Vec<f64>) -> f64 {
     seen.sort_by(f64::total_cmp);
     let middling = &seen[seen.len() / 4..seen.len() / 4 + seen.len() / 2];
@@ -116,14 +117,14 @@ fn metered(mut seen: Vec<f64>) -> f64 {
     mean / METERING_TARGET
 }
 
-/// Returns π times the luminance along a ray in lx.
+/// Returns π times the luminance along a ray, in lx.
 fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f64 {
     let Some(hit) = site.ray(from, ray, METERING_RANGE_M, light.ambient_at) else {
         return light.sky.visible_lux(Vec3::new(ray.east(), ray.north(), ray.up().max(0.0)));
     };
     let point = from + ray * hit.distance_m;
     if hit.surface == Surface::Water {
-        // Water reflects the sky, more strongly at grazing angles (Schlick), and is dark below.
+        // Water reflects the sky, more strongly at grazing angles (Schlick), and is dark below the surface.
         let mirrored = Vec3::new(ray.east(), ray.north(), ray.up().abs());
         let glance = 1.0 - ray.up().abs();
         let fresnel = 0.02 + 0.98 * glance * glance * glance * glance * glance;
@@ -141,7 +142,7 @@ mod tests {
 
     /// Number of metered points.
     const METERED_POINTS: usize = (METERING_GRID.0 * METERING_GRID.1) as usize;
-    /// Relative rounding error of a sum of 35 numbers.
+    /// Relative rounding error when adding 35 numbers.
     const ROUNDING: f64 = 1e-12;
 
     fn near(found: f64, expected: f64) -> bool {

@@ -1,4 +1,4 @@
-//! Additional HUD inputs, decoded from the telemetry frames: flight mode, satellites, cues and texts.
+//! Additional HUD inputs, decoded from the telemetry frames: flight mode, satellites, cues, and texts.
 
 use super::hud::GnssStatus;
 use mavlink::MessageData;
@@ -10,7 +10,7 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// Timeout of a cue that is not repeated; the monitor repeats active cues at 5 Hz.
+/// Timeout for a cue that is not repeated; the monitor repeats active cues at 5 Hz.
 const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
@@ -25,7 +25,7 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// Checks whether [`Self::handle_datagram`] uses a message; others need no decoding.
+    /// Checks whether [`Self::handle_datagram`] uses a message; other messages need not be decoded.
     #[must_use]
     pub fn is_relevant(message_id: u32) -> bool {
         matches!(message_id, HEARTBEAT_DATA::ID | GPS_RAW_INT_DATA::ID | NAMED_VALUE_INT_DATA::ID | STATUSTEXT_DATA::ID)
@@ -95,7 +95,8 @@ impl Feed {
         self.gnss
     }
 
-    /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not time out.
+    /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not
+    /// time out.
     #[must_use]
     pub fn cues(&self, now: SimTime, held: bool) -> i32 {
         self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUE_TIMEOUT).map_or(0, |(_, mask)| mask)

@@ -1,21 +1,21 @@
-//! View direction and zoom of the inspector, who follows the aircraft or looks around freely.
+//! The inspector's view direction and zoom. The view follows the aircraft or looks around freely.
 
 use super::camera::{EYE_HEIGHT_M, INSPECTOR_FOV_RAD, PinholeCamera};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Minimum distance for zooming in on the aircraft automatically, m, as with binoculars.
+/// Minimum distance at which the view zooms in on the aircraft automatically, as if through binoculars, m.
 const AUTO_ZOOM_START_M: f64 = 60.0;
 /// Minimum field of view when zooming in automatically, rad.
 const MIN_AUTO_FOV_RAD: f64 = 0.22;
-/// Distance of the camera in front of the inspector's position, m; keeps the inspector's body out of the picture.
+/// Distance from the inspector's position forward to the camera, m; keeps the inspector's body out of the picture.
 const EYE_OFFSET_M: f64 = 0.45;
 /// Maximum elevation, rad.
 const MAX_PITCH_RAD: f64 = 1.4;
 /// Range of the manual zoom: from a wider view to binoculars (estimate: 8 x is common).
 const ZOOM_RANGE: std::ops::RangeInclusive<f64> = 0.6..=8.0;
 
-/// View direction and zoom of the inspector.
+/// The inspector's view direction and zoom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InspectorCamera {
     /// Whether the view follows the aircraft.
@@ -32,8 +32,8 @@ impl Default for InspectorCamera {
 }
 
 impl InspectorCamera {
-    /// Turns the view to the right and up, rad. The view then no longer follows the aircraft; `to` is the vector from
-    /// the inspector to the aircraft, m.
+    /// Turns the view by the angles `right_rad` and `up_rad`. From then on, it no longer follows the aircraft. `to` is
+    /// the vector from the inspector to the aircraft, m.
     pub fn turn(&mut self, right_rad: f64, up_rad: f64, to: Vec3<Enu>) {
         if self.follows {
             // Keeps the magnification of the narrowed view.
@@ -47,8 +47,8 @@ impl InspectorCamera {
         self.pitch_rad = (self.pitch_rad + up_rad).clamp(-MAX_PITCH_RAD, MAX_PITCH_RAD);
     }
 
-    /// Returns the view rotation per pixel, rad, that makes the scene follow the pointer while dragging, for a view
-    /// `height_px` high.
+    /// Returns the view rotation per pixel, in radians, that makes the scene follow the pointer during a drag.
+    /// `height_px` is the height of the view.
     #[must_use]
     pub fn rad_per_px(&self, height_px: f64, to: Vec3<Enu>) -> f64 {
         self.vfov_rad(to.norm()) / height_px.max(1.0)
@@ -61,7 +61,7 @@ impl InspectorCamera {
         }
     }
 
-    /// Returns the vertical field of view for an aircraft at a distance in radians.
+    /// Returns the vertical field of view, in radians, for an aircraft at the given distance.
     fn vfov_rad(&self, distance_m: f64) -> f64 {
         let narrowed = if self.follows { AUTO_ZOOM_START_M / distance_m.max(AUTO_ZOOM_START_M) } else { 1.0 };
         let half = math::tan(0.5 * (INSPECTOR_FOV_RAD * narrowed).max(MIN_AUTO_FOV_RAD)) / self.zoom;

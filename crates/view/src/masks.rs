@@ -1,4 +1,4 @@
-//! Per-pixel labels for training detectors: the AASHTO element number and the defect ID in the session.
+//! Per-pixel labels for training detectors: the AASHTO element number and the session's defect ID.
 
 use serde_json::{Value, json};
 use spandrel_model::defect_codes;
@@ -14,7 +14,7 @@ pub struct LabelMask {
     pub height: u32,
     /// AASHTO element numbers.
     pub elements: Vec<u16>,
-    /// Defect IDs.
+    /// Defect IDs in the session.
     pub defects: Vec<u16>,
 }
 
@@ -38,7 +38,7 @@ impl LabelMask {
     }
 
     /// Returns the legend of the labels as JSON: elements with their pixel counts; defects with kind, condition state,
-    /// pixel count and bounding box (left, top, width, height, px).
+    /// pixel count, and bounding box (left, top, width, height, px).
     #[must_use]
     pub fn legend(&self, placed: &[PlacedDefect]) -> Value {
         let elements: Vec<Value> = self

@@ -1,6 +1,6 @@
 //! Groups of materials and defects that share a pipeline. Software renderers execute both sides of every branch, so a
-//! shader that switches on the material pays for all materials at each pixel; with one pipeline per group, it pays only
-//! for its own.
+//! shader that switches on the material computes all materials at each pixel. With one pipeline per group, it computes
+//! only the materials in its group.
 
 use super::mesh::Material;
 

@@ -18,7 +18,8 @@ impl Matrix {
         Self([row(right), row(up), row(back), [0.0, 0.0, 0.0, 1.0]])
     }
 
-    /// Returns a perspective projection with half sizes at distance 1. Depth is `near`/distance: 1 at `near`, 0 at infinity.
+    /// Returns a perspective projection with half sizes at distance 1. Depth is `near`/distance: 1 at `near`, 0 at
+    /// infinity.
     #[must_use]
     pub fn perspective(half_width: f64, half_height: f64, near: f64) -> Self {
         Self([

@@ -15,11 +15,11 @@ pub enum Material {
     Steel = 2,
     /// Galvanized wire.
     Cable = 3,
-    /// Grass, rock and shore. `aux` is the height above the water, m.
+    /// Grass, rock, and shore. `aux` is the height above the water, m.
     Ground = 4,
-    /// Conifer needles.
+    /// Conifer foliage.
     Foliage = 5,
-    /// Bark.
+    /// Tree bark.
     Bark = 6,
     /// Boulders.
     Rock = 7,
@@ -31,11 +31,11 @@ pub enum Material {
     Rubber = 10,
     /// Cloth and skin.
     Cloth = 11,
-    /// Emissive.
+    /// Emissive surface of a light.
     Light = 12,
     /// The landing pad.
     Pad = 13,
-    /// The translucent disk of a fast propeller.
+    /// The translucent disk of a fast-spinning propeller.
     Blur = 14,
     /// Paint with a color that instances do not override.
     Enamel = 15,
@@ -46,7 +46,7 @@ pub enum Material {
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
 pub struct Vertex {
-    /// Position, m.
+    /// Vertex position, m.
     pub position: [f32; 3],
     /// Outward unit normal.
     pub normal: [f32; 3],
@@ -54,8 +54,8 @@ pub struct Vertex {
     pub uv: [f32; 2],
     /// Indirect light: fractions of the sky and sun illuminance (see `LightModel::indirect_fractions`).
     pub light: [f32; 2],
-    /// [`Material`] in the lowest eight bits; AASHTO element number in the bits above, or 0 for anything that is not
-    /// part of a bridge.
+    /// [`Material`] in the lowest eight bits; AASHTO element number in the bits above, or 0 for anything not part of a
+    /// bridge.
     pub material: u32,
     /// Color, linear RGBA in 1/255.
     pub tint: [u8; 4],
@@ -75,7 +75,7 @@ pub struct Mesh {
 /// Material and color of a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceFinish {
-    /// Material.
+    /// Surface material.
     pub material: Material,
     /// Color, linear, 0..255.
     pub tint: [u8; 3],
@@ -245,7 +245,7 @@ mod tests {
 
     const FINISH: SurfaceFinish = SurfaceFinish::new(Material::Paint, [128, 128, 128]);
 
-    /// Returns the volume by the divergence theorem; it is positive if the triangles face outward.
+    /// Returns the volume, calculated with the divergence theorem. It is positive if the triangles face outward.
     fn volume(mesh: &Mesh) -> f64 {
         let at = |k: u32| {
             let [x, y, z] = mesh.vertices[k as usize].position.map(f64::from);

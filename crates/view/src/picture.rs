@@ -12,7 +12,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Returns the red, green and blue values of a pixel; black outside the picture.
+    /// Returns the red, green, and blue values of a pixel; black outside the picture.
     #[must_use]
     pub fn at(&self, x: u32, y: u32) -> [u8; 3] {
         let k = 4 * (y as usize * self.width as usize + x as usize);

@@ -7,19 +7,19 @@ pub struct Quality {
     pub name: &'static str,
     /// Multisampling: 1 or 4 samples per pixel.
     pub samples: u32,
-    /// Number of sun shadow maps: 1 covers the whole site and is drawn once; more follow the camera and are drawn for every
-    /// picture.
+    /// Number of sun shadow maps: 1 covers the whole site and is drawn once; more follow the camera and are drawn for
+    /// every picture.
     pub cascades: u32,
     /// Side of each shadow map, px.
     pub shadow_px: u32,
-    /// Shadow filter size per side, texels: 1, 2 or 3.
+    /// Shadow filter size per side, texels: 1, 2, or 3.
     pub shadow_taps: u32,
     /// Whether the lamp casts shadows.
     pub lamp_shadow: bool,
     /// Size of the water reflection relative to the picture; 0 reflects only the sky.
     pub reflection: f64,
     /// Draws the ground and the lake with fewer triangles where the difference is invisible, and omits the lake bed in
-    /// deep water. The reflection omits boulders, hangers, railings and distant trees, and uses simplified bridges and
+    /// deep water. The reflection omits boulders, hangers, railings, and distant trees, and uses simplified bridges and
     /// mountains.
     pub sparse: bool,
     /// Spacing of baked light samples on the bridges, m.

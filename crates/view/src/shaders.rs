@@ -1,6 +1,6 @@
 //! Shader sources. Each has a common part and a specific part. Tests parse and validate all sources without a GPU.
 
-/// Structures, noise, shadows and shading shared by the shaders.
+/// Structures, noise, shadows, and shading shared by the shaders.
 const COMMON: &str = include_str!("shaders/common.wgsl");
 
 /// Name of the `develop` variant for multisampled targets.

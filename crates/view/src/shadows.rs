@@ -1,4 +1,4 @@
-//! Projections of the shadow maps of the sun, over the whole site or in cascades ahead of the camera, and of the lamp.
+//! Shadow map projections: for the sun, over the whole site or in cascades ahead of the camera, and for the lamp.
 
 use super::camera::PinholeCamera;
 use super::matrix::Matrix;
@@ -22,9 +22,9 @@ const LAMP_MARGIN: f64 = 1.08;
 /// A shadow map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShadowMap {
-    /// World-to-clip-space projection.
+    /// Projection from world to clip space.
     pub projection: Matrix,
-    /// Size of a texel, m (for the lamp: at a distance of 1 m).
+    /// Texel size, m (for the lamp: at a distance of 1 m).
     pub texel_m: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Inputs of one picture other than the scene, as plain data from telemetry and the scenario.
+//! Inputs for one picture, except the scene, as plain data from telemetry and the scenario.
 
 use super::camera::PinholeCamera;
 use super::exposure::Exposure;
@@ -11,8 +11,8 @@ use spandrel_model::vehicle::Lamp;
 
 /// Camera noise at the lowest sensitivity, as a fraction of white (estimate: consumer sensors, about 40 dB).
 const NOISE_AT_ISO_100: f64 = 0.006;
-/// Vignetting: darkening of the corners by half of this fraction. It grows with the square of the distance from the
-/// center (estimate: small wide-angle lenses).
+/// Vignetting strength: the corners are darkened by half of this fraction. The darkening grows with the square of the
+/// distance from the center (estimate: small wide-angle lenses).
 const VIGNETTE: f64 = 0.45;
 
 /// Beam of a lamp.
@@ -49,7 +49,7 @@ impl LampBeam {
 /// Response of a sensor or an eye that converts light to a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorResponse {
-    /// Exposure.
+    /// Exposure of the picture.
     pub exposure: Exposure,
     /// Noise at mid-gray, as a fraction of white.
     pub noise: f64,
@@ -79,12 +79,12 @@ impl SensorResponse {
     }
 }
 
-/// Inputs of one picture.
+/// Inputs for one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shot {
-    /// Camera.
+    /// Camera that takes the picture.
     pub eye: PinholeCamera,
-    /// Size, px.
+    /// Picture size, px.
     pub size_px: (u32, u32),
     /// Sun and sky.
     pub sky: Sky,
@@ -94,9 +94,9 @@ pub struct Shot {
     pub finish: SensorResponse,
     /// Simulation time, s; animates waves and clouds.
     pub time_s: f64,
-    /// Wind over the water as the direction it blows toward, east and north, m/s.
+    /// Wind over the water: velocity toward the east and north, m/s.
     pub wind_m_s: (f64, f64),
-    /// Moving objects.
+    /// Models and instances of the moving objects.
     pub moving: Vec<(MoverModel, Instance)>,
 }
 
@@ -108,7 +108,7 @@ impl Shot {
     }
 }
 
-/// Returns the mean wind of a scenario at 20 ft as the direction it blows toward, east and north, m/s.
+/// Returns a scenario's mean wind at 20 ft: velocity toward the east and north, in m/s.
 #[must_use]
 pub fn wind(scenario: &spandrel_model::scenario::Scenario) -> (f64, f64) {
     let (s, c) = math::sin_cos(scenario.wind.from_deg.to_radians());

@@ -1,5 +1,5 @@
 //! Sky model: radiance and color in every direction, scaled to the horizontal illuminance of the light model. The
-//! shader `sky.wgsl` contains the same function; its clouds are decorative and cast no light.
+//! `sky.wgsl` shader contains the same function; its clouds are decorative and cast no light.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -11,11 +11,11 @@ const ZENITH: [f64; 3] = [0.62, 0.97, 2.0];
 const HORIZON: [f64; 3] = [0.94, 0.995, 1.24];
 /// Color of clouds, luminance 1 (estimate: about 6,500 K).
 const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
-/// Optical depths of clear air for red, green and blue light, per air mass (Rayleigh scattering, inverse fourth power,
+/// Optical depths of clear air for red, green, and blue light, per air mass (Rayleigh scattering, inverse fourth power,
 /// with slight haze; estimate).
 const AIR_OPTICAL_DEPTH: [f64; 3] = [0.07, 0.12, 0.24];
 
-/// Fraction of the blue tint of shadows that a camera's white balance removes (estimate).
+/// Fraction of the shadows' blue tint that a camera's white balance removes (estimate).
 const WHITE_BALANCE_FRACTION: f64 = 0.55;
 
 /// Sky parameters of the shaders.
@@ -33,7 +33,7 @@ pub struct Sky {
     pub sky_rgb: [f64; 3],
     /// Cloud cover, 0 to 1.
     pub cloud: f64,
-    /// Factor on [`relative_radiance`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
+    /// Factor for [`relative_radiance`] that scales the hemisphere's illuminance to `sky_lux` (π times luminance, lx).
     pub scale: f64,
 }
 
@@ -94,7 +94,7 @@ impl Sky {
         }
     }
 
-    /// Returns π times the luminance in a direction in lx.
+    /// Returns π times the luminance in the given direction, in lx.
     #[must_use]
     pub fn visible_lux(&self, direction: Vec3<Enu>) -> f64 {
         self.scale * luminance(relative_radiance(direction, self.sun, self.cloud))

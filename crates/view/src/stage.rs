@@ -1,4 +1,4 @@
-//! Builds the shots of both views at a moment of a flight.
+//! Builds the shots for both views at a given moment of a flight.
 
 use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
@@ -17,26 +17,26 @@ use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 
-/// Objects at most this far in front of the aircraft do not count as hiding it, m (about the size of the aircraft).
+/// Objects within this distance in front of the aircraft do not count as hiding it, m (about the aircraft's size).
 const DRONE_CLEARANCE_M: f64 = 0.5;
 
 /// Inputs that stay constant during a session.
 #[derive(Debug, Clone, Copy)]
 pub struct Stage<'a> {
-    /// The job.
+    /// Scenario of the job.
     pub scenario: &'a Scenario,
-    /// The aircraft.
+    /// Parameters of the aircraft.
     pub vehicle: &'a Vehicle,
-    /// The site.
+    /// Geometry and light of the site.
     pub site: &'a Site,
-    /// The site's scene.
+    /// Meshes of the site.
     pub scene: &'a Scene,
 }
 
-/// State of the aircraft and its camera at one time.
+/// State of the aircraft and its camera at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneMoment {
-    /// Simulation time.
+    /// Simulation time of the state.
     pub at: SimTime,
     /// Pose of the aircraft.
     pub drone: DronePose,
@@ -60,7 +60,8 @@ pub struct CameraTurnRate {
 }
 
 impl CameraTurnRate {
-    /// Returns the angular velocity, rad/s, of a camera with this right-hand axis, which the gimbal keeps level.
+    /// Returns the camera's angular velocity in rad/s. `right` is the camera's right axis, which the gimbal keeps
+    /// level.
     #[must_use]
     pub fn angular_rad_s(&self, right: Vec3<Enu>) -> Vec3<Enu> {
         right * self.pitch_rad_s - Vec3::new(0.0, 0.0, self.heading_rad_s)
@@ -68,13 +69,13 @@ impl CameraTurnRate {
 }
 
 impl Stage<'_> {
-    /// Returns the sun and sky at a time.
+    /// Returns the sun and sky at the given time.
     #[must_use]
     pub fn sky(&self, at: SimTime) -> Sky {
         Sky::new(&self.site.light().daylight(at), self.scenario.light.cloud_cover)
     }
 
-    /// Returns the shot of the aircraft's camera, which does not show the aircraft itself.
+    /// Returns the shot from the aircraft's camera, which does not show the aircraft itself.
     #[must_use]
     pub fn camera(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.camera_frame(moment, size_px, &mut ExposureMeter::default())
@@ -91,13 +92,13 @@ impl Stage<'_> {
         Shot { finish: SensorResponse::camera(shot.finish.exposure, Some(before)), ..shot }
     }
 
-    /// Returns the shot of the inspector at the pad, looking at the aircraft.
+    /// Returns the shot as seen by the inspector, who stands at the pad and looks at the aircraft.
     #[must_use]
     pub fn inspector(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.inspector_view(&InspectorCamera::default(), moment, size_px, &mut ExposureMeter::default())
     }
 
-    /// Returns the shot of an inspector looking in any direction, with eyes that adapt to the light.
+    /// Returns the shot as seen by an inspector who looks in any direction and whose eyes adapt to the light.
     #[must_use]
     pub fn inspector_view(
         &self,
@@ -121,7 +122,7 @@ impl Stage<'_> {
         marker(&shot.eye, aspect, moment.drone.pose.position_m, hidden)
     }
 
-    /// Returns the shot of a person at any position.
+    /// Returns the shot as seen by a person at any position.
     #[must_use]
     pub fn inspector_shot(&self, eye: PinholeCamera, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.eye_shot(eye, moment, size_px, &mut ExposureMeter::default())
@@ -133,7 +134,7 @@ impl Stage<'_> {
         })
     }
 
-    /// Returns the shot of a camera like the aircraft's at any position, with or without the aircraft in view.
+    /// Returns the shot from a camera like the aircraft's at any position, with or without the aircraft in view.
     #[must_use]
     pub fn camera_view_from(
         &self,
@@ -187,7 +188,7 @@ fn camera_at_shutter_open(eye: &PinholeCamera, moment: &SceneMoment, time_s: f64
     PinholeCamera { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
 }
 
-/// HUD inputs in addition to the moment and the feed.
+/// HUD inputs that neither the moment nor the feed contains.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HudInputs {
     /// Battery, %, once received.
@@ -200,8 +201,8 @@ pub struct HudInputs {
     pub pictures: usize,
     /// Time of the last picture.
     pub last_picture: Option<SimTime>,
-    /// Time base of blinking elements, s: wall-clock time in a live flight, because simulation time may be paused or accelerated;
-    /// video time otherwise.
+    /// Time base of blinking elements, s: wall-clock time in a live flight, because simulation time may be paused or
+    /// accelerated; video time otherwise.
     pub blink_time_s: f64,
 }
 
@@ -222,15 +223,15 @@ impl HudInputs {
     }
 }
 
-/// Builds the HUD from a flight's telemetry at a moment. `feed` supplies the remaining inputs; `held`: its cues come from a
-/// recording that stores only changes. `map`: whether the reference paths may be shown.
+/// Builds the HUD from a flight's telemetry at the given moment. `feed` supplies the remaining inputs; `held`: its cues
+/// come from a recording that stores only changes. `map`: whether the reference paths may be shown.
 #[must_use]
 pub fn hud(stage: &Stage, moment: &SceneMoment, flight: &Flight, feed: (&Feed, bool), map: bool) -> Hud {
     let told = HudInputs::of(flight, stage.scenario.ground_team.pad_m.up(), moment.at);
     display(stage, moment, &told, feed, map)
 }
 
-/// Builds the HUD from inputs of any source.
+/// Builds the HUD from inputs from any source.
 #[must_use]
 pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, held): (&Feed, bool), map: bool) -> Hud {
     let (scenario, at) = (stage.scenario, moment.at);
@@ -264,7 +265,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, hel
     }
 }
 
-/// Height above the pad that starts the flight time, m (docs/src/reference/assessment.md, "Frames").
+/// Height above the pad at which the flight time starts, m (docs/src/reference/assessment.md, "Frames").
 pub const LIFT_OFF_M: f64 = 0.3;
 
 fn tracks(scenario: &Scenario) -> Vec<MapPath> {
@@ -304,7 +305,7 @@ mod tests {
 
     const ROUNDING: f64 = 1e-12;
 
-    /// Returns a moment with a camera at the origin that looks north at this pitch.
+    /// Returns a moment with a camera at the origin that looks north at the given pitch.
     fn moment(pitch_deg: f64, turn: CameraTurnRate) -> SceneMoment {
         let (up, north) = math::sin_cos(pitch_deg.to_radians());
         let zero = Vec3::new(0.0, 0.0, 0.0);

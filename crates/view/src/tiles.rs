@@ -1,6 +1,6 @@
 //! Precomputed tiles for the cheaper presets. One texture contains several slow patterns of ground or concrete, so one
-//! lookup replaces four or five noise lookups. The tiles repeat after [`GROUND_M`] and [`CONCRETE_M`]; the shader
-//! `lean` reads them.
+//! lookup replaces four or five noise lookups. The tiles repeat after [`GROUND_M`] and [`CONCRETE_M`]; the `lean`
+//! shader reads them.
 
 use spandrel_model::random::RandomStream;
 
@@ -8,9 +8,9 @@ use spandrel_model::random::RandomStream;
 pub const SIDE: usize = 1024;
 /// Side of the ground tile, m.
 pub const GROUND_M: f64 = 32.0;
-/// Side of the concrete tile, m: a whole multiple of the board width and length.
+/// Side of the concrete tile, m: an integer multiple of the board width and length.
 pub const CONCRETE_M: f64 = 38.4;
-/// Width and length of formwork boards, m (as in the shader `surface`).
+/// Width and length of formwork boards, m (as in the `surface` shader).
 const BOARD_M: (f64, f64) = (0.16, 2.4);
 /// Side of a cell that may contain bird droppings, m. The shader uses 1.7; here the cells must divide the tile evenly.
 const DROPPINGS_CELL_M: f64 = 1.6;
@@ -23,8 +23,8 @@ pub type MipLevels = Vec<(usize, Vec<u8>)>;
 /// One pattern of the tile in row-major order.
 type TilePattern = Vec<f32>;
 
-/// Returns noise with these numbers of cells across and down in its first octave; each further octave has twice the
-/// frequency and half the amplitude. The mean is about 0.5.
+/// Returns noise with the given numbers of cells across and down in the first octave; each subsequent octave has twice
+/// the frequency and half the amplitude. The mean is about 0.5.
 fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u32) -> TilePattern {
     let mut field = vec![0.5; SIDE * SIDE];
     for octave in 0..octaves {
@@ -78,7 +78,7 @@ pub fn ground() -> MipLevels {
     levels((0..SIDE * SIDE).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
 }
 
-/// Returns the concrete tile: tone around 0.5 (blotches and boards), and fractions of rain streaks, soot and bird
+/// Returns the concrete tile: tone around 0.5 (blotches and boards), and fractions of rain streaks, soot, and bird
 /// droppings.
 #[must_use]
 pub fn concrete() -> MipLevels {
@@ -150,7 +150,7 @@ fn levels(finest: Vec<[u8; 4]>) -> MipLevels {
 mod tests {
     use super::*;
 
-    /// Returns the value of a channel at a texel of the finest level.
+    /// Returns the value of a channel at a texel on the finest level.
     fn at(levels: &MipLevels, x: usize, y: usize, channel: usize) -> f64 {
         f64::from(levels[0].1[4 * (y * SIDE + x) + channel]) / 255.0
     }

@@ -8,11 +8,11 @@ use std::sync::Arc;
 /// Configuration of a synthetic pilot.
 #[derive(Debug, Clone)]
 pub struct PilotConfig {
-    /// The job.
+    /// Scenario of the job to fly.
     pub scenario: Arc<Scenario>,
-    /// The aircraft.
+    /// Parameters of the aircraft.
     pub vehicle: Arc<Vehicle>,
-    /// Skill parameters.
+    /// The pilot's skill parameters.
     pub skill: Skill,
     /// Seed of the pilot's random number streams.
     pub seed: u64,

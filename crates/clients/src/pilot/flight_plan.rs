@@ -41,10 +41,10 @@ const CMD_SET_ACTUATOR: u16 = 187;
 const CMD_MOUNT_CONTROL: u16 = 205;
 const CMD_START_CAPTURE: u16 = 2000;
 const CMD_STOP_CAPTURE: u16 = 2001;
-/// MAV_MOUNT_MODE_MAVLINK_TARGETING.
+/// Value of MAV_MOUNT_MODE_MAVLINK_TARGETING in a plan item.
 const MOUNT_MODE_TARGETING: f64 = 2.0;
 
-/// Builds a list of mission items in order.
+/// Builds an ordered list of mission items.
 struct PlanWriter {
     plane: LocalPlane,
     pad_up_m: f64,

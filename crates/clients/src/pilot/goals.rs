@@ -1,5 +1,5 @@
-//! Planning of a job as a sequence of legs: transits around obstacles, tasks along their reference paths, and the
-//! flight home.
+//! Plans a job as a sequence of legs: transits around obstacles, tasks along their reference paths, and the flight
+//! home.
 
 use super::route_search;
 use super::track::TrackLeg;
@@ -9,11 +9,11 @@ use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
-/// Transit speed in the open, m/s (estimate: moderate for a camera drone).
+/// Transit speed away from obstacles, m/s (estimate: moderate for a camera drone).
 const TRANSIT_SPEED_M_S: f64 = 6.0;
 /// Transit speed near obstacles, m/s (estimate).
 const NEAR_OBSTACLE_SPEED_M_S: f64 = 2.5;
-/// Maximum distance of an obstacle that counts as near in transit, m (estimate).
+/// Maximum distance to an obstacle that counts as near during transit, m (estimate).
 const NEAR_OBSTACLE_M: f64 = 4.0;
 /// Height above the landing pad where takeoff ends and landing begins, m (estimate).
 pub const PAD_HOVER_HEIGHT_M: f64 = 6.0;
@@ -21,13 +21,13 @@ pub const PAD_HOVER_HEIGHT_M: f64 = 6.0;
 /// The next goal of the flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlightGoal {
-    /// Fly the task with this index.
+    /// Fly the task with the given index.
     Task(usize),
     /// Return to the landing pad.
     Home,
 }
 
-/// Returns the speed of a task, m/s: below the 10 mph limit by a margin that depends on the path's shape (estimate).
+/// Returns the speed for a task in m/s: below the 10 mph limit by a margin that depends on the path's shape (estimate).
 fn task_speed_m_s(task: &Task) -> f64 {
     match task.kind {
         TaskKind::SlabSide => 3.3,
@@ -38,20 +38,20 @@ fn task_speed_m_s(task: &Task) -> f64 {
     }
 }
 
-/// Returns the hover point above the landing pad, where flights begin and end, ENU, m.
+/// Returns the hover point above the landing pad, where flights begin and end, in ENU meters.
 #[must_use]
 pub fn hover_point_over_pad(scenario: &Scenario) -> Vec3<Enu> {
     scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, PAD_HOVER_HEIGHT_M)
 }
 
-/// Inputs of the planner.
+/// Planner inputs.
 #[derive(Clone, Copy)]
 pub struct PlanningContext<'a> {
-    /// The job.
+    /// Scenario of the job.
     pub scenario: &'a Scenario,
-    /// The site.
+    /// Geometry of the site.
     pub site: &'a Site,
-    /// The aircraft.
+    /// Parameters of the aircraft.
     pub vehicle: &'a Vehicle,
     /// Simulation time used for planning.
     pub at: SimTime,
@@ -60,7 +60,7 @@ pub struct PlanningContext<'a> {
 }
 
 impl PlanningContext<'_> {
-    /// Returns the minimum clearance for planning, m (same as `check` requires for a path).
+    /// Returns the minimum clearance for planning, in meters (the same value that `check` requires for a path).
     fn clearance_m(&self) -> f64 {
         0.5 * self.vehicle.hull.tip_to_tip_m + 0.5
     }
@@ -70,7 +70,7 @@ impl PlanningContext<'_> {
         route_search::route(self.site, (from, to), self.clearance_m(), self.transit_clearance_m, ceiling, self.at)
     }
 
-    /// Appends a transit to a leg: fast in the open and slow near obstacles.
+    /// Appends a transit to a leg: slow near obstacles and fast elsewhere.
     fn append_route(&self, leg: &mut TrackLeg, from: Vec3<Enu>, to: Vec3<Enu>) {
         const STEP_M: f64 = 3.0;
         let mut last = from;
@@ -114,7 +114,7 @@ impl PlanningContext<'_> {
         leg
     }
 
-    /// Returns the rest of an interrupted leg: a route back to point `next`, then the remaining points.
+    /// Returns the rest of an interrupted leg: a route back to the `next` point, then the remaining points.
     #[must_use]
     pub fn resume(&self, leg: &TrackLeg, next: usize, from: Vec3<Enu>) -> TrackLeg {
         let next = next.min(leg.points_m.len() - 1);
@@ -141,8 +141,8 @@ fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
     }
 }
 
-/// Returns the path indices in flying order: from the nearer end, or, on a closed path, from the nearest point with a
-/// short overlap.
+/// Returns the path indices in the order in which they are flown: from the nearer end, or, on a closed path, from the
+/// nearest point with a short overlap.
 fn flying_order(task: &Task, from: Vec3<Enu>) -> Vec<usize> {
     const OVERLAP: usize = 4;
     let n = task.path_m.len();

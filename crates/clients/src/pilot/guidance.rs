@@ -1,4 +1,5 @@
-//! In-flight guidance: follows the leg, avoids obstacles, searches for defects, takes pictures, and recovers from upsets.
+//! In-flight guidance: follows the leg, avoids obstacles, searches for defects, takes pictures, and recovers from
+//! upsets.
 
 use super::config::PilotConfig;
 use super::goals::{FlightGoal, PlanningContext};
@@ -16,7 +17,7 @@ use spandrel_model::math;
 use spandrel_model::site::DefectView;
 use spandrel_model::time::SimTime;
 
-/// Minimum time without progress for the aircraft to count as stuck, s.
+/// Minimum time without progress before the aircraft counts as stuck, s.
 const STUCK_TIMEOUT_S: f64 = 6.0;
 /// Duration of the back-off maneuver after getting stuck, s.
 const BACK_OFF_DURATION_S: f64 = 2.0;
@@ -30,9 +31,9 @@ const MAX_AIM_ERROR_RAD: f64 = 0.12;
 const MAX_PICTURE_ATTEMPTS: u32 = 2;
 /// Time to ignore a poorly visible defect, s; it may be easier to see from farther along the path (estimate).
 const IGNORE_DEFECT_S: f64 = 15.0;
-/// Standard deviation of the incidence angle estimated by eye, trained pilot, rad (4 degrees, estimate).
+/// Standard deviation of a trained pilot's visual estimate of the incidence angle, rad (4 degrees; estimate).
 const ANGLE_JUDGMENT_SIGMA_RAD: f64 = 0.07;
-/// Relative standard deviation of size and brightness estimated on a screen, trained pilot (estimate).
+/// Relative standard deviation of a trained pilot's estimates of size and brightness on a screen (estimate).
 const SIZE_JUDGMENT_SIGMA: f64 = 0.15;
 
 impl Pilot {
@@ -51,7 +52,7 @@ impl Pilot {
         sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
     }
 
-    /// Handles motors stopping in flight: continues the job unless the session is over.
+    /// Handles a motor stop in flight: continues the job unless the session is over.
     fn recover_from_disarm(&mut self) -> StickAxes {
         if matches!(self.link.status.contact, ContactKind::Person | ContactKind::Vehicle) {
             self.finish("hit a person or a vehicle");
@@ -201,7 +202,7 @@ impl Pilot {
         self.guidance.target = Some(target);
     }
 
-    /// Checks whether the defect appears well framed on the screen in this pilot's judgment.
+    /// Checks whether this pilot considers the defect well framed on the screen.
     fn is_well_framed(&self, target: &PhotoTarget) -> bool {
         let (vehicle, skill) = (&self.config.vehicle, self.config.skill);
         let (Some(site), Some(picture)) = (&self.site, self.perception.delayed_view(skill.delay_s)) else { return true };

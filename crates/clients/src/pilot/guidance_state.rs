@@ -1,4 +1,4 @@
-//! State of the guidance in flight: the leg, its progress and the defect being photographed.
+//! In-flight guidance state: the leg, its progress, and the defect being photographed.
 
 use super::goals::FlightGoal;
 use super::track::{LegProgress, TrackLeg};
@@ -14,11 +14,11 @@ pub(super) struct PhotoTarget {
     pub(super) since: SimTime,
     pub(super) triggered: Option<SimTime>,
     pub(super) attempts: u32,
-    /// The pilot's judgment error for this defect, in standard deviations of the trained pilot.
+    /// The pilot's judgment error for this defect, as a multiple of a trained pilot's standard deviation.
     pub(super) judgment_error: f64,
 }
 
-/// Guidance state in flight.
+/// In-flight guidance state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guidance {
     pub(super) leg: Option<(FlightGoal, TrackLeg)>,

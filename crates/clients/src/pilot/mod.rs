@@ -1,5 +1,5 @@
 //! A synthetic trainee that flies over MAVLink like a person at a ground station. It uses only MANUAL_CONTROL and the
-//! lamp, gimbal and camera commands. It has the job's data (scenario, reference paths, lines of sight) and perceives
+//! lamp, gimbal, and camera commands. It has the job's data (scenario, reference paths, lines of sight) and perceives
 //! the aircraft with delay and error. Its errors arise from noise; none are scripted. Sans-IO: it consumes and produces
 //! datagrams, and takes the time from the vehicle.
 
@@ -32,16 +32,17 @@ use stick_response::StickResponse;
 use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
 
-/// Retry interval of a command that has not taken effect, s.
+/// Retry interval for a command that has not taken effect, s.
 const RETRY_INTERVAL_S: f64 = 1.5;
-/// Maximum horizontal distance from the pad's center for a descent, m (estimate: within reach of the last correction).
+/// Maximum horizontal distance from the pad's center at which the pilot descends, m (estimate: within reach of the last
+/// correction).
 const MAX_PAD_OFFSET_M: f64 = 2.5;
 /// Minimum height during the approach to the pad, m (estimate: clears the truck).
 const MIN_APPROACH_HEIGHT_M: f64 = 5.0;
 /// Timeout for the vehicle to become ready, and for the aircraft to climb, s of simulation time.
 const START_TIMEOUT_S: f64 = 60.0;
 
-/// End-of-flight report, as perceived by the pilot.
+/// End-of-flight report from the pilot's point of view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PilotReport {
     /// Reason for the end of the flight.
@@ -65,7 +66,7 @@ enum PilotPhase {
     Fly,
     /// Lands on the pad.
     Descend,
-    /// Finished.
+    /// The flight has ended.
     Done,
 }
 
@@ -95,7 +96,7 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// Creates a pilot for a job, an aircraft and a skill.
+    /// Creates a pilot for a job, an aircraft, and a skill.
     #[must_use]
     pub fn new(config: PilotConfig) -> Self {
         let jobs = (0..config.scenario.tasks.len()).map(FlightGoal::Task).chain([FlightGoal::Home]).collect();
@@ -142,8 +143,8 @@ impl Pilot {
         }
     }
 
-    /// Advances the pilot's clock until the first datagram arrives, and sends heartbeats so a vehicle that waits for a
-    /// connection can find the pilot.
+    /// Advances the pilot's clock until the first datagram arrives, and sends heartbeats so that a vehicle waiting for
+    /// a connection can find the pilot.
     pub fn handle_timeout(&mut self, now: SimTime) {
         if self.now == SimTime::ZERO {
             self.send_heartbeat(now);

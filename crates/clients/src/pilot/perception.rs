@@ -7,21 +7,21 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Drifting error of perceived position for the trained pilot, m (1 sigma per axis; estimate).
+/// Drifting position error of a trained pilot, m (1 sigma per axis; estimate).
 const POSITION_ERROR_M: f64 = 0.4;
 /// Correlation time of the position error, s (estimate).
 const POSITION_TAU_S: f64 = 4.0;
-/// Drifting relative error of perceived speed for the trained pilot (1 sigma; estimate).
+/// Drifting relative speed error of a trained pilot (1 sigma; estimate).
 const SPEED_ERROR: f64 = 0.13;
 /// Correlation time of the speed error, s (estimate).
 const SPEED_TAU_S: f64 = 3.0;
-/// Error of perceived heading for the trained pilot, rad (1 sigma; estimate).
+/// Heading error of a trained pilot, rad (1 sigma; estimate).
 const HEADING_ERROR_RAD: f64 = 0.03;
 
 /// Motion of the aircraft at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionState {
-    /// Simulation time.
+    /// Simulation time of the sample.
     pub time: SimTime,
     /// Position, ENU, m.
     pub position_m: Vec3<Enu>,

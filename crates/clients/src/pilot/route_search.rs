@@ -11,11 +11,11 @@ const CELL_M: f64 = 2.0;
 /// Preferred clearance, m (typical practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
 const PREFERRED_CLEARANCE_M: f64 = 4.0;
 /// Radius around an endpoint with too little clearance, m; within it, the route may come as close to obstacles as the
-/// endpoint (estimate: within a task's own "too close" distance).
+/// endpoint (estimate: within the task's "too close" distance).
 const ENDPOINT_RADIUS_M: f64 = 8.0;
-/// Tolerance of the clearance at such an endpoint, m (estimate: stand-offs are rounded).
+/// Clearance tolerance at such an endpoint, m (estimate: stand-offs are rounded).
 const ENDPOINT_MARGIN_M: f64 = 0.1;
-/// Clearances to try, in order, as fractions of the difference between the preferred and the minimum clearance.
+/// Clearances to try, in order, as fractions of the range from the minimum to the preferred clearance.
 const CLEARANCE_FRACTIONS: [f64; 3] = [1.0, 0.7, 0.4];
 /// Search margin around the two endpoints, m.
 const SEARCH_MARGIN_M: f64 = 40.0;
@@ -97,7 +97,7 @@ impl SearchSpace<'_> {
         self.site.traffic().min_distance_over_time_m(p, still).unwrap_or(still)
     }
 
-    /// Returns the required clearance at a point in meters.
+    /// Returns the required clearance at a point, in meters.
     fn required_clearance_at_m(&self, p: Vec3<Enu>) -> f64 {
         let Some(keep) = &self.rule else { return self.clearance_m };
         let near = [self.origin, self.to].map(|end| (p - end).norm() < ENDPOINT_RADIUS_M);

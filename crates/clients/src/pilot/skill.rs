@@ -10,8 +10,8 @@ pub struct Skill {
     pub delay_s: f64,
     /// Gain of the position and heading loops, relative to the trained pilot.
     pub gain: f64,
-    /// Noise of perception and motor control, relative to the trained pilot. Also scales the smallest defect that the pilot
-    /// notices.
+    /// Noise of perception and motor control, relative to the trained pilot. Also scales the smallest defect that the
+    /// pilot notices.
     pub noise: f64,
     /// Visual preview time, s.
     pub preview_s: f64,
@@ -75,9 +75,9 @@ impl Skill {
         self
     }
 
-    /// Returns the defect length with a 50% probability of detection, mm: 26 for the trained pilot (Campbell et al.
-    /// 2020), 15 for the expert and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A power law of
-    /// the noise fits these values within 10%.
+    /// Returns the defect length, in mm, that is detected with a probability of 50%: 26 for the trained pilot (Campbell
+    /// et al. 2020), 15 for the expert, and 60 for the novice (docs/src/reference/domain.md, "Human operators"). A
+    /// power law in the noise parameter fits these values within 10%.
     #[must_use]
     pub fn median_length_mm(&self) -> f64 {
         26.0 * spandrel_model::math::pow(self.noise, 1.3)

@@ -8,7 +8,7 @@ use spandrel_model::math;
 
 /// Heading loop gain of the trained pilot, 1/s (estimate).
 const YAW_GAIN_PER_S: f64 = 1.3;
-/// Fraction of the perceived speed error that is added to the stick command, trained pilot (estimate).
+/// Fraction of the perceived speed error that a trained pilot adds to the stick command (estimate).
 const SPEED_FEEDBACK: f64 = 0.35;
 
 /// Heading (clockwise from north) and elevation of a line of sight, rad.

@@ -1,5 +1,5 @@
-//! Motor response of the pilot's hands: lag, noise proportional to the deflection, and attention lapses, when the
-//! sticks do not move.
+//! Motor response of the pilot's hands: lag, noise proportional to the deflection, and attention lapses, during which
+//! the sticks do not move.
 
 use super::perception::DriftProcess;
 use super::skill::Skill;
@@ -9,9 +9,10 @@ use spandrel_model::time::SimTime;
 
 /// Neuromuscular lag, s (docs/src/reference/domain.md, "Human operators").
 const LAG_S: f64 = 0.1;
-/// Motor noise proportional to the deflection, trained pilot (-25 dB, docs/src/reference/domain.md, "Human operators").
+/// Motor noise of a trained pilot as a fraction of the deflection (-25 dB, docs/src/reference/domain.md, "Human
+/// operators").
 const PROPORTIONAL_NOISE: f64 = 0.056;
-/// Tremor around the center, trained pilot (estimate).
+/// Tremor of a trained pilot around the stick center (estimate).
 const TREMOR: f64 = 0.006;
 /// Correlation time of the motor noise, s (estimate).
 const NOISE_TAU_S: f64 = 0.25;

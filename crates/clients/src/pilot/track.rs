@@ -4,8 +4,8 @@ use super::perception::MotionState;
 use super::skill::Skill;
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Cross-track gain of the trained pilot, 1/s (a third of the crossover of a rate-command loop, docs/src/reference/domain.md,
-/// "Human operators").
+/// Cross-track gain of the trained pilot, 1/s (a third of the crossover frequency of a rate-command loop,
+/// docs/src/reference/domain.md, "Human operators").
 const CROSS_TRACK_GAIN_PER_S: f64 = 0.9;
 /// Planned braking deceleration, m/s² (estimate).
 const BRAKING_DECELERATION_M_S2: f64 = 1.2;
@@ -48,7 +48,7 @@ pub struct TrackCommand {
 }
 
 impl TrackLeg {
-    /// An empty leg.
+    /// Creates an empty leg.
     #[must_use]
     pub fn new() -> Self {
         Self { points_m: Vec::new(), speed_m_s: Vec::new(), line_of_sight: Vec::new(), task: Vec::new() }
@@ -119,7 +119,7 @@ impl TrackLeg {
         *progress = best.1;
     }
 
-    /// Returns the speed that the bends within the preview allow in m/s.
+    /// Returns the speed, in m/s, that the bends within the preview allow.
     fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64) -> f64 {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut ahead_m = start - progress.along_m;

@@ -29,7 +29,7 @@ const STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0),
 pub struct VehicleStatus {
     /// The vehicle's system ID.
     pub system: Option<u8>,
-    /// Autopilot type.
+    /// Autopilot type from the heartbeat.
     pub autopilot: Option<MavAutopilot>,
     /// Whether ground truth has arrived since the last heartbeat.
     truth_received: bool,
@@ -39,11 +39,11 @@ pub struct VehicleStatus {
     pub ready: bool,
     /// Whether the vehicle reports that it is on the ground.
     pub on_ground: bool,
-    /// Battery, %.
+    /// Battery level, %.
     pub battery_pct: Option<f64>,
     /// The session's seed.
     pub seed: Option<u64>,
-    /// Number of respawns of the aircraft.
+    /// Number of times the aircraft has respawned.
     pub respawns: i32,
     /// Kind of object that the aircraft is in contact with.
     pub contact: ContactKind,
@@ -71,7 +71,7 @@ pub enum VehicleUpdate {
 }
 
 impl VehicleLink {
-    /// Creates a link before any communication.
+    /// Creates a link that has not exchanged messages yet.
     #[must_use]
     pub fn new() -> Self {
         let encoder = Encoder::new(SYSTEM_ID, COMPONENT_ID);

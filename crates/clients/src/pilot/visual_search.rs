@@ -1,5 +1,5 @@
 //! Visual search: models what the pilot notices in the camera picture. Detection of a defect depends on its size in the
-//! picture and the pilot's probability-of-detection curve; noise makes stains and shadows cause false alarms (signal
+//! picture and the pilot's probability-of-detection curve; noise causes false alarms at stains and shadows (signal
 //! detection theory).
 
 use super::skill::Skill;
@@ -16,26 +16,27 @@ const GLIMPSE_INTERVAL_S: f64 = 0.25;
 const POD_SIGMA_LN: f64 = 1.147;
 /// Minimum extent of a clearly visible object, px (estimate).
 const CLEAR_PX: f64 = 40.0;
-/// Minimum extent for detection, px (a tenth of the pixels of a clear picture; estimate).
+/// Minimum extent for detection, px (a tenth of the pixels in a clear picture; estimate).
 const MIN_EXTENT_PX: f64 = 6.0;
 /// Maximum incidence angle for detection, rad (60 degrees; inspection practice rejects more oblique pictures).
 const MAX_INCIDENCE_RAD: f64 = 1.05;
-/// Surface noise that makes a surface look like a defect, in standard deviations of the trained pilot (estimate).
+/// Surface noise at which a surface looks like a defect, as a multiple of a trained pilot's standard deviation
+/// (estimate).
 const FALSE_ALARM_SIGMAS: f64 = 4.6;
 
 /// Result of a glimpse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Glimpse {
-    /// Nothing new noticed.
+    /// The pilot noticed nothing new.
     Nothing,
-    /// A real defect noticed.
+    /// The pilot noticed a real defect.
     Defect {
-        /// Defect ID.
+        /// ID of the defect.
         id: u32,
-        /// Judgment error for this defect, in standard deviations of the trained pilot.
+        /// Judgment error for this defect, as a multiple of a trained pilot's standard deviation.
         judgment_error: f64,
     },
-    /// A false alarm.
+    /// The pilot mistook something else for a defect.
     Distractor,
 }
 
@@ -47,7 +48,7 @@ pub struct VisualSearch {
     /// Detection threshold of each defect on this flight: uniform in [0, 1], drawn when the defect first comes into
     /// view.
     notice_threshold: BTreeMap<u32, f64>,
-    /// Time until which each defect is ignored.
+    /// Time at which the pilot stops ignoring each defect.
     ignored_until: BTreeMap<u32, SimTime>,
 }
 
@@ -75,7 +76,7 @@ impl VisualSearch {
         self.next_glimpse = now + SimTime::from_s(GLIMPSE_INTERVAL_S);
         let deceived = self.random.normal() * skill.noise > FALSE_ALARM_SIGMAS;
         for view in views() {
-            // The pilot cannot notice a defect that is edge-on, too small or in the dark, but it may become detectable
+            // The pilot cannot notice a defect that is edge-on, too small, or in the dark, but it may become detectable
             // later.
             let lit = view.illuminance_lux >= view.needed_lux;
             let plain = lit && view.unoccluded && view.extent_px >= MIN_EXTENT_PX && view.incidence_rad < MAX_INCIDENCE_RAD;
@@ -110,7 +111,8 @@ fn normal_cdf(x: f64) -> f64 {
     0.5 * libm::erfc(-x / std::f64::consts::SQRT_2)
 }
 
-/// Returns the camera pose for an aircraft at `position` with its heading and gimbal pitch (the gimbal keeps the horizon level).
+/// Returns the camera pose for an aircraft at `position` with its heading and gimbal pitch (the gimbal keeps the
+/// horizon level).
 #[must_use]
 pub fn camera_pose(
     motion: &super::perception::MotionState,

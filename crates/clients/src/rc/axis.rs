@@ -1,4 +1,4 @@
-//! Calibration of one raw axis: endpoints, center, dead band and expo.
+//! Calibration of one raw axis: endpoints, center, dead band, and expo.
 
 /// Minimum distance of each endpoint from the center, in raw units (full range: 2; estimate: a stick axis moves
 /// farther).
@@ -39,7 +39,7 @@ impl AxisCalibration {
 mod tests {
     use super::*;
 
-    /// Rounding error of a few multiplications of numbers below 1.
+    /// Rounding error after a few multiplications of numbers below 1.
     const ROUNDING: f64 = 1e-15;
 
     fn full_range_axis() -> AxisCalibration {

@@ -21,10 +21,10 @@ const CAMERA_COMPONENT: u8 = 100;
 /// Interval between MANUAL_CONTROL messages, s (50 Hz, the monitor's recording rate).
 const STICK_INTERVAL_S: f64 = 0.02;
 const HEARTBEAT_INTERVAL_S: f64 = 1.0;
-/// Duration of sending centered sticks after a device is lost, s (estimate: long enough to get through a poor radio
-/// link).
+/// Time for which the link sends centered sticks after a device is lost, s (estimate: long enough to get through a poor
+/// radio link).
 pub const CENTERED_DURATION_S: f64 = 0.3;
-/// Retry interval of an unacknowledged command, s, and maximum number of transmissions (MAVLink command protocol;
+/// Retry interval for an unacknowledged command, s, and the maximum number of transmissions (MAVLink command protocol;
 /// estimate).
 const RETRY_INTERVAL_S: f64 = 0.5;
 const MAX_TRANSMISSIONS: u8 = 5;
@@ -38,8 +38,8 @@ const ZOOM_STEP: f32 = 0.0;
 /// Gimbal step per button press, degrees.
 const GIMBAL_STEP_DEG: f32 = 10.0;
 /// Time window after a gimbal step, s, in which another press adds to the last commanded pitch, because the gimbal may
-/// still be moving (estimate: two taps and a move of several steps). Later presses add to the reported pitch, because
-/// other clients also control the gimbal.
+/// still be moving (estimate: enough for two taps and a move of several steps). Later presses add to the reported
+/// pitch, because other clients also control the gimbal.
 const AIM_WINDOW_S: f64 = 2.0;
 
 /// Latest state reported by the vehicle.
@@ -47,7 +47,7 @@ const AIM_WINDOW_S: f64 = 2.0;
 pub struct LastReported {
     /// System ID, once a heartbeat has arrived.
     pub system: Option<u8>,
-    /// Autopilot type.
+    /// Autopilot type from the heartbeat.
     pub autopilot: Option<MavAutopilot>,
     /// Whether the vehicle is armed.
     pub armed: bool,
@@ -65,7 +65,7 @@ struct PendingCommand {
     next: SimTime,
 }
 
-/// Connects a controller to a vehicle.
+/// Link from a controller to a vehicle.
 #[derive(Debug, Clone)]
 pub struct ControllerLink {
     decoder: Decoder,
@@ -113,8 +113,7 @@ impl Default for ControllerLink {
 }
 
 impl ControllerLink {
-    /// Sets the stick positions; `None` if there is no device. Only heartbeats are sent until a device has been
-    /// present.
+    /// Sets the stick positions; `None` if there is no device. Sends only heartbeats until a device has been connected.
     pub fn set_sticks(&mut self, sticks: Option<Sticks>, now: SimTime) {
         match sticks {
             Some(sticks) => {
@@ -293,7 +292,7 @@ impl ControllerLink {
         let Some(target) = self.vehicle.system else { return };
         let scale = |value: f64| (value.clamp(-1.0, 1.0) * 1000.0).round() as i16;
         let s = self.sticks;
-        // Throttle ranges from 0 to 1000 and is centered at 500, as in PX4, ArduPilot and QGroundControl.
+        // Throttle ranges from 0 to 1000 and is centered at 500, as in PX4, ArduPilot, and QGroundControl.
         let z = (500.0 + 500.0 * s.up.clamp(-1.0, 1.0)).round() as i16;
         self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
             target,
@@ -312,7 +311,7 @@ impl ControllerLink {
                 return true;
             }
             if p.sent == MAX_TRANSMISSIONS {
-                // Stream requests repeat anyway, and a vehicle that has responded before may just be paused.
+                // Stream requests are repeated anyway, and a vehicle that has responded before may simply be paused.
                 if p.description != STREAM_REQUEST_NAME || !std::mem::replace(&mut self.streams_reported, true) {
                     self.push_message(p.description, "no response from vehicle");
                 }

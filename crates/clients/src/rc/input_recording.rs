@@ -1,8 +1,8 @@
-//! Recording and playback of controller input as JSON lines.
+//! Recording and playback of controller input in JSON Lines format.
 //!
-//! The first line is `{"format":1,"device":NAME,"id":ID}`, followed by one line per event: `{"t_s":S,"axis":N,"value":V}`,
-//! `{"t_s":S,"button":N,"pressed":BOOL}`, `{"t_s":S,"lost":true}` or `{"t_s":S,"found":true}`. `t_s` is the time since the start
-//! and never decreases.
+//! The first line is `{"format":1,"device":NAME,"id":ID}`, followed by one line per event:
+//! `{"t_s":S,"axis":N,"value":V}`, `{"t_s":S,"button":N,"pressed":BOOL}`, `{"t_s":S,"lost":true}` or
+//! `{"t_s":S,"found":true}`. `t_s` is the time since the start and never decreases.
 
 use super::{Device, DeviceEvent};
 use serde_json::{Value, json};
@@ -43,7 +43,7 @@ impl InputRecording {
     /// Parses a recording. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// Reports the first invalid line: file, line number, the problem, and the allowed values.
+    /// Returns the file, line number, problem, and allowed values of the first invalid line.
     pub fn read(file: &str, text: &str) -> Result<Self, String> {
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
         let (_, first) = lines
@@ -54,7 +54,12 @@ impl InputRecording {
         for (k, line) in lines {
             let (at, event) = event(line).map_err(|what| format!("{file}:{}: {what}", k + 1))?;
             if let Some((before, _)) = events.back().filter(|(before, _)| *before > at) {
-                return Err(format!("{file}:{}: t_s = {} decreases (allowed: {} or later)", k + 1, at.s(), before.s()));
+                return Err(format!(
+                    "{file}:{}: t_s = {} is before the previous event (allowed: {} or later)",
+                    k + 1,
+                    at.s(),
+                    before.s()
+                ));
             }
             events.push_back((at, event));
         }
@@ -146,7 +151,10 @@ mod tests {
             ("{", "is not a JSON object"),
             ("{\"t_s\":-1,\"lost\":true}", "t_s = -1 (allowed: 0 to 1e6)"),
             ("{\"t_s\":1,\"axis\":1,\"value\":2}", "value = 2 (allowed: -1 to 1)"),
-            ("{\"t_s\":1,\"axis\":1,\"value\":0}\n{\"t_s\":0.5,\"lost\":true}", "r:3: t_s = 0.5 decreases (allowed: 1 or later)"),
+            (
+                "{\"t_s\":1,\"axis\":1,\"value\":0}\n{\"t_s\":0.5,\"lost\":true}",
+                "r:3: t_s = 0.5 is before the previous event (allowed: 1 or later)",
+            ),
             ("{\"t_s\":1,\"button\":1}", "pressed = null"),
             ("{\"t_s\":1,\"fly\":1}", "is not an event"),
         ] {

@@ -1,6 +1,6 @@
 //! Key names for configuration files and for display.
 
-/// Non-character keys by their names in configuration files.
+/// Names of non-character keys in configuration files.
 pub const SPECIAL_KEYS: [&str; 11] =
     ["up", "down", "left", "right", "space", "enter", "pageup", "pagedown", "tab", "escape", "backspace"];
 
@@ -36,7 +36,8 @@ fn capitalized(name: &str) -> String {
     let mut upper = signs.next().into_iter().flat_map(char::to_uppercase);
     match (upper.next(), upper.next()) {
         (Some(first), None) => format!("{first}{}", signs.as_str()),
-        // If the uppercase form has two letters (ß), keeps the lowercase label, because keys have single letters.
+        // If the uppercase form has two letters (as for ß), the label stays lowercase, because a key has only one
+        // letter.
         _ => name.to_owned(),
     }
 }

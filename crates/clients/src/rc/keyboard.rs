@@ -5,29 +5,29 @@ use spandrel_model::time::SimTime;
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
 
-/// Stick deflection of a key (estimate: half, to keep beginners from flying at full speed).
+/// Stick deflection when a key is held (estimate: half, to keep beginners from flying at full speed).
 pub const DEFAULT_DEFLECTION: f64 = 0.5;
-/// Time that a key counts as held after its last event, s. Used in terminals, which do not report key releases. Longer
-/// than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
+/// Time for which a key counts as held after its last event, s. Used in terminals, which do not report key releases.
+/// Longer than the usual delay before a held key repeats, 0.5 s (defaults of X.Org and Windows: 0.25 to 0.66 s).
 pub const KEY_HOLD_TIMEOUT_S: f64 = 0.7;
-/// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than the usual
-/// repeat interval of a held key, 0.03 s.
+/// Minimum interval between gimbal or zoom steps from repeated taps, s (estimate: up to 8 taps per second). Longer than
+/// the usual repeat interval of a held key, 0.03 s.
 const MIN_TAP_INTERVAL_S: f64 = 0.12;
 
 /// Direction of a stick deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum StickDirection {
-    /// Forward.
+    /// Fly forward.
     Forward,
-    /// Backward.
+    /// Fly backward.
     Back,
-    /// Left.
+    /// Fly left.
     Left,
-    /// Right.
+    /// Fly right.
     Right,
-    /// Up.
+    /// Climb.
     Up,
-    /// Down.
+    /// Descend.
     Down,
     /// Turn left.
     TurnLeft,
@@ -62,7 +62,7 @@ const ACTION_BINDINGS: [(ControllerAction, &str); 13] = [
     (ControllerAction::CameraZoomOut, "["),
 ];
 
-/// Action of a key in the viewer window; not available in a terminal.
+/// Key action in the viewer window; not available in a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WindowAction {
     /// Cycles the layout: both views side by side, camera large, inspector large.
@@ -87,7 +87,7 @@ pub enum WindowAction {
     Pause,
     /// Restarts a practice session after confirmation.
     Restart,
-    /// Toggles sound.
+    /// Turns sound on or off.
     Sound,
 }
 
@@ -106,7 +106,7 @@ const WINDOW_BINDINGS: [(&str, WindowAction, &str); 12] = [
     ("sound", WindowAction::Sound, "n"),
 ];
 
-/// Sounds of the viewer window.
+/// Sound settings of the viewer window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoundPreferences {
     /// Whether propeller sound is on.
@@ -132,7 +132,7 @@ pub struct KeyBindings {
     pushes: BTreeMap<String, StickDirection>,
     actions: BTreeMap<String, ControllerAction>,
     window_actions: BTreeMap<String, WindowAction>,
-    /// Sounds of the viewer window.
+    /// Sound settings of the viewer window.
     pub sounds: SoundPreferences,
 }
 
@@ -152,7 +152,7 @@ impl KeyBindings {
     /// Reads a key file; omitted bindings keep their defaults. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// Reports all errors in the file, each with its line, key, value and allowed range.
+    /// Reports all errors in the file, each with its line, key, value, and allowed range.
     pub fn read(file: &str, text: &str) -> Result<Self, Problems> {
         let mut r = Reader::new(file, text);
         let keys = r.parse().map(|document| {
@@ -203,15 +203,15 @@ impl KeyBindings {
         self.pushes.contains_key(&key.to_lowercase())
     }
 
-    /// Returns the configuration file name of the stick direction or vehicle action of a key.
+    /// Returns the stick direction or vehicle action of a key, by its name in configuration files.
     #[must_use]
     pub fn binding_name(&self, key: &str) -> Option<&'static str> {
         let push = self.pushes.get(key).and_then(|push| STICK_BINDINGS.iter().find(|p| p.1 == *push)).map(|p| p.0);
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
 
-    /// Returns the display name of the key for a stick direction, vehicle action or window action, given by its name in
-    /// configuration files; empty if the name is unknown.
+    /// Returns the display name of the key for a stick direction, vehicle action, or window action, given by its name
+    /// in configuration files; empty if the name is unknown.
     #[must_use]
     pub fn label(&self, name: &str) -> String {
         self.of(name).map_or(String::new(), key::label)
@@ -226,7 +226,7 @@ impl KeyBindings {
         sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
     }
 
-    /// Returns the key for a stick direction, vehicle action or window action, given by its name in configuration
+    /// Returns the key for a stick direction, vehicle action, or window action, given by its name in configuration
     /// files.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<&str> {
@@ -263,7 +263,7 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
     sounds
 }
 
-/// Reads the key of a binding, which must be a valid key that is not bound to anything else.
+/// Reads a binding's key, which must be valid and not bound to anything else.
 fn read_binding(
     r: &mut Reader,
     s: &mut Section,
@@ -279,7 +279,7 @@ fn read_binding(
     key
 }
 
-/// State of the held keys.
+/// Keys that are currently held.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct KeyboardState {
     keys: KeyBindings,
@@ -323,7 +323,7 @@ impl KeyboardState {
         }
     }
 
-    /// Releases all keys, such as when the window loses focus.
+    /// Releases all keys, for example when the window loses focus.
     pub fn release_all(&mut self) {
         self.held.clear();
     }

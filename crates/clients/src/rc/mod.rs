@@ -1,10 +1,11 @@
-//! Controllers: conversion of raw device input to sticks through a calibrated profile, and of sticks to MAVLink.
+//! Controllers: converts raw device input to stick positions through a calibrated profile, and stick positions to
+//! MAVLink.
 //!
 //! A device is a list of raw axes and buttons with no assigned functions ([`raw_input`]). A [`profile`] assigns axes to
 //! stick directions, with their centers and endpoints, and buttons to actions; the [`wizard`] creates one
 //! interactively. The [`keyboard`] replaces a missing device, and [`key`] defines the key names. [`controller_link`]
 //! sends the result to a vehicle; [`input_recording`] records and replays events. This module does not access clocks,
-//! devices or sockets.
+//! devices, or sockets.
 
 pub mod action;
 pub mod axis;

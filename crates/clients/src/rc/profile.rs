@@ -1,4 +1,4 @@
-//! Controller profile: assignment of axes to sticks and of buttons to actions, with its file format.
+//! Controller profiles, which assign axes to sticks and buttons to actions, and their file format.
 
 use super::action::{self, ControllerAction};
 use super::axis::{AxisCalibration, MIN_ENDPOINT_DISTANCE};
@@ -51,7 +51,7 @@ pub enum StickMode {
 }
 
 impl StickMode {
-    /// Returns the mode with this number, or `None` if the number is not 1 to 4.
+    /// Returns the mode with the given number, or `None` if the number is not 1 to 4.
     #[must_use]
     pub fn from_number(number: i64) -> Option<Self> {
         [Self::One, Self::Two, Self::Three, Self::Four].into_iter().find(|mode| mode.number() == number)
@@ -97,9 +97,9 @@ impl StickMode {
 /// A calibrated device.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControllerProfile {
-    /// The device.
+    /// Device to which the profile applies.
     pub device: Device,
-    /// Stick mode.
+    /// Stick mode selected for the device.
     pub mode: StickMode,
     /// Calibration of each stick axis.
     pub axes: BTreeMap<StickMotion, AxisCalibration>,
@@ -148,7 +148,7 @@ impl ControllerProfile {
     /// Parses a profile. `file` is the name used in error messages.
     ///
     /// # Errors
-    /// Reports all errors in the file, each with its line, key, value and allowed range.
+    /// Reports all errors in the file, each with its line, key, value, and allowed range.
     pub fn read(file: &str, text: &str) -> Result<Self, Problems> {
         let mut reader = Reader::new(file, text);
         let profile = reader.parse().map(|document| {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Identity of a gamepad or transmitter, as reported by the device.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Device {
-    /// Display name.
+    /// Name shown to the user.
     pub name: String,
     /// Model ID (vendor and product, or the system's GUID). The same for all devices of a model and across restarts.
     pub id: String,
@@ -39,7 +39,7 @@ pub enum DeviceEvent {
 pub struct RawInput {
     /// Axes reported so far, -1 to 1.
     pub axes: BTreeMap<u32, f64>,
-    /// Pressed buttons.
+    /// Numbers of the pressed buttons.
     pub down: BTreeSet<u32>,
     /// Whether the device is disconnected.
     pub lost: bool,

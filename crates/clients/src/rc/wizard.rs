@@ -23,20 +23,20 @@ const MIN_DISPLACEMENT: f64 = 0.5;
 /// stick).
 const STILL_TOLERANCE: f64 = 0.2;
 /// Time that sticks must be still at the center, s. An axis that stays elsewhere for [`NON_RETURNING_S`] counts as a
-/// trigger, switch or knob that does not return (estimates).
+/// trigger, switch, or knob that does not return (estimates).
 const STILL_DURATION_S: f64 = 0.2;
 const NON_RETURNING_S: f64 = 1.0;
 /// Dead band as a multiple of the noise at rest. It is at least the default and at most [`MAX_DEAD_BAND`].
 const NOISE_FACTOR: f64 = 2.0;
 const MAX_DEAD_BAND: f64 = 0.2;
-/// Maximum distance of a spring-centered rest position from the middle, as a fraction of the range. A throttle without
-/// a spring may rest farther out.
+/// Maximum distance between a spring-centered rest position and the middle, as a fraction of the range. A throttle
+/// without a spring may rest farther out.
 const MAX_CENTER_OFFSET: f64 = 0.25;
 
 /// A step of the calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum WizardStep {
-    /// Waiting for the user to release everything and confirm.
+    /// Waiting for the user to release all controls and confirm.
     Release,
     /// Measuring the axes at rest.
     Rest,
@@ -44,9 +44,9 @@ enum WizardStep {
     Range,
     /// Waiting for the sticks to return to the center.
     Center(usize),
-    /// Waiting for a push in this direction.
+    /// Waiting for a push in the given direction.
     Push(usize),
-    /// Waiting for the button for this action, or for Enter to skip it.
+    /// Waiting for the button for the given action, or for Enter to skip it.
     Button(usize),
     /// Calibration is complete.
     Done,
@@ -65,7 +65,7 @@ const BUTTONS: [(ControllerAction, &str); 7] = [
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct AxisStatistics {
-    /// Sum and count of the readings at rest, for their mean.
+    /// Sum and count of the readings at rest, used to compute their mean.
     sum: f64,
     count: u32,
     /// Minimum and maximum at rest.
@@ -74,7 +74,7 @@ struct AxisStatistics {
     rested: bool,
     /// Minimum and maximum overall.
     ends: (f64, f64),
-    /// Steady value, and the time when the axis reached it.
+    /// Steady value, and the time at which the axis reached it.
     steady: (f64, SimTime),
 }
 
@@ -145,10 +145,10 @@ impl CalibrationWizard {
     #[must_use]
     pub fn prompt(&self) -> String {
         let asked = match self.step {
-            WizardStep::Release => "Let go of both sticks (center a throttle that has no spring), then press Enter.".to_owned(),
+            WizardStep::Release => "Release both sticks (center the throttle if it has no spring), then press Enter.".to_owned(),
             WizardStep::Rest => "Do not touch the sticks ...".to_owned(),
             WizardStep::Range => format!(
-                "Move both sticks around their full range, then press Enter. Axes found: {} of 4.",
+                "Move both sticks through their full range, then press Enter. Axes found: {} of 4.",
                 self.statistics.values().filter(|seen| is_fully_moved(seen)).count().min(4)
             ),
             WizardStep::Center(_) => "Center the sticks ...".to_owned(),
@@ -168,7 +168,7 @@ impl CalibrationWizard {
         self.raw.lost
     }
 
-    /// Returns the position of each axis for display: number, reading, minimum and maximum.
+    /// Returns the position of each axis for display: number, reading, minimum, and maximum.
     pub fn axes(&self) -> impl Iterator<Item = (u32, f64, (f64, f64))> + '_ {
         self.raw.axes.iter().filter_map(|(axis, value)| Some((*axis, *value, self.statistics.get(axis)?.ends)))
     }
@@ -279,7 +279,8 @@ impl CalibrationWizard {
         })
     }
 
-    /// Measures the center of axes that have just returned to it. Some systems do not report an axis before it moves.
+    /// Measures the center of each axis that has just returned to it. Some systems do not report an axis before it
+    /// moves.
     fn measure_center(&mut self) {
         for axis in self.fully_moved.clone() {
             let Some((value, part)) = self.deflection(axis) else { continue };
@@ -297,7 +298,7 @@ impl CalibrationWizard {
         }
         let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= PUSHED_DURATION_S) else { return };
         if !self.fully_moved.contains(&axis) {
-            self.note = Some("That stick was not moved through its full range.");
+            self.note = Some("You did not move that stick through its full range.");
             return self.start_step(WizardStep::Range, now);
         }
         if self.is_known(axis) {
@@ -369,8 +370,8 @@ fn is_fully_moved(seen: &AxisStatistics) -> bool {
     seen.ends.1 - seen.ends.0 >= MIN_TRAVEL
 }
 
-/// Returns the rest position of the stick: the measured one, or the middle of the range if the stick rests near an end,
-/// like a throttle without a spring.
+/// Returns the stick's rest position: the measured one, or the middle of the range if the stick rests near an end, like
+/// a throttle without a spring.
 fn rest_position(seen: &AxisStatistics) -> f64 {
     let middle = f64::midpoint(seen.ends.0, seen.ends.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };
@@ -398,7 +399,8 @@ mod tests {
     use super::*;
     use crate::rc::input_recording;
 
-    /// A simulated user with a transmitter: axes 0 roll, 1 pitch (reversed), 2 throttle (no spring), 3 yaw; 5 is a knob.
+    /// A simulated user with a transmitter: axes 0 roll, 1 pitch (reversed), 2 throttle (no spring), 3 yaw; 5 is a
+    /// knob.
     struct SimulatedUser {
         wizard: CalibrationWizard,
         now: SimTime,
@@ -586,7 +588,7 @@ mod tests {
         person.axis(5, 1.0);
         person.wait(0.5);
         let told = person.wizard.prompt();
-        assert!(told.starts_with("That stick was not moved through its full range. Move both sticks"), "{told}");
+        assert!(told.starts_with("You did not move that stick through its full range. Move both sticks"), "{told}");
         for value in [-1.0, 0.0] {
             person.axis(5, value);
         }

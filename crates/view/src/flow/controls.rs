@@ -154,7 +154,7 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
         pen.panel((at(*value) - 0.004, y - 0.004), (0.008, BAR_HEIGHT + 0.008), HudColor::Yellow);
     }
     if all.is_empty() {
-        pen.text((x, y), TextAlign::Left, SMALL, HudColor::Gray, "No axis moved yet.");
+        pen.text((x, y), TextAlign::Left, SMALL, HudColor::Gray, "No axis has moved yet.");
     }
 }
 

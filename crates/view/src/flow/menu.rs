@@ -1,10 +1,10 @@
-//! Menu rows: buttons, choices and text fields, operated with keys or clicks.
+//! Menu rows: buttons, choices, and text fields, operated with keys or clicks.
 
 use super::KeyPress;
 use super::sheet::{PageWriter, SMALL, TEXT, text_width};
 use crate::hud::{HudColor, TextAlign};
 
-/// Height of a row, and spacing of rows.
+/// Row height and row spacing.
 const ROW_HEIGHT: f64 = 0.06;
 pub const ROW_SPACING: f64 = 0.07;
 
@@ -21,9 +21,9 @@ pub enum MenuAction {
     CheckController,
     /// Open the tutorial.
     OpenTutorial,
-    /// Toggle sound.
+    /// Turn sound on or off.
     Sound,
-    /// Quit.
+    /// Quit the program.
     Quit,
     /// Search for a controller.
     FindController,
@@ -83,9 +83,9 @@ pub struct MenuRow {
     pub action: MenuAction,
     /// Interaction of the row.
     pub kind: RowKind,
-    /// Label.
+    /// Label of the row.
     pub label: String,
-    /// Current value.
+    /// Current value; empty for a button.
     pub value: String,
 }
 
@@ -140,6 +140,6 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
     }
 }
 
-/// Start of the value, as a fraction of the row's width, and width of its arrows.
+/// Horizontal position of the value, as a fraction of the row's width, and the width of its arrows.
 const VALUE_START: f64 = 0.3;
 const ARROW_WIDTH: f64 = 0.06;

@@ -1,5 +1,5 @@
-//! State machine of the window, from the start page through a flight to its scores: the current page, its keys and
-//! clicks, and the messages to `train`. It has no side effects: it consumes inputs and messages and produces pages and
+//! State machine of the window, from the start page through the flight to the scores: current page, keys, clicks, and
+//! messages to `spandrel train`. It has no side effects: it consumes inputs and messages and produces pages and
 //! requests.
 
 mod controls;
@@ -170,7 +170,7 @@ impl WindowFlow {
         self.focus = self.focus.min(self.rows().len().saturating_sub(1));
     }
 
-    /// Handles a message from `train`.
+    /// Handles a message from `spandrel train`.
     pub fn handle_message(&mut self, message: ToWindow) {
         match message {
             ToWindow::Offers(offers) => {
@@ -238,8 +238,8 @@ impl WindowFlow {
         }
     }
 
-    /// Handles a click at a position (fractions of the window) in a window with this aspect ratio. Returns whether the
-    /// click hit a control.
+    /// Handles a click at a position, given in fractions of the window, in a window with the given aspect ratio.
+    /// Returns whether the click hit a control.
     pub fn click(&mut self, place: ScreenPoint, aspect: f64) -> bool {
         // The last item drawn is on top.
         let spots = self.sheet(aspect).click_areas;
@@ -252,7 +252,7 @@ impl WindowFlow {
         true
     }
 
-    /// Toggles sound.
+    /// Turns sound on or off.
     pub fn toggle_sound(&mut self) {
         self.sound = !self.sound;
         self.out.push_back(WindowRequest::Sound(self.sound));

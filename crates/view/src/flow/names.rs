@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 pub struct KeyNames(BTreeMap<&'static str, String>);
 
 impl KeyNames {
-    /// Creates the names from the bindings.
+    /// Creates the names from a map of bindings to display names.
     #[must_use]
     pub fn new(keys: BTreeMap<&'static str, String>) -> Self {
         Self(keys)

@@ -1,4 +1,4 @@
-//! Input events, pages and requests of the window.
+//! Input events, pages, and requests of the window.
 
 use super::pipe::{FlightStarted, FromWindow};
 
@@ -7,7 +7,7 @@ use super::pipe::{FlightStarted, FromWindow};
 pub enum ProfileChange {
     /// Stick mode, 1 to 4.
     Mode(i64),
-    /// Dead band of every axis as a fraction of the travel, 0 to 0.5.
+    /// Dead band of every axis as a fraction of the axis travel, 0 to 0.5.
     DeadBand(f64),
     /// Expo of every axis, 0 to 1.
     Expo(f64),
@@ -43,7 +43,7 @@ pub enum KeyPress {
 pub enum Page {
     /// Waiting for the first message.
     Opening,
-    /// Selection of trainee, job and purpose.
+    /// Selection of trainee, job, and purpose.
     Start,
     /// Controller check.
     Controls,
@@ -66,7 +66,7 @@ pub enum Page {
 /// A request to the program that hosts the window.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindowRequest {
-    /// Send this message to `train`.
+    /// Send this message to `spandrel train`.
     Send(FromWindow),
     /// Connect to this flight and show it.
     ShowFlight(Box<FlightStarted>),

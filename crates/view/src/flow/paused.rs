@@ -9,7 +9,7 @@ use crate::hud::{HudColor, TextAlign};
 /// Title and text of the pause page.
 pub const PAUSE_TEXT: [&str; 2] = ["Paused", "The clock is stopped."];
 /// Title and text of the end confirmation.
-pub const END_TEXT: [&str; 2] = ["End the assessment?", "Clock is running. Unflown tasks count as not attempted."];
+pub const END_TEXT: [&str; 2] = ["End the assessment?", "The clock is running. Tasks you don't fly count as not attempted."];
 
 /// Draws the page over the flight, which stays visible.
 pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], focus: usize) -> PageLayout {

@@ -1,4 +1,4 @@
-//! Messages between `train` and its window: JSON lines over the window's standard input and output.
+//! Messages between `spandrel train` and its window: JSON lines over the window's standard input and output.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ pub enum Purpose {
     /// The flight may be paused and restarted; the map is available.
     #[default]
     Practice,
-    /// No pause, restart or map.
+    /// No pause, restart, or map.
     Assessment,
 }
 
@@ -29,7 +29,7 @@ impl Purpose {
 /// A trainee who has flown on this machine.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TraineeSummary {
-    /// Pseudonym.
+    /// The trainee's pseudonym.
     pub name: String,
     /// Number of sessions.
     pub sessions: u32,
@@ -42,16 +42,16 @@ pub struct TraineeSummary {
 pub struct JobOffer {
     /// Name, or path of the file.
     pub name: String,
-    /// Display title.
+    /// Title shown to the user.
     pub title: String,
-    /// Short description of the type of job.
+    /// Short description of the job type.
     pub kind: String,
 }
 
-/// Selection of trainee, job and purpose.
+/// Selection of trainee, job, and purpose.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightChoice {
-    /// Pseudonym.
+    /// The trainee's pseudonym.
     pub trainee: String,
     /// Name or path of the job.
     pub scenario: String,
@@ -75,7 +75,7 @@ pub struct FlightOptions {
 /// A flight that has started.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightStarted {
-    /// Trainee, job and purpose.
+    /// Trainee, job, and purpose.
     pub choice: FlightChoice,
     /// Name or path of the aircraft.
     pub vehicle: String,
@@ -87,7 +87,7 @@ pub struct FlightStarted {
     pub fly: Option<SocketAddr>,
 }
 
-/// A score.
+/// One of the four scores.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FinalScore {
     /// Score as defined in the TASBID paper.
@@ -99,7 +99,7 @@ pub struct FinalScore {
 /// Result of a flight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlightSummary {
-    /// Scores for conformity, efficiency, safety and accuracy; `None` if not applicable.
+    /// Scores for conformity, efficiency, safety, and accuracy; `None` if not applicable.
     pub scores: [Option<FinalScore>; 4],
     /// Sum and maximum possible sum; `None` if the session is incomplete.
     pub overall: Option<(f64, f64)>,
@@ -109,9 +109,9 @@ pub struct FlightSummary {
     pub complete: bool,
     /// "Certified", or the first requirement not met.
     pub verdict: Option<String>,
-    /// Why the flight ended, or why there are no scores.
+    /// Reason why the flight ended or why it has no scores.
     pub why: String,
-    /// Address of the report, if there is one.
+    /// Address of the report, if one was written.
     pub report: Option<String>,
     /// Address of the questionnaire if a server is running, otherwise the command that starts it.
     pub questionnaire: String,
@@ -120,11 +120,11 @@ pub struct FlightSummary {
 /// Names of the four scores, in order.
 pub const SCORE_NAMES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
 
-/// Messages from `train` to its window.
+/// Messages from `spandrel train` to its window.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum ToWindow {
-    /// Available choices.
+    /// Choices to offer on the start page.
     Offers(FlightOptions),
     /// A flight has started.
     Flying(FlightStarted),
@@ -135,14 +135,14 @@ pub enum ToWindow {
     },
     /// A request was rejected.
     Refused {
-        /// Reason.
+        /// Reason, shown to the user.
         words: String,
     },
     /// The flight has ended.
     Ended(FlightSummary),
 }
 
-/// Messages from the window to `train`.
+/// Messages from the window to `spandrel train`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum FromWindow {
@@ -160,7 +160,7 @@ pub enum FromWindow {
     End,
     /// Fly the same job again.
     Again,
-    /// Quit.
+    /// Quit the program.
     Quit,
 }
 
@@ -174,13 +174,13 @@ pub fn line<T: Serialize>(message: &T) -> String {
 /// Parses a message from a line.
 ///
 /// # Errors
-/// Returns a description of the problem, with the start of the line.
+/// Returns a description of the problem and the beginning of the line.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
-    /// Maximum number of characters of the line to quote in an error message.
+    /// Maximum number of characters of a line that an error message quotes.
     const MAX_SHOWN_CHARS: usize = 120;
     serde_json::from_str(line).map_err(|error| {
         let shown: String = line.chars().take(MAX_SHOWN_CHARS).collect();
-        format!("'{shown}' is not a valid message between train and its window: {error}")
+        format!("'{shown}' is not a valid message between `spandrel train` and its window: {error}")
     })
 }
 

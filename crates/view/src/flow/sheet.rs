@@ -1,4 +1,4 @@
-//! A page as plain data: items to draw, clickable areas and pictures. Sizes are fractions of the window's height, so
+//! A page as plain data: items to draw, clickable areas, and pictures. Sizes are fractions of the window's height, so
 //! text scales with the window. During layout, horizontal positions use the same unit; at the end, they become
 //! fractions of the width.
 
@@ -13,7 +13,8 @@ pub const TEXT: f64 = 0.038;
 pub const SMALL: f64 = 0.032;
 /// Line spacing in multiples of the font size.
 pub const LINE_SPACING: f64 = 1.35;
-/// Mean character width as a fraction of the font size (egui's Ubuntu Light, lowercase; slightly wide to prevent overflow).
+/// Mean character width as a fraction of the font size (egui's Ubuntu Light, lowercase; slightly wide to prevent
+/// overflow).
 const CHAR_WIDTH: f64 = 0.48;
 /// Maximum width of a page; keeps lines readable on wide windows.
 pub const MAX_PAGE_WIDTH: f64 = 2.3;
@@ -70,7 +71,7 @@ pub struct PageWriter {
 }
 
 impl PageWriter {
-    /// Creates an empty page for a window with this aspect ratio (width over height).
+    /// Creates an empty page for a window with the given aspect ratio (width over height).
     #[must_use]
     pub fn new(aspect: f64) -> Self {
         let width = aspect.min(MAX_PAGE_WIDTH);

@@ -1,4 +1,4 @@
-//! Start page, where the user chooses trainee, job and purpose, and the waiting page.
+//! Start page, where the user chooses trainee, job, and purpose, and the waiting page.
 
 use super::pipe::Purpose;
 use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL, TEXT, TITLE, wrap_text};
@@ -6,8 +6,8 @@ use super::{Page, WindowFlow, controls, menu, paused, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
 
 impl WindowFlow {
-    /// Returns the page for a window with this aspect ratio (width over height). During a flight, it contains only the
-    /// button.
+    /// Returns the page for a window with the given aspect ratio (width over height). During a flight, it contains only
+    /// the button.
     #[must_use]
     pub fn sheet(&self, aspect: f64) -> PageLayout {
         let rows = self.rows();
@@ -69,11 +69,11 @@ impl WindowFlow {
         let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
         let purpose = match self.choice.purpose {
             Purpose::Practice => "You can pause and restart; the map shows the paths.",
-            Purpose::Assessment => "One attempt: no pause, restart or map.",
+            Purpose::Assessment => "One attempt: no pause, restart, or map.",
         };
         let mut told = vec![("Trainee", who), ("Job", job), ("Purpose", purpose.to_owned())];
         if let Some(web) = offers.and_then(|o| o.web.as_ref()) {
-            told.push(("Sessions in a browser", web.clone()));
+            told.push(("View sessions in browser", web.clone()));
         }
         told
     }

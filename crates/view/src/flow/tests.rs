@@ -82,7 +82,7 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
     press(&mut flow, &[KeyPress::Down, KeyPress::Left, KeyPress::Enter, KeyPress::Enter, KeyPress::Enter]);
     assert_eq!((flow.page(), flow.choice().scenario.as_str()), (Page::Controls, "drill-hover"));
     press(&mut flow, &[KeyPress::Enter]);
-    assert_eq!(flow.page(), Page::Waiting, "a returning trainee must not get the tutorial");
+    assert_eq!(flow.page(), Page::Waiting, "a returning trainee must not see the tutorial");
     let wanted = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted.clone()))]);
     flow.handle_message(flying(&wanted));
@@ -145,9 +145,9 @@ fn exact_tutorial_precedes_each_trainees_first_practice() {
     flow.handle_message(flying(&flow.choice().clone()));
     flow.handle_message(ToWindow::Ended(ended()));
     press(&mut flow, &[KeyPress::Row(3), KeyPress::Row(3), KeyPress::Enter]);
-    assert_eq!(flow.page(), Page::Waiting, "a trainee who has practiced must not get the tutorial");
+    assert_eq!(flow.page(), Page::Waiting, "a trainee who has practiced must not see the tutorial");
     flow.handle_message(ToWindow::Refused { words: String::new() });
-    assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "a new trainee must get the tutorial");
+    assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "a new trainee must see the tutorial");
 }
 
 #[test]
@@ -276,7 +276,11 @@ fn exact_pause_and_restart_are_available_only_in_practice() {
     flow.handle_message(ToWindow::Ended(ended()));
     flow.pause();
     flow.restart();
-    assert_eq!(pending_requests(&mut flow), [WindowRequest::LeaveFlight], "pause and restart must have no effect after the end");
+    assert_eq!(
+        pending_requests(&mut flow),
+        [WindowRequest::LeaveFlight],
+        "pause and restart must have no effect after the flight has ended"
+    );
 }
 
 #[test]
@@ -371,7 +375,7 @@ fn prop_pages_fit_windows_of_any_aspect_ratio() {
     }
 }
 
-/// Returns all texts of a page with their positions in percent of the window.
+/// Returns all of a page's texts with their positions as percentages of the window.
 fn words(flow: &WindowFlow) -> String {
     let line = |item: &DrawItem| match item {
         DrawItem::Text { place, words, .. } => Some(format!("{:3.0} {:3.0} {words}\n", 100.0 * place.x, 100.0 * place.y)),

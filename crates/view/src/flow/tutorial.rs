@@ -1,5 +1,5 @@
-//! Tutorial before the first practice session, as in the TASBID protocol: pictures from the simulator with labels and
-//! arrows, and the HUD as in flight.
+//! Tutorial shown before the first practice session, as in the TASBID protocol: simulator pictures with labels and
+//! arrows, and the HUD as it appears in flight.
 
 use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
@@ -32,40 +32,42 @@ const TUTORIAL_PAGES: [TutorialPage; PAGES] = [
     (
         "the job",
         job,
-        "You are on the hillside with a drone. Fly along each task's path at the bridges, photograph each defect once, then return \
-         and land on the pad.\n\nThe orange line shows an example flight; the red dots mark its photos.",
+        "You are standing on a hillside with a drone. Follow each task's path, photograph each defect once, then return and land on \
+         the pad.\n\nThe orange line shows an example flight; the red dots mark its photos.",
     ),
     (
         "two views",
         views,
-        "Left: the view from where you stand. Right: the drone camera's view.\n\n{swap} enlarges one view. Drag with the mouse to \
-         look around, scroll to zoom; {follow} makes your view follow the drone again.",
+        "Left: your own view. Right: the drone camera's view.\n\nPress {swap} to enlarge one view. Drag with the mouse to look \
+         around, scroll to zoom. Press {follow} to make your view follow the drone again.",
     ),
     (
         "the display",
         display,
-        "Stay below the speed limit during a task. The battery is green, then yellow (triangle), then red (flashing octagon): return \
-         before it is empty.\n\nAn assessment has no map.",
+        "Stay below the speed limit during a task. The battery symbol turns from green to yellow (triangle) to red (flashing octagon): \
+         return before the battery is empty.\n\nAn assessment has no map.",
     ),
     (
         "warnings",
         warnings,
-        "Warnings appear lower left, the most serious lowest. Each has its own shape and, with sound on, its own tone.\n\n\
+        "Warnings appear at lower left, the most serious at the bottom. Each has its own shape and, with sound on, its own tone.\n\n\
          Blue disc: return to the path.\nYellow triangle: slow down.\nOrange diamond: move away from the structure.\nRed octagon: \
          you hit something.",
     ),
     (
         "defects",
         defects,
-        "The same defects from 1, 3 and 8 m through the same lens. A photo counts if the defect is inside the corner marks, lit, not \
+        "The same defects at 1, 3, and 8 m with the same lens. A photo counts if the defect is inside the corner marks, lit, not \
          seen edge-on, and, for a crack, at least half a pixel wide. Fly closer, or zoom ({camera_zoom_in}) if the camera can.\n\n\
-         Stains, form lines, sealed cracks, webs and spray paint are not defects. Every photo that shows nothing new reduces accuracy.",
+         Stains, form lines, sealed cracks, spider webs, and spray paint are not defects. Every photo without a new defect lowers \
+         your accuracy.",
     ),
     (
         "light and scores",
         light,
-        "Dark places need the lamp ({lamp}), as these pictures show.\n\nConformity: on the path, not too fast. Efficiency: home \
-         within 15 minutes. Safety: no contact; hitting a person or a vehicle ends the session. Accuracy: every defect once.",
+        "Use the lamp ({lamp}) in dark places, as these pictures show.\n\nConformity: stay on the path and below the speed limit. \
+         Efficiency: return within 15 minutes. Safety: touch nothing; hitting a person or vehicle ends the session. Accuracy: \
+         photograph every defect once.",
     ),
 ];
 
@@ -195,7 +197,7 @@ fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
     pen.picture("lamp", second.at(0.0, 0.0), (second.width, second.height));
     label(pen, first, "without the lamp", (0.5, 1.14), (0.5, 0.85));
     label(pen, second, "with the lamp", (0.3, 1.14), (0.38, 0.85));
-    label(pen, second, "fly closer to such spots", (0.62, 0.68), (0.33, 0.33));
+    label(pen, second, "fly closer to check this", (0.62, 0.68), (0.33, 0.33));
     let (x, y) = frame.at(0.0, 0.72);
     let words = "Release the sticks to hover. Keys: {arm} arm, {take_off} take off, {up} {down} up and down, {turn_left} \
                  {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} tilt \

@@ -2,20 +2,20 @@
 
 use std::sync::{Arc, OnceLock};
 
-/// Errors of the GPU.
+/// Errors that occur while opening or using a GPU device.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
     /// No graphics device is available.
     #[error(
-        "no Vulkan, Metal or Direct3D 12 device found: install a graphics driver or a software renderer \
-         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); other features do not need one ({0})"
+        "no Vulkan, Metal, or Direct3D 12 device found: install a graphics driver or a software renderer \
+         (Debian and Ubuntu: apt-get install mesa-vulkan-drivers); all other features work without one ({0})"
     )]
     NoDevice(String),
     /// The device stopped working.
     #[error("the graphics device failed: {0}")]
     Failed(String),
-    /// The picture exceeds the device's maximum texture size: width, height and maximum side, px.
-    #[error("picture of {0} x {1} px is too large for this graphics device (at most {2} px per side)")]
+    /// The picture exceeds the device's maximum texture size: width, height, and maximum side, px.
+    #[error("a picture of {0} x {1} px is too large for this graphics device (at most {2} px per side)")]
     TooLarge(u32, u32, u32),
 }
 
@@ -26,7 +26,7 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Command queue.
     pub queue: wgpu::Queue,
-    /// Adapter name.
+    /// Name of the graphics adapter.
     pub name: String,
     /// Whether the device is a software renderer.
     pub software: bool,
@@ -39,7 +39,7 @@ impl Gpu {
     /// Opens the best available device for rendering without a window.
     ///
     /// # Errors
-    /// If there is no device or it cannot be opened.
+    /// Returns an error if no device is available or the device cannot be opened.
     pub fn open() -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         Self::open_for(&instance, None)
@@ -48,7 +48,7 @@ impl Gpu {
     /// Opens a software renderer, which is slow but produces the same results on every machine.
     ///
     /// # Errors
-    /// If there is none or it cannot be opened.
+    /// Returns an error if no such device is available or it cannot be opened.
     pub fn open_software() -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         Self::request(&instance, None, true)
@@ -57,21 +57,21 @@ impl Gpu {
     /// Opens a device that can render to a window's surface.
     ///
     /// # Errors
-    /// If there is none or it cannot be opened.
+    /// Returns an error if no such device is available or it cannot be opened.
     pub fn open_for(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Self, GpuError> {
         Self::request(instance, surface, false)
     }
 
-    /// Returns the first error since the device was opened. Pictures rendered after it are invalid.
+    /// Returns the first error since the device was opened. Pictures rendered after that error are invalid.
     #[must_use]
     pub fn fault(&self) -> Option<GpuError> {
         self.fault.get().cloned().map(GpuError::Failed)
     }
 
-    /// Checks that a picture of this size, px, fits into a texture of the device.
+    /// Checks that a picture of the given size, in px, fits into one of the device's textures.
     ///
     /// # Errors
-    /// If a side exceeds the device's maximum.
+    /// Returns an error if either side exceeds the device's maximum.
     pub fn check_size(&self, size_px: (u32, u32)) -> Result<(), GpuError> {
         check_texture_size(size_px, self.device.limits().max_texture_dimension_2d)
     }

@@ -18,13 +18,13 @@ impl<K: PartialEq, V> LruCache<K, V> {
         Self { entries: VecDeque::with_capacity(CAPACITY + 1) }
     }
 
-    /// Removes and returns the value of a key.
+    /// Removes and returns the value for a key.
     pub fn take(&mut self, key: &K) -> Option<V> {
         let at = self.entries.iter().position(|(known, _)| known == key)?;
         self.entries.remove(at).map(|(_, value)| value)
     }
 
-    /// Inserts a value as the most recently used and evicts the least recently used one if the cache is full.
+    /// Inserts a value as the most recently used one and evicts the least recently used one if the cache is full.
     pub fn put(&mut self, key: K, value: V) {
         self.entries.retain(|(known, _)| *known != key);
         self.entries.push_back((key, value));
@@ -44,7 +44,7 @@ mod tests {
         for size in 0..CAPACITY {
             recent.put(size, 'a');
         }
-        // Uses the oldest entry again, so that the second is evicted next.
+        // Uses the oldest entry again, so that the second-oldest entry is evicted next.
         let again = recent.take(&0).unwrap();
         recent.put(0, again);
         recent.put(CAPACITY, 'b');

@@ -27,7 +27,7 @@ impl Overlay {
         Self { context: egui::Context::default(), renderer }
     }
 
-    /// Draws items over the contents of `target`, which has this size, px.
+    /// Draws items over the contents of `target`; the size is in px.
     pub fn draw(&mut self, gpu: &Gpu, items: &[DrawItem], target: &wgpu::TextureView, size_px: (u32, u32)) {
         let size = egui::vec2(size_px.0 as f32, size_px.1 as f32);
         let input = egui::RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), ..egui::RawInput::default() };

@@ -27,7 +27,7 @@ pub fn upload(gpu: &Gpu, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffe
 }
 
 impl GpuMesh {
-    /// Uploads a mesh; `None` if it is empty.
+    /// Uploads a mesh; returns `None` if it is empty.
     pub fn new(gpu: &Gpu, mesh: &Mesh) -> Option<Self> {
         if mesh.indices.is_empty() {
             return None;
@@ -58,7 +58,8 @@ impl GpuMesh {
         self.draw_range(pass, copies, 0..self.count);
     }
 
-    /// Draws the triangles of one material group and returns their number per instance, or `None` if there are none.
+    /// Draws the triangles of one material group and returns their number per instance, or `None` if the group is
+    /// empty.
     pub fn draw_group(&self, pass: &mut wgpu::RenderPass, copies: &MeshInstances, look: MaterialGroup) -> Option<u32> {
         let (_, run) = self.group_ranges.iter().find(|run| run.0 == look)?;
         self.draw_range(pass, copies, run.clone());
@@ -91,7 +92,7 @@ fn sorted_by_group(mesh: &Mesh) -> (Vec<u32>, Vec<(MaterialGroup, Range<u32>)>) 
 }
 
 impl MeshInstances {
-    /// Uploads instances; `None` if there are none.
+    /// Uploads instances; returns `None` if the list is empty.
     pub fn new(gpu: &Gpu, instances: &[Instance]) -> Option<Self> {
         (!instances.is_empty()).then(|| Self {
             buffer: upload(gpu, bytemuck::cast_slice(instances), wgpu::BufferUsages::VERTEX),

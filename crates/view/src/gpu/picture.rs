@@ -13,7 +13,7 @@ pub fn picture_texture(gpu: &Gpu, size_px: (u32, u32)) -> wgpu::Texture {
     color_texture(gpu, size_px, (PICTURE_FORMAT, Use::COPY_SRC | Use::COPY_DST | Use::TEXTURE_BINDING))
 }
 
-/// Uploads a picture of the same size into a texture.
+/// Uploads a picture into a texture of the same size.
 pub fn fill(gpu: &Gpu, texture: &wgpu::Texture, picture: &Picture) {
     let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * picture.width), rows_per_image: None };
     gpu.queue.write_texture(texture.as_image_copy(), &picture.rgba, layout, texture.size());
@@ -40,7 +40,7 @@ pub fn color_texture(
 /// Reads a texture back.
 ///
 /// # Errors
-/// If the device fails or has failed before; the contents would be undefined.
+/// Returns an error if the device fails or has failed before, because the contents would be undefined.
 pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Picture, GpuError> {
     let (width, height) = (texture.width(), texture.height());
     Ok(Picture { width, height, rgba: read_bytes(gpu, texture, 4)? })
@@ -68,7 +68,7 @@ pub fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, pixel: u32) -> Result<Vec<
     gpu.queue.submit([encoder.finish()]);
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Failed(error.to_string()))?;
-    // The preceding calls do not fail if the device does; without this check, the picture would be black.
+    // The preceding calls succeed even if the device fails. Without this check, the picture would be black.
     gpu.fault().map_or(Ok(()), Err)?;
     let mapped = buffer.get_mapped_range(..).map_err(|error| GpuError::Failed(error.to_string()))?;
     let lines: Vec<&[u8]> = mapped.chunks(row as usize).map(|line| &line[..(pixel * width) as usize]).collect();

@@ -23,13 +23,13 @@ pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// One pipeline per material group.
 pub type MaterialPipelines = Vec<(MaterialGroup, wgpu::RenderPipeline)>;
 
-/// Layouts, samplers and pipelines of a renderer.
+/// Layouts, samplers, and pipelines of a renderer.
 pub struct Pipelines {
     /// Layout of globals, shadow maps and their sampler.
     pub globals_layout: wgpu::BindGroupLayout,
     /// Layout of the water reflection and its sampler.
     pub water_layout: wgpu::BindGroupLayout,
-    /// Layout of the inputs of `develop`.
+    /// Layout of the `develop` shader's inputs.
     pub develop_layout: wgpu::BindGroupLayout,
     /// Layout of a shadow map's projection.
     pub map_layout: wgpu::BindGroupLayout,
@@ -283,7 +283,7 @@ fn by_lamp<T: Clone>(quality: &Quality, of: impl Fn((&'static str, f64)) -> T) -
 
 /// Vertex and fragment entry points of most modules.
 const ENTRY_POINTS: (&str, &str) = ("vs", "fs");
-/// Entry points of the shader `lean`.
+/// Entry points of the `lean` shader.
 const LEAN_ENTRY_POINTS: (&str, &str) = ("vs_lean", "fs_lean");
 
 /// Reversed depth: nearer fragments have greater depth, and equal depth overwrites.
@@ -344,7 +344,7 @@ impl Pipelines {
         let see_through = [preset_constants.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
         let translucent =
             PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
-        // Biased toward the camera, so that defects appear in front of their faces.
+        // Biased toward the camera, so that defects appear in front of the surfaces that they are on.
         let flat =
             PipelineKey { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
         let lake =

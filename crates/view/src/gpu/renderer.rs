@@ -22,7 +22,7 @@ use spandrel_model::defect_codes;
 use spandrel_model::frames::{Enu, Vec3};
 use static_cells::{StaticCell, fixed};
 
-/// Cosine of a quarter of a degree. If the sun has moved farther than that, the whole-site shadow map is redrawn.
+/// Cosine of a quarter of a degree. If the sun moves farther than that, the whole-site shadow map is redrawn.
 const MIN_SUN_COSINE: f64 = 0.999_990_5;
 
 /// Draw statistics of a picture.
@@ -35,7 +35,7 @@ pub struct DrawCounts {
 }
 
 impl DrawCounts {
-    /// Returns the sum of two statistics.
+    /// Returns the sum of both statistics.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self { triangles: self.triangles + other.triangles, draw_calls: self.draw_calls + other.draw_calls }
@@ -279,7 +279,7 @@ impl Renderer {
         }
     }
 
-    /// Draws the defects, each with the pipeline of its kind.
+    /// Draws the defects, each with the pipeline for its kind.
     fn draw_patches(&self, pass: &mut wgpu::RenderPass, pipelines: &[(u32, wgpu::RenderPipeline)]) -> DrawCounts {
         let mut counts = DrawCounts::default();
         for (kind, buffer, patches) in &self.patches {
@@ -338,7 +338,7 @@ fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
     defect_codes::ALL.iter().filter_map(of).collect()
 }
 
-/// Returns the moving objects that are opaque.
+/// Returns the opaque moving objects.
 fn solids<'a>(
     models: &'a [Option<GpuMesh>],
     moving: &'a [(MoverModel, MeshInstances)],
@@ -371,7 +371,7 @@ fn shadow_map_texture(gpu: &Gpu, quality: &Quality) -> wgpu::Texture {
     })
 }
 
-/// Returns the view, projection buffer and bind group of a shadow map layer.
+/// Returns the view, projection buffer, and bind group of a shadow map layer.
 fn layer(gpu: &Gpu, pipelines: &Pipelines, maps: &wgpu::Texture, k: u32) -> (wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup) {
     let view = maps.create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2),

@@ -10,17 +10,17 @@ pub struct RenderTargets {
     pub light: wgpu::TextureView,
     /// Radiance, one sample per pixel; `None` if [`Self::light`] is not multisampled.
     pub resolved: Option<wgpu::TextureView>,
-    /// Depth.
+    /// Depth buffer.
     pub depth: wgpu::TextureView,
-    /// Water reflection.
+    /// Radiance of the water reflection.
     pub mirror: wgpu::TextureView,
-    /// Depth of the water reflection.
+    /// Depth buffer of the water reflection.
     pub mirror_depth: wgpu::TextureView,
-    /// Bind group of the shader `water`.
+    /// Bind group of the `water` shader.
     pub water: wgpu::BindGroup,
-    /// Bind group of the shader `develop`.
+    /// Bind group of the `develop` shader.
     pub develop: wgpu::BindGroup,
-    /// Uniforms of `develop`.
+    /// Uniforms of the `develop` shader.
     pub develop_data: wgpu::Buffer,
 }
 

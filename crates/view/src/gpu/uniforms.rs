@@ -13,7 +13,7 @@ pub const MAX_SHADOW_MAPS: usize = 5;
 /// Haze extinction per meter (estimate: 12 km visual range; Koschmieder's 3.9 divided by the range).
 const HAZE_PER_M: f64 = 3.9 / 12_000.0;
 
-/// Uniforms of the shader structure `Globals`.
+/// Uniforms of the `Globals` shader structure.
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Globals {
@@ -35,7 +35,7 @@ pub struct Globals {
     shadow_proj: [[[f32; 4]; 4]; MAX_SHADOW_MAPS],
 }
 
-/// Uniforms of the shader structure `DevelopUniforms`.
+/// Uniforms of the `DevelopUniforms` shader structure.
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct DevelopUniforms {

@@ -1,4 +1,4 @@
-//! Battery display at the upper right: level bar, percentage and status icon.
+//! Battery display at the upper right: level bar, percentage, and status icon.
 
 use super::icons::IconShape;
 use super::metrics::{EDGE, MIDDLE};
@@ -56,7 +56,7 @@ pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items
 }
 
-/// Returns the outline of a battery with its left edge at this position, filled to a fraction.
+/// Returns the outline of a battery with its left edge at the given position, filled to the given fraction.
 fn battery_symbol(pane: Pane, (low, y): (f64, f64), filled: Option<f64>, color: HudColor) -> Vec<DrawItem> {
     let (high, half, inset) = (low + 0.08, 0.017, 0.004);
     let box_of =

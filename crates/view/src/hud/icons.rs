@@ -12,7 +12,7 @@ pub enum IconShape {
     Triangle,
     /// Imminent danger.
     Diamond,
-    /// Stop.
+    /// Stop immediately.
     Octagon,
 }
 

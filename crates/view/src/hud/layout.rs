@@ -11,13 +11,13 @@ use super::state::Hud;
 use super::status::status;
 use super::{DrawItem, HudColor, TextAlign};
 
-/// Smallest font size that is legible in flight, px (estimate: capitals 6.5 px high; a picture 360 px high has a font
-/// size of 9.7 px).
+/// Smallest font size that is legible in flight, px (estimate: capitals 6.5 px high; the font size in a picture 360 px
+/// high is 9.7 px).
 const MIN_FONT_PX: f64 = 9.5;
-/// Central fraction of the picture where a defect counts.
+/// Central fraction of the picture in which a defect must be to count.
 const CENTRAL_FRACTION: f64 = 0.8;
 
-/// Returns all HUD items for a picture with this aspect ratio (width over height).
+/// Returns all HUD items for a picture with the given aspect ratio (width over height).
 #[must_use]
 pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     let pane = Pane::of(aspect);
@@ -31,8 +31,8 @@ pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     items
 }
 
-/// Returns the HUD items for a picture of this size, px (at standard pixel density). A picture that is too small for all items
-/// shows only the essential ones.
+/// Returns the HUD items for a picture of the given size, in px (at standard pixel density). If the picture is too
+/// small for all items, only the essential ones are included.
 #[must_use]
 pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
     let size_px = (width.max(1.0), height.max(1.0));

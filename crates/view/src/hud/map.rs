@@ -1,4 +1,4 @@
-//! Inset map: reference paths, landing pad and drone, north up.
+//! Inset map: reference paths, landing pad, and drone, north up.
 
 use super::pane::Pane;
 use super::state::Hud;
@@ -10,11 +10,11 @@ use spandrel_model::math;
 const HALF_SIZE: f64 = 0.135;
 /// Distance of the map's center from the right and bottom edges.
 const CENTER_OFFSET: f64 = 0.16;
-/// Font size, height and width of a label.
+/// Font size, height, and width of a label.
 const FONT_SIZE: f64 = 0.022;
 const LABEL_HEIGHT: f64 = 0.02;
 const LABEL_WIDTH: f64 = 0.018;
-/// Margin factor around the displayed content.
+/// Factor that leaves a margin around the displayed content.
 const MARGIN_FACTOR: f64 = 1.12;
 /// Minimum distance shown from the center, m.
 const MIN_RANGE_M: f64 = 20.0;
@@ -50,7 +50,7 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     items
 }
 
-/// Returns the projection from world to map coordinates that fits all contents.
+/// Returns the projection from world to map coordinates that fits all content.
 fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
     let shown = hud.tracks.iter().flat_map(|t| t.path_m.iter().copied()).chain([hud.pad_m, hud.position_m]);
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

@@ -6,11 +6,11 @@ use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
-/// Minimum half side of the bracket, as a fraction of the picture's height.
+/// Minimum half-width of the bracket, as a fraction of the picture's height.
 const MIN_HALF_SIZE: f64 = 0.022;
 /// Font size, as a fraction of the picture's height.
 const FONT_SIZE: f64 = 0.026;
-/// Half side of the bracket around the drone's center, m.
+/// Half-width of the bracket around the drone's center, m.
 const BRACKET_HALF_SIZE_M: f64 = 0.6;
 
 /// Returns a bracket around the drone with its distance: gray and dashed if an object hides the drone, and nothing if

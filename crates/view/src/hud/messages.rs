@@ -23,13 +23,13 @@ const MAX_LINES: usize = 2;
 /// An active cue.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ActiveCue {
-    /// Icon shape.
+    /// Shape of the message's icon.
     pub shape: IconShape,
-    /// Color.
+    /// Color of the icon and text.
     pub color: HudColor,
-    /// Text.
+    /// Message text.
     pub text: &'static str,
-    /// Additional detail.
+    /// Additional detail, such as the speed limit.
     pub detail: Option<String>,
 }
 

@@ -4,7 +4,7 @@
 pub(super) const EDGE: f64 = 0.025;
 /// Minimum gap between blocks.
 pub(super) const GAP: f64 = 0.01;
-/// Font sizes: large, middle and small.
+/// Font sizes: large, medium, and small.
 pub(super) const LARGE: f64 = 0.052;
 pub(super) const MIDDLE: f64 = 0.034;
 pub(super) const SMALL: f64 = 0.027;

@@ -71,7 +71,7 @@ pub enum HudColor {
 }
 
 impl HudColor {
-    /// Returns red, green, blue and opacity in sRGB.
+    /// Returns the red, green, blue, and opacity components (sRGB).
     #[must_use]
     pub const fn rgba(self) -> [u8; 4] {
         match self {
@@ -129,14 +129,14 @@ pub enum DrawItem {
     },
     /// A filled convex polygon.
     Fill {
-        /// Corners.
+        /// Corners of the polygon.
         points: Vec<ScreenPoint>,
         /// Fill color.
         color: HudColor,
     },
     /// A polyline.
     Line {
-        /// Points.
+        /// Points of the polyline.
         points: Vec<ScreenPoint>,
         /// Stroke width.
         width: f64,

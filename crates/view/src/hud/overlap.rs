@@ -36,7 +36,8 @@ fn text_rect(place: ScreenPoint, side: TextAlign, height: f64, words: &str, aspe
     [left, place.y - 0.5 * height, left + wide, place.y + 0.5 * height]
 }
 
-/// Returns the HUD's blocks. Skips the crosshair and corner marks below them, which belong to the picture.
+/// Returns the HUD's blocks. Skips the crosshair and the corner marks, which are drawn below the blocks and belong to
+/// the picture.
 fn blocks(items: Vec<DrawItem>, aspect: f64) -> Vec<DisplayBlock> {
     let mut found: Vec<DisplayBlock> = Vec::new();
     for item in items {
@@ -70,7 +71,7 @@ fn contains(outer: &PictureRect, inner: &PictureRect) -> bool {
         && inner[3] <= outer[3] + TOLERANCE
 }
 
-/// Converts a rectangle of a camera picture to fractions of a window with this aspect ratio.
+/// Converts a rectangle of a camera picture to fractions of a window with the given aspect ratio.
 fn in_window(area: &PictureRect, lens: f64, window: f64) -> PictureRect {
     let [camera, _] = ViewLayout::Camera.view_rects();
     assert_eq!(camera.which, ViewKind::Camera);
@@ -86,22 +87,22 @@ fn is_map(block: &DisplayBlock) -> bool {
 
 fn check_block(block: &DisplayBlock, what: &str) {
     for shape in &block.shapes {
-        assert!(contains(&block.ground, shape), "{what}: a shape at {shape:?} leaves {:?}", block.ground);
+        assert!(contains(&block.ground, shape), "{what}: a shape at {shape:?} extends beyond {:?}", block.ground);
     }
     if is_map(block) {
         return;
     }
     for (k, (place, words)) in block.texts.iter().enumerate() {
-        assert!(contains(&block.ground, place), "{what}: '{words}' at {place:?} leaves {:?}", block.ground);
+        assert!(contains(&block.ground, place), "{what}: '{words}' at {place:?} extends beyond {:?}", block.ground);
         for (other, over) in &block.texts[..k] {
             assert!(are_separate(place, other), "{what}: '{words}' overlaps '{over}'");
         }
         assert!(block.shapes.iter().all(|shape| are_separate(place, shape)), "{what}: '{words}' overlaps a shape");
     }
     for (k, one) in block.shapes.iter().enumerate() {
-        // A shape may contain another one, as the battery outline contains its level.
+        // One shape may contain another: the battery outline contains the charge level.
         let fine = |other: &PictureRect| are_separate(one, other) || contains(one, other) || contains(other, one);
-        assert!(block.shapes[..k].iter().all(fine), "{what}: shapes of one block overlap");
+        assert!(block.shapes[..k].iter().all(fine), "{what}: shapes in the same block overlap");
     }
 }
 
@@ -116,7 +117,8 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
     }
 }
 
-/// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the map.
+/// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the
+/// map.
 fn states() -> Vec<(&'static str, Hud)> {
     let dark = |satellites| Some(GnssStatus { fixed: false, satellites });
     let hit = |words: &str| Hud { cues: ALL_CUES, hit: Some(words.to_owned()), ..hud() };

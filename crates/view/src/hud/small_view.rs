@@ -1,4 +1,4 @@
-//! Reduced HUD for small pictures: speed, battery and warnings in a legible font size. The unit is the font size.
+//! Reduced HUD for small pictures: speed, battery, and warnings in a legible font size. The unit is the font size.
 
 use super::battery::{ChargeStyle, charge_style};
 use super::icons::IconShape;
@@ -14,11 +14,11 @@ use super::{DrawItem, HudColor, TextAlign};
 const LEGIBLE_PX: f64 = 12.0;
 /// Font size as a fraction of the picture's height, used where it exceeds the legible size.
 const FONT_SHARE: f64 = 0.05;
-/// Minimum width, for speed and battery side by side, and minimum height, for the rows that show a lost link and a
-/// crash, in units of the font size. In smaller pictures, the font shrinks.
+/// Minimum width (speed and battery side by side) and minimum height (rows for a lost link and a crash), in units of
+/// the font size. In smaller pictures, the font shrinks.
 const MIN_WIDTH: f64 = 12.0;
 const MIN_HEIGHT: f64 = 6.0;
-/// Margin at the edges of the picture, and gap between blocks.
+/// Margin at the picture edges and gap between blocks.
 const EDGE: f64 = 0.35;
 const GAP: f64 = 0.15;
 /// Height of a block, horizontal padding, width of its icon column, and height of the icon.
@@ -27,7 +27,7 @@ const PADDING: f64 = 0.4;
 const ICON_COLUMN_WIDTH: f64 = 1.3;
 const ICON_HEIGHT: f64 = 0.8;
 
-/// Returns the HUD items for a picture of this size in pixels.
+/// Returns the HUD items for a picture of the given size in pixels.
 pub fn essential_items(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<DrawItem> {
     let wanted_px = (FONT_SHARE * Pane::unit((width_px, height_px))).max(LEGIBLE_PX);
     let type_px = wanted_px.min(width_px / MIN_WIDTH).min(height_px / MIN_HEIGHT);

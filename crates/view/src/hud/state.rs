@@ -40,13 +40,13 @@ pub struct Hud {
     pub speed_m_s: f64,
     /// Speed limit, m/s.
     pub limit_m_s: f64,
-    /// Battery, %.
+    /// Battery level, %.
     pub battery_pct: Option<f64>,
     /// Minimum battery level for a green display, %.
     pub green_pct: f64,
     /// Minimum battery level for a yellow display, %.
     pub yellow_pct: f64,
-    /// Mask of active cues, as in `cues` (docs/src/reference/wire.md, "The monitor").
+    /// Mask of active cues, encoded as in `cues` (docs/src/reference/wire.md, "The monitor").
     pub cues: i32,
     /// Object that the drone hit, if the monitor has reported it.
     pub hit: Option<String>,

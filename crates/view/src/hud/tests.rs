@@ -1,4 +1,4 @@
-//! Tests of the HUD's texts, colors and positions.
+//! Tests of the HUD's texts, colors, and positions.
 
 use super::*;
 use spandrel_mavlink::contract::cue;
@@ -8,7 +8,7 @@ const WIDE: f64 = 16.0 / 9.0;
 /// All cues shown in the lower left corner.
 pub(super) const ALL_CUES: i32 = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
 
-/// Returns the HUD of a normal flight.
+/// Returns the HUD during a normal flight.
 pub(super) fn hud() -> Hud {
     Hud {
         speed_m_s: 3.2,
@@ -49,7 +49,7 @@ fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
     texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, color, _)| (place, color))
 }
 
-/// Returns all texts of the HUD with their positions in percent of the picture and their colors.
+/// Returns all of the HUD's texts with their colors and their positions as percentages of the picture.
 fn snapshot(hud: &Hud) -> String {
     let line = |(place, color, words): (ScreenPoint, HudColor, String)| {
         format!("{:3.0} {:3.0} {color:?}: {words}\n", 100.0 * place.x, 100.0 * place.y)
@@ -131,7 +131,7 @@ fn exact_icons_differ_in_shape_and_color() {
     assert_eq!([corners(90.0), corners(50.0), corners(10.0)], [Some(16), Some(3), Some(8)]);
 }
 
-/// Returns the texts and colors of a state that differ from a normal flight.
+/// Returns the texts and colors in which a state differs from a normal flight.
 fn changed_texts(hud: &Hud) -> Vec<String> {
     let said = |hud: &Hud| texts(hud).into_iter().map(|(_, color, words)| format!("{color:?}: {words}")).collect::<Vec<_>>();
     let calm = said(&self::hud());

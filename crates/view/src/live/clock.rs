@@ -5,19 +5,19 @@
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Delay of the picture behind the latest telemetry, s of wall time (three samples at 50 Hz; estimate: hides the usual
-/// jitter of a local network and is much shorter than human reaction time).
+/// Picture delay relative to the latest telemetry, s of wall time (three samples at 50 Hz; estimate: hides typical
+/// local network jitter and is much shorter than human reaction time).
 pub const PLAYBACK_DELAY_S: f64 = 0.06;
 /// Wall time period for measuring the speed of the vehicle's clock.
 const SPEED_WINDOW: SimTime = SimTime::from_ms(1_000);
-/// Minimum playback error that makes the playback time jump to the target, s of wall time.
+/// Minimum playback error at which the playback time jumps to the target, s of wall time.
 const JUMP_S: f64 = 0.5;
 /// Time constant for correcting smaller errors, s.
 const SETTLE_S: f64 = 0.25;
 /// Maximum gap in telemetry that counts as jitter, s; in a longer gap, the picture freezes at the latest sample.
 const JITTER_LIMIT_S: f64 = 0.1;
 
-/// Playback position.
+/// Playback position and speed of the vehicle's clock.
 #[derive(Debug, Clone, Default)]
 pub struct Playhead {
     arrivals: VecDeque<(SimTime, SimTime)>,
@@ -25,7 +25,7 @@ pub struct Playhead {
 }
 
 impl Playhead {
-    /// Records the time of a new latest sample, which arrived at this wall time.
+    /// Records the time of a new latest sample, which arrived at the given wall time.
     pub fn handle_sample_time(&mut self, wall: SimTime, newest: SimTime) {
         if self.arrivals.back().is_some_and(|(_, last)| newest <= *last) {
             return;
@@ -52,7 +52,7 @@ impl Playhead {
         }
     }
 
-    /// Advances to a wall time and returns the time to show, or `None` before the first sample.
+    /// Advances to the given wall time and returns the time to show, or `None` before the first sample.
     pub fn advance(&mut self, wall: SimTime) -> Option<SimTime> {
         let (arrived, newest) = *self.arrivals.back()?;
         let speed_factor = self.speed_factor();
@@ -82,8 +82,8 @@ impl Playhead {
 mod tests {
     use super::*;
 
-    /// Returns the times shown, s, by a picture every 1/60 s, with a clock of this speed and samples (50 Hz) that
-    /// arrive in bursts.
+    /// Returns the playback times, in seconds, of pictures drawn every 1/60 s. The vehicle's clock runs at
+    /// `speed_factor`, and its 50 Hz samples arrive in bursts.
     fn shown(speed_factor: f64, burst: u32) -> Vec<f64> {
         let mut head = Playhead::default();
         let mut out = Vec::new();

@@ -38,15 +38,15 @@ pub const SYSTEM_ID: u8 = 253;
 const COMPONENT_ID: u8 = 192;
 const AUTOPILOT_COMPONENT: u8 = 1;
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
-/// Time without ground truth, after which the vehicle counts as a real one and this client requests its estimates.
+/// After this time without ground truth, this client assumes that the vehicle is real and requests its estimates.
 const TRUTH_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 /// Interval for repeating requests, in case one is lost.
 const REQUEST_INTERVAL: SimTime = SimTime::from_ms(5_000);
 /// Messages used instead of ground truth, and their rates, Hz: ATTITUDE_QUATERNION, GLOBAL_POSITION_INT,
 /// GIMBAL_DEVICE_ATTITUDE_STATUS.
 const ESTIMATE_STREAMS: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
-/// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of a tenth of a second between sound and
-/// picture is noticeable).
+/// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of 0.1 s between picture and sound is
+/// noticeable).
 const ROTOR_STREAM: (u32, f32) = (36, 20.0);
 /// FLIGHT_INFORMATION, which contains the takeoff time, for viewers that connect during a flight.
 const FLIGHT_INFORMATION_ID: u32 = 264;
@@ -170,13 +170,13 @@ impl LiveFlight {
         !self.truth_requested && self.first_message_at.is_some_and(|met| wall >= met + TRUTH_TIMEOUT + TRUTH_TIMEOUT)
     }
 
-    /// Returns the flight mode, satellites, cues and texts.
+    /// Returns the flight mode, satellites, cues, and texts.
     #[must_use]
     pub fn feed(&self) -> &Feed {
         &self.state.feed
     }
 
-    /// Processes a datagram received at a wall time.
+    /// Processes a datagram received at the given wall time.
     pub fn handle_datagram(&mut self, bytes: &[u8], wall: SimTime) {
         for frame in self.decoder.datagram(bytes) {
             self.handle_frame(&frame, wall);
@@ -295,8 +295,8 @@ impl LiveFlight {
         self.state = SimulatorRun::default();
     }
 
-    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if it is off.
-    /// The vehicle receives the status every second and announces the stream.
+    /// Sets the status of the camera view's video stream and the wall time of its last picture; `None` if the stream is
+    /// off. The vehicle receives the status every second and announces the stream.
     pub fn set_video_status(&mut self, video: Option<VideoStatus>, wall: SimTime) {
         match video {
             Some(video) => self.video = Some((video, wall)),
@@ -349,8 +349,8 @@ impl LiveFlight {
         self.next_rotors.get_or_insert(SimTime::ZERO);
     }
 
-    /// Returns the rotor speeds from the autopilot's outputs in rad/s; empty if the rotors are stopped or their speed is
-    /// unknown.
+    /// Returns the rotor speeds, in rad/s, calculated from the autopilot's outputs; empty if the rotors are stopped or
+    /// their speed is unknown.
     #[must_use]
     pub fn rotors_rad_s(&self, vehicle: &Vehicle) -> Vec<f64> {
         let (idle, full) = (vehicle.rotor.idle_speed_rad_s, vehicle.rotor.max_speed_rad_s);
@@ -368,7 +368,7 @@ impl LiveFlight {
         self.out.pop_front()
     }
 
-    /// Returns the moment to draw at a wall time, or `None` before the first position.
+    /// Returns the moment to draw at the given wall time, or `None` before the first position.
     pub fn moment(&mut self, wall: SimTime, vehicle: &Vehicle) -> Option<LiveMoment> {
         let at = self.playhead.advance(wall)?;
         let state = &self.state;
@@ -395,7 +395,7 @@ impl LiveFlight {
     }
 }
 
-/// Returns a request to send a message at a rate in Hz.
+/// Returns a request to send a message at the given rate in Hz.
 fn message_interval_request(system: u8, (id, rate_hz): (u32, f32)) -> MavMessage {
     let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
     MavMessage::COMMAND_LONG(station::command(system, AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params))

@@ -26,7 +26,7 @@ impl TimeSeries {
         }
     }
 
-    /// Returns the value at a time, clamped to the first and last sample; `None` without samples.
+    /// Returns the value at the given time, clamped to the first and last sample; `None` without samples.
     #[must_use]
     pub fn at(&self, time: SimTime) -> Option<f64> {
         if let Some((before, next)) = self.around(time) {
@@ -36,13 +36,13 @@ impl TimeSeries {
         self.points.get(after.saturating_sub(1)).map(|point| point.1)
     }
 
-    /// Returns the rate of change at a time, 1/s; zero where the value is not interpolated.
+    /// Returns the rate of change at the given time, in 1/s; zero where the value is not interpolated.
     #[must_use]
     pub fn rate_at(&self, time: SimTime) -> f64 {
         self.around(time).map_or(0.0, |(before, next)| (next.1 - before.1) / (next.0 - before.0).s())
     }
 
-    /// Returns the samples before and after a time; `None` in long gaps, where values are not interpolated.
+    /// Returns the samples before and after the given time; `None` in long gaps, where values are not interpolated.
     fn around(&self, time: SimTime) -> Option<((SimTime, f64), (SimTime, f64))> {
         let after = self.points.partition_point(|known| known.0 <= time);
         let before = *self.points.get(after.checked_sub(1)?)?;

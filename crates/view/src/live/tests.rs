@@ -71,7 +71,7 @@ fn exact_moment_is_between_samples_with_the_received_values() {
     wire.send(&MavMessage::CAMERA_IMAGE_CAPTURED(picture), 1_980);
     let beat = HEARTBEAT_DATA { base_mode: MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, custom_mode: 3 << 16, ..Default::default() };
     wire.send(&MavMessage::HEARTBEAT(beat), 1_980);
-    let now = wire.now(1_990).expect("there must be a moment to draw");
+    let now = wire.now(1_990).expect("a frame must be ready to draw");
     let behind_s = 6.98 + 0.01 - now.moment.at.s();
     assert!((behind_s - clock::PLAYBACK_DELAY_S).abs() < 0.005, "{behind_s} s behind");
     assert!((now.moment.drone.pose.position_m.east() - (now.moment.at.s() - 5.0)).abs() < POSITION_ROUNDING_M);
@@ -79,8 +79,8 @@ fn exact_moment_is_between_samples_with_the_received_values() {
     assert_eq!((now.hud.pictures, now.hud.last_picture), (1, Some(SimTime::from_ms(6_900))));
     assert_eq!(now.hud.lift_off, Some(SimTime::from_ms(5_000)));
     assert_eq!(wire.live.feed().mode(), "Position");
-    let later = wire.now(4_980).expect("there must be a moment to draw");
-    assert!((later.hud.telemetry_age_s - 3.0).abs() < 1e-9, "the age of the telemetry must increase");
+    let later = wire.now(4_980).expect("a frame must be ready to draw");
+    assert!((later.hud.telemetry_age_s - 3.0).abs() < 1e-9, "the telemetry age must increase");
     assert_eq!(later.moment.at, SimTime::from_ms(6_980));
     assert!(
         (later.hud.blink_time_s - now.hud.blink_time_s - 2.99).abs() < 1e-9,
@@ -101,7 +101,7 @@ fn exact_restart_resets_the_state_and_other_systems_are_ignored() {
     for k in 0..20 {
         wire.truth(20 * k, 1_000 + 20 * k, -5.0);
     }
-    let now = wire.now(1_400).expect("there must be a moment to draw");
+    let now = wire.now(1_400).expect("a frame must be ready to draw");
     assert!(now.moment.at < SimTime::from_ms(500) && (now.moment.drone.pose.position_m.east() + 5.0).abs() < POSITION_ROUNDING_M);
     assert!(!now.moment.camera.lamp_on);
 }
@@ -130,7 +130,7 @@ fn exact_new_seed_starts_a_new_session() {
     say_seed(&mut wire, 9, 1_440);
     assert_eq!((wire.live.seed(), wire.now(1_440)), (Some(9), None));
     wire.truth(100, 1_460, 3.0);
-    let now = wire.now(1_460).expect("there must be a moment to draw");
+    let now = wire.now(1_460).expect("a frame must be ready to draw");
     assert!(!now.moment.camera.lamp_on && (now.moment.drone.pose.position_m.east() - 3.0).abs() < POSITION_ROUNDING_M);
     say_seed(&mut wire, 9, 1_480);
     assert!(wire.now(1_480).is_some(), "a repeated seed must not restart the session");
@@ -160,14 +160,14 @@ fn exact_vehicle_without_truth_is_drawn_from_its_own_estimate() {
         };
         wire.send(&MavMessage::GLOBAL_POSITION_INT(place), 3_200 + 20 * i64::from(k));
     }
-    let now = wire.now(3_600).expect("there must be a moment to draw");
+    let now = wire.now(3_600).expect("a frame must be ready to draw");
     assert!((now.moment.drone.pose.position_m.up() - 30.0).abs() < POSITION_ROUNDING_M && wire.live.is_estimated());
     assert!((now.moment.drone.pose.ned_from_frd.yaw_rad() - 1.0).abs() < 1e-6);
     // Once ground truth arrives, it replaces the estimate, and requests stop.
     for k in 0..10 {
         wire.truth(1_000 + 20 * k, 4_000 + 20 * k, 3.0);
     }
-    let now = wire.now(4_200).expect("there must be a moment to draw");
+    let now = wire.now(4_200).expect("a frame must be ready to draw");
     assert!((now.moment.drone.pose.position_m.east() - 3.0).abs() < POSITION_ROUNDING_M && !wire.live.is_estimated());
     assert_eq!(said(&mut wire, 20_000), 0);
 }
@@ -183,7 +183,7 @@ fn exact_rotor_outputs_are_requested_only_for_sound() {
         let frames = Decoder::new().datagram(&bytes);
         frames.iter().any(|f| matches!(&f.message, Some(MavMessage::COMMAND_LONG(c)) if c.param1 == 36.0))
     };
-    assert!(!asked(&mut wire, 100), "must not send unneeded requests");
+    assert!(!asked(&mut wire, 100), "unneeded requests must not be sent");
     wire.live.request_rotor_outputs();
     assert!(
         asked(&mut wire, 200) && !asked(&mut wire, 1_000) && asked(&mut wire, 5_300),
@@ -234,7 +234,7 @@ fn exact_late_viewer_requests_the_takeoff_time() {
     assert_eq!(
         wire.now(20).unwrap().hud.lift_off,
         Some(SimTime::from_ms(300_000)),
-        "the takeoff time is that of the first position until the real one arrives"
+        "until the actual takeoff time arrives, the first position must define it"
     );
     wire.live.handle_timeout(SimTime::from_ms(20));
     let mut decoder = Decoder::new();

@@ -9,9 +9,9 @@ use spandrel_model::pose::Motion;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
-/// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the general delay
-/// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it gives the next sample time to arrive, including 20 ms of
-/// jitter (estimate).
+/// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the playback delay
+/// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it leaves enough time for the next sample to arrive,
+/// including 20 ms of jitter (estimate).
 const LENS_DELAY: SimTime = SimTime::from_ms(160);
 
 /// Recent samples in time order.
@@ -36,12 +36,12 @@ impl MotionHistory {
         }
     }
 
-    /// Adds the gimbal's pitch above the horizon, rad.
+    /// Adds a sample of the gimbal's pitch above the horizon, in radians.
     pub fn push_gimbal(&mut self, time: SimTime, pitch_rad: f64) {
         self.gimbal.push(time, pitch_rad);
     }
 
-    /// Adds the camera's horizontal field of view, rad.
+    /// Adds a sample of the camera's horizontal field of view, in radians.
     pub fn push_lens(&mut self, time: SimTime, hfov_rad: f64) {
         self.lens.push(time, hfov_rad);
     }
@@ -57,7 +57,7 @@ impl MotionHistory {
         self.truths.back().map(|truth| truth.time)
     }
 
-    /// Returns the motion at a time, clamped to the first and last sample.
+    /// Returns the motion at the given time, clamped to the first and last sample.
     #[must_use]
     pub fn at(&self, time: SimTime) -> Option<Motion<Enu>> {
         let Some((before, next)) = self.around(time) else {
@@ -68,26 +68,27 @@ impl MotionHistory {
         Some(before.motion.lerp(&next.motion, t))
     }
 
-    /// Returns the gimbal's pitch at a time in radians; zero without samples.
+    /// Returns the gimbal's pitch at the given time, in radians; zero without samples.
     #[must_use]
     pub fn gimbal_at(&self, time: SimTime) -> f64 {
         self.gimbal.at(time).unwrap_or(0.0)
     }
 
-    /// Returns the horizontal field of view to draw at a time, rad, with a delay that makes zooming smooth; `None` without
-    /// samples.
+    /// Returns the horizontal field of view to draw at the given time, in radians, delayed for smooth zooming; `None`
+    /// without samples.
     #[must_use]
     pub fn lens_at(&self, time: SimTime) -> Option<f64> {
         self.lens.at(time.saturating_sub(LENS_DELAY))
     }
 
-    /// Returns the horizontal field of view at a time of a fully recorded flight in radians; `None` without samples.
+    /// Returns the horizontal field of view at the given time of a fully recorded flight, in radians; `None` without
+    /// samples.
     #[must_use]
     pub fn reported_lens_at(&self, time: SimTime) -> Option<f64> {
         self.lens.at(time)
     }
 
-    /// Returns the camera's turn rate at a time, interpolated between samples; zero where interpolation is not
+    /// Returns the camera's turn rate at the given time, interpolated between samples; zero where interpolation is not
     /// possible.
     #[must_use]
     pub fn turn_at(&self, time: SimTime) -> CameraTurnRate {
@@ -98,7 +99,7 @@ impl MotionHistory {
         CameraTurnRate { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
     }
 
-    /// Returns the samples before and after a time, for interpolating motion.
+    /// Returns the samples before and after the given time, used to interpolate motion.
     fn around(&self, time: SimTime) -> Option<(&Truth, &Truth)> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
         let before = self.truths.get(after.checked_sub(1)?)?;

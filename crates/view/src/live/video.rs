@@ -5,9 +5,9 @@ use spandrel_mavlink::dialect::{MavMessage, VIDEO_STREAM_STATUS_DATA, VideoStrea
 /// An active stream of the camera view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VideoStatus {
-    /// Width, px.
+    /// Picture width, px.
     pub width_px: u32,
-    /// Height, px.
+    /// Picture height, px.
     pub height_px: u32,
     /// Picture rate, Hz.
     pub rate_hz: f64,

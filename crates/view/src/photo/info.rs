@@ -1,18 +1,18 @@
-//! Metadata of a photo, and errors in writing one.
+//! Photo metadata, and errors that occur when a photo is written.
 
 use spandrel_model::geodesy::Geo;
 use spandrel_model::math;
 use spandrel_model::vehicle::Camera;
 
-/// Errors in writing a photo.
+/// Errors that occur when a photo is written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PhotoError {
     /// The photo exceeds the limits of JPEG or EXIF.
-    #[error("the picture cannot be written as JPEG: {0}")]
+    #[error("cannot encode the picture as JPEG: {0}")]
     Refused(String),
 }
 
-/// Metadata of a photo.
+/// Photo metadata.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhotoInfo {
     /// Sequence number, from 1.
@@ -31,17 +31,17 @@ pub struct PhotoInfo {
     pub yaw_deg: f64,
     /// Pitch of the optical axis above the horizon, degrees, down negative.
     pub pitch_deg: f64,
-    /// Heading, pitch and roll of the aircraft, degrees.
+    /// Heading, pitch, and roll of the aircraft, degrees.
     pub aircraft_deg: [f64; 3],
     /// Lens at its current zoom.
     pub lens: Camera,
     /// Exposure time, s.
     pub exposure_s: f64,
-    /// Sensitivity, ISO.
+    /// ISO sensitivity.
     pub iso: f64,
     /// Whether the lamp was on.
     pub lamp: bool,
-    /// Distance to the surface at the center of the picture, m; `None` if there is none within range.
+    /// Distance to the surface at the center of the picture, m; `None` if no surface is within range.
     pub distance_m: Option<f64>,
     /// Model of the aircraft.
     pub model: String,
@@ -50,7 +50,7 @@ pub struct PhotoInfo {
 }
 
 impl PhotoInfo {
-    /// Returns the ground sampling distance at the center of a picture of this width, mm/px.
+    /// Returns the ground sampling distance at the center of a picture with the given width, in mm/px.
     #[must_use]
     pub fn gsd_mm(&self, width_px: u32) -> Option<f64> {
         let wide = 2.0 * math::tan(0.5 * self.lens.hfov_rad);

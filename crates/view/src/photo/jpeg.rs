@@ -1,11 +1,11 @@
-//! JPEG encoding at the best quality that a size limit allows.
+//! JPEG encoding at the highest quality that a size limit allows.
 
 use super::info::PhotoError;
 use crate::picture::Picture;
 use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
 
-/// Highest and lowest quality (libjpeg's scale to 100): above the highest, differences are invisible; below the lowest,
-/// cracks disappear.
+/// Highest and lowest quality (on libjpeg's scale of up to 100): above the highest, differences are invisible; below
+/// the lowest, cracks disappear.
 const MAX_QUALITY: u8 = 92;
 const MIN_QUALITY: u8 = 20;
 /// Identifier of an XMP packet in an APP1 segment (XMP specification, part 3).

@@ -1,4 +1,5 @@
-//! Photos as cameras write them: JPEG with EXIF and XMP metadata of position, time and exposure, for photogrammetry.
+//! Photos in the format that cameras write: JPEG with EXIF and XMP metadata (position, time, exposure) for
+//! photogrammetry.
 
 mod info;
 mod jpeg;
@@ -12,7 +13,8 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::site::CameraPose;
 
-/// Returns the direction of a pose's optical axis: heading clockwise from true north (0 to 360) and elevation, degrees.
+/// Returns the direction of a pose's optical axis: heading clockwise from true north (0 to 360) and elevation, in
+/// degrees.
 #[must_use]
 pub fn direction_deg(pose: &CameraPose) -> (f64, f64) {
     let (forward, right): (Vec3<Enu>, Vec3<Enu>) = (pose.forward, pose.right);
@@ -29,7 +31,7 @@ const MIN_COPY_WIDTH_PX: u32 = 320;
 /// Encodes the photo without visible loss, regardless of size.
 ///
 /// # Errors
-/// If it exceeds the limits of JPEG or EXIF.
+/// Returns an error if the photo exceeds the limits of JPEG or EXIF.
 pub fn jpeg(picture: &Picture, about: &PhotoInfo) -> Result<Vec<u8>, PhotoError> {
     let size = (picture.width, picture.height);
     jpeg::encode(picture, Some((&tags::write(about, size)?, &xmp::write(about, size))), usize::MAX)
@@ -39,7 +41,7 @@ pub fn jpeg(picture: &Picture, about: &PhotoInfo) -> Result<Vec<u8>, PhotoError>
 /// Exceeds the limit only if even the narrowest copy at the lowest quality does.
 ///
 /// # Errors
-/// If it exceeds the limits of JPEG.
+/// Returns an error if the picture exceeds the limits of JPEG.
 pub fn copy(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
     let mut small = picture.scaled_to_width(MAX_COPY_WIDTH_PX);
     loop {
@@ -55,7 +57,7 @@ pub fn copy(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
 /// the lowest quality does.
 ///
 /// # Errors
-/// If it exceeds the limits of JPEG.
+/// Returns an error if the picture exceeds the limits of JPEG.
 pub fn plain(picture: &Picture, most: usize) -> Result<Vec<u8>, PhotoError> {
     jpeg::encode(picture, None, most)
 }

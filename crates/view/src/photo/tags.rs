@@ -93,7 +93,7 @@ fn place(about: &PhotoInfo) -> Vec<(Tag, Value)> {
     ]
 }
 
-/// Returns an angle as degrees, minutes and seconds, with seconds to four decimals (3 mm on the ground).
+/// Returns an angle as degrees, minutes, and seconds, with seconds to four decimals (3 mm on the ground).
 fn degrees(angle_deg: f64) -> Value {
     // Rounds the whole angle first, so that 59.99999 s never becomes 60 s.
     let parts = (angle_deg.abs() * 3600.0 * 10_000.0).round();

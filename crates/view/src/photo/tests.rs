@@ -47,7 +47,7 @@ fn exact_exif_contains_position_lens_and_direction() {
     let [degrees, minutes, seconds] = numbers(Tag::GPSLatitude)[..] else { panic!("three parts") };
     // Seconds are rounded to four decimals.
     assert!((degrees + minutes / 60.0 + seconds / 3600.0 - 47.123_456_78).abs() < 0.5e-4 / 3600.0 + 1e-12);
-    assert_eq!(numbers(Tag::GPSLongitude), [9.0, 0.0, 0.0], "seconds must carry over, never be 60");
+    assert_eq!(numbers(Tag::GPSLongitude), [9.0, 0.0, 0.0], "seconds must carry over at 60");
     assert_eq!((value(Tag::GPSLatitudeRef), value(Tag::GPSLongitudeRef)), ("N".into(), "W".into()));
     assert_eq!((numbers(Tag::GPSAltitude), numbers(Tag::GPSImgDirection)), (vec![432.1], vec![271.5]));
     // At ninety degrees, the focal length is half the sensor's width, equivalent to 18 mm on film.

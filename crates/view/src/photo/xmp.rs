@@ -1,5 +1,5 @@
-//! XMP metadata: attitude of the gimbal and aircraft under the names that photogrammetry programs expect for drones
-//! (DJI's, as in Metashape, Pix4D and OpenDroneMap), and simulator-specific values in the `spandrel` namespace.
+//! XMP metadata: gimbal and aircraft attitude under the names that photogrammetry software expects from drones (DJI's
+//! names, which Metashape, Pix4D, and OpenDroneMap use), and simulator-specific values in the `spandrel` namespace.
 
 use super::info::PhotoInfo;
 use std::fmt::Write;

@@ -1,19 +1,19 @@
-//! Baked indirect light at vertices, computed with the light model of the scoring, so a soffit that counts as dark also
-//! looks dark.
+//! Baked indirect light at vertices, computed with the light model used for scoring, so a soffit that counts as dark
+//! also looks dark.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::light::ray_bundle;
 use spandrel_model::site::{QueryTime, RayHit, Site};
 
-/// Distance of samples from the edges of their face, m; prevents adjoining members from darkening them.
+/// Distance between samples and the edges of their face, m; prevents adjoining members from darkening them.
 pub const INSET_M: f64 = 0.25;
 /// Maximum distance between a probe and a solid that covers the sample, m.
 const COVERED_DISTANCE_M: f64 = 0.04;
 /// Height of the probe above the surface, m.
 const PROBE_M: f64 = 0.05;
 
-/// Height above a face of the point that is tested for being inside another member, m (members in contact leave no gap
-/// of this width).
+/// Height above a face at which a test point shows whether another member covers the face, m (touching members leave no
+/// gap this wide).
 const INSIDE_TEST_HEIGHT_M: f64 = 0.005;
 
 /// Computes indirect light at points of a site.
@@ -24,7 +24,7 @@ pub struct LightBaker<'a> {
 }
 
 impl<'a> LightBaker<'a> {
-    /// Creates a baker with this number of rays per point.
+    /// Creates a baker with the given number of rays per point.
     pub fn new(site: &'a Site, sun: Vec3<Enu>, rays: usize) -> Self {
         Self { site, sun, rays: ray_bundle(rays) }
     }
@@ -89,7 +89,7 @@ pub fn fill_gaps(samples: &[Option<[f32; 2]>], columns: usize) -> Vec<[f32; 2]> 
     known.into_iter().map(|sample| sample.unwrap_or([0.0, 0.0])).collect()
 }
 
-/// Returns indirect light around a small object in the air, on upward and on downward surfaces.
+/// Returns the indirect light on the upward and downward surfaces of a small object in the air.
 pub fn around(site: &Site, position_m: Vec3<Enu>, at: QueryTime) -> [f32; 4] {
     const RAYS: usize = 24;
     let bake = LightBaker::new(site, site.light().daylight(at).sun, RAYS);

@@ -20,8 +20,8 @@ const WIRE: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
 /// Maximum width of a face with constant light across it, m.
 const NARROW_FACE_M: f64 = 0.8;
-/// Tolerance of the fractions of sky and sun light for presets that save triangles (a hundredth of the open-air value
-/// is invisible; lean presets have noisier rays).
+/// Tolerance for the sky and sun light fractions in presets that save triangles (a hundredth of the open-air value is
+/// invisible; lean presets have noisier rays).
 const LIGHT_TOLERANCE: f32 = 0.03;
 /// Tolerance for slender members.
 const SLENDER_LIGHT_TOLERANCE: f32 = 0.12;
@@ -37,7 +37,7 @@ pub(super) fn material_and_paint(element: Element) -> (Material, [u8; 3]) {
     }
 }
 
-/// Axes of a bridge for surface coordinates.
+/// A bridge's axes, used to compute surface coordinates.
 struct TextureAxes {
     origin_m: Vec3<Enu>,
     along: Vec3<Enu>,
@@ -50,13 +50,13 @@ struct TextureAxes {
 const COVER_PROBE_M: (f64, f64) = (0.5, 0.02);
 /// Minimum number of probe steps, so that the center is always probed.
 const MIN_PROBE_STEPS: f64 = 2.0;
-/// Minimum vertical component of the normal of an upward face; the lake's reflection never shows such faces.
+/// Minimum vertical component of an upward face's normal; the lake's reflection never shows such faces.
 const MIN_UPWARD_COMPONENT: f64 = 0.999;
 
 /// Hangers and railings, which are not visible in the small reflection of a distant bridge.
 const SLENDER_ELEMENTS: [Element; 3] = [Element::Hanger, Element::MetalRailing, Element::RcRailing];
 
-/// Returns the tolerance of the light between the corners of a face, by element and normal; `None` omits the face.
+/// Returns the light tolerance between the corners of a face, by element and normal; `None` omits the face.
 type LightTolerance<'a> = &'a dyn Fn(Element, Vec3<Enu>) -> Option<f32>;
 /// Tolerance that keeps every sample.
 const KEEP_ALL_SAMPLES: f32 = f32::NEG_INFINITY;
@@ -138,13 +138,13 @@ fn add(
 struct Quad([Vec3<Enu>; 4]);
 
 impl Quad {
-    /// Returns a point at fractions of the first and the second side.
+    /// Returns the point at the given fractions of the first and second sides.
     fn at(&self, s: f64, t: f64) -> Vec3<Enu> {
         let [a, b, c, d] = self.0;
         a.lerp(b, s).lerp(d.lerp(c, s), t)
     }
 
-    /// Returns the longer of the first and third sides, and the longer of the second and fourth sides, m.
+    /// Returns the longer of the first and third sides, and the longer of the second and fourth sides, in meters.
     fn lengths_m(&self) -> (f64, f64) {
         let [a, b, c, d] = self.0;
         ((b - a).norm().max((c - d).norm()), (d - a).norm().max((c - b).norm()))

@@ -7,14 +7,14 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::Site;
 
-/// Number of rays for the light on a patch; same as in the scoring.
+/// Number of rays used to compute the light on a patch; the same as for scoring.
 const RAYS: usize = 64;
 /// Margin around a line for leakage stains, m (the face extends at least this far, `site::defects`).
 const LEAKAGE_MARGIN_M: f64 = 0.03;
 /// Size factor of an area, which leaves space for its ragged edge.
 const EDGE_FACTOR: f64 = 1.06;
 
-/// Instance data of a defect for the shader `defect`.
+/// Instance data of a defect for the `defect` shader.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
@@ -33,7 +33,7 @@ pub struct DefectPatch {
     pub tint: [f32; 4],
 }
 
-/// Returns the patches of all defects of a site.
+/// Returns the patches for all of a site's defects.
 pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
     let bake = LightBaker::new(site, sun, RAYS);
     site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
@@ -63,7 +63,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
         (0.5 * EDGE_FACTOR * defect.length_m, 0.5 * EDGE_FACTOR * defect.width_m)
     };
     let [r, g, b] = bridges::material_and_paint(defect.element).1.map(|c| f32::from(c) / 255.0);
-    // Pseudorandom number that is different but constant for each defect.
+    // Pseudorandom number that differs between defects but is constant for each one.
     let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
     DefectPatch {
         center: four(defect.position_m, f64::from(drawn_kind(defect))),

@@ -1,5 +1,5 @@
-//! Mesh of the aircraft from its parameters: arms, body, legs, gimbal camera, and a cage if it has one. The mesh axes x, y, z are
-//! the body axes (forward, right, down).
+//! Mesh of the aircraft from its parameters: arms, body, legs, gimbal camera, and a cage if it has one. The mesh axes
+//! x, y, z are the body axes (forward, right, down).
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish};
 use spandrel_model::frames::{Enu, Frd, Vec3};
@@ -106,7 +106,7 @@ pub fn propeller(vehicle: &Vehicle) -> Mesh {
     mesh
 }
 
-/// Builds the disk of a fast propeller, visible from both sides.
+/// Builds the disk of a fast-spinning propeller, visible from both sides.
 pub fn disc(vehicle: &Vehicle) -> Mesh {
     const SIDES: u32 = 32;
     let mut mesh = Mesh::default();

@@ -6,22 +6,22 @@ use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// Largest square drawn as two triangles, cells.
+/// Maximum side of a square drawn as two triangles, cells.
 const MAX_SQUARE_CELLS: usize = 8;
-/// Maximum angular error of the ground as seen from people and aircraft, rad: four pixels of a view 640 px and 84 degrees wide,
-/// on rolling hills.
+/// Maximum angular error of the ground as seen from people and aircraft, rad: four pixels of a view 640 px and 84
+/// degrees wide, on rolling hills.
 const MAX_ANGULAR_ERROR_RAD: f64 = 0.012;
-/// Minimum and maximum tolerance of the height, m (estimates: the thickness of grass, and a barely noticeable step).
+/// Minimum and maximum height tolerance, m (estimates: the thickness of grass, and a barely noticeable step).
 const HEIGHT_TOLERANCE_M: (f64, f64) = (0.15, 3.0);
-/// Factor on the tolerance near the shore, where a small height error moves the waterline a long way, and its range
-/// above and below the water, m.
+/// Tolerance factor near the shore, where a small height error moves the waterline a long way, and its range above and
+/// below the water, m.
 const SHORE_TOLERANCE: (f64, f64) = (0.4, 1.0);
-/// Maximum depth of a visible lake bed, m (in the shader `water`, 99% of the light is lost on the way down and back).
+/// Maximum depth of a visible lake bed, m (in the `water` shader, 99% of the light is lost on the way down and back).
 pub const INVISIBLE_DEPTH_M: f64 = 5.0;
-/// Range around a bridge where the light varies between cells, m, and maximum square size there, cells.
+/// Range around a bridge within which the light varies between cells, m, and the maximum square size there, cells.
 const BRIDGE_DETAIL: (f64, usize) = (30.0, 2);
 
-/// Returns all triangles of the ground.
+/// Returns all ground triangles.
 pub fn all(site: &Site) -> Vec<[u32; 3]> {
     site.geometry().terrain.ground.triangles().1
 }
@@ -89,7 +89,7 @@ impl GroundField<'_> {
     }
 }
 
-/// Returns the height at a point on the two triangles of a square in meters.
+/// Returns the height, in meters, at a point on the two triangles of a square.
 fn surface_height_m([sw, se, ne, nw]: &[Vec3<Enu>; 4], p: Vec3<Enu>) -> f64 {
     let (x, y) = ((p.east() - sw.east()) / (ne.east() - sw.east()), (p.north() - sw.north()) / (ne.north() - sw.north()));
     if x >= y {

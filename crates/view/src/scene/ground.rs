@@ -7,7 +7,7 @@ use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 
-/// Range around a member where light on the ground is baked, m.
+/// Range around a member within which the light on the ground is baked, m.
 const BAKED_LIGHT_RANGE_M: f64 = 30.0;
 /// Radii of the mountain rings, as fractions of the field's half side. The mountains are decorative; no job extends
 /// that far.
@@ -120,7 +120,7 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
     Mesh { vertices: vertices.collect(), indices: triangles.into_iter().flatten().collect() }
 }
 
-/// Returns the point `k` on the square's rim, in -1..1, counterclockwise from the southwest.
+/// Returns the k-th point on the square's rim, in -1..1, counterclockwise from the southwest.
 fn rim(k: usize) -> (f64, f64) {
     let t = 2.0 * (k % RIM_SIDE_VERTICES) as f64 / RIM_SIDE_VERTICES as f64 - 1.0;
     match k / RIM_SIDE_VERTICES {
@@ -131,8 +131,8 @@ fn rim(k: usize) -> (f64, f64) {
     }
 }
 
-/// Returns the height above the water beyond the rim: starts at the rim's height and continues with ridges; the lake
-/// extends for some distance.
+/// Returns the terrain's height above the water beyond the rim. The terrain starts at the rim's height and continues
+/// with ridges; the lake extends for some distance.
 fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
     let ridges = 0.5
         + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)

@@ -3,7 +3,7 @@
 use crate::mesh::{Mesh, Vertex, single};
 use spandrel_model::frames::{Enu, Vec3};
 
-/// Transform and attributes of an instance of a mesh.
+/// Transform and attributes of a mesh instance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "gpu", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
@@ -29,7 +29,7 @@ impl Instance {
         Self { rows: [0, 1, 2].map(|k| [x[k], y[k], z[k], o[k]]), paint: [0.0; 4], around }
     }
 
-    /// Transforms and lights a vertex the same way as the shaders.
+    /// Transforms and lights a vertex the same way as the shaders do.
     pub(super) fn transformed(&self, v: &Vertex) -> Vertex {
         let turned = |of: [f32; 3]| self.rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2]);
         let [x, y, z] = turned(v.normal);
@@ -53,17 +53,17 @@ impl Instance {
 /// A mesh and its instances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneItem {
-    /// Name.
+    /// Name of the item.
     pub name: &'static str,
-    /// Mesh.
+    /// Mesh in its own axes.
     pub mesh: Mesh,
-    /// Instances.
+    /// Instances of the mesh.
     pub instances: Vec<Instance>,
-    /// Whether it is drawn into shadow maps.
+    /// Whether the item is drawn into shadow maps.
     pub casts_shadows: bool,
     /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
-    /// Whether it belongs to the backdrop, which is split into sectors.
+    /// Whether the item belongs to the backdrop, which is split into sectors.
     pub backdrop: bool,
 }
 
@@ -88,19 +88,19 @@ impl VisibleRange {
     /// Visible only in the lake's reflection, for simplified substitutes.
     pub const LAKE_ONLY: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
 
-    /// Returns the range of distances up to this one in meters.
+    /// Returns the range of distances up to `most_m`.
     #[must_use]
     pub const fn within(most_m: f64) -> [f64; 2] {
         [f64::NEG_INFINITY, most_m]
     }
 
-    /// Returns the range of distances beyond this one in meters.
+    /// Returns the range of distances beyond `least_m`.
     #[must_use]
     pub const fn beyond(least_m: f64) -> [f64; 2] {
         [least_m, f64::INFINITY]
     }
 
-    /// Checks whether the object is drawn at a distance, in the direct view or in the lake's reflection.
+    /// Checks whether the object is drawn at the given distance, in the direct view or in the lake's reflection.
     #[must_use]
     pub fn shows(&self, in_lake: bool, from_m: f64) -> bool {
         let [begins, ends] = if in_lake { self.in_lake_m } else { self.direct_m };

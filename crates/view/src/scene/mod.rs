@@ -39,7 +39,7 @@ pub enum MoverModel {
     Drone,
     /// One propeller.
     Propeller,
-    /// The motion-blur disk of a fast propeller.
+    /// The motion-blur disk of a fast-spinning propeller.
     Disc,
 }
 
@@ -74,14 +74,14 @@ pub struct Scene {
     water_m: f64,
 }
 
-/// Factor on the ground's error tolerance in the lake's reflection, which has fewer pixels and is blurred by waves.
+/// Factor for the ground's error tolerance in the lake's reflection, which has fewer pixels and is blurred by waves.
 const LAKE_TOLERANCE_FACTOR: f64 = 4.0;
-/// Displayed propeller speed, rad/s: slow enough to avoid a stroboscopic standstill on screens (telemetry does not
-/// include the actual speed).
+/// Displayed propeller speed, rad/s: slow enough that propellers do not seem to stand still on a screen (telemetry does
+/// not include the actual speed).
 const DISPLAYED_ROTOR_SPEED_RAD_S: f64 = 43.0;
 
 impl Scene {
-    /// Builds the scene of a site with the light at one time.
+    /// Builds the scene of a site with the light at the given time.
     #[must_use]
     pub fn build(scenario: &Scenario, site: &Site, vehicle: &Vehicle, quality: &Quality, at: QueryTime) -> Self {
         let sun = site.light().daylight(at).sun;
@@ -126,13 +126,13 @@ impl Scene {
         }
     }
 
-    /// Returns the height of the water surface in meters.
+    /// Returns the water level in meters.
     #[must_use]
     pub fn water_m(&self) -> f64 {
         self.water_m
     }
 
-    /// Returns the instances of the moving objects at a time.
+    /// Returns the instances of the moving objects at the given time.
     #[must_use]
     pub fn moving(
         &self,
@@ -191,7 +191,7 @@ impl Scene {
     }
 }
 
-/// Indirect light in the open: the whole sky from above, half of the ground's reflected light from below (estimate).
+/// Indirect light in open air: the whole sky from above, half of the ground's reflected light from below (estimate).
 const OPEN_AIR_LIGHT: [f32; 4] = [0.95, 0.02, 0.22, 0.10];
 
 /// Returns an instance of a mesh (x forward, y left, z up) on the ground.

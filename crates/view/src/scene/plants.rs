@@ -1,5 +1,5 @@
 //! Conifers and boulders for visual scale. They have no collision geometry, so they are kept clear of bridges, task
-//! paths and the pad.
+//! paths, and the pad.
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish, Vertex, single};
 use super::super::quality::Quality;
@@ -30,7 +30,7 @@ const MAX_BOULDER_DISTANCE_M: f64 = 150.0;
 /// variants are drawn.
 const FAR_TREE_DISTANCE_M: f64 = 220.0;
 const LOD_OVERLAP_M: f64 = 5.0;
-/// Size of groves of trees, m.
+/// Size of tree groves, m.
 const GROVE_SIZE_M: f64 = 55.0;
 
 const NEEDLES: SurfaceFinish = SurfaceFinish::new(Material::Foliage, [17, 30, 15]);
@@ -118,7 +118,7 @@ fn tree_density(east: f64, north: f64) -> f64 {
     (0.25 + 0.75 * wave).clamp(0.03, 1.0)
 }
 
-/// Returns the ground point if it has enough clearance for a plant.
+/// Returns the point on the ground if it has enough clearance for a plant.
 fn free_ground_point(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
     let (up, normal) = site.geometry().terrain.ground.ground(east, north);
     let at = Vec3::new(east, north, up);
@@ -239,7 +239,7 @@ fn merge_instances(mesh: &Mesh, copies: &[Instance]) -> Mesh {
     all
 }
 
-/// Imitates light scattering by needles: tilts normals outward and up, and darkens the inside.
+/// Approximates light scattering by needles: tilts normals outward and up, and darkens the inside.
 fn soften_normals(mesh: &mut Mesh) {
     for v in &mut mesh.vertices {
         let [x, y, z] = v.position.map(f64::from);

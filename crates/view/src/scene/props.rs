@@ -1,4 +1,4 @@
-//! Cars, trucks and people, each within its collision box (`site::movers`): x forward, y left, z up from the ground.
+//! Cars, trucks, and people, each within its collision box (`site::movers`): x forward, y left, z up from the ground.
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish};
 use spandrel_model::frames::{Enu, Vec3};
@@ -48,12 +48,12 @@ pub fn color(kind: MoverKind, k: usize) -> [f32; 3] {
     }
 }
 
-/// Number of sides of wheels and limbs.
+/// Level of detail of round parts such as wheels and limbs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RoundDetail {
-    /// Full number of sides, for close views.
+    /// All sides, for close views.
     Fine,
-    /// Half the number of sides, for views across a road.
+    /// Half of the sides, for views across a road.
     Plain,
 }
 
@@ -88,7 +88,7 @@ fn wheel(mesh: &mut Mesh, x: f64, y: f64, (radius, width): (f64, f64), rounds: R
 /// Builds a family car, 4.5 m long.
 pub fn car(rounds: RoundDetail) -> Mesh {
     let mut mesh = Mesh::default();
-    // Sills, waist, hood and trunk.
+    // Sills, waist, hood, and trunk.
     mesh.block([-2.2, -0.86, 0.22], [2.2, 0.86, 0.55], [0.0, 0.0, -0.03], PAINT);
     mesh.block([-2.22, -0.89, 0.55], [2.22, 0.89, 0.86], [0.25, 0.10, 0.07], PAINT);
     mesh.block([0.85, -0.80, 0.84], [2.02, 0.80, 0.94], [0.55, 0.0, 0.06], PAINT);
@@ -126,7 +126,7 @@ pub fn truck(rounds: RoundDetail) -> Mesh {
         mesh.block([4.9, y - 0.17, 0.72], [4.985, y + 0.17, 0.92], [0.0; 3], HEADLIGHT);
         mesh.block([-5.0, y - 0.15, 0.72], [-4.96, y + 0.15, 0.86], [0.0; 3], TAIL_LIGHT);
     }
-    // Box body with a ribbed frame, door gap and bars. Avoids coplanar faces, which would cause z-fighting.
+    // Box body with a ribbed frame, door gap, and bars. Avoids coplanar faces, which would cause z-fighting.
     mesh.block([-4.98, -1.22, 0.95], [2.56, 1.22, 3.46], [0.0; 3], BOX);
     mesh.block([-5.0, -1.25, 0.88], [2.58, 1.25, 1.02], [0.0; 3], DARK);
     for x in [-4.92, -2.45, 0.05, 2.5] {

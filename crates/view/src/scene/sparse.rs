@@ -1,4 +1,5 @@
-//! Adaptive triangulation of a square grid: larger squares where the ground is nearly flat, single cells elsewhere, without gaps.
+//! Adaptive triangulation of a square grid: larger squares where the ground is nearly flat, single cells elsewhere,
+//! without gaps.
 
 /// A square of cells, given by the column and row of its southwest corner and the cells per side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,9 +35,9 @@ impl GridSquare {
     }
 }
 
-/// Returns the triangles of a grid with `side` vertices per row as vertex indices, counterclockwise from above. Squares
-/// of up to `largest` cells (a power of two) stay whole where `whole` returns true. The diagonal runs from southwest to
-/// northeast, as in single cells.
+/// Returns the triangles of a grid with `side` vertices per row. The triangles are lists of vertex indices,
+/// counterclockwise as seen from above. Squares of up to `largest` cells (a power of two) stay whole where `whole`
+/// returns true. The diagonal runs from southwest to northeast, as in single cells.
 #[must_use]
 pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> bool) -> Vec<[u32; 3]> {
     let cells = side.saturating_sub(1);
@@ -55,7 +56,8 @@ pub fn triangles(side: usize, largest: usize, whole: &dyn Fn(&GridSquare) -> boo
     squares.iter().flat_map(|square| square_triangles(square, side, &used)).collect()
 }
 
-/// Returns the triangles of a square: two, or a fan around its center if smaller neighbors have vertices on its boundary.
+/// Returns the triangles of a square: two, or a fan around its center if smaller neighbors have vertices on its
+/// boundary.
 fn square_triangles(square: &GridSquare, side: usize, used: &[bool]) -> Vec<[u32; 3]> {
     let boundary: Vec<u32> = square.boundary(side).filter(|corner| used[*corner]).map(|corner| corner as u32).collect();
     if let [sw, se, ne, nw] = *boundary {

@@ -4,7 +4,8 @@ diagnostic(off, derivative_uniformity);
 // Radiance is stored as pi times radiance, in lux, divided by the exposure's white. A white matte surface at white
 // illuminance has the value 1.
 
-// Settings of the preset (pipelines.rs): number of sun shadow maps; filter size in texels; lamp shadows; lake reflection.
+// Settings of the preset (pipelines.rs): number of sun shadow maps; filter size in texels; lamp shadows; lake
+// reflection.
 override CASCADES: u32 = 4u;
 override TAPS: u32 = 3u;
 override LAMP_CASTS: bool = true;
@@ -20,7 +21,8 @@ struct Globals {
     view_proj: mat4x4<f32>,
     // Camera position; time, s.
     eye: vec4<f32>,
-    // Right and up, scaled by the half sizes of the picture at distance 1, and forward; w of the last: radians per pixel.
+    // Right and up, scaled by the half sizes of the picture at distance 1, and forward; w of the last: radians per
+    // pixel.
     right: vec4<f32>,
     up: vec4<f32>,
     forward: vec4<f32>,
@@ -30,7 +32,7 @@ struct Globals {
     sun_rgb: vec4<f32>,
     // Color of the sky's light; horizontal illuminance of the sky.
     sky_rgb: vec4<f32>,
-    // Factor on the sky's relative radiance; water level; haze, 1/m.
+    // Factor for the sky's relative radiance; water level; haze, 1/m.
     scene: vec4<f32>,
     // Lamp: position, cosine of the half beam angle; direction, candela.
     lamp: vec4<f32>,
@@ -66,7 +68,7 @@ fn hash2(p: vec2<i32>) -> f32 {
     return f32(h >> 8u) / 16777216.0;
 }
 
-// Smooth noise of one octave with cells of size 1.
+// Smooth single-octave noise with cells of size 1.
 fn noise(p: vec2<f32>) -> f32 {
     return textureSampleLevel(noise_map, noise_sampler, p / 16.0, 0.0).g;
 }
@@ -76,11 +78,11 @@ fn fbm(p: vec2<f32>, footprint: f32) -> f32 {
     if DETAIL {
         return textureSampleLevel(noise_map, noise_sampler, p / 16.0, log2(max(footprint * 32.0, 1.0))).r;
     }
-    // Leaves the footprint of the pixel to the renderer, which costs a third as much in software.
+    // Lets the renderer determine the pixel footprint, which costs a third as much in software.
     return textureSample(noise_map, noise_sampler, p / 16.0).r;
 }
 
-// Noise that cheaper presets replace with the value `instead`.
+// Noise that cheaper presets replace with `instead`.
 fn fine(p: vec2<f32>, footprint: f32, instead: f32) -> f32 {
     if DETAIL {
         return fbm(p, footprint);
@@ -135,7 +137,7 @@ fn shadow_compare(layer: i32, uv: vec2<f32>, depth: f32) -> f32 {
     return textureSampleCompareLevel(shadow_map, shadow_sampler, uv, layer, depth);
 }
 
-// Mean visibility over a square of texels around a point of a map.
+// Mean visibility over a square of texels around a point in a shadow map.
 fn map_visible(layer: i32, q: vec3<f32>) -> f32 {
     let uv = vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
     let s = 1.0 / f32(textureDimensions(shadow_map).x);

@@ -73,8 +73,8 @@ fn crack_offset(x: f32, seed: f32, footprint: f32) -> f32 {
     return y;
 }
 
-// Fraction of the pixel covered by the crack; its width ranges from a quarter of the rated width at its ends to 1.3 times the
-// rated width.
+// Fraction of the pixel covered by the crack; its width ranges from a quarter of the rated width at its ends to 1.3
+// times the rated width.
 fn crack(in: Fragment, footprint: f32, off: f32) -> f32 {
     let half = 0.5 * in.along.w;
     let x = in.q.x;
@@ -114,7 +114,7 @@ fn frame_normal(in: Fragment, slope: vec2<f32>) -> vec3<f32> {
     return normalize(in.normal.xyz - in.along.xyz * slope.x - across * slope.y);
 }
 
-// Fraction of sunlight that the edge of a pit lets through at a point inside it.
+// Fraction of sunlight that reaches a point inside a pit past its edge.
 fn pit_edge_shadow(in: Fragment, q: vec2<f32>, half: vec2<f32>, deepest: f32, towards: vec3<f32>) -> f32 {
     let across = cross(in.normal.xyz, in.along.xyz);
     let l = vec3<f32>(dot(towards, in.along.xyz), dot(towards, across), dot(towards, in.normal.xyz));
@@ -182,7 +182,7 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     broken(in, in.q, half, 0.035, f, look);
     let seed = in.normal.w;
-    // Bars of 22 to 30 mm along the patch, as many as fit its width.
+    // Bars of 22 to 30 mm along the patch, as many as fit across its width.
     let count = max(1.0, floor(in.size.x / 0.11));
     let gap = in.size.x / count;
     let lane = (fract(in.q.y / gap + 0.5 * count) - 0.5) * gap;
@@ -242,7 +242,7 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = smoothstep(0.10, 0.60, thick) * min(1.0, 1.6 * body) * 0.94;
 }
 
-// Abrasion: the surface layer is gone, which exposes aggregate.
+// Abrasion: the surface layer is missing, which exposes aggregate.
 fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let e = outline(in.q, half, in.normal.w) + 0.35 * (fbm(in.q * 12.0, f * 12.0) - 0.5);

@@ -43,16 +43,16 @@ fn random(p: vec2<u32>, k: u32) -> vec4<f32> {
 }
 
 // Contrast of 1.3 around a mid-gray of 0.26 (estimate: standard camera profiles have 1.2 to 1.5). Surfaces two stops
-// underexposed look black, consistent with the score. Equals (x / 0.26)^0.3 up to its limit of 1.25, with an error
-// below 0.2 of 255 steps in the picture.
+// underexposed look black, consistent with the score. Equals (x / 0.26)^0.3 up to its limit of 1.25, with an error of
+// less than 0.2 of the picture's 255 steps.
 fn raised_contrast(x: f32) -> f32 {
     let s = sqrt(x);
     return (0.19498184 + 2.25033308 * s) / (1.0 + 0.66570929 * s);
 }
 
-// Filmic curve with a soft toe and shoulder (Narkowicz 2015's fit to the Academy's reference curve), encoded in sRGB
-// with a rational function of the square root of radiance, with an error below 0.8 of 255 steps. In software renderers,
-// square roots and divisions are nearly free, but powers are not.
+// Filmic curve with a soft toe and shoulder (Narkowicz's 2015 fit to the Academy's reference curve). Encodes sRGB with
+// a rational function of the square root of radiance, with an error of less than 0.8 of 255 steps. In software
+// renderers, square roots and divisions are cheap, but powers are not.
 fn encoded(y: vec3<f32>) -> vec3<f32> {
     let s = sqrt(y);
     return ((5.75941549 * s - 0.05775244) * s - 0.00282203) / ((5.80176807 * s - 0.53043618) * s + 1.0);

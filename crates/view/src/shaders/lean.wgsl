@@ -1,5 +1,5 @@
-// Solids for cheaper presets (appended to surface.wgsl): light without sun shadows, haze and reflections are computed per vertex,
-// and slow patterns come from precomputed tiles (tiles.rs).
+// Solids for cheaper presets (appended to surface.wgsl): light without sun shadows, haze, and reflections are computed
+// per vertex, and slow patterns come from precomputed tiles (tiles.rs).
 
 // Ground: patches, blocks, beds, fine detail. Concrete: tone, and fractions of streaks, soot, droppings.
 @group(0) @binding(5) var ground_tile: texture_2d<f32>;
@@ -65,7 +65,7 @@ fn vs_lean(corner: Corner) -> Lean {
     let q = at.xyz / at.w;
     var tint = v.tint;
     if LOOK == 4u {
-        // Mip level with texels of two meters and a pattern scale of thirty meters.
+        // Mip level with two-meter texels and a pattern scale of thirty meters.
         tint.a = textureSampleLevel(noise_map, noise_sampler, v.p.xy * (0.03 / 16.0), 1.0).r;
     }
     var out: Lean;

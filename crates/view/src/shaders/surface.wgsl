@@ -1,4 +1,4 @@
-// Draws solids.
+// Draws solid surfaces.
 
 // Material group of the pipeline (material_groups.rs): 0 concrete, 1 deck, 2 steel, 3 simple, 4 ground.
 override LOOK: u32 = 3u;
@@ -57,7 +57,7 @@ fn vs(v: Corner) -> Fragment {
 
 // Size of the concrete cells that may contain a distractor, m.
 const DISTRACTOR_CELL_M: vec2<f32> = vec2<f32>(5.3, 3.7);
-// Maximum height of spray paint above the water, m: within reach from the ground, a boat or a ladder (estimate).
+// Maximum height of spray paint above the water, m: within reach from the ground, a boat, or a ladder (estimate).
 const MAX_SPRAY_PAINT_HEIGHT_M: f32 = 12.0;
 
 // Distractors left by people and spiders (docs/src/reference/domain.md, "Defects"): at most one per cell, and none in
@@ -245,7 +245,7 @@ fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     let shown = 1.0 - smoothstep(0.008, 0.03, f);
     let rivet = cover(head, 0.03, f) * shown;
     color = mix(color, color * (1.25 - 0.9 * smoothstep(0.008, 0.016, head)), rivet);
-    // Small, dry, superficial rust specks in gaps of the paint.
+    // Small, dry, superficial rust specks in gaps in the paint.
     let freckle = smoothstep(0.74, 0.82, fbm(uv * 2.3 + 40.0, f * 2.3)) * smoothstep(0.45, 0.7, fbm(uv * 0.3 + 2.0, f * 0.3));
     color = mix(color, vec3<f32>(0.19, 0.085, 0.04), 0.55 * freckle);
     (*m).albedo = color;

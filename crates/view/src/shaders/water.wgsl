@@ -108,7 +108,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let spread = max(rough * 1.4, 0.045);
     let glint = PI * ggx(n, v, g.sun.xyz, vec3<f32>(0.02), sqrt(spread)) * g.sun.w * max(g.sun.z, 0.0) * sun_seen;
     // Light scattered back from the water: blue-green, and brighter in the sun. Light that enters next to a shadow
-    // scatters underneath it, so the edges of the shadow are barely visible from above.
+    // scatters underneath it, so shadow edges are barely visible from above.
     let within = mix(0.65, 1.0, sun_seen);
     let lux = in.light.x * g.sky_rgb.w * g.sky_rgb.xyz + g.sun.w * max(g.sun.z, 0.0) * within * g.sun_rgb.xyz;
     var lamp = 0.0;

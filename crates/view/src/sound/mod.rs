@@ -35,7 +35,7 @@ impl Default for SoundSettings {
     }
 }
 
-/// Inputs of the sound.
+/// Inputs for sound synthesis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SoundInputs {
     /// Rotor speeds, rad/s; empty if unknown.
@@ -48,7 +48,7 @@ pub struct SoundInputs {
     pub silent: bool,
 }
 
-/// Sound of a flight.
+/// Sound synthesizer for a flight.
 #[derive(Debug, Clone, Default)]
 pub struct FlightSound {
     settings: SoundSettings,

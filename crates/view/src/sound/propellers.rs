@@ -19,10 +19,10 @@ const FULL_LEVEL_RAD_S: f64 = 1_100.0;
 /// outdoors. A drone at 120 m remains audible on typical speakers (estimate).
 const FULL_LEVEL_DISTANCE_M: f64 = 15.0;
 
-/// Minimum rotor speed for sound, rad/s.
+/// Minimum rotor speed that produces sound, rad/s.
 const MIN_SPEED_RAD_S: f64 = 1e-3;
 
-/// Oscillators of the rotors.
+/// One oscillator per rotor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Propellers {
     rotors: [RotorOscillator; MAX_ROTORS],
@@ -38,7 +38,7 @@ struct RotorOscillator {
 }
 
 impl Propellers {
-    /// Returns the next sample, in [-1, 1], for these rotor speeds (rad/s) and distance (m).
+    /// Returns the next sample, in [-1, 1], for the given rotor speeds (rad/s) and distance (m).
     pub fn next(&mut self, rotors_rad_s: &[f64], distance_m: f64) -> f64 {
         let far = self.level.follow((FULL_LEVEL_DISTANCE_M / distance_m.max(FULL_LEVEL_DISTANCE_M)).clamp(0.0, 1.0));
         // Normalizes by the number of rotors, but at least by four, so a single rotor sounds quieter.

@@ -1,4 +1,4 @@
-//! Warning tones, distinguished by pitch and rhythm. Only the most serious tone sounds.
+//! Warning tones, distinguished by pitch and rhythm. Only the tone of the most serious warning sounds.
 
 use super::smoothing::SAMPLE_RATE_HZ;
 use spandrel_mavlink::contract::cue;
@@ -7,7 +7,7 @@ use spandrel_model::math;
 /// Duration of a tone's attack and release, s: long enough to avoid clicks, short enough for a clear onset.
 const FADE_S: f64 = 0.008;
 
-/// Tone of a cue: pitch, Hz, and on-time and period, s.
+/// Tone of a cue: pitch (Hz), on-time (s), and period (s).
 struct Tone {
     cue: i32,
     hz: f64,
@@ -42,7 +42,7 @@ pub struct WarningTones {
 }
 
 impl WarningTones {
-    /// Returns the next sample, in [-1, 1], for these active cues.
+    /// Returns the next sample, in [-1, 1], for the given active cues.
     pub fn next(&mut self, cues: i32) -> f64 {
         let step_s = 1.0 / f64::from(SAMPLE_RATE_HZ);
         let wanted = TONES.iter().position(|tone| cues & tone.cue != 0);

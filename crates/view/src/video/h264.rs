@@ -15,18 +15,18 @@ pub struct EncodedPicture {
     pub key: bool,
 }
 
-/// Encodes pictures of one size to H.264.
+/// Encodes pictures of a fixed size to H.264.
 pub struct H264Encoder {
     encoder: openh264::encoder::Encoder,
     size_px: (u32, u32),
 }
 
 impl H264Encoder {
-    /// Creates an encoder for a picture size (even, px), a picture rate, Hz, and a bit rate, bit/s. Every
+    /// Creates an encoder for the given picture size (px, even), picture rate (Hz), and bit rate (bit/s). Every
     /// `key_every`-th picture is a key frame.
     ///
     /// # Errors
-    /// If the encoder rejects the parameters.
+    /// Returns an error if the encoder rejects the parameters.
     pub fn new(size_px: (u32, u32), rate_hz: f64, bits_s: u32, key_every: u32) -> Result<Self, VideoError> {
         if size_px.0 % 2 == 1 || size_px.1 % 2 == 1 {
             return Err(VideoError::Encoder(format!("{} x {} px: width and height must be even", size_px.0, size_px.1)));
@@ -37,7 +37,7 @@ impl H264Encoder {
             .rate_control_mode(RateControlMode::Bitrate)
             .usage_type(UsageType::CameraVideoRealTime)
             .intra_frame_period(IntraFramePeriod::from_num_frames(key_every))
-            // Skips no frames, because reviewers may need the one that shows the defect.
+            // Does not skip frames, because reviewers may need the one that shows the defect.
             .skip_frames(false)
             .vui(VuiConfig::bt601());
         let refused = |error: openh264::Error| VideoError::Encoder(error.to_string());
@@ -48,7 +48,7 @@ impl H264Encoder {
     /// Encodes the next picture.
     ///
     /// # Errors
-    /// If its size differs, or the encoder fails.
+    /// Returns an error if the picture's size differs from the encoder's, or if the encoder fails.
     pub fn encode(&mut self, picture: &Picture) -> Result<EncodedPicture, VideoError> {
         if (picture.width, picture.height) != self.size_px {
             return Err(VideoError::Encoder("picture size differs from the video size".into()));

@@ -11,14 +11,14 @@ pub use h264::{EncodedPicture, H264Encoder};
 pub use mp4::{Mp4Chunk, Mp4Writer};
 pub use rate::PictureRate;
 
-/// Errors in encoding and writing video.
+/// Errors that occur when video is encoded or written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum VideoError {
     /// The encoder rejected the input or failed.
     #[error("the video encoder failed: {0}")]
     Encoder(String),
     /// The file format cannot represent the data.
-    #[error("the video file cannot be written: {0}")]
+    #[error("cannot write the video file: {0}")]
     File(String),
 }
 

@@ -15,9 +15,9 @@ const PPS: u8 = 8;
 /// Bytes to write at an offset in the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mp4Chunk {
-    /// Offset, bytes.
+    /// Offset in the file, bytes.
     pub at: u64,
-    /// Bytes.
+    /// Bytes to write at the offset.
     pub bytes: Vec<u8>,
 }
 
@@ -33,10 +33,10 @@ pub struct Mp4Writer {
 }
 
 impl Mp4Writer {
-    /// Creates a file for pictures of one size and rate, Hz, and returns it with the first bytes to write.
+    /// Creates a file for pictures of a fixed size and rate (Hz). Returns it with the first bytes to write.
     ///
     /// # Errors
-    /// If the file format cannot represent them.
+    /// Returns an error if the file format cannot represent the size or rate.
     pub fn new(size_px: (u32, u32), rate_hz: f64) -> Result<(Self, Mp4Chunk), VideoError> {
         let muxer = Mp4FileMuxer::new().map_err(|error| VideoError::File(error.to_string()))?;
         let head = muxer.initial_boxes_bytes().to_vec();
@@ -48,7 +48,7 @@ impl Mp4Writer {
     /// Adds a picture.
     ///
     /// # Errors
-    /// If the file format cannot represent it.
+    /// Returns an error if the file format cannot represent the picture.
     pub fn push(&mut self, encoded: &EncodedPicture) -> Result<Mp4Chunk, VideoError> {
         let mut bytes = Vec::new();
         for unit in encoded.units.iter().filter(|unit| !is_parameter(unit)) {
@@ -56,7 +56,7 @@ impl Mp4Writer {
             bytes.extend(unit);
         }
         self.pictures += 1;
-        // Uses whole ticks without drift: picture n ends at n / rate.
+        // Uses integer ticks without drift: picture n ends at n / rate.
         let until = (self.pictures as f64 / self.rate_hz * f64::from(TICKS_PER_S)).round() as u64;
         let sample = Sample {
             track_kind: TrackKind::Video,
@@ -75,10 +75,10 @@ impl Mp4Writer {
         Ok(piece)
     }
 
-    /// Returns the chunks with the index, which complete the file.
+    /// Returns the chunks that contain the index and complete the file.
     ///
     /// # Errors
-    /// If the index cannot be built.
+    /// Returns an error if the index cannot be built.
     pub fn finish(mut self) -> Result<Vec<Mp4Chunk>, VideoError> {
         let closed = self.muxer.finalize().map_err(|error| VideoError::File(error.to_string()))?;
         Ok(closed.offset_and_bytes_pairs().map(|(at, bytes)| Mp4Chunk { at, bytes: bytes.to_vec() }).collect())

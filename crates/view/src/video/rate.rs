@@ -1,4 +1,4 @@
-//! Measurement of the picture rate of a stream.
+//! Measurement of a stream's picture rate.
 
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
@@ -11,7 +11,7 @@ const AVERAGING_WINDOW: SimTime = SimTime::from_ms(2_000);
 pub struct PictureRate(VecDeque<SimTime>);
 
 impl PictureRate {
-    /// Records a picture sent at a wall time.
+    /// Records a picture sent at the given wall time.
     pub fn count(&mut self, wall: SimTime) {
         self.0.push_back(wall);
         while self.0.len() > 2 && self.0.front().is_some_and(|first| wall.saturating_sub(*first) > AVERAGING_WINDOW) {

@@ -31,7 +31,7 @@ impl RtpPacketizer {
         Self { sequence: (bits() >> 16) as u16, source: bits(), start_timestamp: bits() }
     }
 
-    /// Returns the packets of a picture taken at `at_s` in seconds; the last one has the marker bit.
+    /// Returns the packets for a picture taken at `at_s` (in seconds); the last packet has the marker bit set.
     pub fn picture(&mut self, units: &[Vec<u8>], at_s: f64) -> Vec<Vec<u8>> {
         let stamp = self.start_timestamp.wrapping_add(((at_s * CLOCK_HZ).round() as i64) as u32);
         let payloads: Vec<Vec<u8>> = units.iter().flat_map(|unit| payloads(unit)).collect();

@@ -55,7 +55,7 @@ fn exact_reassembled_packets_equal_the_nal_units() {
         assert_eq!((packet[0], packet[1] & 0x7F, packet[1] >> 7 == 1), (0x80, 96, k + 1 == sent.len()));
         assert_eq!(number(packet).wrapping_sub(number(&begin)) as usize, k + 1);
         assert_eq!(stamp(packet).wrapping_sub(stamp(&begin)), 180_000);
-        assert_eq!(packet[8..12], begin[8..12], "all packets must have one source");
+        assert_eq!(packet[8..12], begin[8..12], "all packets must have the same source");
         let payload = &packet[12..];
         if payload[0] & 0x1F == 28 {
             if payload[1] & 0x80 != 0 {

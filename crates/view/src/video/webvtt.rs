@@ -5,11 +5,11 @@ use std::fmt::Write;
 /// A chapter of a video.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chapter {
-    /// Start, s.
+    /// Start time, s.
     pub from_s: f64,
-    /// End, s.
+    /// End time, s.
     pub to_s: f64,
-    /// Title.
+    /// Title of the chapter.
     pub title: String,
 }
 

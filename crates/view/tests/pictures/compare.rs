@@ -1,4 +1,4 @@
-//! Comparison of pictures, and the committed reference pictures.
+//! Compares pictures with the committed reference pictures.
 
 use spandrel_view::picture::Picture;
 use std::path::{Path, PathBuf};
@@ -66,9 +66,9 @@ pub fn difference(a: &Picture, b: &Picture) -> Option<Difference> {
     Some(Difference { mean: mean((0, 0), (columns, rows)), tile: worst })
 }
 
-/// Compares a picture with the committed one of this name. An error contains the paths of the rendered picture and the
-/// difference. With `SPANDREL_PICTURES=write` in the environment, overwrites the committed picture instead; inspect it
-/// before you commit it.
+/// Compares a picture with the committed picture of the same name. An error message contains the paths of the rendered
+/// picture and the difference. If the environment contains `SPANDREL_PICTURES=write`, overwrites the committed picture
+/// instead; inspect the new picture before you commit it.
 pub fn check_picture(name: &str, drawn: &Picture) -> Result<Difference, String> {
     check_picture_at(&reference_path(name), name, drawn)
 }
@@ -80,7 +80,7 @@ pub fn reference_path(name: &str) -> PathBuf {
         .join(format!("{name}.jpg"))
 }
 
-/// Same as [`check_picture`], for a committed picture at any path.
+/// Same as [`check_picture`], but for a committed picture at any path.
 pub fn check_picture_at(committed: &Path, name: &str, drawn: &Picture) -> Result<Difference, String> {
     if std::env::var("SPANDREL_PICTURES").is_ok_and(|value| value == "write") {
         std::fs::write(committed, jpeg(drawn)).unwrap();

@@ -1,5 +1,5 @@
 //! Contrast of a crack as a function of the ground sampling distance (docs/src/reference/domain.md, "Resolution":
-//! detection from half a pixel's width, identification from one pixel); it must not jump.
+//! detection from half a pixel's width, identification from one pixel). The contrast must not jump.
 
 use spandrel_model::defect_codes;
 use spandrel_model::math;
@@ -53,12 +53,12 @@ impl Wall {
         Self { studio, crack, patches }
     }
 
-    /// Returns the size of a pixel on the wall at a distance in meters.
+    /// Returns the size of a pixel on the wall, in meters, at the given distance.
     fn gsd_m(&self, distance_m: f64) -> f64 {
         distance_m / self.studio.vehicle.camera.focal_px()
     }
 
-    /// Returns pictures of the wall with and without the crack at a ground sampling distance in meters.
+    /// Returns pictures of the wall with and without the crack at the given ground sampling distance (in meters).
     fn pair(&mut self, gsd_m: f64) -> [Picture; 2] {
         let focal_px = self.studio.vehicle.camera.focal_px();
         let hfov_deg = (2.0 * math::atan(0.5 * f64::from(CROP_PX.0) / focal_px)).to_degrees();
@@ -93,8 +93,7 @@ fn peak_difference([with, without]: &[Picture; 2], by: impl Fn(f64, f64) -> f64)
     (0..with.height).map(of).sum::<f64>() / f64::from(with.height)
 }
 
-/// Returns the variation of the bare wall between pixels that are two apart, as a fraction of its brightness: grain,
-/// sand, streaks.
+/// Returns the bare wall's variation between pixels two apart, as a fraction of its brightness (grain, sand, streaks).
 fn wall_variation(without: &Picture) -> f64 {
     let (mut squares, mut count) = (0.0, 0.0);
     for y in 0..without.height {
@@ -109,13 +108,13 @@ fn wall_variation(without: &Picture) -> f64 {
 
 #[test]
 fn val_crack_visibility_depends_on_its_width_in_pixels() {
-    // Multiples of the variation of the bare wall. 5 is Rose's limit of visibility (1948). Distinguishing a crack from
-    // a stain or a formwork line requires more (estimate: four times that).
+    // As multiples of the bare wall's variation. The value 5 is Rose's limit of visibility (1948). Distinguishing a
+    // crack from a stain or a formwork line requires more (estimate: four times that).
     const DETECTED: f64 = 5.0;
     const IDENTIFIED: f64 = 20.0;
     const UNDETECTED: f64 = 2.0;
-    // A line narrower than a pixel covers a fraction of it, so half the width has half the contrast. The tone curve
-    // causes a small deviation.
+    // A line narrower than a pixel covers a fraction of it, so a line of half the width has half the contrast. The tone
+    // curve causes a small deviation.
     const HALF_CONTRAST: f64 = 0.5;
     const HALF_TOLERANCE: f64 = 0.12;
     let mut wall = Wall::new();
@@ -140,7 +139,7 @@ fn val_crack_visibility_depends_on_its_width_in_pixels() {
 #[test]
 fn prop_contrast_decreases_smoothly() {
     const STEP: f64 = 0.94;
-    // Rounding to 8 bits, and different rows of the wall in the picture.
+    // Allows for rounding to 8 bits and for different rows of the wall in the picture.
     const MAX_RISE: f64 = 0.01;
     // The contrast is inversely proportional to the distance, so a step changes it by 6%, or by up to twice that where
     // the edge of the line leaves the adjacent pixel.
@@ -164,7 +163,7 @@ fn prop_contrast_decreases_smoothly() {
 #[test]
 fn prop_leakage_contrast_decreases_smoothly() {
     const STEP: f64 = 0.94;
-    // Rounding to 8 bits, different rows of the wall, and ends of the leakage that enter the picture.
+    // Allows for rounding to 8 bits, different rows of the wall, and ends of the leakage that enter the picture.
     const MAX_RISE: f64 = 0.03;
     const MAX_FALL: f64 = 0.08;
     for (kind, own) in [(defect_codes::CRACK, SEED_WITH_LIME), (defect_codes::FATIGUE, SEED_WITHOUT_LIME)] {

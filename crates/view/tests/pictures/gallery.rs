@@ -1,4 +1,4 @@
-//! Pictures with contents that any viewer must recognize, compared with committed pictures.
+//! Pictures whose content any viewer must recognize, compared with committed pictures.
 
 use super::compare::{Difference, beside, check_picture, check_picture_at};
 use spandrel_mavlink::contract::cue;
@@ -20,17 +20,18 @@ use std::path::Path;
 const SCENE_PX: (u32, u32) = (640, 360);
 /// Size of each view with a HUD, large enough for legible text.
 const VIEW_PX: (u32, u32) = (640, 360);
-/// Size of each close-up of a defect, px.
+/// Size of each defect close-up, px.
 const CLOSE_UP_PX: (u32, u32) = (320, 240);
 /// Fields of view at 1 m and 3 m, which fit an object half a meter wide. At 8 m, the picture is a full-resolution crop
 /// of the camera's picture.
 const CLOSE_UP_FOV_DEG: [f64; 2] = [30.0, 15.0];
 
-/// Size of the tutorial's defect pictures, px, and the field of view for all of them; at 1 m, half a meter just fits.
+/// Size of the tutorial's defect pictures, px, and their shared field of view, in which half a meter just fits at a
+/// distance of 1 m.
 const TUTORIAL_PX: (u32, u32) = (240, 180);
 const TUTORIAL_FOV_DEG: f64 = 30.0;
 
-/// Collects all errors, so one run reports on every picture.
+/// Collects all errors, so that one run reports on every picture.
 #[derive(Default)]
 struct Gallery {
     errors: Vec<String>,
@@ -88,8 +89,8 @@ fn regress_crew_and_drone_at_the_pad() {
     wall.assert_no_errors();
 }
 
-/// Distractors that may be mistaken for defects: a sealed crack, a web, spray paint. Formwork lines, tie holes, streaks
-/// and droppings are also visible.
+/// Distractors that may be mistaken for defects: a sealed crack, a spider web, spray paint. Formwork lines, tie holes,
+/// streaks, and droppings are also visible.
 #[test]
 fn regress_distractors() {
     let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
@@ -128,7 +129,7 @@ fn regress_lamp_lights_dark_places() {
             lumas.push(picture.luma((w / 3, h / 3), (w - w / 3, h - h / 3)));
             wall.check(&format!("{name}-{state}"), &picture);
         }
-        println!("{name}: middle of the picture {lumas:.0?} of 255");
+        println!("{name}: middle of the picture {lumas:.0?} (0 to 255)");
         if lumas[0] > MAX_DARK_LUMA || lumas[1] < MIN_LAMP_FACTOR * lumas[0] {
             wall.errors.push(format!("{name}: lamp off {:.0} (at most {MAX_DARK_LUMA}), on {:.0}", lumas[0], lumas[1]));
         }
@@ -158,7 +159,7 @@ fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m
     }
 }
 
-/// Replaces all defects with this one, in the light at its position.
+/// Replaces all defects with the given one, using the light at its position.
 fn show_only_defect(studio: &mut Studio, defect: &PlacedDefect) {
     let light = spandrel_model::site::light::ray_bundle(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
@@ -169,7 +170,7 @@ fn show_only_defect(studio: &mut Studio, defect: &PlacedDefect) {
     renderer.set_patches(gpu, &patches);
 }
 
-/// Returns a picture of a defect from a distance along its normal, slightly from the side and from below.
+/// Returns a picture of a defect from the given distance along its normal, slightly from the side and from below.
 fn close_up(studio: &mut Studio, defect: &PlacedDefect, distance_m: f64, hfov_deg: f64, size: (u32, u32)) -> Picture {
     let aside = Vec3::new(0.0, 0.0, 1.0).cross(defect.normal).unit();
     let out = (defect.normal + aside * 0.25 - Vec3::new(0.0, 0.0, 0.12)).unit();
@@ -235,7 +236,7 @@ fn regress_tutorial_shows_defects_at_true_scale() {
     wall.assert_no_errors();
 }
 
-/// Returns the HUD of a normal flight.
+/// Returns the HUD during a normal flight.
 fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
     let track = |task: &spandrel_model::scenario::Task| MapPath { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
     Hud {

@@ -17,11 +17,11 @@ use std::collections::BTreeMap;
 
 /// Number of photos that show a defect.
 const PHOTO_COUNT: usize = 200;
-/// Number of photos tried for each defect.
+/// Number of photo attempts per defect.
 const TRIES_PER_DEFECT: usize = 4;
 /// Size of the rendered area around each defect, in camera pixels.
 const CROP_PX: (u32, u32) = (192, 144);
-/// Size of the picture for metering the exposure, px; any size will do.
+/// Size of the picture for metering the exposure, px; any size works.
 const FRAME: (u32, u32) = (400, 300);
 
 /// A photo of one defect.
@@ -97,7 +97,7 @@ fn defect_mask(snapshot: &Snapshot, defect: &PlacedDefect, lens: &Camera) -> Vec
     (0..CROP_PX.0 * CROP_PX.1).map(on).collect()
 }
 
-/// Visibility of a defect in its region.
+/// A defect's visibility within its region of the picture.
 #[derive(Debug, Clone, Copy)]
 struct DefectVisibility {
     /// Change caused by the defect relative to the variation of the bare surface (grain and texture), summed as for an
@@ -168,17 +168,23 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
             }
         }
     }
-    println!("according to the measures, {} photos show a defect; by kind: {kinds:?}", shown.len());
+    println!("photos that show a defect, according to the measures: {}; by kind: {kinds:?}", shown.len());
     println!("signal-to-noise ratios: {}; from behind: {}", summary(&shown), summary(&behind));
     assert!(behind.len() >= 30, "too few photos from behind: {}", behind.len());
-    assert!(kinds.len() >= 6, "too few kinds: {kinds:?}");
-    assert!(wrong.is_empty(), "{} of {} disagree:\n{}", wrong.len(), shown.len() + behind.len(), wrong.join("\n"));
+    assert!(kinds.len() >= 6, "too few kinds of defects: {kinds:?}");
+    assert!(
+        wrong.is_empty(),
+        "{} of {} photos disagree with the measures:\n{}",
+        wrong.len(),
+        shown.len() + behind.len(),
+        wrong.join("\n")
+    );
 }
 
-/// Returns the minimum, the 10% quantile, the median and the maximum as text.
+/// Returns the minimum, the 10th percentile, the median, and the maximum as text.
 fn summary(all: &[DefectVisibility]) -> String {
     let mut values: Vec<f64> = all.iter().map(|shows| shows.signal_to_noise).collect();
     values.sort_by(f64::total_cmp);
     let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share) as usize).copied().unwrap_or(f64::NAN);
-    format!("least {:.1}, 10% {:.1}, median {:.1}, most {:.1}", at(0.0), at(0.1), at(0.5), at(1.0))
+    format!("minimum {:.1}, 10th percentile {:.1}, median {:.1}, maximum {:.1}", at(0.0), at(0.1), at(0.5), at(1.0))
 }

@@ -16,7 +16,7 @@ pub struct LabelPipelines {
 }
 
 impl LabelPipelines {
-    /// Compiles the pipelines for an existing bind group layout of the globals.
+    /// Compiles the pipelines for the globals' existing bind group layout.
     pub fn new(gpu: &Gpu, globals_layout: &wgpu::BindGroupLayout) -> Self {
         let [surface, defect] = ["surface", "defect"].map(|name| module(gpu, name));
         let globals = [Some(globals_layout)];

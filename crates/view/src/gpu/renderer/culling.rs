@@ -15,7 +15,7 @@ pub struct ShotView {
     pub eye_m: Vec3<Enu>,
     /// 1 if the lamp is on, otherwise 0.
     pub lamp: usize,
-    /// Whether the lake may be in the picture.
+    /// Whether the lake may be visible in the picture.
     pub lake: bool,
 }
 
@@ -41,7 +41,7 @@ impl ShotView {
         Frustum::of(&self.projection.after(&Matrix::mirror(self.water_m)))
     }
 
-    /// Returns the moving objects that may be visible directly or in the lake; `model_radii_m` contains the distance
+    /// Returns the moving objects that may be visible directly or in the lake. `model_radii_m` contains the distance
     /// from each model's origin to its farthest vertex, m.
     pub fn visible_objects(&self, moving: &[(MoverModel, Instance)], model_radii_m: &[f64]) -> Vec<(MoverModel, Instance)> {
         let (straight, mirrored) = (self.direct_view(), self.mirrored());

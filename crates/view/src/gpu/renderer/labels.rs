@@ -18,7 +18,7 @@ impl Renderer {
     /// Returns the bridge element and defect at each pixel of a shot.
     ///
     /// # Errors
-    /// If the shot is too large for the device, or the device fails or has failed before.
+    /// Returns an error if the shot is too large for the device, or if the device fails or has failed before.
     pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<LabelMask, GpuError> {
         gpu.check_size(shot.size_px)?;
         let globals = Globals::new(shot, self.water_m, &ShadowMaps { sun: &[], lamp: None }, false);

@@ -12,7 +12,7 @@ impl Renderer {
     /// Renders a shot and reads it back.
     ///
     /// # Errors
-    /// If the shot is too large for the device, or the device fails or has failed before.
+    /// Returns an error if the shot is too large for the device, or if the device fails or has failed before.
     pub fn picture(&mut self, gpu: &Gpu, shot: &Shot) -> Result<Picture, GpuError> {
         gpu.check_size(shot.size_px)?;
         let texture = picture_texture(gpu, shot.size_px);
@@ -23,7 +23,7 @@ impl Renderer {
     /// Renders a shot with HUD items over it and reads it back.
     ///
     /// # Errors
-    /// If the shot is too large for the device, or the device fails or has failed before.
+    /// Returns an error if the shot is too large for the device, or if the device fails or has failed before.
     pub fn picture_with(
         &mut self,
         gpu: &Gpu,

@@ -8,11 +8,11 @@ use std::sync::Arc;
 
 /// Static objects of one cell.
 pub struct StaticCell {
-    /// Mesh.
+    /// The objects' mesh.
     pub solid: Arc<GpuMesh>,
-    /// Instances.
+    /// Instances of the mesh in this cell.
     pub copies: MeshInstances,
-    /// Whether it is drawn into shadow maps.
+    /// Whether the objects are drawn into shadow maps.
     pub casts_shadows: bool,
     /// Visibility range in the direct view and in the reflection.
     pub visible_range: VisibleRange,
