@@ -5,7 +5,7 @@ use super::codec::{Encoder, ReceivedFrame};
 
 /// Message ID of TUNNEL.
 const TUNNEL: u32 = 385;
-/// Payload type of notes; types from 32768 are reserved for private use.
+/// Payload type of notes; types 32768 and above are reserved for private use.
 const NOTE_PAYLOAD_TYPE: u16 = 33_077;
 /// Number of bytes before the text: payload type, target system, target component, text length.
 const HEADER_LEN: usize = 5;

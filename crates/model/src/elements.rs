@@ -72,7 +72,7 @@ macro_rules! elements {
         }
 
         impl Element {
-            /// All elements of the table, in ascending order of their numbers.
+            /// All elements in the table, in ascending order of their numbers.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
 
             /// Returns the element with this number.

@@ -54,11 +54,11 @@ pub enum SampleValue {
     GimbalPitch(f64),
     /// Horizontal field of view of the camera, rad.
     FieldOfView(f64),
-    /// Heartbeat of the autopilot.
+    /// Autopilot heartbeat.
     Heartbeat {
         /// Whether the motors are armed.
         armed: bool,
-        /// Source that controls the aircraft.
+        /// Source of the commands that fly the aircraft.
         by: ControlSource,
     },
     /// Whether the autopilot reports that the aircraft is on the ground.
@@ -70,7 +70,7 @@ pub enum SampleValue {
 /// A decoded message that the timeline stores.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// System and component ID of the sender.
+    /// Sender's system and component ID.
     pub sender: (u8, u8),
     /// Sequence number assigned by the sender.
     pub sequence: u8,
@@ -87,13 +87,13 @@ pub struct Sample {
 pub struct FrameHeader {
     /// MAVLink message ID (24 bits in MAVLink 2).
     pub message_id: u32,
-    /// System and component ID of the sender.
+    /// Sender's system and component ID.
     pub sender: (u8, u8),
-    /// Sequence number of the frame; wraps at 256.
+    /// Frame sequence number, which wraps at 256.
     pub sequence: u8,
-    /// Offset of the payload in the frame, bytes.
+    /// Payload offset in the frame, bytes.
     pub payload_at: usize,
-    /// Offset of the end of the payload, where the checksum starts, bytes.
+    /// Offset of the payload end, where the checksum starts, bytes.
     pub payload_end: usize,
     /// Total length of the frame, bytes.
     pub total: usize,
@@ -173,7 +173,7 @@ pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
     HIL_STATE_QUATERNION_DATA::deser(MavlinkVersion::V2, payload).ok().map(|truth| clock(truth.time_usec))
 }
 
-/// Decodes a frame whose checksum was verified; `None` if the timeline does not store its message.
+/// Decodes a frame whose checksum has been verified; `None` if the timeline does not store its message.
 #[must_use]
 pub fn read(frame: &[u8], plane: &LocalPlane) -> Option<Sample> {
     let header = FrameHeader::peek(frame)?;

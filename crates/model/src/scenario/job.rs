@@ -52,7 +52,7 @@ pub struct TerrainSpec {
     pub size_m: f64,
     /// Grid spacing, m.
     pub spacing_m: f64,
-    /// Water level, m up.
+    /// Water level above the origin, m.
     pub water_level_m: f64,
     /// Source of the heights.
     pub source: TerrainSource,
@@ -63,7 +63,7 @@ pub struct TerrainSpec {
 pub enum TerrainSource {
     /// Level ground at one height.
     Flat {
-        /// Height of the ground, m up.
+        /// Ground height above the origin, m.
         height_m: f64,
     },
     /// A valley with a lake between mountains, generated from a separate seed, so that every session has the same terrain.
@@ -72,16 +72,17 @@ pub enum TerrainSource {
         seed: u64,
         /// Width of the lake, m.
         lake_width_m: f64,
-        /// Direction of the valley's axis, degrees clockwise from north.
+        /// Direction of the valley axis, degrees clockwise from north.
         axis_deg: f64,
         /// Height of the mountains above the water, m.
         relief_m: f64,
         /// Depth of the lake at its deepest point, m.
         lake_depth_m: f64,
     },
-    /// Heights from a file in the scenario's folder (comma-separated, m up; rows south to north, columns west to east).
+    /// Heights from a file in the scenario's folder (m above the origin, comma-separated; rows from south to north,
+    /// columns from west to east).
     File {
-        /// Row-major heights, m up: `heights_m[row][column]`.
+        /// Row-major heights above the origin, m: `heights_m[row][column]`.
         heights_m: Vec<Vec<f64>>,
     },
 }
@@ -89,11 +90,11 @@ pub enum TerrainSource {
 /// Positions of the ground crew and of the level landing pad, where the drone takes off and lands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundTeam {
-    /// Center of the upper surface of the landing pad, m.
+    /// Center of the landing pad's upper surface, m.
     pub pad_m: Vec3<Enu>,
     /// Initial heading of the drone on the pad, degrees clockwise from north.
     pub pad_heading_deg: f64,
-    /// Half side length of the square pad, m.
+    /// Half the side length of the square pad, m.
     pub pad_half_m: f64,
     /// Position of the inspector's feet, m (contact type: person).
     pub inspector_m: Vec3<Enu>,
@@ -101,7 +102,7 @@ pub struct GroundTeam {
     pub truck_m: Vec3<Enu>,
     /// Truck heading, degrees clockwise from north.
     pub truck_heading_deg: f64,
-    /// Maximum horizontal distance from the center of the pad for a landing to count as at home, m.
+    /// Maximum horizontal distance from the pad's center at which the drone counts as landed at home, m.
     pub home_radius_m: f64,
 }
 
@@ -124,7 +125,7 @@ pub struct Task {
     pub path_m: Vec<Vec3<Enu>>,
     /// Viewing directions: for each path point, a unit vector toward the inspected surface.
     pub look: Vec<Vec3<Enu>>,
-    /// Too-close threshold of this task, m; `None` to use the threshold of the job.
+    /// Too-close threshold of this task, m; `None` to use the job's threshold.
     pub too_close_m: Option<f64>,
     /// True if the lamp is recommended in this task. Used in briefings and by the synthetic trainee.
     pub dark: bool,
@@ -172,7 +173,7 @@ pub struct PlacedDefect {
     pub line: bool,
 }
 
-/// Settings of the traffic on the bridges.
+/// Bridge traffic settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficSpec {
     /// Number of cars on all bridges together.
@@ -190,7 +191,8 @@ pub struct TrafficSpec {
 pub struct WindSpec {
     /// Wind model: a constant force or a velocity field.
     pub model: WindModel,
-    /// Mean wind speed at 20 ft (6.096 m) above the water, m/s. The levels are light 2.2 mph, gentle 11 mph, medium 22 mph.
+    /// Mean wind speed at 20 ft (6.096 m) above the water, m/s. The levels are light (2.2 mph), gentle (11 mph) and
+    /// medium (22 mph).
     pub speed_m_s: f64,
     /// Constant force of the `paper` model, N.
     pub paper_force_n: f64,
@@ -260,7 +262,7 @@ pub struct SessionRules {
     pub after_crash: AfterCrash,
     /// Battery model of the session.
     pub battery: BatteryModel,
-    /// True if the vehicle returns to launch at low battery. False in the job of the TASBID paper.
+    /// True if the vehicle returns to launch at low battery. False in the TASBID paper's job.
     pub low_battery_return: bool,
     /// Low battery level, %, that triggers the warning and, if enabled, the return to launch.
     pub low_battery_pct: f64,
@@ -295,9 +297,9 @@ pub enum BatteryModel {
 /// Feedback thresholds (docs/src/reference/assessment.md, "Feedback during the flight").
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedbackThresholds {
-    /// Minimum distance from the center of the drone to any surface, m.
+    /// Minimum distance from the drone's center to any surface, m.
     pub too_close_m: f64,
-    /// Distance where the too-close warning clears, m.
+    /// Distance at which the too-close warning clears, m.
     pub too_close_clear_m: f64,
     /// Outer limit of the off-path band, m.
     pub off_path_max_m: f64,
@@ -305,9 +307,9 @@ pub struct FeedbackThresholds {
     pub off_path_after: SimTime,
     /// Minimum time that the cue stays visible.
     pub off_path_hold: SimTime,
-    /// Minimum battery level that is displayed in green, %.
+    /// Minimum battery level displayed in green, %.
     pub battery_green_pct: f64,
-    /// Minimum battery level that is displayed in yellow, %; lower levels are red.
+    /// Minimum battery level displayed in yellow, %; lower levels are red.
     pub battery_yellow_pct: f64,
     /// Minimum interval between two text messages from the same rule.
     pub text_interval: SimTime,

@@ -40,52 +40,52 @@ bridge_dimensions! {
 }
 
 impl Arch {
-    /// Returns the length of the deck in meters.
+    /// Returns the deck length in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         self.span_m + 2.0 * self.approach_m
     }
 
-    /// Returns the height of the rib axis at x in bridge axes, m: the parabola z_crown - 4 r x² / L².
+    /// Returns the height of the rib axis at x in bridge axes, in meters: the parabola z_crown - 4 r x² / L².
     #[must_use]
     pub fn axis_z_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         -(self.slab_m + self.crown_gap_m + 0.5 * self.crown_depth_m) - self.rise_m * u * u
     }
 
-    /// Returns the vertical depth of the rib at x, m: d_c + (d_s - d_c)(2x/L)².
+    /// Returns the vertical depth of the rib at x, in meters: d_c + (d_s - d_c)(2x/L)².
     #[must_use]
     pub fn rib_depth_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         self.crown_depth_m + (self.springing_depth_m - self.crown_depth_m) * u * u
     }
 
-    /// Returns the height of the top of the rib at x in meters.
+    /// Returns the height of the rib's top at x, in meters.
     #[must_use]
     pub fn extrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) + 0.5 * self.rib_depth_m(x)
     }
 
-    /// Returns the height of the underside of the rib at x in meters.
+    /// Returns the height of the rib's underside at x, in meters.
     #[must_use]
     pub fn intrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) - 0.5 * self.rib_depth_m(x)
     }
 
-    /// Returns the curvature coefficient c of the intrados, 1/m: at x, the intrados is c x² below its crown.
+    /// Returns the curvature coefficient c of the intrados, in 1/m: at x, the intrados is c x² below its crown.
     #[must_use]
     pub fn intrados_curvature_per_m(&self) -> f64 {
         (4.0 * self.rise_m + 2.0 * (self.springing_depth_m - self.crown_depth_m)) / (self.span_m * self.span_m)
     }
 
-    /// Returns the positions of the ends of the straight rib segments, two segments per panel, from springing to springing.
+    /// Returns the end positions of the straight rib segments (two per panel) from springing to springing.
     #[must_use]
     pub fn rib_nodes(&self) -> Vec<f64> {
         let n = 2 * self.panels.round() as i32;
         (0..=n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Returns the height of the top of the rib as built, m: straight between nodes on [`Self::extrados_z_m`].
+    /// Returns the height of the rib's top as built, in meters: straight between nodes on [`Self::extrados_z_m`].
     #[must_use]
     pub fn rib_top_z_m(&self, x: f64) -> f64 {
         let step = self.span_m / (2.0 * self.panels.round());
@@ -93,7 +93,7 @@ impl Arch {
         math::lerp(self.extrados_z_m(from), self.extrados_z_m(from + step), (x - from) / step)
     }
 
-    /// Returns the height of the underside of the floorbeams in meters.
+    /// Returns the height of the floorbeams' undersides in meters.
     #[must_use]
     pub fn floorbeam_z_m(&self) -> f64 {
         -self.slab_m - self.floorbeam_depth_m
@@ -238,7 +238,7 @@ impl Arch {
         add_railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::RcRailing);
     }
 
-    /// Returns the height of the underside of abutments and skewbacks in meters.
+    /// Returns the height of the undersides of abutments and skewbacks in meters.
     #[must_use]
     pub fn foundation_z_m(&self) -> f64 {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_DEPTH_M

@@ -50,12 +50,12 @@ pub struct Lane {
     pub walkway: bool,
 }
 
-/// A bridge type in the format of scenario files.
+/// Representation of a bridge type in scenario files.
 #[derive(Debug, Clone, Copy)]
 pub struct BridgeType {
-    /// Value of the `type` key, and name of the table with the dimensions.
+    /// Value of the `type` key, and name of the dimensions table.
     pub name: &'static str,
-    /// Keys in the table with the dimensions.
+    /// Keys in the dimensions table.
     pub fields: &'static [BridgeField],
     /// Function that creates a bridge from values in the order of the keys.
     pub create: fn(&[f64]) -> BridgeKind,
@@ -118,7 +118,7 @@ impl Bridge {
         }
     }
 
-    /// Returns half the length of the opening under the bridge that must stay free of terrain in meters.
+    /// Returns half the length, in meters, of the opening under the bridge, which must stay free of terrain.
     #[must_use]
     pub fn opening_half_m(&self) -> f64 {
         match &self.kind {

@@ -52,13 +52,14 @@ bridge_dimensions! {
 }
 
 impl Suspension {
-    /// Returns the length of the deck between the anchorages' far ends in meters.
+    /// Returns the deck length between the far ends of the anchorages, in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         self.main_span_m + 2.0 * (self.side_span_m + self.anchorage_m)
     }
 
-    /// Returns the height of the cable at x in meters. The cable is a parabola in the main span and straight in the side spans.
+    /// Returns the height of the cable at x, in meters. The cable is a parabola in the main span and straight in the
+    /// side spans.
     #[must_use]
     pub fn cable_z_m(&self, x: f64) -> f64 {
         let half = 0.5 * self.main_span_m;
@@ -71,8 +72,8 @@ impl Suspension {
         }
     }
 
-    /// Returns the lateral distance of cables, hangers and tower legs from the deck's centerline, m. It keeps the legs clear of
-    /// the girders.
+    /// Returns the lateral distance of cables, hangers and tower legs from the deck's centerline, in meters. It keeps
+    /// the legs clear of the girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
         0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M + LEG_GAP_M + 0.5 * self.leg_y_m
@@ -84,7 +85,7 @@ impl Suspension {
         -self.slab_m - self.girder_depth_m
     }
 
-    /// Returns the distance from midspan to the point where the cables enter the anchorages in meters.
+    /// Returns the distance, in meters, from midspan to the point where the cables enter the anchorages.
     #[must_use]
     pub fn anchor_x_m(&self) -> f64 {
         0.5 * self.main_span_m + self.side_span_m
@@ -154,12 +155,13 @@ impl Suspension {
         self.anchorages(b);
     }
 
-    /// Returns the height of the top of the tower legs, which is below the cables on both sides of the saddle, m.
+    /// Returns the height of the top of the tower legs, which is below the cables on both sides of the saddle, in
+    /// meters.
     fn leg_top_m(&self) -> f64 {
         self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_HEIGHT_M
     }
 
-    /// Returns the height where the cable leaves the saddle, at the faces of the tower legs, m.
+    /// Returns the height where the cable leaves the saddle, at the faces of the tower legs, in meters.
     fn saddle_edge_z_m(&self) -> f64 {
         let (half, reach) = (0.5 * self.main_span_m, 0.5 * self.leg_x_m);
         self.cable_z_m(half - reach).min(self.cable_z_m(half + reach))
@@ -246,7 +248,7 @@ impl Suspension {
                 b.add_steel_beam(&name, Element::SteelStringer, corners, BeamDirection::Along, STRINGER_PLATES);
             }
         }
-        // In the main span the floorbeams extend to the hangers, which support them.
+        // In the main span, the floorbeams extend to the hangers, which support them.
         let held = self.cable_y_m() + 0.15;
         for (k, x) in self.floorbeams().into_iter().enumerate() {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
@@ -284,7 +286,7 @@ impl Suspension {
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
             let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
             b.add_box(&format!("anchorage-{name}"), Element::RcFooting, [low, -far, foot.up_m], [high, far, top]);
-            // On each side of the deck the cable enters a block. The girders end on movable bearings.
+            // On each side of the deck, the cable enters a block. The girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
                 let grip = if low < 0.0 { high - 2.0 * CABLE_EMBEDMENT_M } else { low };
                 let block = format!("anchorage-{name}/{side}");
