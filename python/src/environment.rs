@@ -78,7 +78,7 @@ pub struct World {
 }
 
 impl World {
-    /// Returns the maximum velocity setpoint in any direction, m/s: the job's speed limit.
+    /// Returns the maximum velocity setpoint in any direction, in m/s: the job's speed limit.
     pub fn speed_m_s(&self) -> f64 {
         self.job.scoring.speed_limit_m_s
     }
@@ -132,7 +132,7 @@ pub struct Episode {
 }
 
 impl Episode {
-    /// Starts an episode with the vehicle airborne above the pad in Offboard mode.
+    /// Starts an episode with the vehicle in flight above the pad, in Offboard mode.
     pub fn start(world: &Arc<World>, seed: u64) -> Result<Self, MissedExpectation> {
         let builder = Vehicle::builder().seed(seed).after_crash(AfterCrash::End);
         let mut vehicle = builder.build_from(world.job.clone(), world.aircraft.clone());
@@ -231,7 +231,7 @@ impl Episode {
     }
 }
 
-/// Transforms a vector to heading axes.
+/// Transforms a vector into heading axes.
 pub fn to_heading_axes(vector: Vec3<Enu>, attitude: Rotation<Frd, Ned>) -> [f64; 3] {
     let (sin, cos) = math::sin_cos(attitude.yaw_rad());
     [vector.east() * sin + vector.north() * cos, vector.north() * sin - vector.east() * cos, vector.up()]

@@ -9,7 +9,7 @@ import spandrel
 
 
 def flown(seed):
-    """Returns a vehicle after takeoff."""
+    """Returns a vehicle that has taken off."""
     vehicle = spandrel.Vehicle(seed=seed)
     vehicle.arm()
     vehicle.take_off(5)

@@ -1,4 +1,4 @@
-"""Starts a real PX4 with its own simulator (SIH) for comparisons. The environment variable SPANDREL_PX4 contains its
+"""Starts a real PX4 with its own simulator (SIH) for comparisons. The SPANDREL_PX4 environment variable contains its
 build folder. No test requires PX4."""
 
 import os
@@ -30,7 +30,7 @@ def start(folder, files, client_port, slot=0, speed=1):
     build, instance, scripts = pathlib.Path(BUILD).resolve(), FIRST_INSTANCE + slot, pathlib.Path(folder) / "scripts"
     scripts.mkdir()
     (scripts / "px4-rc.mavlink").write_text(LINKS.format(local=GCS_PORT + instance, remote=client_port), encoding="utf-8")
-    # PX4's start script searches its parts along PATH, so this link replaces its own.
+    # PX4's start script finds its parts through PATH, so this link replaces PX4's own.
     environment = {**os.environ, **AIRFRAME, "PX4_SIM_SPEED_FACTOR": str(speed), "PATH": f"{scripts}:{build / 'bin'}:{os.environ['PATH']}"}
     with open(pathlib.Path(folder) / "px4.txt", "w", encoding="utf-8") as log:
         return subprocess.Popen(

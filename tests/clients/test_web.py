@@ -1,5 +1,5 @@
-"""`spandrel serve` in a real browser: tasks of trainees, instructors and administrators, wide and narrow, light and
-dark."""
+"""`spandrel serve` in a real browser: tasks of trainees, instructors and administrators, with wide and narrow windows
+and light and dark themes."""
 
 import json
 import os
@@ -131,8 +131,8 @@ def test_every_page_passes_axe(browser, server, sessions, size, scheme):
 
 
 def test_progress_page_shows_repetitions_and_tables_download(browser, server, tmp_path):
-    """Like participant 18 of the TASBID paper: scores, on-path share by task and crashes over the repetitions;
-    learning curves from the fourth on."""
+    """Like participant 18 in the TASBID paper: scores, on-path share by task, and crashes over the repetitions, with
+    learning curves from the fourth repetition on."""
     person = BrowserUser(browser, server, "lena")
     page = person.page
     person.go("/trainees/lena")

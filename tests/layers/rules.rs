@@ -16,7 +16,7 @@ const CRATES: &[(&str, &[ModuleLayer], &str)] = &[
     ("view", &[], "view"),
     (PROGRAM, &[("errors", "errors"), ("io", "io"), ("records", "records"), ("web", "server"), ("window", "window")], "cli"),
 ];
-/// The package at the root of the workspace.
+/// The package at the workspace root.
 const PROGRAM: &str = "";
 /// Each layer with the layers that it may use.
 const ALLOWED_IMPORTS: &[(&str, &[&str])] = &[
@@ -186,7 +186,7 @@ fn clock_violations(folder: &str, file: &str, code: &str) -> Vec<String> {
 }
 
 /// Returns the crate and module of a file: `crates/sitl/src/autopilot/core.rs` is the `autopilot::core` module of the
-/// crate `sitl`.
+/// `sitl` crate.
 fn module_of(file: &str) -> Option<(&'static str, Vec<String>)> {
     let parts: Vec<&str> = file.trim_end_matches(".rs").split(['/', '\\']).collect();
     let (folder, module) = match &parts[..] {

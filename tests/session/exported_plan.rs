@@ -137,7 +137,7 @@ fn exact_exported_plan_meets_ground_station_requirements() {
     assert!(f64::from(lowest) > water + 1.0, "{lowest} m above home, water at {water} m");
 }
 
-/// Results of a flight of the plan.
+/// Results of flying the plan once.
 #[derive(Debug, Default)]
 struct FlightResults {
     landed: bool,

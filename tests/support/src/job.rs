@@ -364,7 +364,7 @@ impl Tape {
         self.send(&MavMessage::ILLUMINATOR_STATUS(lamp));
     }
 
-    /// Sets the gimbal pitch, rad above the horizon.
+    /// Sets the gimbal pitch in radians above the horizon.
     pub fn gimbal(&mut self, pitch_rad: f64) {
         self.send(&MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(GIMBAL_DEVICE_ATTITUDE_STATUS_DATA {
             time_boot_ms: self.clock_ms(),

@@ -92,7 +92,7 @@ mod tests {
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
     use crate::scenario::*;
 
-    /// Number of seeds to check the placement with.
+    /// Number of seeds used to check the placement.
     const SEED_COUNT: u64 = 50;
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 
@@ -262,7 +262,7 @@ mod tests {
         assert_eq!(Site::build(&scenario, 8).defects(), &once.defects()[..3]);
     }
 
-    /// Returns the illuminance of the slab's soffit between the stringers at five positions along the arch in lx.
+    /// Returns the illuminance, in lx, of the slab's soffit between the stringers at five positions along the arch.
     fn soffit_lux(scenario: &Scenario) -> Vec<f64> {
         let site = Site::build(scenario, 1);
         let placement = scenario.bridges[0].placement();

@@ -55,7 +55,7 @@ impl<T> BvhLeafCost for LeafHit<T> {
 }
 
 impl Geometry {
-    /// Builds bridges, ground and landing pad of a scenario.
+    /// Builds a scenario's bridges, ground and landing pad.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let members: Vec<Member> = scenario.bridges.iter().flat_map(crate::scenario::Bridge::members).collect();
@@ -96,7 +96,7 @@ impl Geometry {
         (p.east() - self.pad_m.east()).abs() <= self.pad_half_m && (p.north() - self.pad_m.north()).abs() <= self.pad_half_m
     }
 
-    /// Returns the height of ground or pad below a point, m up.
+    /// Returns the height of the ground or pad below a point, in meters above the origin.
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
         let height = self.terrain.ground.ground(east_m, north_m).0;
@@ -111,7 +111,7 @@ impl Geometry {
         let limit = max_m.next_up();
         let to_box = |node: &BvhNode, _: f64| {
             let over = (node.mins() - at).max(at - node.maxs());
-            // Inside a bounding box, the depth cannot exceed the distance to the nearest side.
+            // Inside a bounding box, the depth cannot exceed the distance to the nearest face.
             if over.max_element() < 0.0 { over.max_element() } else { over.max(Vector::ZERO).length() }
         };
         let to_member = |leaf: u32, best_m: f64| {
@@ -159,7 +159,7 @@ impl Geometry {
         const ACCURACY_M: f64 = 1e-3;
         let middle = (from + to) * 0.5;
         let half_m = 0.5 * (to - from).norm();
-        // The distance to a surface changes by at most one meter per meter.
+        // Over one meter, the distance to a surface changes by at most one meter.
         let near = self.nearest(middle, less_than_m + half_m)?;
         if near.distance_m - half_m >= less_than_m {
             return None;

@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn val_gltf_crate_reads_all_members_with_elements_and_vertices() {
-        // 32-bit floats represent positions within 1 km to 6e-5 m.
+        // 32-bit floats represent positions within 1 km with an accuracy of 6e-5 m.
         const ROUNDING_M: f64 = 6e-5;
         let site = Site::build(&two_bridges(), 1);
         let (document, buffers, _) = gltf::import_slice(glb(&site)).unwrap();

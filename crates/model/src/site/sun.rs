@@ -1,6 +1,6 @@
-//! Position of the sun by the low-accuracy method of Meeus, Astronomical Algorithms (2nd ed.), chapter 25 (0.01 deg in
-//! longitude), with the sidereal time of chapter 12. The direction is accurate to 0.1 deg between 1950 and 2050. Refraction is
-//! ignored.
+//! Sun position according to the low-accuracy method of Meeus, Astronomical Algorithms (2nd ed.), chapter 25 (0.01 deg
+//! in longitude), with the sidereal time of chapter 12. The direction is accurate to 0.1 deg between 1950 and 2050.
+//! Refraction is ignored.
 
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;

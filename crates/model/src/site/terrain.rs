@@ -23,7 +23,7 @@ const EMBEDMENT_M: f64 = 0.5;
 pub struct Terrain {
     /// Ground surface.
     pub ground: HeightGrid,
-    /// Water level, m up.
+    /// Water level above the origin, m.
     pub water_m: f64,
 }
 
@@ -128,7 +128,7 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     })
 }
 
-/// Returns the depth of the underside of a bridge below the deck at the ends of its opening in meters.
+/// Returns the depth of a bridge's underside below its deck at the ends of its opening, in meters.
 fn underside_depth_m(bridge: &Bridge) -> f64 {
     match &bridge.kind {
         crate::scenario::BridgeKind::Arch(arch) => -arch.intrados_z_m(0.5 * arch.span_m),

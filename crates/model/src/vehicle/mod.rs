@@ -32,7 +32,7 @@ pub struct Vehicle {
     pub battery: BatterySpec,
     /// Limits of the flight controller.
     pub limits: FlightLimits,
-    /// Error models and rates of the sensors.
+    /// Sensor error models and rates.
     pub sensors: SensorSpec,
     /// Camera and gimbal parameters.
     pub camera: Camera,
@@ -216,7 +216,7 @@ pub struct Camera {
 pub const SENSOR_WIDTH_MM: f64 = 6.17;
 
 impl Camera {
-    /// Returns the focal length for a sensor of width [`SENSOR_WIDTH_MM`] in mm.
+    /// Returns the focal length in mm for a sensor of width [`SENSOR_WIDTH_MM`].
     #[must_use]
     pub fn focal_mm(&self) -> f64 {
         0.5 * SENSOR_WIDTH_MM / math::tan(0.5 * self.hfov_rad)
@@ -255,6 +255,6 @@ impl Camera {
 pub struct Lamp {
     /// Luminous flux, lm; 0 if there is no lamp.
     pub flux_lm: f64,
-    /// Full angle of the beam, rad.
+    /// Full beam angle, rad.
     pub beam_rad: f64,
 }

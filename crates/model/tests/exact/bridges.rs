@@ -387,7 +387,7 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
     assert!(message.starts_with("wide.toml:"), "{message}");
 }
 
-/// Element numbers of the AASHTO MBEI (2015 interims), with the member names that they apply to.
+/// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
 const MEMBER_NAMES: [(u16, &[&str]); 18] = [
     (12, &["slab"]),
     (107, &["girder"]),

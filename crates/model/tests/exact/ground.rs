@@ -1,4 +1,4 @@
-//! Tests of the ground's queries (nearest points, rays, contacts) against brute-force searches over all triangles.
+//! Tests of ground queries (nearest points, rays, contacts) against brute-force searches over all triangles.
 
 use super::site::distance_to_triangle;
 use spandrel_model::frames::{Enu, Vec3};

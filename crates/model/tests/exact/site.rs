@@ -119,7 +119,8 @@ fn random_capsule(p: Vec3<Enu>, random: &mut RandomStream) -> (Vec3<Enu>, Vec3<E
 
 #[test]
 fn prop_capsule_contacts_include_the_deepest_point() {
-    // Half the spacing of the sample points along the longest capsule, m. The distance changes by at most one meter per meter.
+    // Half the spacing of the sample points along the longest capsule, m. Over one meter, the distance changes by at
+    // most one meter.
     const SAMPLING_TOLERANCE_M: f64 = 0.5 * 0.8 / 400.0;
     // Tolerance within which distances count as equal, m.
     const DISTANCE_TOLERANCE_M: f64 = 2e-7;
