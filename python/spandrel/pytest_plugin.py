@@ -12,7 +12,7 @@ from .vehicle import Vehicle
 def pytest_configure(config: pytest.Config) -> None:
     """Registers the marker."""
     config.addinivalue_line(
-        "markers", "spandrel(scenario, vehicle, seed, flavor, after_crash): arguments of spandrel.Vehicle for spandrel_vehicle"
+        "markers", "spandrel(scenario, vehicle, seed, flavor, after_crash): arguments that spandrel_vehicle passes to spandrel.Vehicle"
     )
 
 

@@ -233,6 +233,6 @@ fn link_kind(kind: &str) -> PyResult<LinkKind> {
         "gcs" => Ok(LinkKind::GroundStation),
         "sdk" => Ok(LinkKind::Sdk),
         "payload" => Ok(LinkKind::Payload),
-        _ => Err(PyValueError::new_err(format!("unknown kind of link {kind}; allowed: gcs, sdk, payload"))),
+        _ => Err(PyValueError::new_err(format!("unknown link kind {kind}; allowed: gcs, sdk, payload"))),
     }
 }

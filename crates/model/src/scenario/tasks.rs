@@ -111,7 +111,7 @@ fn free_path(
 ) -> TaskPath {
     let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     if points.is_empty() && kind == TaskKind::Free {
-        r.add_problem(s, "points_m", "", "one or more [east, north, up]", "a free path needs points");
+        r.add_problem(s, "points_m", "", "one or more [east, north, up]", "a free path without points");
     }
     let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
     if length_m > MAX_PATH_LENGTH_M {

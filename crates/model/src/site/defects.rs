@@ -66,19 +66,19 @@ const CANDIDATE_POINTS: usize = 5;
 pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
     let candela = |l: &Lamp| l.flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_rad)));
     let wanting = [
-        ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
-        ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
+        ("focal length (px)", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
+        ("lamp intensity (cd)", candela(lamp), candela(&REFERENCE_LAMP)),
         // Use the reciprocal, so that a higher value is better in every row.
-        ("light sensitivity, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
-        ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
-        ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
+        ("light sensitivity (1/lx)", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
+        ("gimbal up limit (rad)", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
+        ("gimbal down limit (rad)", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
     ];
     // Angles converted from degrees have a rounding error.
     let short = |has: f64, needs: f64| has.is_nan() || has < needs * (1.0 - 1e-9);
     wanting
         .iter()
         .filter(|w| short(w.1, w.2))
-        .map(|(what, has, needs)| format!("{what}: {has:.4}, at least {needs:.4}"))
+        .map(|(what, has, needs)| format!("{what}: {has:.4}, must be at least {needs:.4}"))
         .collect()
 }
 

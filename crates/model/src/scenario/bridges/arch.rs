@@ -25,17 +25,17 @@ bridge_dimensions! {
         rib_width_m 0.8 to 6.0, 1.5, "Rib width, m; 1.0 to 1.8 m (estimate).";
         rib_spacing_m 3.0 to 30.0, 5.8, "Distance between rib axes, m; 0.55 to 0.7 of the deck width (estimate).";
         crown_gap_m 2.0 to 12.0, 3.4, "Clear height between slab soffit and crown extrados: the interlayer, m (estimate).";
-        panels 6.0 to 40.0, 14.0, "Panels between springings; span/16 to span/10 per panel (estimate); a whole number.";
-        column_m 0.4 to 3.0, 0.8, "Side of the spandrel columns, m; 0.6 to 1.2 m (estimate).";
+        panels 6.0 to 40.0, 14.0, "Number of panels between springings; span/16 to span/10 per panel (estimate); a whole number.";
+        column_m 0.4 to 3.0, 0.8, "Side length of the spandrel columns, m; 0.6 to 1.2 m (estimate).";
         deck_width_m 5.0 to 40.0, 9.6, "Deck width, m; Bixby Creek 7.3 m.";
         slab_m 0.15 to 0.5, 0.23, "Slab thickness, m; 8 to 10 in (estimate).";
         floorbeam_depth_m 0.4 to 3.0, 0.95, "Floorbeam depth, m; 0.9 to 1.5 m (estimate).";
         floorbeam_width_m 0.2 to 1.5, 0.45, "Floorbeam width, m; 0.4 to 0.5 m (estimate).";
-        stringers 2.0 to 12.0, 4.0, "Lines of stringers; 3 to 6 (estimate); a whole number.";
+        stringers 2.0 to 12.0, 4.0, "Number of stringer lines; 3 to 6 (estimate); a whole number.";
         stringer_depth_m 0.3 to 2.0, 0.7, "Stringer depth, m; 0.6 to 1.0 m (estimate).";
         stringer_width_m 0.15 to 1.0, 0.3, "Stringer width, m (estimate).";
         railing_m 0.6 to 2.0, 1.0, "Railing height, m; 32 to 42 in (estimate).";
-        approach_m 2.0 to 60.0, 12.0, "Length of deck beyond each springing, m (estimate).";
+        approach_m 2.0 to 60.0, 12.0, "Deck length beyond each springing, m (estimate).";
     }
 }
 

@@ -35,7 +35,7 @@ bridge_dimensions! {
         cable_clearance_m 0.5 to 10.0, 2.0, "Height of the cable above the deck at midspan, m (estimate).";
         cable_radius_m 0.05 to 0.6, 0.15, "Corner radius of the main cables, m; 0.12 to 0.25 m for spans of about 330 m (estimate).";
         hanger_spacing_m 3.0 to 20.0, 7.0, "Distance between hangers, m; Deer Isle 9 to 12 m (estimate).";
-        hanger_radius_m 0.01 to 0.1, 0.03, "Corner radius of the hangers, m; 50 to 65 mm pairs (estimate).";
+        hanger_radius_m 0.01 to 0.1, 0.03, "Corner radius of the hangers, m; pairs of 50 to 65 mm (estimate).";
         deck_width_m 5.0 to 40.0, 8.4, "Deck width, m; Deer Isle 7.2 m.";
         slab_m 0.15 to 0.5, 0.2, "Slab thickness, m; 8 to 10 in (estimate).";
         girder_depth_m 0.8 to 8.0, 2.0, "Depth of the stiffening girders, m; Deer Isle about 2 m.";
@@ -134,7 +134,7 @@ impl Suspension {
         m.require_at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
         m.require_at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
         m.require_at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
-        m.require_at_least("pier_top_m", self.pier_top_m, portal_m, "below girders and portal (slab_m, girder_depth_m)");
+        m.require_at_least("pier_top_m", self.pier_top_m, portal_m, "below the girders and the portal (slab_m, girder_depth_m)");
         m.require_at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
         m.0
     }
