@@ -20,7 +20,7 @@ INFO_KEYS = {"hover": ("distance_m", "hits"), "inspect": ("flown_share", "found_
 HOVER_MAX_STEPS = 1_000
 """Maximum episode length: 20 s of simulation time."""
 INSPECT_MAX_STEPS = 15_000
-"""Maximum episode length: 25 minutes of simulation time, the time limit of the shipped inspection."""
+"""Maximum episode length: 25 minutes of simulation time, the time limit in the shipped inspection."""
 
 Observation = NDArray[np.float32]
 Action = NDArray[np.float32]

@@ -103,7 +103,7 @@ impl Batch {
         self.world.kind.step().s()
     }
 
-    /// Returns the length of an observation.
+    /// Returns the observation length.
     fn observations(&self) -> usize {
         self.world.kind.observations()
     }

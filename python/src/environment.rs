@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 /// Link for setpoints. It receives replies but no telemetry streams, which would be unused.
 const LINK: LinkId = LinkId(9);
-/// MAVLink system and component ID of a companion computer, which controls the vehicle by setpoints.
+/// MAVLink system and component ID of a companion computer, which controls the vehicle with setpoints.
 const COMPANION_ID: (u8, u8) = (1, 191);
 /// PX4's mode number for Offboard.
 const OFFBOARD: f32 = 6.0;
@@ -49,7 +49,7 @@ impl Kind {
         }
     }
 
-    /// Returns the length of an action.
+    /// Returns the action length.
     pub fn actions(self) -> usize {
         match self {
             Self::Hover => 4,
@@ -57,7 +57,7 @@ impl Kind {
         }
     }
 
-    /// Returns the length of an observation.
+    /// Returns the observation length.
     pub fn observations(self) -> usize {
         match self {
             Self::Hover => Hover::OBSERVATION_LEN,
@@ -95,7 +95,7 @@ impl World {
     }
 }
 
-/// Setpoints of one step.
+/// Setpoints for one step.
 #[derive(Debug, Clone, Copy)]
 struct Setpoint {
     forward_m_s: f64,
@@ -108,7 +108,7 @@ struct Setpoint {
 /// Outcome of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome {
-    /// Reward of the step.
+    /// Reward for the step.
     pub reward: f64,
     /// Whether the episode is over: a crash, an empty battery, or a completed task.
     pub terminated: bool,

@@ -99,8 +99,8 @@ impl Inspect {
         self.found.extend(shown.iter().filter(|view| view.hit).map(|view| view.defect_id));
     }
 
-    /// Evaluates a step. The reward is the increase of two fractions, of paths flown and defects found: a complete episode earns
-    /// 2, or 1 for a job without defects. Measures: the two fractions.
+    /// Evaluates a step. The reward is the increase in two fractions: paths flown and defects found. A complete episode
+    /// earns 2, or 1 in a job without defects. Measures: the two fractions.
     pub fn evaluate(&mut self, sim: &Sim, over: bool) -> Outcome {
         let on = self.paths.on(sim.truth().rigid.position_m.enu(), self.on);
         if let Some((task, _)) = on {

@@ -64,7 +64,7 @@ class Script:
 
 
 def fly(program):
-    """Returns the digest of a flight and counts of its events."""
+    """Returns a flight's digest and its event counts."""
     port = spandrel.free_udp_port()
     link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="common", source_system=255, source_component=190)
     arguments = [

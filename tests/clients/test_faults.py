@@ -28,7 +28,7 @@ HERE = pathlib.Path(__file__).parent
 # For a command with many operations, only every n-th operation is tried, which limits the number of runs per fault kind
 # to this value.
 MAX_ATTEMPTS = 24
-# Upper bound for the number of operations, far above that of any command here.
+# Upper bound for the number of operations, far above the number that any command here needs.
 MAX_OPERATIONS = 10_000
 # Height that counts as flying in the drill's session, m.
 HEIGHT_M = 2.0

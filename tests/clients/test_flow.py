@@ -14,7 +14,7 @@ import asking
 import display
 import spandrel
 
-# Colors of pages (crates/view/src/hud/mod.rs): background, focused row, bar of a score.
+# Colors of pages (crates/view/src/hud/mod.rs): background, focused row, score bar.
 NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
 # Color of the battery in the HUD, which shows that a flight is being rendered.
 GREEN = (0, 190, 130)

@@ -39,8 +39,7 @@ class Recorder:
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """A hover drill session with the telemetry of a flight of typical length: circles at the site of the shipped
-    job."""
+    """A hover drill session with telemetry from a flight of typical length: circles at the shipped job's site."""
     sessions = tmp_path_factory.mktemp("memory") / "sessions"
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "7", "--speed", "max", "--sessions", str(sessions))
     (session,) = sessions.iterdir()

@@ -22,9 +22,9 @@ from spandrel import wait_for
 M = mavutil.mavlink
 CAMERA, AUTOPILOT = 100, 1
 NAN = float("nan")
-# Maximum angle error of the gimbal, deg; field of view and zoom are transmitted as floats.
+# Maximum gimbal angle error, deg; field of view and zoom are transmitted as floats.
 NEAR_DEG = 1.0
-# Size of a photo and of one second of video with the default settings, MiB.
+# Size of a photo and one second of video with the default settings, MiB.
 PICTURE_MIB, VIDEO_MIB_S = 6.0, 60e6 / 8 / 2**20
 # The zoom range of vehicle-params/m30.toml.
 WIDE_DEG, ZOOM_MAX = 84.0, 3.1

@@ -103,7 +103,7 @@ def test_wire_mavsdk_flies_with_setpoints_and_points_the_gimbal(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_pauses_and_resumes_the_exported_plan(vehicle):
-    """Flies the plan of a drill in the format of QGroundControl, pauses on the way, and completes it."""
+    """Flies a drill's plan in QGroundControl's format, pauses on the way, and completes it."""
     system, telemetry = vehicle
     mission, action = MissionRaw(system), Action(system)
     text = spandrel.run("export", "drill-hover", "--seed", "7", "--plan", "-")

@@ -124,7 +124,7 @@ def test_regress_vehicle_stays_connected_after_landing(training, tmp_path, measu
     wait_for("the download", lambda: any(result != LogFilesResult.NEXT for result in done))
     kept = next(session.glob("vehicle/log/*/*.ulg"))
     assert target.read_bytes() == kept.read_bytes()
-    # A second flight of the same vehicle must not change the scores of the session.
+    # A second flight with the same vehicle must not change the session's scores.
     before = (session / "assessment.json").read_bytes()
     action, telemetry = sdk.take_off(system, HEIGHT_M)
     land(action, telemetry)

@@ -234,7 +234,7 @@ def test_questionnaire_language_follows_browser_and_selection(browser, sessions,
         assert given()["language"] == "de" and sorted(given()["answers"].values()) == [1, 5]
         person.keep("questions-german")
         person.check()
-        # A returning user continues in the language of the answers, regardless of the browser.
+        # A returning user continues in the language of the saved answers, regardless of the browser.
         person.go(f"/sessions/{session.name}/questions")
         assert page.get_attribute("html", "lang") == "de"
         person.go(f"/sessions/{session.name}/questions?language=de-CH")

@@ -87,7 +87,7 @@ def test_300_simultaneous_logins_use_bounded_memory(sessions):
 
 
 def begin_upload(server, browser, token):
-    """Sends the head of an upload and the first part of its file."""
+    """Sends the header of an upload and the first part of its file."""
     raw = socket.create_connection(host_of(server), timeout=webserver.PATIENCE_S)
     host, port = host_of(server)
     raw.sendall(
@@ -192,7 +192,8 @@ def test_cohort_page_reloads_are_cached(tmp_path):
         browser = webserver.Browser(server.address)
 
         def cost(reloads):
-            """Returns the processor seconds of simultaneous reloads, and the number of list pages served meanwhile."""
+            """Returns the processor time of simultaneous reloads in seconds, and the number of list pages served
+            meanwhile."""
             before, over, lists = processor_s(server.process), threading.Event(), []
 
             def read_lists():

@@ -3,7 +3,7 @@
 use crate::paths::{Import, Token, code_only, imports, inline_paths, is_word, tokens, without_imports, without_tests};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One file of a crate.
+/// One file in a crate.
 struct SourceModule {
     /// Path relative to the crate's `src`.
     file: String,
@@ -15,7 +15,7 @@ struct SourceModule {
     body: Vec<Token>,
 }
 
-/// All files of a crate, by module path.
+/// All of a crate's files, by module path.
 pub struct CrateFiles {
     modules: BTreeMap<Vec<String>, SourceModule>,
 }

@@ -159,7 +159,7 @@ pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
     }
 }
 
-/// Returns the display name of the folder of a layer's crate.
+/// Returns the display name of the folder with a layer's crate.
 pub fn crate_label(layer: &str) -> String {
     match folder_of(layer) {
         PROGRAM => "src".to_owned(),

@@ -1,9 +1,9 @@
-//! Command line reference page: the help text of the program and of every subcommand.
+//! Command line reference page: the help text of the program and every subcommand.
 
 use crate::{check, page_head};
 use clap::{Command, CommandFactory};
 
-/// Appends the help of a command and of its subcommands.
+/// Appends the help for a command and its subcommands.
 fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
     let text = command.render_long_help().to_string();
     let text: Vec<&str> = text.lines().map(str::trim_end).collect();

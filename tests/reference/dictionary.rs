@@ -1,4 +1,4 @@
-//! Data dictionary page: columns of the frames export, fields of the assessment, columns of the cohort tables.
+//! Data dictionary page: frames export columns, assessment fields, and cohort table columns.
 
 use crate::table::{code, table};
 use crate::{check, page_head};
@@ -33,7 +33,7 @@ fn assessment() -> String {
     table(&["field", "unit", "definition"], rows)
 }
 
-/// Returns the header of every table of an empty cohort.
+/// Returns the header of every table for an empty cohort.
 fn cohort_tables() -> String {
     let selection = Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Exclude };
     let cohort = cohort(&[], &selection);

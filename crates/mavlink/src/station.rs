@@ -7,9 +7,9 @@ use super::dialect::{
 use super::units::deg_e7;
 use spandrel_model::geodesy::Geo;
 
-/// Number of the PX4 main mode "Position" (POSCTL).
+/// PX4's main mode number for "Position" (POSCTL).
 const PX4_POSITION: f32 = 3.0;
-/// Number of the ArduCopter mode "PosHold".
+/// ArduCopter's mode number for "PosHold".
 const COPTER_POSHOLD: f32 = 16.0;
 
 /// Creates a ground station heartbeat.

@@ -84,7 +84,7 @@ macro_rules! elements {
                 }
             }
 
-            /// Returns the number of the element.
+            /// Returns the element number.
             #[must_use]
             pub const fn number(self) -> u16 {
                 match self {

@@ -13,9 +13,9 @@ use spandrel_monitor::assessment::{AssessedSession, assess_log};
 use spandrel_monitor::measures::attention::SiteSurvey;
 use std::sync::Arc;
 
-/// Frame rate of the test job, Hz. It divides the truth rate of 50 Hz, so that frames coincide with samples.
+/// Frame rate of the test job, Hz. It evenly divides the truth rate of 50 Hz, so that frames coincide with samples.
 pub const RATE_HZ: f64 = 25.0;
-/// Scenario CRC of the test job.
+/// The test job's scenario CRC.
 pub const CRC: u32 = 0xC0FF_EE00;
 /// Session seed on the tape.
 pub const SEED: u64 = 7;

@@ -12,7 +12,7 @@ use spandrel_sitl::endpoint::flavor::{self, Flavor};
 use spandrel_sitl::testing::{STATION, Vehicle};
 use std::ops::{Deref, DerefMut};
 
-/// Link of the ground station.
+/// The ground station's link.
 pub const GCS: LinkId = STATION;
 
 /// Returns command parameters; missing ones are 0.

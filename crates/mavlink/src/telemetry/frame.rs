@@ -58,7 +58,7 @@ impl Frame {
 /// Aircraft state at a time between two truth messages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InterpolatedState {
-    /// Motion; the attitude is that of the preceding sample.
+    /// Motion, with the attitude from the preceding sample.
     pub motion: Motion<Enu>,
     /// Whether the time is in a gap that is too long to interpolate.
     pub missing: bool,

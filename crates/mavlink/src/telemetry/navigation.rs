@@ -85,7 +85,7 @@ impl NavigationReader {
         }
     }
 
-    /// Returns the data of one epoch of the timeline, sorted by time.
+    /// Returns the data for one timeline epoch, sorted by time.
     #[must_use]
     pub fn of(mut self, epoch: usize) -> Navigation {
         let mut navigation = if epoch < self.epochs.len() { self.epochs.swap_remove(epoch) } else { Navigation::default() };

@@ -44,7 +44,7 @@ pub enum SampleValue {
     Respawns(i32),
     /// Time when the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     Traffic(i32),
-    /// Seed of the session.
+    /// Session seed.
     Seed(u64),
     /// CRC-32 of the active scenario.
     ScenarioCrc(u32),
@@ -52,7 +52,7 @@ pub enum SampleValue {
     Clearance(f64),
     /// Gimbal pitch relative to the horizon, rad, up positive.
     GimbalPitch(f64),
-    /// Horizontal field of view of the camera, rad.
+    /// The camera's horizontal field of view, rad.
     FieldOfView(f64),
     /// Autopilot heartbeat.
     Heartbeat {
@@ -74,7 +74,7 @@ pub struct Sample {
     pub sender: (u8, u8),
     /// Sequence number assigned by the sender.
     pub sequence: u8,
-    /// Checksum of the frame. It distinguishes a duplicate from a later frame with the same sequence number.
+    /// Frame checksum. It distinguishes a duplicate from a later frame with the same sequence number.
     pub checksum: u16,
     /// Timestamp in the message, if it has one.
     pub message_time: Option<SimTime>,
@@ -95,7 +95,7 @@ pub struct FrameHeader {
     pub payload_at: usize,
     /// Offset of the payload end, where the checksum starts, bytes.
     pub payload_end: usize,
-    /// Total length of the frame, bytes.
+    /// Total frame length, bytes.
     pub total: usize,
 }
 

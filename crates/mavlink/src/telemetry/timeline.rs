@@ -36,7 +36,7 @@ fn unwrap_timestamp(own: SimTime, near: SimTime) -> SimTime {
     SimTime::from_ms((own.ms() + CLOCK_PERIOD_MS * rounds.max(0)).min(i64::MAX / 1_000_000))
 }
 
-/// Statistics of the telemetry link.
+/// Telemetry link statistics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct LinkCounts {
     /// Number of frames received from the vehicle's system.
@@ -304,7 +304,7 @@ impl Timeline {
         FrameDisposition::Restarted(sample)
     }
 
-    /// Returns the flight of one epoch, sorted by time.
+    /// Returns the flight data for one epoch, sorted by time.
     #[must_use]
     pub fn flight(&self, epoch: usize) -> Flight {
         let mut flight = Flight { ended_by_restart: epoch < self.epoch_ends.len(), ..Flight::default() };
@@ -327,7 +327,7 @@ fn sequence_key(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
     (entry.sender, entry.order, entry.truth.time)
 }
 
-/// Returns the time of a sample. `numbered` contains the truth messages of the flight, sorted by [`sequence_key`].
+/// Returns the time of a sample. `numbered` contains the flight's truth messages, sorted by [`sequence_key`].
 fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
     let arrival = entry.arrival.get();
@@ -371,7 +371,7 @@ pub struct Flight {
     pub clearance: Signal<f64>,
     /// Gimbal pitch relative to the horizon, rad, up positive.
     pub gimbal: Signal<f64>,
-    /// Horizontal field of view of the camera, rad.
+    /// The camera's horizontal field of view, rad.
     pub field_of_view: Signal<f64>,
     /// Whether the motors are armed.
     pub armed: Signal<bool>,

@@ -9,7 +9,7 @@ use super::sample::FrameHeader;
 /// Length of the timestamp before each frame, bytes.
 pub const TIMESTAMP_LEN: usize = 8;
 
-/// A record of a telemetry log.
+/// A record in a telemetry log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TlogRecord<'a> {
     /// Timestamp: session start plus simulation time, µs since the Unix epoch.
@@ -87,8 +87,8 @@ impl<'a> Iterator for TlogReader<'a> {
             self.at = next;
         }
         let (record, end) = self.record_at(self.at)?;
-        // After a corrupt length, a byte inside a record can look like the start of a frame. The checksum of known messages
-        // detects this.
+        // After a corrupt length, a byte inside a record can look like the start of a frame. For known messages, the
+        // checksum detects this.
         if !FrameHeader::is_plausible(record.frame) {
             let next = self.resynchronize()?;
             self.skipped += next - self.at;

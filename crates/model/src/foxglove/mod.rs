@@ -15,9 +15,9 @@ use serde_json::{Value, json};
 pub const DRONE_ESTIMATE: &str = "drone_estimate";
 /// Frame ID of the true aircraft pose.
 pub const DRONE: &str = "drone";
-/// Frame ID of the camera.
+/// Camera frame ID.
 pub const CAMERA: &str = "camera";
-/// Frame ID of the site: east, north, up.
+/// Site frame ID; axes east, north, up.
 pub const SITE: &str = "site";
 
 /// Message topic. The discriminant is the index into [`CHANNELS`].
@@ -29,7 +29,7 @@ pub enum Topic {
     Fix,
     /// Log messages.
     Log,
-    /// Calibration of the camera.
+    /// Camera calibration.
     Camera,
     /// Site geometry.
     Site,
@@ -73,7 +73,7 @@ pub const CHANNELS: [Channel; 7] = [
 /// One message on a channel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChannelMessage {
-    /// Topic of the message.
+    /// Message topic.
     pub topic: Topic,
     /// UTC, nanoseconds since the Unix epoch.
     pub unix_ns: u64,
@@ -244,7 +244,7 @@ pub struct ScoringSignals {
     pub clearance_m: f64,
     /// Ambient illuminance at the drone, lx, if known.
     pub lux: Option<f64>,
-    /// Label of the surface type in contact.
+    /// Label of the surface type that the aircraft touches.
     pub contact: &'static str,
     /// Number of contacts so far.
     pub hits: i32,

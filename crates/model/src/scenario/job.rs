@@ -27,9 +27,9 @@ pub struct Scenario {
     pub bridges: Vec<Bridge>,
     /// The tasks, in file order; the index is t in the scoring formulas.
     pub tasks: Vec<Task>,
-    /// Number, size and types of the defects.
+    /// Defect number, size and types.
     pub defects: DefectSpec,
-    /// Number of vehicles and pedestrians, and speed of vehicles.
+    /// Number of vehicles and pedestrians, and vehicle speed.
     pub traffic: TrafficSpec,
     /// Wind model, mean wind and gusts.
     pub wind: WindSpec,
@@ -37,7 +37,7 @@ pub struct Scenario {
     pub light: LightSpec,
     /// Session rules for crashes, battery and GNSS.
     pub rules: SessionRules,
-    /// Thresholds of the in-flight feedback.
+    /// Thresholds for in-flight feedback.
     pub feedback: FeedbackThresholds,
     /// Scoring parameters.
     pub scoring: ScoringParams,
@@ -45,7 +45,7 @@ pub struct Scenario {
     pub crc: u32,
 }
 
-/// Settings of the height grid and the water level.
+/// Height grid and water level settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TerrainSpec {
     /// Side length of the square terrain, centered on the origin, m.
@@ -54,7 +54,7 @@ pub struct TerrainSpec {
     pub spacing_m: f64,
     /// Water level above the origin, m.
     pub water_level_m: f64,
-    /// Source of the heights.
+    /// Height source.
     pub source: TerrainSource,
 }
 
@@ -70,13 +70,13 @@ pub enum TerrainSource {
     Valley {
         /// Terrain seed.
         seed: u64,
-        /// Width of the lake, m.
+        /// Lake width, m.
         lake_width_m: f64,
         /// Direction of the valley axis, degrees clockwise from north.
         axis_deg: f64,
-        /// Height of the mountains above the water, m.
+        /// Mountain height above the water, m.
         relief_m: f64,
-        /// Depth of the lake at its deepest point, m.
+        /// Maximum depth of the lake, m.
         lake_depth_m: f64,
     },
     /// Heights from a file in the scenario's folder (m above the origin, comma-separated; rows from south to north,
@@ -111,7 +111,7 @@ pub struct GroundTeam {
 pub struct Task {
     /// Task number for display and export, from 1 in file order.
     pub id: u32,
-    /// Display name of the task.
+    /// Display name.
     pub name: String,
     /// Index into [`Scenario::bridges`], or `None` for a free path (drills).
     pub bridge: Option<usize>,
@@ -176,17 +176,17 @@ pub struct PlacedDefect {
 /// Bridge traffic settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficSpec {
-    /// Number of cars on all bridges together.
+    /// Total number of cars on all bridges.
     pub cars: usize,
-    /// Number of trucks on all bridges together.
+    /// Total number of trucks on all bridges.
     pub trucks: usize,
-    /// Number of pedestrians on all walkways together.
+    /// Total number of pedestrians on all walkways.
     pub pedestrians: usize,
     /// Mean speed of cars and trucks, m/s.
     pub car_speed_m_s: f64,
 }
 
-/// Wind settings of a job.
+/// A job's wind settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindSpec {
     /// Wind model: a constant force or a velocity field.
@@ -194,7 +194,7 @@ pub struct WindSpec {
     /// Mean wind speed at 20 ft (6.096 m) above the water, m/s. The levels are light (2.2 mph), gentle (11 mph) and
     /// medium (22 mph).
     pub speed_m_s: f64,
-    /// Constant force of the `paper` model, N.
+    /// Constant force in the `paper` model, N.
     pub paper_force_n: f64,
     /// Direction that the wind blows from, degrees clockwise from north.
     pub from_deg: f64,
@@ -215,7 +215,7 @@ pub enum WindModel {
     Physical,
 }
 
-/// A gust or a change of the mean wind.
+/// A gust or a change in the mean wind.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindEvent {
     /// A 1-cosine gust (MIL-F-8785C) that is added to the mean wind.
@@ -229,7 +229,7 @@ pub enum WindEvent {
         /// Direction that the gust blows from, degrees clockwise from north.
         from_deg: f64,
     },
-    /// A linear change of the mean wind.
+    /// A linear change in the mean wind.
     Change {
         /// Start time of the change.
         at: SimTime,
@@ -242,7 +242,7 @@ pub enum WindEvent {
     },
 }
 
-/// Daylight settings of a job.
+/// A job's daylight settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightSpec {
     /// UTC date and time of simulation start, seconds since the Unix epoch.
@@ -260,7 +260,7 @@ pub struct LightSpec {
 pub struct SessionRules {
     /// Action after a survivable crash.
     pub after_crash: AfterCrash,
-    /// Battery model of the session.
+    /// Battery model for the session.
     pub battery: BatteryModel,
     /// True if the vehicle returns to launch at low battery. False in the TASBID paper's job.
     pub low_battery_return: bool,

@@ -1,4 +1,4 @@
-//! Reads the tasks of a job. Their reference paths are derived from a bridge or listed point by point.
+//! Reads a job's tasks. Their reference paths are derived from a bridge or listed point by point.
 
 use super::bridges::Bridge;
 use super::bridges::path::{SPACING_M, TaskKind, TaskPath};

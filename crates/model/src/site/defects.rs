@@ -38,10 +38,10 @@ pub const REFERENCE_LAMP: Lamp = Lamp { flux_lm: 1000.0, beam_rad: math::PI / 3.
 
 /// Minimum distance of the reference camera from any surface, m (half of 0.59 m tip to tip, plus a margin).
 pub const CAMERA_CLEARANCE_M: f64 = 0.8;
-/// Candidate distances of the reference camera from the path toward the defect, as fractions of the task's threshold.
-/// The largest one leaves a margin.
+/// Candidate distances by which the reference camera leaves the path toward the defect, as fractions of the task's
+/// threshold. The largest one leaves a margin.
 const APPROACH_FRACTIONS: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
-/// Half angle of the search cone about the viewing direction of the path, rad (estimate of camera pan and tilt).
+/// Half angle of the search cone about the path's viewing direction, rad (estimate of camera pan and tilt).
 const SEARCH_CONE_RAD: f64 = 0.9;
 /// Unit vector pointing up.
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
@@ -57,7 +57,7 @@ const MIN_SEPARATION_M: f64 = 2.0;
 /// Maximum number of attempts per defect. The first third requires the full separation; later attempts reduce it
 /// gradually.
 const MAX_ATTEMPTS: usize = 3000;
-/// Number of path points to try as positions of the reference camera, nearest first.
+/// Number of path points to try as reference camera positions, nearest first.
 const CANDIDATE_POINTS: usize = 5;
 
 /// Returns the properties of an aircraft's camera and lamp that fall short of the reference, each with both values.
@@ -87,7 +87,7 @@ pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
 pub struct PlacementContext<'a> {
     /// All bridge members. The object ID of a ray hit is an index into this list.
     pub members: &'a [Member],
-    /// All tasks of the job.
+    /// All the job's tasks.
     pub tasks: &'a [Task],
     /// Ray queries against static geometry.
     pub cast: RayCast<'a>,
@@ -196,7 +196,7 @@ fn defect_direction(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     }
 }
 
-/// Returns the ends of a defect's length and of its width, each extended by a margin.
+/// Returns the end points of a defect along its length and its width, each extended by a margin.
 fn end_points(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
     let across = defect.normal.cross(defect.along);
     let (l, w) = (0.5 * defect.length_m + margin_m, 0.5 * defect.width_m + margin_m);

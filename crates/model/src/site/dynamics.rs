@@ -20,7 +20,7 @@ pub struct Dynamics {
     pub traffic: TrafficPlan,
     /// Model of sun, sky and reflections.
     pub light: LightModel,
-    /// Defects of the session.
+    /// The session's defects.
     pub defects: Vec<PlacedDefect>,
 }
 
@@ -285,8 +285,8 @@ mod tests {
         }
         let overcast = soffit_lux(&scenario(1.0));
         assert!(overcast.iter().all(|lux| (200.0..2000.0).contains(lux)), "{overcast:?}");
-        // At 19:10 UTC the sun is behind clouds about 5 deg above the horizon, and the illuminance of the soffits drops to 20 to
-        // 200 lx, the range of dark areas.
+        // At 19:10 UTC the sun is behind clouds about 5 deg above the horizon, and the soffit illuminance drops to 20
+        // to 200 lx, the range for dark areas.
         let mut evening = scenario(1.0);
         evening.light.start_unix_s += 7 * 3600 + 600;
         let dark = soffit_lux(&evening);

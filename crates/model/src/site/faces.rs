@@ -50,7 +50,7 @@ impl MemberFace {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the direction of the longest edge of the face.
+    /// Returns the direction of the face's longest edge.
     pub(super) fn long_axis(&self) -> Vec3<Enu> {
         let count = self.corners_m.len();
         let edges = (0..count).map(|k| self.corners_m[(k + 1) % count] - self.corners_m[k]);

@@ -13,11 +13,11 @@ use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::parry::math::Vector;
 use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost, BvhNode};
 
-/// Object ID of the ground.
+/// Ground object ID.
 pub const GROUND: ObjectId = ObjectId(900_000);
-/// Object ID of the water.
+/// Water object ID.
 pub const WATER: ObjectId = ObjectId(900_001);
-/// Object ID of the landing pad.
+/// Landing pad object ID.
 pub const PAD: ObjectId = ObjectId(900_002);
 
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
@@ -304,7 +304,7 @@ fn probe_ends(probe: &HullProbe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
     ends.into_iter().take(count).map(move |p| (p, radius))
 }
 
-/// Returns the corners of the axis-aligned bounding box of a probe including its margin.
+/// Returns the corners of a probe's axis-aligned bounding box, including its margin.
 fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     let (a, b, radius) = match *probe {
         HullProbe::Ball { center_m, radius_m } => (center_m.array(), center_m.array(), radius_m),
@@ -315,8 +315,8 @@ fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     (pick(f64::min, -reach), pick(f64::max, reach))
 }
 
-/// Appends the contacts of a probe with one convex shape: one contact for a ball; contacts at both ends of a capsule, and between
-/// the ends if the capsule lies across an edge.
+/// Appends a probe's contacts with one convex shape. A ball has one contact. A capsule has contacts at both ends, and
+/// also between the ends if it lies across an edge.
 fn add_shape_contacts(
     probe: &HullProbe,
     margin_m: f64,

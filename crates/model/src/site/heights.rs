@@ -11,7 +11,7 @@ const BLOCK_CELLS: i64 = 8;
 const CONTACT_TOLERANCE_M: f64 = 1e-9;
 /// Tolerance within which two distances count as equal, m.
 const DISTANCE_TOLERANCE_M: f64 = 1e-7;
-/// Maximum length of a ray, m; scenario files allow terrain of up to 4 km.
+/// Maximum length of a ray, m; scenario files allow terrain up to 4 km wide.
 const MAX_RAY_LENGTH_M: f64 = 20_000.0;
 
 /// Heights at the corners of square grid cells, each split into two triangles from its southwest to its northeast corner.
@@ -99,7 +99,7 @@ impl HeightGrid {
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
     }
 
-    /// Returns the minimum and maximum heights of a block. Blocks outside the grid have the heights of the nearest
+    /// Returns the minimum and maximum heights of a block. Blocks outside the grid have the same heights as the nearest
     /// block inside.
     fn block_height_range(&self, row: i64, column: i64) -> (f64, f64) {
         let last = self.blocks_per_side as i64 - 1;

@@ -100,7 +100,7 @@ enum RayTarget {
     Structure { sun: f64 },
 }
 
-/// Sums over one bundle of rays, by type of surface.
+/// Sums over one ray bundle, by surface type.
 #[derive(Debug, Clone, Copy, Default)]
 struct LightSums {
     outside_lux: f64,
@@ -109,7 +109,7 @@ struct LightSums {
 }
 
 impl LightModel {
-    /// Creates the model from the light settings of a scenario and the geographic position of its origin.
+    /// Creates the model from a scenario's light settings and the geographic position of its origin.
     #[must_use]
     pub fn new(light: &LightSpec, location: Geo) -> Self {
         Self {
@@ -127,7 +127,7 @@ impl LightModel {
         Daylight::at(sun::direction(self.light.start_unix_s as f64 + at.s(), self.location), self.light.cloud_cover)
     }
 
-    /// Returns the fraction of the solid angle of the upper hemisphere that is open sky, 0 to 1.
+    /// Returns the open-sky fraction of the upper hemisphere's solid angle, 0 to 1.
     #[must_use]
     pub fn sky_view(&self, position_m: Vec3<Enu>, cast: RayCast) -> f64 {
         let open = self.upper.iter().filter(|d| cast(position_m, **d, SKY_REACH_M).is_none()).count();
@@ -303,7 +303,7 @@ mod tests {
     const PLACE: Geo = Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 0.0 };
 
     fn model(cloud_cover: f64) -> LightModel {
-        // 2024-06-20 12:00 UTC is within two minutes of local noon; the elevation of the sun is 67 deg.
+        // 2024-06-20 12:00 UTC is within two minutes of local noon; the sun's elevation is 67 deg.
         let light = LightSpec { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 };
         LightModel::new(&light, PLACE)
     }

@@ -38,7 +38,7 @@ use dynamics::{Dynamics, StaticQueries};
 use geometry::Geometry;
 use std::sync::Arc;
 
-/// The site of a job. It is immutable after construction; positions of moving objects are a function of time.
+/// A job's site. It is immutable after construction; the positions of moving objects are a function of time.
 #[derive(Debug, Clone)]
 pub struct Site {
     geometry: Arc<Geometry>,

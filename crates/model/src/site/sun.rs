@@ -63,7 +63,7 @@ pub fn elevation_rad(direction: Vec3<Enu>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Stated accuracy of the method plus the rounding of the published values, deg.
+    /// The method's stated accuracy plus the rounding of the published values, deg.
     const TOLERANCE_DEG: f64 = 0.1;
 
     fn azimuth_deg(d: Vec3<Enu>) -> f64 {

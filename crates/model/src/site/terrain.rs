@@ -9,11 +9,11 @@ use crate::scenario::{Bridge, GroundTeam, Scenario, TerrainSource, TerrainSpec a
 
 /// Radius of level ground around the landing pad, m.
 const LEVEL_RADIUS_M: f64 = 16.0;
-/// Slope of earthworks, as horizontal distance per unit of height.
+/// Earthwork slope, as horizontal distance per unit height.
 const EARTHWORK_SLOPE: f64 = 1.2;
-/// Downward grade of the roads that lead away from the bridges (estimate: maximum grade of mountain highways).
+/// Downward grade of the roads that lead away from the bridges (estimate: maximum grade on mountain highways).
 const ROAD_GRADE: f64 = 0.07;
-/// Depth of the excavation below the springings of an arch, m.
+/// Depth of the excavation below an arch's springings, m.
 const EXCAVATION_M: f64 = 1.0;
 /// Minimum embedment depth of structures in the ground, m.
 const EMBEDMENT_M: f64 = 0.5;
@@ -28,7 +28,7 @@ pub struct Terrain {
 }
 
 impl Terrain {
-    /// Creates the terrain of a scenario.
+    /// Creates a scenario's terrain.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let settings = &scenario.terrain;

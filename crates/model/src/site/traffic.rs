@@ -16,9 +16,9 @@ use crate::time::SimTime;
 
 /// First object number used for traffic and crew. Lower numbers are bridge members and other static objects.
 pub const FIRST_TRAFFIC_OBJECT: u32 = 1_000_000;
-/// Object ID of the inspector.
+/// Inspector's object ID.
 pub const INSPECTOR: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 2);
-/// Object ID of the crew's truck.
+/// Crew truck's object ID.
 pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 1);
 
 /// Minimum spacing of vehicles in a lane, center to center, m (estimate: a truck and a gap).
@@ -37,7 +37,7 @@ const LANE_SPEED_SPREAD: f64 = 0.1;
 /// A moving object in the traffic plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mover {
-    /// Type of the object.
+    /// Object type.
     pub kind: MoverKind,
     /// Number among the objects of the same type, from 1.
     pub number: u32,
@@ -133,7 +133,7 @@ impl TrafficPlan {
         &self.closures
     }
 
-    /// Returns all moving objects of the plan.
+    /// Returns all moving objects in the plan.
     #[must_use]
     pub fn movers(&self) -> &[Mover] {
         &self.movers
@@ -227,7 +227,7 @@ impl TrafficPlan {
         best
     }
 
-    /// Appends the contacts of a probe with traffic and crew. The velocity of a contact is the velocity of the object.
+    /// Appends a probe's contacts with traffic and crew. A contact has the object's velocity.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         let (center_m, radius_m) = bounding_sphere(probe);
         self.visit_near(center_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {

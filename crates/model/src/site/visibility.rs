@@ -16,7 +16,7 @@ use crate::vehicle::{Camera, Lamp};
 pub const MAX_RANGE_M: f64 = 60.0;
 /// Central fraction of the image's width and height in which defects count as captured.
 pub const CENTRAL_FRACTION: f64 = 0.8;
-/// Maximum angle between the line of sight and the normal of the defect, rad.
+/// Maximum angle between the line of sight and the defect's normal, rad.
 pub const MAX_INCIDENCE_RAD: f64 = math::PI / 3.0;
 /// Minimum length of the longest visible dimension, px.
 pub const MIN_EXTENT_PX: f64 = 10.0;
@@ -26,9 +26,9 @@ pub const MIN_LINE_WIDTH_PX: f64 = 0.5;
 const METER_CALIBRATION: f64 = 250.0;
 /// Offsets of the occlusion test's sample points from the center of a defect, as fractions of the defect's length.
 const SAMPLE_OFFSETS: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
-/// Height of the ends of lines of sight above the surface, m.
+/// Height above the surface at which lines of sight end, m.
 const SURFACE_OFFSET_M: f64 = 0.005;
-/// Length of the last part of a line of sight, which is excluded from the occlusion test, m.
+/// Length at the end of a line of sight that is excluded from the occlusion test, m.
 const OCCLUSION_MARGIN_M: f64 = 0.01;
 
 /// Visibility of one defect in a photo, with the measurements for each condition.
@@ -50,7 +50,7 @@ pub struct DefectView {
     pub illuminance_lux: f64,
     /// Illuminance needed for an exposure within the camera's limits, lx.
     pub needed_lux: f64,
-    /// Distance of the defect from the lens, m.
+    /// Distance between the defect and the lens, m.
     pub distance_m: f64,
     /// True for a line defect, which must have a minimum width in the image.
     pub line: bool,
@@ -299,7 +299,7 @@ mod tests {
     #[test]
     fn exact_framing_and_occlusion_fail_independently() {
         let mut aside = pose();
-        // 40 deg off axis: tan 40 deg = 0.839, just outside 0.8 of the half image, but still in front of the camera.
+        // 40 deg off axis: tan 40 deg = 0.839, just outside 80% of the half image, but still in front of the camera.
         let (s, c) = math::sin_cos(40.0_f64.to_radians());
         (aside.forward, aside.right) = (Vec3::new(s, c, 0.0), Vec3::new(c, -s, 0.0));
         assert_only_failing(&evaluate(&crack(), &aside, &unobstructed, 1000.0), 0, "central");

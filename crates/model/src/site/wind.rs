@@ -55,7 +55,7 @@ pub struct WindField {
 }
 
 impl WindField {
-    /// Creates the wind field from the settings of a scenario and the seed of a session.
+    /// Creates the wind field from a scenario's settings and a session's seed.
     #[must_use]
     pub fn new(wind: &WindSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "wind.turbulence");

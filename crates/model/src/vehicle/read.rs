@@ -166,8 +166,8 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
         rate_rad_s: r.number(&mut s, "rate_deg_s", (20.0, 1500.0), None).to_radians(),
         slow_down_time_s: r.number(&mut s, "slow_down_time_s", (0.2, 10.0), None),
     };
-    // At maximum tilt the braking deceleration is g tan(tilt). The effects of air drag and of the time needed to tilt roughly
-    // cancel (verified in simulation for every shipped aircraft).
+    // At maximum tilt, the braking deceleration is g tan(tilt). The effects of air drag and the time needed to tilt
+    // roughly cancel out (verified in simulation for every shipped aircraft).
     let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
     if limits.slow_down_time_s < least_s && r.problems.is_empty() {
         let allowed = format!("at least {least_s:.2}, which is full speed divided by g tan(tilt_deg)");

@@ -10,7 +10,7 @@ use crate::math;
 const BEAM_INSET_M: f64 = 0.4;
 /// Depth of abutments and skewbacks below the intrados at the springings, m (estimate).
 const FOUNDATION_DEPTH_M: f64 = 3.5;
-/// Length of the skewbacks, m (estimate).
+/// Skewback length, m (estimate).
 const SKEWBACK_LENGTH_M: f64 = 3.0;
 /// Minimum length of a column, m; shorter columns are omitted (estimate).
 const MIN_COLUMN_LENGTH_M: f64 = 0.25;
@@ -140,7 +140,7 @@ impl Arch {
         m.0
     }
 
-    /// Adds all members of the bridge to a builder.
+    /// Adds all the bridge's members to a builder.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.ribs(b);
         self.columns(b);
@@ -184,7 +184,7 @@ impl Arch {
                     [x + half, y + half, top],
                 );
             }
-            // Struts connect tall pairs at a third of their height, well below the flight space of the interlayer.
+            // Struts connect tall pairs at a third of their height, well below the flight space in the interlayer.
             if top - foot > 9.0 {
                 let z = foot + (top - foot) / 3.0;
                 let inner = 0.5 * self.rib_spacing_m - half;
@@ -238,7 +238,7 @@ impl Arch {
         add_railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::RcRailing);
     }
 
-    /// Returns the height of the undersides of abutments and skewbacks in meters.
+    /// Returns the height of the abutment and skewback undersides in meters.
     #[must_use]
     pub fn foundation_z_m(&self) -> f64 {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_DEPTH_M

@@ -1,4 +1,4 @@
-//! Derives the reference paths of tasks from the dimensions of a bridge, in bridge axes.
+//! Derives the tasks' reference paths from a bridge's dimensions, in bridge axes.
 
 use super::arch::Arch;
 use super::solid::{LocalPoint, Placement};
@@ -9,7 +9,7 @@ use crate::math;
 /// Maximum spacing of reference points, m (at most 1 m is allowed: docs/src/reference/assessment.md, "On path").
 pub const SPACING_M: f64 = 0.8;
 
-/// Type of a task's path.
+/// Type of task path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TaskKind {
     /// A straight line along one side of the deck slab.

@@ -12,7 +12,7 @@ pub struct Member {
     pub name: String,
     /// Bridge element that the member belongs to.
     pub element: Element,
-    /// Solid of the member, in site coordinates.
+    /// The member's solid, in site coordinates.
     pub solid: Solid,
 }
 
@@ -44,7 +44,7 @@ pub struct Footing {
     pub x_m: (f64, f64),
     /// Right and left ends across the bridge.
     pub y_m: (f64, f64),
-    /// Height of the underside of the footing.
+    /// Height of the footing's underside.
     pub up_m: f64,
 }
 
@@ -93,12 +93,12 @@ pub enum BeamDirection {
     Across,
 }
 
-/// Plate thicknesses of a steel beam, m.
+/// Steel beam plate thicknesses, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateThickness {
     /// Thickness of both flanges.
     pub flange_m: f64,
-    /// Thickness of the web plate.
+    /// Web plate thickness.
     pub web_m: f64,
 }
 

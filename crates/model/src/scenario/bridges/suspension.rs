@@ -5,7 +5,7 @@ use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
 use super::solid::{BeamDirection, Footing, MemberBuilder, PlateThickness};
 use crate::elements::Element;
 
-/// Half the width of the girders, which are centered on the edges of the deck, m (estimate).
+/// Half the width of the girders, which are centered on the deck edges, m (estimate).
 const GIRDER_HALF_WIDTH_M: f64 = 0.2;
 /// Plate thicknesses of the welded stiffening girders (estimate).
 const GIRDER_PLATES: PlateThickness = PlateThickness { flange_m: 0.04, web_m: 0.016 };
@@ -17,7 +17,7 @@ const STRINGER_PLATES: PlateThickness = PlateThickness { flange_m: 0.02, web_m: 
 const LEG_GAP_M: f64 = 0.02;
 /// Height of the bearings below the girders, m (estimate).
 const BEARING_HEIGHT_M: f64 = 0.2;
-/// Depth of the portal struts of the towers, m (estimate).
+/// Depth of the towers' portal struts, m (estimate).
 const PORTAL_DEPTH_M: f64 = 1.2;
 /// Depth of the anchorages below the deck, m (estimate).
 const ANCHORAGE_DEPTH_M: f64 = 12.0;
@@ -79,7 +79,7 @@ impl Suspension {
         0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M + LEG_GAP_M + 0.5 * self.leg_y_m
     }
 
-    /// Returns the height of the underside of the girders in meters.
+    /// Returns the height of the girders' underside in meters.
     #[must_use]
     pub fn girder_z_m(&self) -> f64 {
         -self.slab_m - self.girder_depth_m
@@ -146,7 +146,7 @@ impl Suspension {
         (1..n).map(|k| self.main_span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Adds all members of the bridge to a builder.
+    /// Adds all the bridge's members to a builder.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.towers(b);
         self.cables(b);
@@ -155,8 +155,7 @@ impl Suspension {
         self.anchorages(b);
     }
 
-    /// Returns the height of the top of the tower legs, which is below the cables on both sides of the saddle, in
-    /// meters.
+    /// Returns the height of the tower leg tops, which are below the cables on both sides of the saddle, in meters.
     fn leg_top_m(&self) -> f64 {
         self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_HEIGHT_M
     }
