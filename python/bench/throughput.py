@@ -26,7 +26,7 @@ import spandrel.gymnasium_envs  # noqa: F401 (registers the environments)
 MIN_RATIO = 20.0
 # Used if gym-pybullet-drones is not installed: its speed on a dedicated machine with two cores, as a multiple of real time.
 FALLBACK_PEER_SPEED = 27.0
-# Wall time of one round, s, and number of rounds.
+# Wall time per round, s, and number of rounds.
 ROUND_S, ROUNDS = 3.0, 5
 # High enough that no episode ends while steps are measured. Resets are measured separately.
 MAX_STEPS = 10**9
@@ -67,7 +67,7 @@ def make_single_step(name):
 
 
 def reset_ms(env):
-    """Returns the wall time of a reset with a new seed in ms, the best of ten."""
+    """Returns the best wall time of ten resets, each with a new seed, in ms."""
     times = []
     for seed in range(10):
         start = time.perf_counter()

@@ -27,7 +27,7 @@ Action = NDArray[np.float32]
 
 
 class _Native:
-    """A batch of native environments and its spaces."""
+    """A batch of native environments with its spaces."""
 
     def __init__(self, kind: str, scenario: str, vehicle: str, count: int, threads: int) -> None:
         self.batch = Batch(kind, scenario, vehicle, count, threads)

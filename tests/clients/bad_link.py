@@ -33,7 +33,7 @@ import spandrel
 import test_mavproxy
 
 NAN = float("nan")
-# Number of mission items (issue 16), and size of the file and of the log, bytes.
+# Number of mission items (issue 16), and sizes of the file and the log, bytes.
 ITEMS, FILE_BYTES, LOG_BYTES = 200, 50_000, 50_000
 # Wall seconds before a client that is still trying counts as failed.
 LIMIT_S = 300

@@ -7,7 +7,7 @@ import pytest
 import sdk
 import spandrel
 
-# Measurements of the tests for the summary; they do not affect the result.
+# Test measurements for the summary; they do not affect the result.
 MEASURED = []
 
 

@@ -21,7 +21,7 @@ CHANNELS = {1: 1500, 2: 1500, 3: 1000, 4: 1500, 5: 1500, 6: 1500, 7: 1500, 8: 15
 DEGREE_M = 111_320.0
 # Wall seconds without messages before a test gives up; the vehicle responds to every request immediately.
 STUCK_S = 60.0
-# Rate of streams and sticks, Hz of vehicle time.
+# Rate of streams and stick inputs, Hz in vehicle time.
 RATE_HZ = 10
 STICK_RATE_HZ = 25
 # The vehicle in these flights can reach the speeds that the autotest requires.

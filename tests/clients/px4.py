@@ -11,7 +11,7 @@ BUILD = os.environ.get("SPANDREL_PX4")
 # and listens on UDP 18570 + N.
 FIRST_INSTANCE = 60
 GCS_PORT = 18570
-# The ground station link of PX4's own start script (normal mode, 4 MB/s, forwarding), directed to the given port; the
+# The ground station link from PX4's own start script (normal mode, 4 MB/s, forwarding), directed to the given port; the
 # other links would use fixed ports.
 LINKS = "mavlink start -x -u {local} -r 4000000 -f -o {remote} -t 127.0.0.1\n"
 AIRFRAME = {"PX4_SYS_AUTOSTART": "10040", "PX4_SIM_MODEL": "sihsim_quadx"}

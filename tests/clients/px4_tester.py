@@ -27,7 +27,7 @@ SPEED = 5
 LOOK_S = 0.01
 # Wall seconds without progress on the vehicle's clock before a test gives up.
 STUCK_S = 120.0
-# Rate of sticks and setpoints, Hz of vehicle time.
+# Rate of stick inputs and setpoints, Hz in vehicle time.
 STICK_RATE_HZ = 50
 
 
@@ -108,7 +108,7 @@ class Tester:
         thread.start()
         self.watches.append((stop, thread))
 
-    # Steps of PX4's tester
+    # Steps from PX4's tester
 
     def wait_until_ready(self):
         """Waits until the vehicle is healthy (30 s), then armable (45 s)."""

@@ -106,7 +106,8 @@ def pixel_counts(labels):
 
 @pytest.mark.timeout(900)
 def test_val_video_has_all_pictures_and_chapters(session, tmp_path):
-    """Checks length and number of pictures in the file's index, and a chapter for each photo in the time span."""
+    """Checks the length and the number of pictures in the file's index, and that each photo in the time span has a
+    chapter."""
     film = tmp_path / "flight.mp4"
     options = ["--quality", "low", "--size", "320x240", "--fps", "2", "--span", "30,60"]
     spandrel.run("render", str(session), "--video", str(film), *options, program=spandrel.COCKPIT)

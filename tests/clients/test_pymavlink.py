@@ -18,7 +18,7 @@ M = mavutil.mavlink
 CAMERA = 100
 # Main mode number of PX4's POSCTL, and number of ArduCopter's POSHOLD.
 POSITION_MODE = {M.MAV_AUTOPILOT_PX4: 3, M.MAV_AUTOPILOT_ARDUPILOTMEGA: 16}
-# Telemetry rate for a stick control loop, Hz of vehicle time.
+# Telemetry rate for a stick control loop, Hz in vehicle time.
 RATE_HZ = 50
 # Rate of messages that are only observed, Hz.
 SLOW_HZ = 4

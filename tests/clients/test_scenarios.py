@@ -120,8 +120,8 @@ def test_wire_mavsdk_flies_by_command_and_returns_home(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_a_square_with_pictures_and_returns(vehicle):
-    """A mission in MAVSDK's own format: speeds, gimbal, pictures, delays; with a jump to an item, and a return at the
-    end."""
+    """A mission in MAVSDK's own format, with speeds, gimbal commands, pictures, delays, a jump to an item, and a final
+    return."""
     system, telemetry = vehicle
     action, mission = Action(system), Mission(system)
     home = wait_for("home", lambda: (h := telemetry.home()) and math.isfinite(h.latitude_deg) and h)

@@ -452,7 +452,7 @@ def test_users_can_change_their_password(browser, server, sessions):
     assert person.go("/account").status == 200
     elsewhere.log_in("dora", "another long word")
     assert elsewhere.page.url.endswith("/sessions")
-    # Another program sets the password on the command line, which ends all of her browser sessions.
+    # Another program sets the password on the command line, which ends all her browser sessions.
     webserver.set_password(sessions, "dora", "trainee", password="yet another long word")
     for one in (person, elsewhere):
         one.go("/sessions")

@@ -15,7 +15,7 @@ import spandrel
 import webserver
 
 EVIL = "<script>alert(1)</script>"
-# Number of times that the server is killed at random times.
+# Number of times that the server is killed, each at a random moment.
 KILLS = 200
 SEED = 20260801
 

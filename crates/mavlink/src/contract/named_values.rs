@@ -15,8 +15,8 @@ pub enum Named {
     Hits(i32),
     /// `respawns`: number of respawns since simulation start. Sent on change and every 5 s.
     Respawns(i32),
-    /// `traffic`: time when the bridges were closed to traffic (negative) or reopened, ms since simulation start. Sent on change,
-    /// and every 5 s after the first closing.
+    /// `traffic`: time at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
+    /// Sent on change, and every 5 s after the first closing.
     Traffic(i32),
     /// `seed`: session seed; the 32-bit field is interpreted as unsigned. Sent every 5 s.
     Seed(u32),

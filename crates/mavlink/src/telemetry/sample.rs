@@ -42,7 +42,7 @@ pub enum SampleValue {
     Hits(i32),
     /// Number of respawns since simulation start.
     Respawns(i32),
-    /// Time when the bridges were closed to traffic (negative) or reopened, ms since simulation start.
+    /// Time at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     Traffic(i32),
     /// Session seed.
     Seed(u64),

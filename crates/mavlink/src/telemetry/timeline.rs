@@ -365,7 +365,7 @@ pub struct Flight {
     pub hits: Signal<i32>,
     /// Number of respawns since simulation start.
     pub respawns: Signal<i32>,
-    /// Times when the bridges were closed to traffic (negative) or reopened, ms since simulation start.
+    /// Times at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     pub traffic: Signal<i32>,
     /// Distance to the nearest surface, m.
     pub clearance: Signal<f64>,

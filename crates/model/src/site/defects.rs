@@ -97,7 +97,7 @@ pub struct PlacementContext<'a> {
     pub clearance_m: &'a dyn Fn(Vec3<Enu>) -> f64,
 }
 
-/// Returns the defects of a session: those of a resolved file, or otherwise defects drawn from the seed. Returns fewer
+/// Returns the defects of a session: those in a resolved file, or otherwise defects drawn from the seed. Returns fewer
 /// than requested only if the settings leave no position that can be photographed (for example, no bridge within reach
 /// of a task, or defect codes that are not permitted on any element within reach).
 #[must_use]
