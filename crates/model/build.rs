@@ -24,7 +24,7 @@ fn main() {
     }
 }
 
-/// Returns Rust code that defines one constant per file with the file's text.
+/// Returns Rust code that defines a constant with the text of each file.
 fn file_constants(files: &[PathBuf], folder: &str) -> String {
     let mut code = String::new();
     for path in files {
@@ -40,9 +40,9 @@ fn file_constants(files: &[PathBuf], folder: &str) -> String {
     code
 }
 
-/// Returns Rust code that defines the list of all files: stem and text.
+/// Returns Rust code that defines a list with the stem and text of each file.
 fn file_table(name: &str, files: &[PathBuf], folder: &str) -> String {
-    let mut code = format!("/// Shipped files of `{folder}`: stem and text.\npub const {name}: &[(&str, &str)] = &[");
+    let mut code = format!("/// Stem and text of each shipped file in `{folder}`.\npub const {name}: &[(&str, &str)] = &[");
     for path in files {
         let stem = to_text(path.file_stem());
         let _ = write!(code, "({stem:?}, {}), ", constant_name(&stem));

@@ -1,12 +1,14 @@
-"""Measures environment steps per second, compared with gym-pybullet-drones in the same run. Run with `tools/python --bench`.
+"""Measures environment steps per second, compared with gym-pybullet-drones in the same run. Run with `tools/python
+--bench`.
 
     tools/python --bench                       fails below the minimum ratio
     tools/python --bench --peer DIR            uses gym-pybullet-drones from a source checkout
 
-Both packages run the hover task with all effects that they model. Spandrel models wind, gusts, ground effect, drag, sensor noise and an autopilot.
-gym-pybullet-drones models ground effect, drag and downwash (PYB_GND_DRAG_DW). Each package runs in one process in its fastest mode: Spandrel with
-native threads, gym-pybullet-drones as one environment, because it has no vectorized stepping. To reduce the effect of other load, the rounds
-alternate and only the best round of each counts. Measure on an idle computer, because threads gain nothing on busy cores.
+Both packages run the hover task with all effects that they model. Spandrel models wind, gusts, ground effect, drag,
+sensor noise and an autopilot. gym-pybullet-drones models ground effect, drag and downwash (PYB_GND_DRAG_DW). Each
+package runs in one process in its fastest mode: Spandrel with native threads, gym-pybullet-drones as one environment,
+because it has no vectorized stepping. To reduce the effect of other load, the rounds alternate, and only the best round
+of each package counts. Measure on an idle computer, because threads gain nothing on busy cores.
 """
 
 import argparse
@@ -24,18 +26,18 @@ import spandrel.gymnasium_envs  # noqa: F401 (registers the environments)
 MIN_RATIO = 20.0
 # Used if gym-pybullet-drones is not installed: its speed on a dedicated machine with two cores, as a multiple of real time.
 FALLBACK_PEER_SPEED = 27.0
-# Wall time of one round, s, and number of rounds.
+# Wall time per round, s, and number of rounds.
 ROUND_S, ROUNDS = 3.0, 5
 # High enough that no episode ends while steps are measured. Resets are measured separately.
 MAX_STEPS = 10**9
-# Vehicles per batch: several per thread of a large machine.
+# Vehicles per batch: several per thread on a large machine.
 BATCH_SIZE = 64
 # The control rate nearest to our 50 Hz; physics at the default 240 Hz.
 PEER_HZ, PEER_PHYSICS_HZ = 48, 240
 
 
 def steps_per_second(step, each):
-    """Returns steps per second of wall time; each call steps `each` environments."""
+    """Returns steps per second of wall time. Each call steps `each` environments."""
     calls, start = 0, time.perf_counter()
     while (passed := time.perf_counter() - start) < ROUND_S:
         step()
@@ -44,7 +46,8 @@ def steps_per_second(step, each):
 
 
 def make_batch_step(name, count, threads):
-    """Returns a function that steps all environments of a batch with varying actions, and the simulation time per step, s."""
+    """Returns a function that steps all environments of a batch with varying actions, and the simulation time per step
+    in seconds."""
     env = gymnasium.make_vec(
         name, num_envs=count, vectorization_mode="vector_entry_point", threads=threads, max_episode_steps=MAX_STEPS
     )
@@ -56,7 +59,7 @@ def make_batch_step(name, count, threads):
 
 
 def make_single_step(name):
-    """Returns a function that steps one environment, and the simulation time per step, s."""
+    """Returns a function that steps one environment, and the simulation time per step in seconds."""
     env = gymnasium.make(name, max_episode_steps=MAX_STEPS)
     env.reset(seed=1)
     action = np.zeros(env.action_space.shape, np.float32)
@@ -64,7 +67,7 @@ def make_single_step(name):
 
 
 def reset_ms(env):
-    """Returns the wall time of a reset with a new seed, ms: the best of ten."""
+    """Returns the best wall time of ten resets, each with a new seed, in ms."""
     times = []
     for seed in range(10):
         start = time.perf_counter()
@@ -74,7 +77,7 @@ def reset_ms(env):
 
 
 def peer(checkout, action):
-    """Returns a step function of gym-pybullet-drones, or None if it is not installed."""
+    """Returns a step function for gym-pybullet-drones, or None if it is not installed."""
     if checkout:
         sys.path.insert(0, checkout)
     try:

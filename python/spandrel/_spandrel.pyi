@@ -57,7 +57,7 @@ class State:
         """Number of contacts so far, excluding soft contacts with the pad and the surrounding ground."""
     @property
     def ended(self) -> str | None:
-        """Reason for the end of the flight; None while it is in progress."""
+        """Reason why the flight ended; None while it is in progress."""
     @property
     def text(self) -> str:
         """Latest status text from the vehicle; empty if there has been none."""

@@ -14,20 +14,20 @@ from numpy.typing import NDArray
 from ._spandrel import Batch
 
 SEED_LIMIT = 2**31
-"""Exclusive upper bound of episode seeds, which is the limit of the seed in telemetry."""
+"""Exclusive upper bound for episode seeds, which is the limit for seeds in telemetry."""
 INFO_KEYS = {"hover": ("distance_m", "hits"), "inspect": ("flown_share", "found_share")}
-"""Keys of `info`, by kind of environment."""
+"""Keys of `info`, by environment kind."""
 HOVER_MAX_STEPS = 1_000
 """Maximum episode length: 20 s of simulation time."""
 INSPECT_MAX_STEPS = 15_000
-"""Maximum episode length: 25 minutes of simulation time, the time limit of the shipped inspection."""
+"""Maximum episode length: 25 minutes of simulation time, the time limit in the shipped inspection."""
 
 Observation = NDArray[np.float32]
 Action = NDArray[np.float32]
 
 
 class _Native:
-    """A batch of native environments and its spaces."""
+    """A batch of native environments with its spaces."""
 
     def __init__(self, kind: str, scenario: str, vehicle: str, count: int, threads: int) -> None:
         self.batch = Batch(kind, scenario, vehicle, count, threads)
@@ -48,7 +48,8 @@ class _Native:
 
 
 class SpandrelEnv(gymnasium.Env[Observation, Action]):
-    """Environment with one vehicle. `kind` is hover or inspect; `scenario` and `vehicle` are shipped names or file paths."""
+    """Environment with one vehicle. `kind` is hover or inspect; `scenario` and `vehicle` are shipped names or file
+    paths."""
 
     metadata: dict[str, Any] = {"render_modes": []}
 
@@ -63,7 +64,8 @@ class SpandrelEnv(gymnasium.Env[Observation, Action]):
         self.step_s = self._native.batch.step_s()
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, dict[str, Any]]:
-        """Starts an episode with the vehicle airborne above the pad. The same seed reproduces the episode bit for bit."""
+        """Starts an episode with the vehicle in flight above the pad. The same seed reproduces the episode bit for
+        bit."""
         super().reset(seed=seed)
         episode = int(self.np_random.integers(SEED_LIMIT))
         observations, _, _, infos = self._native.unpack(self._native.batch.reset([episode]))
@@ -83,7 +85,8 @@ class SpandrelEnv(gymnasium.Env[Observation, Action]):
 
 
 class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
-    """Several vehicles, stepped by native threads (`threads=0`: one per processor). An environment resets in the step after its episode ends."""
+    """Several vehicles, stepped by native threads (`threads=0`: one per processor). An environment resets in the step
+    after its episode ends."""
 
     metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
 
@@ -111,7 +114,8 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Starts all episodes. An integer seeds the environments with seed, seed + 1, ..., as in Gymnasium's other vector environments."""
+        """Starts all episodes. An integer seeds the environments with seed, seed + 1, ..., as in Gymnasium's other
+        vector environments."""
         seeds: list[int | None] = [seed + k for k in range(self.num_envs)] if isinstance(seed, int) else list(seed or [])
         for k, one in enumerate(seeds):
             if one is not None:
@@ -122,7 +126,8 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
         return observations, self._masked(infos)
 
     def _masked(self, infos: dict[str, Any]) -> dict[str, Any]:
-        """Adds the mask that Gymnasium expects for each key. All masks are true, because every environment provides every value."""
+        """Adds the mask that Gymnasium expects for each key. All masks are true, because every environment provides
+        every value."""
         return infos | {f"_{key}": np.ones(self.num_envs, dtype=np.bool_) for key in infos}
 
     def step(

@@ -22,7 +22,7 @@ TICK_NS = 1_000_000
 POLL_INTERVAL_NS = 20_000_000
 """Interval for checking conditions and exchanging datagrams, ns of simulation time."""
 COMMAND_TIMEOUT_NS = NS
-"""Timeout for the reply to a command, ns of simulation time."""
+"""Timeout for a command's reply, ns of simulation time."""
 ARM_RETRY_INTERVAL_NS = NS // 2
 """Interval between arming attempts, ns of simulation time."""
 SERVE_POLL_INTERVAL_S = 0.002
@@ -63,11 +63,12 @@ class Vehicle:
     """A simulated drone, which starts disarmed on its pad.
 
     `scenario` and `vehicle` are shipped names (`spandrel.scenarios()`, `spandrel.vehicles()`) or paths to TOML files.
-    `seed` determines gusts, sensor noise, traffic and defects. `flavor` is the autopilot protocol: px4, ardupilot or generic.
-    `after_crash` is continue, respawn, end or scenario (the scenario's own rule).
+    `seed` determines gusts, sensor noise, traffic and defects. `flavor` is the autopilot protocol: px4, ardupilot or
+    generic. `after_crash` is continue, respawn, end or scenario (the scenario's own rule).
 
-    Simulation time advances only inside `step`, `run_for`, `run_until` and the commands, as fast as the machine allows, or in real time
-    while `serve` is active. Identical calls produce bit-identical results in every run; compare `digest` to check.
+    Simulation time advances only inside `step`, `run_for`, `run_until` and the commands, as fast as the machine allows,
+    or in real time while `serve` is active. Identical calls produce bit-identical results in every run; compare
+    `digest` to check.
     """
 
     def __init__(
@@ -117,8 +118,8 @@ class Vehicle:
     def run_until(self, condition: Callable[[State], bool], sim_s: float) -> State:
         """Runs until `condition(state)` is true and returns that state.
 
-        The condition is checked every 20 ms of simulation time. Raises LateError if it is not met within `sim_s` seconds of
-        simulation time.
+        The condition is checked every 20 ms of simulation time. Raises LateError if it is not met within `sim_s`
+        seconds of simulation time.
         """
         limit = self._flight.now_ns() + round(sim_s * NS)
         while not condition(state := self.state):
@@ -135,8 +136,9 @@ class Vehicle:
     ) -> None:
         """Sends a MAVLink command by number and waits for the reply.
 
-        Uses COMMAND_INT if `place_enu_m`, a position in the scenario's frame (east, north, up, m), is given, otherwise COMMAND_LONG.
-        Raises RefusedError if the command is rejected, or if there is no reply within one second of simulation time.
+        Uses COMMAND_INT if `place_enu_m`, a position in the scenario's frame (east, north, up, m), is given, otherwise
+        COMMAND_LONG. Raises RefusedError if the command is rejected, or if there is no reply within one second of
+        simulation time.
         """
         self._flight.ask(int(command), list(params), place_enu_m)
         limit = self._flight.now_ns() + COMMAND_TIMEOUT_NS
@@ -150,7 +152,8 @@ class Vehicle:
         raise self._flight.refusal(None)
 
     def arm(self, sim_s: float = 30.0) -> None:
-        """Arms as soon as the vehicle allows it. Raises the last RefusedError after `sim_s` seconds of simulation time."""
+        """Arms as soon as the vehicle allows it. Raises the last RefusedError after `sim_s` seconds of simulation
+        time."""
         limit = self._flight.now_ns() + round(sim_s * NS)
         while True:
             try:
@@ -163,7 +166,8 @@ class Vehicle:
                 return
 
     def take_off(self, height_m: float) -> None:
-        """Starts a takeoff to a height above the pad, m. Returns once the command is accepted; use `run_until` to wait for the height."""
+        """Starts a takeoff to a height above the pad, given in meters. Returns once the command is accepted; use
+        `run_until` to wait for the height."""
         guided = self._flight.guided_mode()
         if guided is not None:
             self.command(SET_MODE, 1.0, float(guided))
@@ -174,7 +178,8 @@ class Vehicle:
         self.command(TAKEOFF, 0.0, 0.0, 0.0, math.nan, place_enu_m=(east, north, up + height_m - state.height_m))
 
     def go_to(self, east_m: float, north_m: float, up_m: float) -> None:
-        """Starts a flight to a position in the scenario's frame, m, and holds there. Returns once the command is accepted."""
+        """Starts a flight to a position in the scenario's frame, given in meters, and holds there. Returns once the
+        command is accepted."""
         # Parameter 2, bit 0: switch to the mode that executes the command.
         self.command(REPOSITION, -1.0, 1.0, 0.0, math.nan, place_enu_m=(east_m, north_m, up_m))
 
@@ -183,16 +188,19 @@ class Vehicle:
         self.command(LAND, 0.0, 0.0, 0.0, math.nan)
 
     def sticks(self, forward: float, right: float, up: float, yaw: float) -> None:
-        """Sends one manual control input: forward, right and yaw from -1 to 1, up from 0 to 1 (0.5 holds). Repeat at 2 Hz or more."""
+        """Sends one manual control input: forward, right and yaw from -1 to 1, up from 0 to 1 (0.5 holds). Repeat at 2
+        Hz or more."""
         self._flight.sticks(forward, right, up, yaw)
 
     def open_link(self, kind: str = "gcs") -> Link:
-        """Opens a MAVLink link without a socket. `kind` selects the default streams: gcs, sdk, or payload (truth and scoring values)."""
+        """Opens a MAVLink link without a socket. `kind` selects the default streams: gcs, sdk, or payload (truth and
+        scoring values)."""
         return Link(self._flight, self._flight.open_mailbox(kind))
 
     @contextmanager
     def record(self, path: str | os.PathLike[str]) -> Iterator[None]:
-        """Records telemetry to a .tlog file within the context, for `spandrel.assess`, QGroundControl or Mission Planner."""
+        """Records telemetry to a .tlog file within the context, for `spandrel.assess`, QGroundControl or Mission
+        Planner."""
         link = self._flight.open_log(path)
         try:
             yield
@@ -202,8 +210,8 @@ class Vehicle:
     def connect(self) -> LockstepConnection:
         """Returns a pymavlink connection over UDP in lockstep with the vehicle.
 
-        It behaves like any `mavutil` connection, except that it runs on simulation time: `recv_match(blocking=True, timeout=5)` advances
-        the simulation until the message arrives, by at most 5 s. Requires pymavlink.
+        It behaves like any `mavutil` connection, except that it runs on simulation time: `recv_match(blocking=True,
+        timeout=5)` advances the simulation until the message arrives, by at most 5 s. Requires pymavlink.
         """
         from .connection import LockstepConnection
 
@@ -219,9 +227,9 @@ class Vehicle:
     def serve(self, speed: float = 1.0, kind: str = "sdk") -> Iterator[str]:
         """Serves the vehicle over UDP for clients that run on wall time, such as MAVSDK.
 
-        Yields the address for MAVSDK's `add_any_connection`, `udpin://127.0.0.1:PORT`: the client listens on that port, and the vehicle
-        sends to it. Within the context, a thread runs the simulation at `speed` times wall time. The arrival time of the client's
-        datagrams depends on the operating system, so runs are not reproducible.
+        Yields the address for MAVSDK's `add_any_connection`, `udpin://127.0.0.1:PORT`: the client listens on that port,
+        and the vehicle sends to it. Within the context, a thread runs the simulation at `speed` times wall time. The
+        arrival time of the client's datagrams depends on the operating system, so runs are not reproducible.
         """
         if self._server is not None or self._connections:
             raise SpandrelError("the vehicle is already connected; serve() requires exclusive access")

@@ -1,4 +1,4 @@
-//! Python binding of the telemetry log scorer.
+//! Python binding for the telemetry log scorer.
 
 use crate::errors::AssessmentError;
 use crate::job;

@@ -103,7 +103,7 @@ impl Batch {
         self.world.kind.step().s()
     }
 
-    /// Returns the length of an observation.
+    /// Returns the observation length.
     fn observations(&self) -> usize {
         self.world.kind.observations()
     }
@@ -153,7 +153,9 @@ impl Batch {
     fn with_episode<T>(&self, index: usize, read: impl FnOnce(&Episode) -> T) -> PyResult<T> {
         let slots = self.lock()?;
         let episode = slots.get(index).and_then(|slot| slot.episode.as_ref());
-        episode.map(read).ok_or_else(|| PyIndexError::new_err(format!("environment {index} does not exist or was never reset")))
+        episode
+            .map(read)
+            .ok_or_else(|| PyIndexError::new_err(format!("environment {index} does not exist or has never been reset")))
     }
 
     fn turn(&self, py: Python<'_>, seeds: Vec<Option<u64>>, actions: Option<Vec<f32>>) -> PyResult<StepBytes> {
@@ -162,7 +164,7 @@ impl Batch {
         let slots = &mut *guard;
         let count = slots.len();
         if seeds.len() != count || actions.as_ref().is_some_and(|actions| actions.len() != count * width) {
-            let words = format!("{count} environments need {count} seeds and {count} x {width} numbers as actions");
+            let words = format!("{count} environments require {count} seeds and {count} x {width} numbers as actions");
             return Err(PyValueError::new_err(words));
         }
         for (slot, seed) in slots.iter_mut().zip(seeds) {

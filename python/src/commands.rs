@@ -10,7 +10,7 @@ pub fn long(command: MavCmd, params: &[f32]) -> MavMessage {
     MavMessage::COMMAND_LONG(station::command(1, 1, command, station::params(params)))
 }
 
-/// Creates a command at a position in the scenario's frame (east, north, up), m.
+/// Creates a command at a position in the scenario's frame (east, north, up, in meters).
 pub fn at_place(command: MavCmd, params: &[f32], place_m: Vec3<Enu>, plane: &LocalPlane) -> MavMessage {
     MavMessage::COMMAND_INT(station::command_at(1, 1, command, station::params(params), plane.geo_from_enu(place_m)))
 }

@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 /// Link for setpoints. It receives replies but no telemetry streams, which would be unused.
 const LINK: LinkId = LinkId(9);
-/// MAVLink system and component ID of a companion computer, which controls the vehicle by setpoints.
+/// MAVLink system and component ID of a companion computer, which controls the vehicle with setpoints.
 const COMPANION_ID: (u8, u8) = (1, 191);
 /// PX4's mode number for Offboard.
 const OFFBOARD: f32 = 6.0;
@@ -49,7 +49,7 @@ impl Kind {
         }
     }
 
-    /// Returns the length of an action.
+    /// Returns the action length.
     pub fn actions(self) -> usize {
         match self {
             Self::Hover => 4,
@@ -57,7 +57,7 @@ impl Kind {
         }
     }
 
-    /// Returns the length of an observation.
+    /// Returns the observation length.
     pub fn observations(self) -> usize {
         match self {
             Self::Hover => Hover::OBSERVATION_LEN,
@@ -78,7 +78,7 @@ pub struct World {
 }
 
 impl World {
-    /// Returns the maximum velocity setpoint in any direction, m/s: the job's speed limit.
+    /// Returns the maximum velocity setpoint in any direction, in m/s: the job's speed limit.
     pub fn speed_m_s(&self) -> f64 {
         self.job.scoring.speed_limit_m_s
     }
@@ -95,7 +95,7 @@ impl World {
     }
 }
 
-/// Setpoints of one step.
+/// Setpoints for one step.
 #[derive(Debug, Clone, Copy)]
 struct Setpoint {
     forward_m_s: f64,
@@ -108,7 +108,7 @@ struct Setpoint {
 /// Outcome of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome {
-    /// Reward of the step.
+    /// Reward for the step.
     pub reward: f64,
     /// Whether the episode is over: a crash, an empty battery, or a completed task.
     pub terminated: bool,
@@ -132,7 +132,7 @@ pub struct Episode {
 }
 
 impl Episode {
-    /// Starts an episode with the vehicle airborne above the pad in Offboard mode.
+    /// Starts an episode with the vehicle in flight above the pad, in Offboard mode.
     pub fn start(world: &Arc<World>, seed: u64) -> Result<Self, MissedExpectation> {
         let builder = Vehicle::builder().seed(seed).after_crash(AfterCrash::End);
         let mut vehicle = builder.build_from(world.job.clone(), world.aircraft.clone());
@@ -231,7 +231,7 @@ impl Episode {
     }
 }
 
-/// Transforms a vector to heading axes.
+/// Transforms a vector into heading axes.
 pub fn to_heading_axes(vector: Vec3<Enu>, attitude: Rotation<Frd, Ned>) -> [f64; 3] {
     let (sin, cos) = math::sin_cos(attitude.yaw_rad());
     [vector.east() * sin + vector.north() * cos, vector.north() * sin - vector.east() * cos, vector.up()]

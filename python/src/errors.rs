@@ -21,7 +21,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("AssessmentError", python.get_type::<AssessmentError>())
 }
 
-/// Converts all errors of a scenario or vehicle file to an exception.
+/// Converts all errors in a scenario or vehicle file to an exception.
 pub fn problems(problems: &Problems) -> PyErr {
     JobError::new_err(problems.to_string())
 }

@@ -86,7 +86,7 @@ impl Flight {
         Ok(Self { inner: Mutex::new(inner), guided_mode: flavor.goto_mode })
     }
 
-    /// Returns the simulation time, ns.
+    /// Returns the simulation time in ns.
     fn now_ns(&self, py: Python<'_>) -> i64 {
         py.detach(|| self.lock().vehicle.now().ns())
     }
@@ -102,12 +102,13 @@ impl Flight {
         digest.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// Runs until a simulation time, ns. Returns true earlier if a lockstep peer has not replied.
+    /// Runs until a simulation time, given in ns. Returns true earlier if a lockstep peer has not replied.
     fn run(&self, py: Python<'_>, until_ns: i64) -> bool {
         py.detach(|| self.lock().run(SimTime::from_ns(until_ns)))
     }
 
-    /// Sends a command by its MAVLink number, optionally with a position in the scenario's frame (east, north, up), m.
+    /// Sends a command by its MAVLink number, optionally with a position in the scenario's frame (east, north, up, in
+    /// meters).
     #[pyo3(signature = (command, params, place_enu_m=None))]
     fn ask(&self, py: Python<'_>, command: u32, params: Vec<f32>, place_enu_m: Option<(f64, f64, f64)>) -> PyResult<()> {
         let command = MavCmd::from_u32(command).ok_or_else(|| PyValueError::new_err(format!("unknown MAV_CMD {command}")))?;
@@ -232,6 +233,6 @@ fn link_kind(kind: &str) -> PyResult<LinkKind> {
         "gcs" => Ok(LinkKind::GroundStation),
         "sdk" => Ok(LinkKind::Sdk),
         "payload" => Ok(LinkKind::Payload),
-        _ => Err(PyValueError::new_err(format!("unknown kind of link {kind}; allowed: gcs, sdk, payload"))),
+        _ => Err(PyValueError::new_err(format!("unknown link kind {kind}; allowed: gcs, sdk, payload"))),
     }
 }

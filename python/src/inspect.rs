@@ -42,7 +42,7 @@ impl Inspect {
         Self { paths, look, flown, on: None, found: BTreeSet::new(), before: 0.0 }
     }
 
-    /// Returns the flown fraction of the total path length.
+    /// Returns the fraction of the total path length that has been flown.
     fn flown_share(&self) -> f64 {
         let all = self.flown.iter().map(FlownPath::coverage);
         let (flown_m, length_m) = all.fold((0.0, 0.0), |(f, l), one| (f + one.share * one.length_m, l + one.length_m));
@@ -54,7 +54,7 @@ impl Inspect {
         if placed > 0 { self.found.len() as f64 / placed as f64 } else { 0.0 }
     }
 
-    /// Returns the nearest path point that has not been flown, m, and the camera's target direction there.
+    /// Returns the nearest path point that has not been flown, in meters, and the camera's target direction there.
     fn next(&self, position_m: Vec3<Enu>) -> Option<(Vec3<Enu>, Vec3<Enu>)> {
         let mut best: Option<(f64, usize, usize)> = None;
         for (task, flown) in self.flown.iter().enumerate() {
@@ -99,8 +99,8 @@ impl Inspect {
         self.found.extend(shown.iter().filter(|view| view.hit).map(|view| view.defect_id));
     }
 
-    /// Evaluates a step. The reward is the increase of two fractions, of paths flown and defects found: a complete episode earns
-    /// 2, or 1 for a job without defects. Measures: the two fractions.
+    /// Evaluates a step. The reward is the increase in two fractions: paths flown and defects found. A complete episode
+    /// earns 2, or 1 in a job without defects. Measures: the two fractions.
     pub fn evaluate(&mut self, sim: &Sim, over: bool) -> Outcome {
         let on = self.paths.on(sim.truth().rigid.position_m.enu(), self.on);
         if let Some((task, _)) = on {

@@ -1,4 +1,4 @@
-//! The native part of the Python package `spandrel`: the in-process vehicle, batched environments and the scorer. All
+//! The native part of the `spandrel` Python package: the in-process vehicle, batched environments and the scorer. All
 //! calls that block or compute release the GIL.
 
 mod assessment;
@@ -15,7 +15,7 @@ mod state;
 
 use pyo3::prelude::*;
 
-/// Native module of `spandrel`.
+/// Native module of the `spandrel` package.
 #[pymodule]
 fn _spandrel(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;

@@ -14,10 +14,11 @@ use std::path::Path;
 const FIRST_LINK_ID: u32 = 2;
 /// Maximum size of a UDP datagram, bytes.
 const MAX_DATAGRAM_BYTES: usize = 65_535;
-/// Maximum number of datagrams in a mailbox, a few minutes of all streams; the oldest are dropped.
+/// Maximum number of datagrams in a mailbox, enough for a few minutes of all streams. When it is full, the oldest are
+/// dropped.
 const MAX_MAILBOX_DATAGRAMS: usize = 50_000;
 
-/// Transport of a link.
+/// Link transport.
 #[derive(Debug)]
 enum Transport {
     Udp { socket: UdpSocket, peer: SocketAddr },

@@ -35,7 +35,7 @@ pub struct State {
     pictures: usize,
     /// Number of contacts so far, excluding soft contacts with the pad and the surrounding ground.
     hits: i32,
-    /// Reason for the end of the flight; `None` while it is in progress.
+    /// Reason why the flight ended; `None` while it is in progress.
     ended: Option<String>,
     /// Latest status text from the vehicle; empty if there has been none.
     text: String,

@@ -1,4 +1,4 @@
-"""Tests of the scores of a flight recorded by this package."""
+"""Tests that this package scores its own recorded flights correctly."""
 
 import json
 import math

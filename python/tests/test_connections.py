@@ -1,4 +1,4 @@
-"""Tests of connections with pymavlink (lockstep) and MAVSDK (real time)."""
+"""Tests of pymavlink connections (lockstep) and MAVSDK connections (real time)."""
 
 import time
 

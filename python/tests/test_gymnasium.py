@@ -15,7 +15,8 @@ SEED = 5
 
 
 def velocity_toward_target(observation, limit):
-    """Returns a velocity toward the point at the start of an observation, m/s: the distance times 1/s."""
+    """Returns a velocity, in m/s, toward the point whose offset starts the observation: the offset in meters times
+    1/s."""
     return np.clip(observation[:3], -limit, limit)
 
 

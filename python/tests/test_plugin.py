@@ -1,4 +1,4 @@
-"""Tests of the pytest plugin, loaded as by a user's pytest."""
+"""Tests of the pytest plugin, loaded as in a user's test run."""
 
 import pathlib
 
@@ -21,7 +21,7 @@ FLIGHT = """
 
 
 def digest(pytester):
-    """Returns the digest printed by a run of the flight."""
+    """Runs the flight and returns the digest that it prints."""
     result = pytester.runpytest_subprocess("-s", "-p", "no:cacheprovider")
     result.assert_outcomes(passed=1)
     (line,) = [line for line in result.outlines if "digest" in line]

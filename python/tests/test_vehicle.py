@@ -9,7 +9,7 @@ import spandrel
 
 
 def flown(seed):
-    """Returns a vehicle after takeoff."""
+    """Returns a vehicle that has taken off."""
     vehicle = spandrel.Vehicle(seed=seed)
     vehicle.arm()
     vehicle.take_off(5)
@@ -126,7 +126,7 @@ def test_exact_invalid_arguments_raise_value_errors():
     for wrong in (lambda: vehicle.step(-1), lambda: vehicle.run_for(-1.0), lambda: vehicle.run_for(math.nan)):
         with pytest.raises(ValueError, match="allowed: 0 or more"):
             wrong()
-    with pytest.raises(ValueError, match="unknown kind of link"):
+    with pytest.raises(ValueError, match="unknown link kind"):
         vehicle.open_link("carrier pigeon")
 
 

@@ -73,7 +73,7 @@ def message(link, number, kind, fits=lambda message: True, param=0):
 
 
 def parameters(link):
-    """Returns every parameter as its PARAM_VALUE, by name. Requests values that are missing from the list by index."""
+    """Returns the PARAM_VALUE of every parameter, by name. Requests values missing from the list by index."""
     found = {}
     first = ask(link, lambda: link.mav.param_request_list_send(1, 1), "PARAM_VALUE", lambda m: m.param_index < m.param_count)
     found[first.param_index] = first

@@ -1,8 +1,9 @@
-"""Measures the success rates and durations of stock clients over links of four qualities.
+"""Measures how often stock clients succeed, and how long they take, over links of four qualities.
 
     SPANDREL=target/release/spandrel .venv/bin/python tests/clients/bad_link.py --runs 20 --table table.md
 
-With SPANDREL_PX4=DIR, the build folder of a PX4 with its simulator SIH, the same clients also use a real PX4, in turn with Spandrel.
+With SPANDREL_PX4=DIR, the build folder of PX4 with its SIH simulator, the same clients also use a real PX4, alternating
+with Spandrel.
 """
 
 import argparse
@@ -32,11 +33,11 @@ import spandrel
 import test_mavproxy
 
 NAN = float("nan")
-# Items of the mission (issue 16), bytes of the file and of the log.
+# Number of mission items (issue 16), and sizes of the file and the log, bytes.
 ITEMS, FILE_BYTES, LOG_BYTES = 200, 50_000, 50_000
 # Wall seconds before a client that is still trying counts as failed.
 LIMIT_S = 300
-# Wall seconds before a hanging client is killed: start, LIMIT_S and end of a run.
+# Wall seconds before a hanging client is killed: startup, LIMIT_S and shutdown of a run.
 HANG_LIMIT_S = LIMIT_S + 120
 # Maximum number of times that a user repeats a command that gets no response, or refreshes a list.
 MAX_RETRIES = 5
@@ -47,7 +48,7 @@ class Failed(Exception):
 
 
 def error_text(error):
-    """Returns the result in a plugin's error, without the arguments of the call."""
+    """Returns the result in a plugin's error, without the call's arguments."""
     return str(error).split(";", maxsplit=1)[0]
 
 
@@ -88,7 +89,7 @@ SPANDREL, PX4 = "Spandrel", "PX4"
 
 
 def start(vehicle, folder, files, port, slot):
-    """Starts a new vehicle in real time that serves `files` over FTP and connects to `port`."""
+    """Starts a new real-time vehicle that serves `files` over FTP and connects to `port`."""
     if vehicle == PX4:
         return px4.start(folder, files, port, slot)
     return spandrel.start_sim(folder, port, "--files", str(files), speed=1)
@@ -165,7 +166,7 @@ def flight(bench):
 
 
 def download(bench, burst):
-    """Downloads a file of 50 kB in one attempt."""
+    """Downloads a 50 kB file in one attempt."""
     down = bench.folder / "down"
     down.mkdir()
     ended(Ftp(bench.system).download_async, "/survey.bin", str(down), burst, next_result=FtpResult.NEXT, success=FtpResult.SUCCESS)
@@ -174,7 +175,7 @@ def download(bench, burst):
 
 
 def log(bench):
-    """Downloads a log of 50 kB; requests the list again if it does not arrive."""
+    """Downloads a 50 kB log; requests the list again if it does not arrive."""
     logs = LogFiles(bench.system)
     entries = repeat_until_done(logs.get_entries)
     old = next((entry for entry in entries or [] if entry.size_bytes == LOG_BYTES), None)
@@ -187,7 +188,7 @@ def log(bench):
 
 
 def mavproxy_get(bench):
-    """Downloads a file of 50 kB with MAVProxy's `ftp get` in one attempt."""
+    """Downloads a 50 kB file with MAVProxy's `ftp get` in one attempt."""
     try:
         bench.console.say("ftp get /survey.bin down.bin", f"Wrote {FILE_BYTES} bytes to down.bin")
     except AssertionError:
@@ -206,13 +207,13 @@ TASKS = {
 }
 
 
-# Columns of the table.
+# Table columns.
 TABLE = [link.name for link in relay.LINKS]
 
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One attempt: a task over a link, with the seed of the losses."""
+    """One attempt: a task over a link, with the seed for the losses."""
 
     vehicle: str
     name: str
@@ -289,7 +290,7 @@ def attempt(this, slots):
 
 
 def cell(begun):
-    """Returns a cell of the table from its runs."""
+    """Returns a table cell that summarizes its runs."""
     results = [future.result() for future in begun]
     seconds = [result for result in results if isinstance(result, float)]
     return Cell(len(results), seconds, [result for result in results if isinstance(result, str)])
@@ -325,14 +326,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=20)
     parser.add_argument("--first", type=int, default=0, help="seed of the first run")
-    parser.add_argument("--at-once", type=int, default=1, help="number of parallel runs; a run is mostly waiting")
+    parser.add_argument("--at-once", type=int, default=1, help="number of parallel runs; each run mostly waits")
     parser.add_argument("--vehicle", action="append", choices=[SPANDREL, PX4], help="default: Spandrel, and PX4 if SPANDREL_PX4 is set")
     parser.add_argument("--task", action="append", choices=list(TASKS))
     parser.add_argument("--link", action="append", choices=[link.name for link in (*relay.LINKS, relay.LOSS_15)])
     parser.add_argument("--table", type=pathlib.Path)
     args = parser.parse_args()
     if PX4 in (args.vehicle or []) and not px4.BUILD:
-        parser.error("--vehicle PX4 requires SPANDREL_PX4, the build folder of a PX4 with SIH")
+        parser.error("--vehicle PX4 requires SPANDREL_PX4, the build folder of PX4 with SIH")
     if not px4.BUILD:
         print("SPANDREL_PX4 is not set: the table does not include PX4", file=sys.stderr)
     vehicles = args.vehicle or ([SPANDREL, PX4] if px4.BUILD else [SPANDREL])

@@ -7,7 +7,7 @@ import pytest
 import sdk
 import spandrel
 
-# Measurements of the tests for the summary; they do not affect the result.
+# Test measurements for the summary; they do not affect the result.
 MEASURED = []
 
 
@@ -53,8 +53,8 @@ def vehicle(request, tmp_path):
 
 @pytest.fixture
 def launch(tmp_path):
-    """Returns a function that starts a vehicle and returns the port of its ground station; all vehicles stop at the end
-    of the test."""
+    """Returns a function that starts a vehicle and returns its ground station port. All vehicles stop at the end of the
+    test."""
     started = []
 
     def start(flavor, *more, speed=spandrel.SPEED):

@@ -17,11 +17,11 @@ MODES = {
 }
 # Channels 1 to 9 of a transmitter: sticks centered except the throttle, and switches.
 CHANNELS = {1: 1500, 2: 1500, 3: 1000, 4: 1500, 5: 1500, 6: 1500, 7: 1500, 8: 1500, 9: 1500}
-# Meters per degree of latitude (WGS 84, to 0.5 %).
+# Meters per degree of latitude (WGS 84, accurate to 0.5%).
 DEGREE_M = 111_320.0
 # Wall seconds without messages before a test gives up; the vehicle responds to every request immediately.
 STUCK_S = 60.0
-# Rate of streams and sticks, Hz of vehicle time.
+# Rate of streams and stick inputs, Hz in vehicle time.
 RATE_HZ = 10
 STICK_RATE_HZ = 25
 # The vehicle in these flights can reach the speeds that the autotest requires.
@@ -125,33 +125,33 @@ class Copter:
 
     @property
     def height(self):
-        """Returns the height above home, m."""
+        """Returns the height above home in meters."""
         return self.last["GLOBAL_POSITION_INT"].relative_alt / 1000
 
     @property
     def speed(self):
-        """Returns the ground speed, m/s."""
+        """Returns the ground speed in m/s."""
         return self.last["VFR_HUD"].groundspeed
 
     @property
     def climb(self):
-        """Returns the climb rate, m/s."""
+        """Returns the climb rate in m/s."""
         return -self.last["GLOBAL_POSITION_INT"].vz / 100
 
     @property
     def heading(self):
-        """Returns the heading, degrees."""
+        """Returns the heading in degrees."""
         return self.last["GLOBAL_POSITION_INT"].hdg / 100
 
     @property
     def place(self):
-        """Returns the position north and east of the first home, m."""
+        """Returns the position north and east of the first home, in meters."""
         here = self.last["GLOBAL_POSITION_INT"]
         return self.offset_m(here.lat / 1e7, here.lon / 1e7)
 
     @property
     def item(self):
-        """Returns the mission's current item."""
+        """Returns the current mission item."""
         return self.last["MISSION_CURRENT"].seq
 
     @property
@@ -164,7 +164,7 @@ class Copter:
         return self.last["HEARTBEAT"].custom_mode == MODES[mode]
 
     def home(self):
-        """Returns home's latitude and longitude, degrees."""
+        """Returns the latitude and longitude of home in degrees."""
         if "HOME_POSITION" not in self.last:
             self.ask(242)
             self.until("home", lambda: self.shows("HOME_POSITION"), 5)
@@ -183,11 +183,11 @@ class Copter:
         return round((latitude + north_m / DEGREE_M) * 1e7), round((longitude + east) * 1e7)
 
     def away(self, place=(0.0, 0.0)):
-        """Returns the distance from a position, m."""
+        """Returns the distance from a position in meters."""
         return math.dist(self.place, place)
 
     def off(self, heading):
-        """Returns the difference between the vehicle's heading and a given heading, degrees."""
+        """Returns the difference between the vehicle's heading and a given heading in degrees."""
         return abs((self.heading - heading + 180) % 360 - 180)
 
     # Commands
@@ -208,7 +208,7 @@ class Copter:
         self.must(M.MAV_CMD_REQUEST_MESSAGE, message)
 
     def set(self, **parameters):
-        """Sets parameters and waits for their confirmation."""
+        """Sets parameters and waits for confirmation."""
         for name, value in parameters.items():
             self.last.pop("PARAM_VALUE", None)
             self.link.mav.param_set_send(1, 1, name.encode(), value, M.MAV_PARAM_TYPE_REAL32)
@@ -222,7 +222,7 @@ class Copter:
             self.channels[names.get(name) or int(name[1:])] = pulse
 
     def change(self, mode):
-        """Changes the mode by command."""
+        """Changes the mode with a command."""
         self.must(M.MAV_CMD_DO_SET_MODE, M.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED, MODES[mode])
         self.until(mode, lambda: self.flies(mode), 5)
 
@@ -232,7 +232,7 @@ class Copter:
         self.until("armed", lambda: self.armed, 5)
 
     def take_off(self, height_m, mode="GUIDED"):
-        """Takes off to a height: by command in GUIDED, with the throttle in manual modes."""
+        """Takes off to a height: with a command in GUIDED mode, with the throttle in manual modes."""
         self.change(mode)
         self.arm()
         if mode == "GUIDED":
@@ -253,7 +253,7 @@ class Copter:
         self.until_disarmed()
 
     def upload(self, items, kind=0):
-        """Uploads a plan: (command, north m, east m, height m, *parameters). A mission gets home as its item 0."""
+        """Uploads a plan: (command, north m, east m, height m, *parameters). In a mission, home becomes item 0."""
         whole = [(M.MAV_CMD_NAV_WAYPOINT, 0, 0, 0), *items] if kind == 0 else items
         self.last.pop("MISSION_ACK", None)
         self.last.pop("MISSION_REQUEST", None)

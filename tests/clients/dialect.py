@@ -12,7 +12,7 @@ import spandrel
 
 
 def definitions():
-    """Returns the folder of the official message definitions in the sources of the dependency, found through cargo."""
+    """Returns the folder of the official message definitions in the dependency's source, found through cargo."""
     asked = ["cargo", "metadata", "--format-version", "1", "--locked"]
     told = subprocess.run(asked, cwd=spandrel.ROOT, capture_output=True, text=True, check=True).stdout
     crate = next(p for p in json.loads(told)["packages"] if p["name"] == "mavlink")

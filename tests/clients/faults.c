@@ -1,4 +1,4 @@
-/* Loaded with LD_PRELOAD: makes file operations in one folder fail, write short or kill the process, as a test selects.
+/* Loaded with LD_PRELOAD: makes file operations in one folder fail, write short or kill the process, as selected by a test.
  *
  * FAULT_UNDER  only paths that start with this prefix are affected
  * FAULT_KIND   enospc, eio, short, kill, or none (only count operations)

@@ -66,7 +66,7 @@ class Gamepad:
                 if os.access(node, os.R_OK | os.W_OK):
                     return node
             time.sleep(0.05)
-        raise GamepadUnavailable(f"the gamepad's node in /dev/input did not appear, or cannot be opened ({name})")
+        raise GamepadUnavailable(f"the gamepad's node in /dev/input did not appear or cannot be opened ({name})")
 
     def environment(self):
         """Returns the environment that programs need to find the gamepad; without udev, they must search /dev/input

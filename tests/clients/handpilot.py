@@ -10,7 +10,7 @@ import spandrel
 
 # Maximum commanded speed, m/s; well below the 10 mph limit.
 CRUISE_M_S = 3.0
-# Speed at full stick of the default aircraft (vehicle-params/phantom2.toml), m/s.
+# The default aircraft's speed at full stick (vehicle-params/phantom2.toml), m/s.
 FULL_STICK_M_S = 13.4
 FULL_CLIMB_M_S = 6.0
 FULL_DESCENT_M_S = 2.0
@@ -41,7 +41,7 @@ def sticks_towards(here, yaw, target, look_yaw, cruise=CRUISE_M_S):
 
 
 def distance(a, b):
-    """Returns the distance between two points, m."""
+    """Returns the distance between two points in meters."""
     return math.dist(a, b)
 
 
@@ -73,7 +73,7 @@ def defect_to_photograph(job, path):
 
 
 def aim(here, target):
-    """Returns heading and elevation from one point to another, radians."""
+    """Returns the heading and elevation from one point to another in radians."""
     east, north, up = (t - h for t, h in zip(target, here))
     return math.atan2(east, north), math.atan2(up, math.hypot(east, north))
 
@@ -103,7 +103,7 @@ WGS84_A_M, WGS84_E2 = 6_378_137.0, 6.694_379_990_14e-3  # semi-major axis, eccen
 
 
 def local_origin(scenario, latitude_deg, longitude_deg, altitude_m):
-    """Returns the origin of the vehicle's local frame (GPS_GLOBAL_ORIGIN), meters east, north, up of the job's
+    """Returns the origin of the vehicle's local frame (GPS_GLOBAL_ORIGIN) in meters east, north and up of the job's
     origin."""
     site = tomllib.loads((spandrel.ROOT / "scenarios" / f"{scenario}.toml").read_text(encoding="utf-8"))["origin"]
     latitude = math.radians(site["latitude_deg"])

@@ -21,7 +21,7 @@ def programs():
 
 
 class Postgres:
-    """A server that starts when it is created; `stop` and `start` simulate a restart of its machine."""
+    """A server that starts on creation; `stop` and `start` simulate a restart of its machine."""
 
     def __init__(self, folder):
         self.home = pathlib.Path(folder)
@@ -61,5 +61,5 @@ class Postgres:
 
     @property
     def url(self):
-        """Returns the server's URL through its socket."""
+        """Returns the URL of the server's socket."""
         return f"postgres://spandrel@localhost/postgres?host={self.home}"

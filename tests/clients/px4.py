@@ -1,4 +1,4 @@
-"""Starts a real PX4 with its own simulator (SIH) for comparisons. The environment variable SPANDREL_PX4 contains its
+"""Starts a real PX4 with its own simulator (SIH) for comparisons. The SPANDREL_PX4 environment variable contains its
 build folder. No test requires PX4."""
 
 import os
@@ -11,7 +11,7 @@ BUILD = os.environ.get("SPANDREL_PX4")
 # and listens on UDP 18570 + N.
 FIRST_INSTANCE = 60
 GCS_PORT = 18570
-# The ground station link of PX4's own start script (normal mode, 4 MB/s, forwarding), directed to the given port; the
+# The ground station link from PX4's own start script (normal mode, 4 MB/s, forwarding), directed to the given port; the
 # other links would use fixed ports.
 LINKS = "mavlink start -x -u {local} -r 4000000 -f -o {remote} -t 127.0.0.1\n"
 AIRFRAME = {"PX4_SYS_AUTOSTART": "10040", "PX4_SIM_MODEL": "sihsim_quadx"}
@@ -30,7 +30,7 @@ def start(folder, files, client_port, slot=0, speed=1):
     build, instance, scripts = pathlib.Path(BUILD).resolve(), FIRST_INSTANCE + slot, pathlib.Path(folder) / "scripts"
     scripts.mkdir()
     (scripts / "px4-rc.mavlink").write_text(LINKS.format(local=GCS_PORT + instance, remote=client_port), encoding="utf-8")
-    # PX4's start script searches its parts along PATH, so this link replaces its own.
+    # PX4's start script finds its parts through PATH, so this link replaces PX4's own.
     environment = {**os.environ, **AIRFRAME, "PX4_SIM_SPEED_FACTOR": str(speed), "PATH": f"{scripts}:{build / 'bin'}:{os.environ['PATH']}"}
     with open(pathlib.Path(folder) / "px4.txt", "w", encoding="utf-8") as log:
         return subprocess.Popen(

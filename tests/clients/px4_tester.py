@@ -19,15 +19,15 @@ from mavsdk.plugins.telemetry import LandedState, Telemetry
 
 import spandrel
 
-# Meters per degree of latitude (WGS 84 at 47 degrees north, to 0.1 %; legs are some ten meters long).
+# Meters per degree of latitude (WGS 84 at 47 degrees north, accurate to 0.1%; legs are about ten meters long).
 DEGREE_M = 111_170.0
 # Speed of vehicle time relative to wall time.
 SPEED = 5
 # Polling interval, wall seconds.
 LOOK_S = 0.01
-# Wall seconds without progress of the vehicle's clock before a test gives up.
+# Wall seconds without progress on the vehicle's clock before a test gives up.
 STUCK_S = 120.0
-# Rate of sticks and setpoints, Hz of vehicle time.
+# Rate of stick inputs and setpoints, Hz in vehicle time.
 STICK_RATE_HZ = 50
 
 
@@ -51,7 +51,7 @@ class Tester:
         self.watches = []
 
     def follow_me(self):
-        """Returns the plugin for follow-me."""
+        """Returns the follow-me plugin."""
         return FollowMe(self.system)
 
     def close(self):
@@ -66,7 +66,7 @@ class Tester:
     # Time control
 
     def now_s(self):
-        """Returns the vehicle's clock, s."""
+        """Returns the time on the vehicle's clock in seconds."""
         return self.telemetry.attitude_quaternion().timestamp_us / 1e6
 
     def wait(self, what, predicate, limit_s):
@@ -84,7 +84,7 @@ class Tester:
             time.sleep(LOOK_S)
 
     def pass_time(self, seconds, meanwhile=None):
-        """Lets some vehicle time pass; calls `meanwhile` at the rate of the sticks."""
+        """Lets some vehicle time pass; calls `meanwhile` at the stick rate."""
         end = self.now_s() + seconds
         due = self.now_s()
         while self.now_s() < end:
@@ -108,7 +108,7 @@ class Tester:
         thread.start()
         self.watches.append((stop, thread))
 
-    # Steps of PX4's tester
+    # Steps from PX4's tester
 
     def wait_until_ready(self):
         """Waits until the vehicle is healthy (30 s), then armable (45 s)."""
@@ -122,12 +122,12 @@ class Tester:
         self.home = self.wait("ground truth", self.ground_truth, 10)
 
     def ground_truth(self):
-        """Returns latitude and longitude, degrees, or None while unknown."""
+        """Returns latitude and longitude in degrees, or None while unknown."""
         truth = self.telemetry.ground_truth()
         return (truth.latitude_deg, truth.longitude_deg) if math.isfinite(truth.latitude_deg) else None
 
     def from_home_m(self):
-        """Returns the horizontal distance from the stored home, m."""
+        """Returns the horizontal distance from the stored home in meters."""
         latitude, longitude = self.ground_truth()
         east = (longitude - self.home[1]) * math.cos(math.radians(self.home[0]))
         return math.hypot(latitude - self.home[0], east) * DEGREE_M
@@ -160,7 +160,7 @@ class Tester:
         self.wait("disarmed", lambda: not self.telemetry.armed(), limit_s)
 
     def position_ned(self):
-        """Returns north, east, down, m."""
+        """Returns the position north, east and down in meters."""
         position = self.telemetry.position_velocity_ned().position
         return position.north_m, position.east_m, position.down_m
 
@@ -171,7 +171,7 @@ class Tester:
         return latitude, home.longitude_deg + east_m / (DEGREE_M * math.cos(math.radians(home.latitude_deg)))
 
     def upload(self, places, height_m=10.0, fly_through=False, return_at_end=False):
-        """Uploads a mission with these positions, meters north and east of home."""
+        """Uploads a mission with these positions in meters north and east of home."""
         items = []
         for north, east in places:
             latitude, longitude = self.global_from(north, east)
@@ -221,7 +221,7 @@ class Tester:
             failure.inject(unit, kind, 0)
 
     def rejected_failure_result(self, unit, kind):
-        """Returns the name of the response to a failure that is not enabled."""
+        """Requests a failure that is not enabled and returns the name of the response."""
         try:
             self.failure.inject(unit, kind, 1)
         except FailureError as error:
@@ -270,7 +270,7 @@ class Tester:
             self.pass_time(0.1, self.sticks(0, 0, 0, 0))
 
     def hold_attitude(self, attitude, seconds):
-        """Sends an attitude at the rate of the sticks."""
+        """Sends an attitude setpoint at the stick rate."""
         self.pass_time(seconds, lambda: self.offboard.set_attitude(attitude))
 
 
@@ -280,7 +280,7 @@ def attitude(pitch_deg=0.0, thrust=0.0):
 
 
 def distance_to_line(point, a, b):
-    """Returns the distance of a point from the straight line through two others, in their unit."""
+    """Returns the distance of a point from the straight line through two other points, in the points' unit."""
     along = [q - p for p, q in zip(a, b)]
     length = math.dist(a, b)
     if length == 0:

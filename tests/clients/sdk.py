@@ -27,7 +27,8 @@ def ready(system):
 
 
 def asked(system):
-    """Requests telemetry from a vehicle that sends none unrequested, like ArduPilot, and waits until its home is known."""
+    """Requests telemetry from a vehicle that, like ArduPilot, sends none without a request, and waits until its home is
+    known."""
     telemetry = Telemetry(system)
     telemetry.set_rate_position(10.0)
     telemetry.set_rate_position_velocity_ned(10.0)
@@ -36,7 +37,7 @@ def asked(system):
 
 
 def take_off(system, height_m):
-    """Arms, takes off and waits for a height; returns action and telemetry."""
+    """Arms, takes off and waits for a height. Returns the action and telemetry plugins."""
     action, telemetry = Action(system), ready(system)
     action.arm()
     action.takeoff()

@@ -10,8 +10,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("SPANDREL", str(ROOT / "target" / "release" / "spandrel"))
-# The program with windows and pictures: tools/test builds the debug version with all features, and the release version for
-# headless machines.
+# The program with windows and rendering: tools/test builds the debug version with all features, and the release version
+# for headless machines.
 COCKPIT = os.environ.get("SPANDREL_COCKPIT", str(ROOT / "target" / "debug" / "spandrel"))
 # Time limit for a complete flight at the speed below on a busy two-core machine, wall seconds (ten times the usual time).
 FLIGHT_LIMIT_S = 600
@@ -34,7 +34,7 @@ def free_udp_port():
 
 
 def start_sim(folder, client_port, *more, speed=SPEED, gcs_port=0, payload_port="none", scenario="drill-hover"):
-    """Starts only a simulator, in accelerated time, that connects to one client."""
+    """Starts only a simulator, which runs in accelerated time and connects to one client."""
     log = open(pathlib.Path(folder) / "sim.txt", "w", encoding="utf-8")
     arguments = [
         "sim", "--scenario", scenario, "--seed", "7", "--speed", str(speed), "--gcs", f"127.0.0.1:{client_port}",

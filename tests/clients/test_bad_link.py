@@ -6,7 +6,7 @@ import bad_link
 import px4
 import relay
 
-# Tasks that succeed at this loss with a probability of more than 99.9 % (because of the clients' own retries,
+# Tasks that succeed at this loss with a probability of more than 99.9% (because of the clients' own retries,
 # docs/src/measured/bad-link.md).
 RELIABLE_TASKS = [
     ("Upload of a 200-item mission", relay.LOSS_10),

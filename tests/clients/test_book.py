@@ -24,7 +24,7 @@ FAULTS = {
 
 @pytest.fixture
 def book(tmp_path):
-    """Returns a book of two pages and a picture: its source and the built result."""
+    """Returns the source and the built result of a book with two pages and a picture."""
     source, built = tmp_path / "source", tmp_path / "built"
     for folder in (source / "more", source / "images", built / "more", built / "images"):
         folder.mkdir(parents=True)
@@ -45,15 +45,15 @@ def check(book):
 
 
 def test_exact_valid_book_has_no_problems(book):
-    """A book in which every page, anchor and picture exists has no problems. Links to other sites are not checked;
-    the repository's Markdown is."""
+    """A book whose pages, anchors and pictures all exist has no problems. The check covers the repository's Markdown
+    but not links to other sites."""
     code, printed = check(book)
     assert code == 0, printed
 
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_exact_broken_link_is_found(book, fault):
-    """Each fault causes one message that describes it."""
+    """Each fault produces one message that describes it."""
     page, old, new, words = FAULTS[fault]
     path = book[1] / page
     text = path.read_text(encoding="utf-8")

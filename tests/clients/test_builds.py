@@ -64,7 +64,7 @@ class Script:
 
 
 def fly(program):
-    """Returns the digest of a flight and counts of its events."""
+    """Returns a flight's digest and its event counts."""
     port = spandrel.free_udp_port()
     link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="common", source_system=255, source_component=190)
     arguments = [
@@ -89,7 +89,7 @@ def fly(program):
 
 @pytest.mark.timeout(600)
 def test_regress_debug_and_release_builds_give_identical_flights():
-    """Includes gusts, a collision, a fall into the water and a respawn."""
+    """The flight includes gusts, a collision, a fall into the water and a respawn."""
     release, counts = fly(spandrel.PROGRAM)
     assert len(release) == 64 and counts["hits"] > 0 and counts["respawns"] > 0, counts
     assert DEBUG.exists(), f"{DEBUG}: build it first (cargo build)"

@@ -45,8 +45,7 @@ snapshot = [3]
 
 
 def events():
-    """Returns input events: arm, climb, fly forward, switch the lamp, take a photo, and unplug the device in the
-    air."""
+    """Returns input events: arm, climb, fly forward, switch the lamp, take a photo, and unplug the device in flight."""
     for at, button in ((4.0, 1), (9.0, 2), (9.5, 3)):
         yield {"t_s": at, "button": button, "pressed": True}
         yield {"t_s": at + 0.1, "button": button, "pressed": False}
@@ -59,8 +58,8 @@ def events():
 
 @pytest.mark.timeout(300)
 def test_wire_transmitter_flies_the_vehicle_and_its_loss_triggers_the_failsafe(tmp_path):
-    """Sticks follow the calibration, buttons send commands, and the loss of the device centers the sticks, then stops
-    the input, which triggers the failsafe."""
+    """Sticks follow the calibration, and buttons send commands. Losing the device centers the sticks and then stops the
+    input, which triggers the failsafe."""
     profiles = tmp_path / "profiles"
     profiles.mkdir()
     (profiles / "test-transmitter-0483-5710.toml").write_text(PROFILE, encoding="utf-8")
@@ -95,7 +94,7 @@ def test_wire_transmitter_flies_the_vehicle_and_its_loss_triggers_the_failsafe(t
         kinds = ["LOCAL_POSITION_NED", "RELAY_STATUS", "CAMERA_IMAGE_CAPTURED", "RC_CHANNELS", "STATUSTEXT"]
         asking.hear(link, kinds, take)
         assert seen["up"] > 3.0 and seen["speed"] > 1.0 and seen["lamp"] == 1 and seen["pictures"] == 1, seen
-        assert {1500, 2000} <= seen["sticks"], "calibrated ends and center"
+        assert {1500, 2000} <= seen["sticks"], "calibrated end and center positions"
         _, told = flown.communicate(timeout=60)
         assert flown.returncode == 0 and "disconnected: stick input centered, then stopped" in told, told
         beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)

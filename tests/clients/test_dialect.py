@@ -9,7 +9,7 @@ import asking
 import dialect
 import spandrel
 
-# Duration of telemetry, wall seconds; several times that in vehicle time.
+# Wall seconds of telemetry, several times as many in vehicle time.
 LISTEN_S = 3
 # Messages that PyPI's pymavlink does not contain.
 ASKED = {397: "COMPONENT_METADATA", 435: "AVAILABLE_MODES", 440: "ILLUMINATOR_STATUS"}

@@ -1,4 +1,4 @@
-"""Messages beyond the common set as clients decode them: ArduPilot's dialect with pymavlink, PX4's shell and
+"""How clients decode messages beyond the common set: ArduPilot's dialect with pymavlink, PX4's shell and
 follow-me with MAVSDK."""
 
 import pytest

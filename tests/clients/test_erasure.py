@@ -1,4 +1,4 @@
-"""Kills an erasure at each of its writing system calls. Afterwards, either nothing is erased, or the next start
+"""Kills an erasure at each of its system calls that write. Afterwards, either nothing is erased or the next start
 completes the erasure."""
 
 import json

@@ -53,7 +53,7 @@ def test_parquet_matches_the_csv(sessions, tmp_path):
             # null.
             numbers = [None if value == "" else float(value) for value in theirs]
             assert [None if value is None else float(value) for value in ours] == numbers, name
-    # A flight of the simulated vehicle contains all of them.
+    # A simulated flight contains all of these columns.
     for name in ("roll_deg", "gimbal_pitch_deg", "task", "path_distance_m", "clearance_m", "wind_north_m_s", "estimated_up_m"):
         known = [value for value in table.column(name).to_pylist() if value is not None]
         assert len(known) > 0.2 * table.num_rows, name

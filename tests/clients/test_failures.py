@@ -9,7 +9,8 @@ from spandrel import wait_for
 
 # Pulse width of a stopped motor, us.
 STANDING_US = 1000.0
-# Tilt limits, deg: a hover in the drill's wind stays below the first; an upside-down vehicle is beyond the second.
+# Tilt limits, deg: a vehicle hovering in the drill's wind stays below the first; an upside-down vehicle exceeds the
+# second.
 LEVEL_DEG, UPSIDE_DEG = 20.0, 90.0
 
 
@@ -28,7 +29,7 @@ def failing(tmp_path):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_injects_and_clears_a_gnss_failure(failing):
-    """The vehicle's health shows failure and recovery; an unsupported failure is reported as such."""
+    """The vehicle's health shows the failure and the recovery. An unsupported failure is reported as unsupported."""
     _system, telemetry, failure = failing
     failure.inject(FailureUnit.SENSOR_GPS, FailureType.OFF, 0)
     wait_for("no satellites", lambda: telemetry.gps_info().num_satellites == 0)
@@ -51,8 +52,8 @@ def test_wire_failure_injection_requires_its_parameter(vehicle):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_motor_failure_makes_the_vehicle_fall(failing):
-    """Only the failed motor stops; the vehicle falls, ends upside down and reports it; after repair, it hovers at the
-    respawn position."""
+    """Only the failed motor stops. The vehicle falls, ends up upside down and reports it. After repair, it hovers at
+    the respawn position."""
     system, telemetry, failure = failing
     telemetry.set_rate_actuator_output_status(20.0)
     texts = []
@@ -87,7 +88,7 @@ def test_wire_mavsdk_motor_failure_makes_the_vehicle_fall(failing):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_injects_battery_and_compass_failures(failing):
-    """An empty battery appears in values and texts, and prevents arming."""
+    """An empty battery appears in telemetry values and status texts, and prevents arming."""
     system, telemetry, failure = failing
     texts = []
     telemetry.subscribe_status_text(lambda text, *_: texts.append(text.text.rstrip()))

@@ -1,8 +1,9 @@
-"""Tests every subcommand that writes files with a full disk, failing or short writes, or a kill at each of its file operations.
+"""Tests every subcommand that writes files with a full disk, failing or short writes, or a kill at each of its file
+operations.
 
-`faults.c` is loaded between the program and the C library. After a fault, the program must end with a message and its exit code, never
-with a panic; a replaced file must have either its old or its new content; and the same command without the fault must then give the same
-result as on a fault-free disk."""
+`faults.c` is loaded between the program and the C library. After a fault, the program must end with a message and its
+exit code, never with a panic; a replaced file must have either its old or its new content; and the same command without
+the fault must then give the same result as on a fault-free disk."""
 
 import json
 import os
@@ -24,13 +25,14 @@ import webserver
 from spandrel import wait_for
 
 HERE = pathlib.Path(__file__).parent
-# For a command with many operations, only every n-th operation is tried, which limits the number of runs per kind of fault to this.
+# For a command with many operations, only every n-th operation is tried, which limits the number of runs per fault kind
+# to this value.
 MAX_ATTEMPTS = 24
-# Upper bound for the number of operations, far above that of any command here.
+# Upper bound for the number of operations, far above the number that any command here needs.
 MAX_OPERATIONS = 10_000
 # Height that counts as flying in the drill's session, m.
 HEIGHT_M = 2.0
-# Number of operations tried for commands that take seconds (a whole flight, a scene): the first, the last, and one in
+# Number of operations tried for commands that take seconds (such as a complete flight): the first, the last, and one in
 # between.
 SLOW_TRIED = 3
 KINDS = ["enospc", "eio", "short", "kill"]
@@ -64,7 +66,7 @@ def environment(shim, under, kind, first=1, count=1, log=None):
 
 
 def operations(log):
-    """Returns the lines of the log of file operations."""
+    """Returns the lines of the file operation log."""
     return log.read_text(encoding="utf-8").splitlines() if log.is_file() else []
 
 
@@ -167,7 +169,7 @@ def check_clean_exit(done, kind, place):
         assert done.returncode == 0 or str(place) in done.stderr, ("the message must name the file", done.stderr)
 
 
-# Renderings of a session, small; {d} is the session, {o} a folder for results.
+# Small renderings of a session; {d} is the session, {o} a folder for results.
 DRAWN = {
     "photographs": ["render", "{d}", "--snapshots", "--masks", "--quality", "low", "--size", "64x48"],
     "film": ["render", "{d}", "--video", "{o}/film.mp4", "--span", "20,21", "--fps", "2", "--quality", "low", "--size", "64x48"],
@@ -185,7 +187,7 @@ def photographed(tmp_path_factory):
     (session,) = sessions.iterdir()
     drawn = subprocess.run([spandrel.COCKPIT, "render", str(session), "--out", "-"], capture_output=True, timeout=120, check=False)
     if b"built without the view" in drawn.stderr:
-        pytest.skip(f"{spandrel.COCKPIT} was built without the feature `view`")
+        pytest.skip(f"{spandrel.COCKPIT} was built without the `view` feature")
     assert drawn.returncode == 0, drawn.stderr
     return session
 
@@ -233,8 +235,8 @@ def test_regress_fault_while_rendering_leaves_complete_pictures(shim, photograph
 
 @pytest.mark.timeout(1200)
 def test_regress_demo_with_faults_ends_with_a_session_or_a_reason(shim, tmp_path, measured):
-    """Simulator, monitor and pilot have faults in their own operations: either a session is scored, or the message
-    states the reason."""
+    """Faults occur in the file operations of the simulator, monitor and pilot. Either the session is scored, or a
+    message states the reason."""
     def demo(sessions, env):
         args = ["demo", "--scenario", "drill-hover", "--seed", "3", "--speed", "max", "--sessions", str(sessions)]
         return subprocess.run([spandrel.PROGRAM, *args], env=env, capture_output=True, text=True, timeout=spandrel.FLIGHT_LIMIT_S, check=False)
@@ -264,7 +266,7 @@ def test_regress_demo_with_faults_ends_with_a_session_or_a_reason(shim, tmp_path
 
 @pytest.mark.timeout(1200)
 def test_regress_flight_continues_without_its_log(shim, tmp_path, measured):
-    """`sim --files` in flight: the pilot lands regardless of the disk, and the written part of the log can be read."""
+    """`sim --files` in flight: the pilot lands despite disk faults, and the written part of the log can be read."""
     def fly(files, env):
         files.parent.mkdir()
         pilot = subprocess.Popen(
@@ -324,8 +326,8 @@ def test_regress_flight_continues_without_its_log(shim, tmp_path, measured):
 
 @pytest.mark.timeout(1200)
 def test_regress_server_on_a_bad_disk_imports_only_complete_sessions(shim, flown, tmp_path, measured):
-    """Uploads a recording and saves an answer while the disk fails: each is stored completely or not at all, and the
-    page reports it."""
+    """Uploads a recording and saves an answer while the disk fails. Each is stored completely or not at all, and the
+    page reports the result."""
     recording = (flown / "telemetry.tlog").read_bytes()
     fields = {"trainee": "carl", "scenario": "drill-hover", "vehicle": "phantom2"}
     template = tmp_path / "template" / "sessions"
@@ -450,7 +452,8 @@ class RecordedInput:
         self.sim = spandrel.start_sim(folder, spandrel.free_udp_port(), speed=1, gcs_port=self.dial)
 
     def fly(self, kind, first=1):
-        """Runs a flight with a fault; returns its result and the complete lines of its recording without their times."""
+        """Runs a flight with a fault. Returns its result and the complete lines of its recording, without their
+        times."""
         kept = self.out / "kept.jsonl"
         kept.unlink(missing_ok=True)
         self.log.unlink(missing_ok=True)
@@ -528,7 +531,7 @@ def test_regress_disk_failure_in_flight_loses_no_telemetry(shim, tmp_path, kind)
 
 @pytest.mark.timeout(600)
 def test_regress_second_monitor_is_rejected_and_files_are_synced(shim, tmp_path):
-    """A session has one writer, and its files are synced to the disk when it ends."""
+    """A session has only one writer, and its files are synced to disk when it ends."""
     log = tmp_path / "operations"
     watched = MonitoredFlight(shim, tmp_path, kind="none", log=log)
     try:

@@ -116,7 +116,7 @@ def test_wire_checksum_of_a_huge_file_does_not_block_the_vehicle(tmp_path, measu
 
 @pytest.mark.timeout(600)
 def test_val_pyulog_reads_the_flight_log(vehicle):
-    """Contains takeoff and landing; height, modes and attitude in the log agree with telemetry."""
+    """The log contains takeoff and landing, and its height, modes and attitude agree with telemetry."""
     process, port, folder = vehicle
     mavsdk, system = sdk.connect(port)
     action, telemetry = sdk.take_off(system, 1.5)
@@ -152,8 +152,8 @@ def read_recording(path):
 
 
 def check_recording(path, height):
-    """Checks with Foxglove's own library that the drone's frame reaches the height, the site is a glTF, and texts are
-    present."""
+    """Checks with Foxglove's own library that the drone's frame reaches the height, the site is a glTF model, and texts
+    are present."""
     found = read_recording(path)
     frames = found["/tf", "foxglove.FrameTransforms"]
     ups = [t["translation"]["z"] for f in frames for t in f["transforms"] if t["child_frame_id"] == "drone"]
@@ -184,7 +184,8 @@ def test_val_recording_of_a_killed_simulator_is_recovered(vehicle, tmp_path):
         assert len(list(StreamReader(file, validate_crcs=True).records)) > 0
     frames = read_recording(whole)["/tf", "foxglove.FrameTransforms"]
     ups = [t["translation"]["z"] for f in frames for t in f["transforms"] if t["child_frame_id"] == "drone"]
-    # The vehicle was at two meters and climbing at 1.5 m/s when the simulator was killed. At most one second is lost.
+    # The vehicle was at a height of two meters and climbing at 1.5 m/s when the simulator was killed. At most one
+    # second is lost.
     assert max(ups) - ups[0] > 0.4
     assert pathlib.Path(broken).stat().st_size > 0
 

@@ -1,5 +1,5 @@
-"""The same vehicle emulating other autopilots, used with scripts for ArduCopter, MAVProxy commands as entered by users,
-MAVSDK, and the generic standard."""
+"""The same vehicle emulates other autopilots and is used with ArduCopter scripts, MAVProxy commands as entered by
+users, MAVSDK, and the generic standard."""
 
 import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
@@ -43,7 +43,7 @@ class Script:
         self.wait("SYS_STATUS", lambda s: s.onboard_control_sensors_health & M.MAV_SYS_STATUS_PREARM_CHECK)
 
     def height(self):
-        """Returns the height above home, m."""
+        """Returns the height above home in meters."""
         return self.wait("GLOBAL_POSITION_INT").relative_alt / 1000
 
     def landed(self):
@@ -53,8 +53,8 @@ class Script:
 
 @pytest.mark.timeout(600)
 def test_wire_arducopter_script_flies(launch):
-    """pymavlink's own helpers for ArduPilot: mode by name, arming, takeoff above home, a target, parameters encoded
-    as floats, return."""
+    """pymavlink's own helpers for ArduPilot: mode by name, arming, takeoff to a height above home, a target, parameters
+    encoded as floats, return."""
     script = Script(launch("ardupilot"))
     link = script.link
     assert link.mode_mapping()["GUIDED"] == 4
@@ -106,7 +106,7 @@ def test_wire_standard_mavlink_script_flies(launch):
 
 @pytest.fixture
 def copter(tmp_path, launch):
-    """A Copter with MAVProxy, with parameters fetched."""
+    """An emulated ArduCopter, and a MAVProxy that has fetched its parameters."""
     console = Console(launch("ardupilot", speed=2), tmp_path)
     console.wait("parameters to")
     yield console, tmp_path

@@ -1,5 +1,5 @@
-"""`spandrel train` in its window: selection, controller check, tutorial, flight, pause, restart, end with scores; all
-with the keyboard."""
+"""`spandrel train` in its window: selection, controller check, tutorial, flight, pause, restart, and end with scores,
+all with the keyboard."""
 
 import json
 import os
@@ -14,7 +14,7 @@ import asking
 import display
 import spandrel
 
-# Colors of pages (crates/view/src/hud/mod.rs): background, focused row, bar of a score.
+# Colors of pages (crates/view/src/hud/mod.rs): background, focused row, score bar.
 NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
 # Color of the battery in the HUD, which shows that a flight is being rendered.
 GREEN = (0, 190, 130)
@@ -126,7 +126,7 @@ def paused(photograph):
 
 
 def folders(training):
-    """Returns the session folders so far, without the camera view's file, which is in the same folder while a window
+    """Returns the session folders so far, excluding the camera view's file, which is in the same folder while a window
     is open."""
     return sorted(folder for folder in training.sessions.iterdir() if folder.is_dir()) if training.sessions.is_dir() else []
 
@@ -201,13 +201,13 @@ def assert_propellers_audible(folder):
     pieces = samples[: len(samples) // 24000 * 24000].reshape(-1, 24000)
     loudest = pieces[numpy.abs(pieces).mean(axis=1).argmax()]
     spectrum = numpy.abs(numpy.fft.rfft(loudest * numpy.hanning(len(loudest))))
-    # A Phantom's rotors turn at some 60 to 150 revolutions per second and have two blades.
+    # A Phantom's rotors have two blades and turn at about 60 to 150 revolutions per second.
     assert 100 < spectrum.argmax() < 320, f"{spectrum.argmax()} Hz"
 
 
 @pytest.mark.timeout(1200)
 def test_wire_assessment_can_be_ended_but_not_paused_or_restarted(screen, tmp_path):
-    """The pause key asks whether to end the session, and the flight continues meanwhile."""
+    """The pause key asks whether to end the session while the flight continues."""
     training = Training(screen, tmp_path, "--trainee", "otto", "--scenario", "drill-hover", "--purpose", "assessment", "--no-sound")
     try:
         training.see("assessment", in_flight)
@@ -244,7 +244,7 @@ def window_of(training):
 
 @pytest.mark.timeout(900)
 def test_wire_flight_survives_its_window(screen, tmp_path):
-    """A killed window is reported once; simulator and monitor continue."""
+    """A killed window is reported once; the simulator and the monitor continue."""
     training = Training(screen, tmp_path, "--scenario", "drill-hover", "--no-sound")
     try:
         spandrel.wait_for("the controller connection", lambda: "has connected" in training.told(), LIMIT_S)

@@ -1,5 +1,5 @@
-"""`spandrel rc` with a virtual Linux gamepad (uinput): calibrated with the wizard, used to fly, and unplugged in the
-air."""
+"""`spandrel rc` with a virtual Linux gamepad (uinput): calibrated with the wizard, used to fly, and unplugged in
+flight."""
 
 import os
 import subprocess
@@ -33,7 +33,7 @@ def fixture_pad():
     listed = subprocess.run([spandrel.COCKPIT, "rc", "--list"], capture_output=True, text=True, timeout=LIMIT_S, check=False)
     if "this build does not support gamepads" in listed.stderr:
         pad.close()
-        pytest.skip(f"{spandrel.COCKPIT} was built without the feature `gamepad`")
+        pytest.skip(f"{spandrel.COCKPIT} was built without the `gamepad` feature")
     yield pad
     pad.close()
 
@@ -113,7 +113,7 @@ def calibrate(pad, profiles):
 @pytest.mark.timeout(600)
 def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
     """Covers everything from system events to flight: the wizard's profile, sticks, buttons, and the failsafe after the
-    loss."""
+    gamepad is lost."""
     profiles = tmp_path / "profiles"
     assert spandrel.wait_for("the system lists the gamepad", lambda: is_listed(pad, profiles), LIMIT_S).endswith("not calibrated")
     kept = calibrate(pad, profiles)

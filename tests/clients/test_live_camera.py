@@ -13,7 +13,7 @@ import webserver
 
 # Time limit for a software driver on a busy machine to compile its shaders and render, ms (ten times the usual).
 PATIENCE_MS = 400_000
-# Minimum range of brightness in the picture, of 255, because it must show ground and sky rather than a single color.
+# Minimum brightness range in the picture, out of 255, because it must show ground and sky rather than a single color.
 BRIGHTNESS_RANGE = """image => {
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];

@@ -53,7 +53,8 @@ class Console:
         return self.wait(answer) if answer else None
 
     def until(self, command, answer, patience_s=1):
-        """Enters a command repeatedly until its response arrives, because MAVProxy processes commands asynchronously."""
+        """Enters a command repeatedly until its response arrives, because MAVProxy processes commands
+        asynchronously."""
         for _ in range(LIMIT_S // patience_s):
             self.process.stdin.write(command + "\n")
             self.process.stdin.flush()
@@ -80,7 +81,7 @@ class Console:
 
 @pytest.fixture
 def console(tmp_path):
-    """A vehicle with MAVProxy, with parameters fetched."""
+    """A vehicle, and a MAVProxy that has fetched its parameters."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port, speed=2)
     console = Console(port, tmp_path)
@@ -103,7 +104,7 @@ def plan(folder, name, rows):
 
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_uses_parameters_channels_and_lamp(console):
-    """Parameters, a rejected arming with its reason, a climb with channels, the relay, released channels."""
+    """Parameters, a rejected arming attempt with its reason, a climb with RC channels, the relay, released channels."""
     typed, _folder = console
     typed.say("param show MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT  2.5")
     typed.say("param set MPC_XY_CRUISE 4", None)

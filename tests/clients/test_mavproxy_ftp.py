@@ -9,13 +9,13 @@ from test_mavproxy import Console
 @pytest.mark.timeout(600)
 def test_wire_mavproxy_transfers_files(launch, tmp_path):
     """`ftp get`, `put`, `list`, `crc`, `rm`, and two downloads at the same time; MAVProxy assigns responses by the
-    session that it chose."""
+    session ID that it chose."""
     files = tmp_path / "files"
     files.mkdir()
     content = bytes(k * k % 251 for k in range(50_000))
     (files / "survey.bin").write_bytes(content)
     typed = Console(launch("px4", "--files", str(files), speed=1), tmp_path)
-    # MAVProxy reports that a file is written some time before it closes it.
+    # MAVProxy reports a file as written some time before closing it.
     same = lambda path: spandrel.wait_for(f"{path} on disk", lambda: path.read_bytes() == content, limit_s=60)  # noqa: E731
     try:
         typed.wait("parameters to")

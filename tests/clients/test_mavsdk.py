@@ -31,7 +31,7 @@ class Client:
         self.manual, self.camera, self.gimbal = ManualControl(system), Camera(system), Gimbal(system)
 
     def here(self):
-        """Returns the position in meters east, north, up of the job's origin, and the heading in radians."""
+        """Returns the position in meters east, north and up of the job's origin, and the heading in radians."""
         p, (east, north, up) = self.telemetry.position_velocity_ned().position, self.origin
         return (east + p.east_m, north + p.north_m, up - p.down_m), math.radians(self.telemetry.attitude_euler().yaw_deg)
 

@@ -14,7 +14,7 @@ import spandrel
 FLIGHT_S = 1200
 # Start of the recording, 2026-08-01 00:00 UTC, us.
 STARTED_US = 1_785_542_400_000_000
-# Rates of a session's telemetry, Hz: truth and sticks, clearance, contacts, everything else.
+# Telemetry rates in a session, Hz: truth and sticks, clearance, contacts, everything else.
 TRUTH_HZ, CLEARANCE_HZ, CONTACT_HZ, SLOW_HZ = 50, 25, 10, 1
 # Memory limits, MB, between the debug build's consumption (44 and 62) and its consumption when samples were stored at
 # full width and the report stored a flight twice (66 and 100). The monitor writes the report in its own process, which
@@ -39,8 +39,7 @@ class Recorder:
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """A session of a hover drill, with the telemetry of a flight of typical length: circles at the site of the shipped
-    job."""
+    """A hover drill session with telemetry from a flight of typical length: circles at the shipped job's site."""
     sessions = tmp_path_factory.mktemp("memory") / "sessions"
     spandrel.run("demo", "--scenario", "drill-hover", "--seed", "7", "--speed", "max", "--sessions", str(sessions))
     (session,) = sessions.iterdir()
@@ -87,7 +86,7 @@ sys.exit(os.waitstatus_to_exitcode(status))
 
 
 def peak_mb(*args):
-    """Runs the program to its end and returns its peak memory, MB."""
+    """Runs the program to its end and returns its peak memory in MB."""
     run = subprocess.run([sys.executable, "-c", LAUNCHER, spandrel.PROGRAM, *args], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True)
     return int(run.stdout.split()[-1]) / 1000
 

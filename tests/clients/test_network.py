@@ -56,7 +56,7 @@ def test_wire_serial_radio_stays_within_its_baud_rate(tmp_path):
                     count = message.param_count
                 acknowledged |= message.get_type() == "COMMAND_ACK"
         assert count and len(names) == count and acknowledged, (len(names), count, acknowledged)
-        # Measured over the whole time with the vehicle's own clock; half a second of data may be in buffers.
+        # Measured over the entire time on the vehicle's own clock; half a second of data may still be in buffers.
         assert received - begin[1] <= BYTES_S * (seconds + 1.5), (received, seconds)
     finally:
         spandrel.end(sim)

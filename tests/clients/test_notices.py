@@ -12,7 +12,7 @@ def test_notices_and_sbom_match_the_lock_file():
 
 
 def test_sbom_components_are_unique_and_references_resolve():
-    """Checks CycloneDX's rules for references, and that every component has a license."""
+    """Checks that references follow CycloneDX's rules and that every component has a license."""
     bom = json.loads((spandrel.ROOT / "sbom.cdx.json").read_text(encoding="utf-8"))
     assert (bom["bomFormat"], bom["specVersion"]) == ("CycloneDX", "1.5")
     refs = [component["bom-ref"] for component in bom["components"]]

@@ -15,7 +15,7 @@ PAD_M = 1.0
 
 
 def start(folder, port, *more, speed=spandrel.SPEED):
-    """Starts the vehicle of the shipped job, which connects to one client."""
+    """Starts the shipped job's vehicle, which connects to one client."""
     log = open(folder / "sim.txt", "w", encoding="utf-8")
     arguments = [
         "sim", "--scenario", "two-bridges", "--seed", "7", "--speed", str(speed), "--gcs", f"127.0.0.1:{port}", "--sdk", "none",

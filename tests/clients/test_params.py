@@ -31,7 +31,7 @@ def read(connection, name):
 
 
 def test_wire_parameter_list_is_complete_and_ranges_are_enforced(tmp_path):
-    """The list contains every parameter once; a value out of range is rejected with a reason and the old value."""
+    """The list contains every parameter once; an out-of-range value is rejected with a reason and the old value."""
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port)
     try:

@@ -22,9 +22,9 @@ from spandrel import wait_for
 M = mavutil.mavlink
 CAMERA, AUTOPILOT = 100, 1
 NAN = float("nan")
-# Maximum angle error of the gimbal, deg; field of view and zoom are transmitted as floats.
+# Maximum gimbal angle error, deg; field of view and zoom are transmitted as floats.
 NEAR_DEG = 1.0
-# Size of a photo and of one second of video with the default settings, MiB.
+# Size of a photo and one second of video with the default settings, MiB.
 PICTURE_MIB, VIDEO_MIB_S = 6.0, 60e6 / 8 / 2**20
 # The zoom range of vehicle-params/m30.toml.
 WIDE_DEG, ZOOM_MAX = 84.0, 3.1
@@ -158,7 +158,7 @@ def test_wire_mavsdk_takes_single_pictures_and_series(rig):
     wait_for("a series", lambda: max(shots, default=0) >= 5)
     rig.camera.stop_photo_interval(camera)
     wait_for_camera_status(rig, lambda s: not s.photo_interval_on, "series off")
-    # MAVSDK requests any photos that it missed before the newest one, but it may also miss the newest one.
+    # MAVSDK requests any photos that it missed before the latest one, but it may also miss the latest one.
     again = asking.Repeater(lambda: rig.camera.take_photo(camera))
     again.if_due()
 
@@ -246,7 +246,7 @@ def test_wire_mavsdk_zoom_changes_are_broadcast(rig):
     station.wait("telephoto", lambda: level() == 100.0)
     station.wait("a narrow field of view", lambda: abs(field() - seen(100.0)) < 0.01)
     rig.camera.zoom_out_start(camera)
-    # The zoom change before the stop depends on the load of the machine.
+    # The zoom change before the stop depends on the machine's load.
     station.wait("zooming", lambda: level() < 100.0)
     rig.camera.zoom_stop(camera)
     rig.camera.reset_settings(camera)
@@ -277,7 +277,7 @@ def first_setting(rig, name):
 
 @pytest.mark.timeout(300)
 def test_wire_mavsdk_can_set_every_camera_option(rig):
-    """Checks camera settings like the old mavlink-testing-suite: all options of each list, and the ends and middle of
+    """Checks camera settings like the old mavlink-testing-suite: all options in each list, and the ends and middle of
     each range."""
     camera = found(rig)
     ids = ["CAM_PHOTOQUAL", "CAM_VIDRATE"]
@@ -334,7 +334,7 @@ def test_wire_mavsdk_controls_the_gimbal_exclusively(rig):
     aim = (M.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, 10, NAN, NAN, NAN, 0, 0, 1)
     assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_DENIED, "only the controlling station may move the gimbal"
     rig.gimbal.set_angles(own, 0.0, -20.0, 0.0, GimbalMode.YAW_FOLLOW, SendMode.ONCE)
-    wait_for("still under control", lambda: abs(pitch_deg(rig, own) + 20.0) < NEAR_DEG)
+    wait_for("gimbal control is still held", lambda: abs(pitch_deg(rig, own) + 20.0) < NEAR_DEG)
     rig.gimbal.release_control(own)
     wait_for("no control", lambda: rig.gimbal.get_control_status(own).control_mode == ControlMode.NONE)
     assert rig.station.command(AUTOPILOT, *aim) == M.MAV_RESULT_ACCEPTED
@@ -355,7 +355,8 @@ def test_wire_mavsdk_controls_the_gimbal_exclusively(rig):
 
 @pytest.mark.timeout(300)
 def test_wire_superseded_payload_commands_are_answered(rig):
-    """REQUEST_CAMERA_*, DO_DIGICAM_CONTROL, DO_MOUNT_*, relay, servo, actuator: results and the messages that follow."""
+    """REQUEST_CAMERA_*, DO_DIGICAM_CONTROL, DO_MOUNT_*, relay, servo, actuator: results and the messages that
+    follow."""
     station = rig.station
     ok, denied = M.MAV_RESULT_ACCEPTED, M.MAV_RESULT_DENIED
     station.ask(AUTOPILOT, "CAMERA_IMAGE_CAPTURED", M.MAV_CMD_DO_DIGICAM_CONTROL, 0, 0, 0, 0, 1)

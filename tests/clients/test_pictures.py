@@ -12,7 +12,7 @@ from PIL import Image
 import display
 import spandrel
 
-# Maximum size of one photo and of all photos in the report, bytes.
+# Maximum size of one photo and all photos in the report, bytes.
 MOST_BYTES, ALL_BYTES = 400_000, 4_000_000
 # Small enough for a software driver to render quickly.
 SIZE = (640, 480)
@@ -100,13 +100,14 @@ def test_val_masks_label_the_counted_defects(session):
 
 
 def pixel_counts(labels):
-    """Returns the number of pixels of each label, without unlabeled ones."""
+    """Returns the number of pixels for each label, excluding unlabeled pixels."""
     return {int(label): int(count) for label, count in zip(*numpy.unique(labels[labels > 0], return_counts=True))}
 
 
 @pytest.mark.timeout(900)
 def test_val_video_has_all_pictures_and_chapters(session, tmp_path):
-    """Checks length and number of pictures in the file's index, and a chapter for each photo in the time span."""
+    """Checks the length and the number of pictures in the file's index, and that each photo in the time span has a
+    chapter."""
     film = tmp_path / "flight.mp4"
     options = ["--quality", "low", "--size", "320x240", "--fps", "2", "--span", "30,60"]
     spandrel.run("render", str(session), "--video", str(film), *options, program=spandrel.COCKPIT)
@@ -119,7 +120,7 @@ def test_val_video_has_all_pictures_and_chapters(session, tmp_path):
     at = data.index(b"mdhd")
     scale, length = struct.unpack(">II", data[at + 16 : at + 24])
     assert abs(length / scale - 30.5) < 0.01
-    # GStreamer's demuxer and decoder must find the same number of pictures of that size.
+    # GStreamer's demuxer and decoder must find the same number of pictures with that size.
     raw = tmp_path / "flight.raw"
     chain = f"filesrc location={film} ! qtdemux ! avdec_h264 ! videoconvert ! video/x-raw,format=GRAY8 ! filesink location={raw}"
     subprocess.run(["gst-launch-1.0", "-q", *chain.split()], check=True, timeout=300)

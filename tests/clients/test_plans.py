@@ -28,7 +28,7 @@ NEAR_M, NEAR_M_S = 0.7, 0.4
 
 
 def place(telemetry):
-    """Returns north, east, down, m."""
+    """Returns the position north, east and down in meters."""
     p = telemetry.position_velocity_ned().position
     return p.north_m, p.east_m, p.down_m
 
@@ -103,7 +103,7 @@ def test_wire_mavsdk_flies_with_setpoints_and_points_the_gimbal(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_pauses_and_resumes_the_exported_plan(vehicle):
-    """Flies the plan of a drill in the format of QGroundControl, pauses on the way, and completes it."""
+    """Flies a drill's plan in QGroundControl's format, pauses on the way, and completes it."""
     system, telemetry = vehicle
     mission, action = MissionRaw(system), Action(system)
     text = spandrel.run("export", "drill-hover", "--seed", "7", "--plan", "-")
@@ -126,7 +126,7 @@ def test_wire_mavsdk_flies_pauses_and_resumes_the_exported_plan(vehicle):
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("vehicle", ["px4", "ardupilot"], indirect=True)
 def test_wire_mavsdk_fence_holds_the_vehicle(vehicle):
-    """Uploads and downloads a fence and breaches it with setpoints. The vehicle must hold, also when it emulates
+    """Uploads and downloads a fence and breaches it with setpoints. The vehicle must hold, even when it emulates
     ArduPilot."""
     system, telemetry = vehicle
     fence, action, offboard = Geofence(system), Action(system), Offboard(system)

@@ -1,8 +1,7 @@
-"""The multicopter cases of PX4's own integration tests, with their limits, in the shipped job and above flat ground.
-
-Omitted, because the simulated aircraft does not have the feature: optical flow, terrain estimate without GNSS, several instances of
-sensors or estimators (EKF and GNSS selectors), control allocation of more than four motors, VTOL and fixed wing, gravity of the SIH
-simulator. Parameters by FTP are tested in test_transfers.py, home and geofence in test_plans.py.
+"""The multicopter cases from PX4's own integration tests, with their limits, in the shipped job and above flat ground.
+Omitted because the simulated aircraft lacks the feature: optical flow, terrain estimate without GNSS, several instances
+of sensors or estimators (EKF and GNSS selectors), control allocation of more than four motors, VTOL and fixed wing,
+gravity of the SIH simulator. Parameters by FTP are tested in test_transfers.py, home and geofence in test_plans.py.
 """
 
 import concurrent.futures
@@ -28,8 +27,8 @@ NEAR_M = 0.3
 
 
 def takeoff_and_hold(t):
-    """After settling for 5 s, the vehicle must be within 0.2 m of its height. PX4's test requires 0.1 m of 10 m after
-    15 s; unlike PX4's simulated GNSS, this one drifts, and with it the height above home."""
+    """After settling for 5 s, the vehicle must be within 0.2 m of its height. PX4's test requires 0.1 m at 10 m after
+    15 s. Unlike PX4's simulated GNSS, this one drifts, and the height above home drifts with it."""
     t.wait_until_ready()
     t.store_home()
     t.arm()
@@ -221,7 +220,7 @@ def set_current_item_to_jump(t):
 
 
 def follow(stream_velocity):
-    """A target moves north at 2 m/s; the vehicle follows it from behind, in front and both sides."""
+    """A target moves north at 2 m/s; the vehicle follows it from behind, from the front and from both sides."""
 
     def flow(t):
         t.wait_until_ready()

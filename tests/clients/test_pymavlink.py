@@ -18,7 +18,7 @@ M = mavutil.mavlink
 CAMERA = 100
 # Main mode number of PX4's POSCTL, and number of ArduCopter's POSHOLD.
 POSITION_MODE = {M.MAV_AUTOPILOT_PX4: 3, M.MAV_AUTOPILOT_ARDUPILOTMEGA: 16}
-# Telemetry rate that is sufficient for a stick control loop, Hz of vehicle time.
+# Telemetry rate for a stick control loop, Hz in vehicle time.
 RATE_HZ = 50
 # Rate of messages that are only observed, Hz.
 SLOW_HZ = 4
@@ -80,16 +80,16 @@ class Client:
         return self.wait(f"acknowledgment of {number}", answered).result
 
     def here(self):
-        """Returns the position in meters east, north, up of the job's origin, and the heading in radians."""
+        """Returns the position in meters east, north and up of the job's origin, and the heading in radians."""
         p, (east, north, up) = self.state["LOCAL_POSITION_NED"], self.local_origin()
         return (east + p.y, north + p.x, up - p.z), self.state["ATTITUDE"].yaw
 
     def ask_origin(self):
-        """Requests GPS_GLOBAL_ORIGIN, because ArduPilot does not send it unrequested."""
+        """Requests GPS_GLOBAL_ORIGIN, because ArduPilot sends it only on request."""
         self.link.mav.command_long_send(self.link.target_system, 1, M.MAV_CMD_REQUEST_MESSAGE, 0, M.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN, 0, 0, 0, 0, 0, 0)
 
     def local_origin(self):
-        """Returns the origin of the vehicle's local frame, meters east, north, up of the job's origin."""
+        """Returns the origin of the vehicle's local frame in meters east, north and up of the job's origin."""
         o = self.state["GPS_GLOBAL_ORIGIN"]
         return handpilot.local_origin("two-bridges", o.latitude * 1e-7, o.longitude * 1e-7, o.altitude * 1e-3)
 

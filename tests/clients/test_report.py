@@ -1,5 +1,5 @@
 """Tests a session's report in a real browser: no errors, no requests, all elements that follow the slider, wide and
-narrow, light and dark."""
+narrow windows, light and dark themes."""
 
 import json
 import os
@@ -200,7 +200,7 @@ def test_report_works_without_scripts_and_prints(browser, session, tmp_path):
     page = browser.new_context(java_script_enabled=False, viewport={"width": 1280, "height": 900}).new_page()
     page.goto((session / "report.html").as_uri())
     assert page.locator("#flight svg.map").count() >= 4
-    assert not page.is_visible("#moment"), "controls without function must be hidden"
+    assert not page.is_visible("#moment"), "controls without a function must be hidden"
     page, wrong = opened(browser, session / "report.html", scheme="dark")
     printed = page.pdf(format="A4")
     assert printed.startswith(b"%PDF") and len(printed) > 100_000
@@ -226,8 +226,8 @@ def test_comparison_report_of_two_sessions(browser, session, tmp_path):
     keep(page, "comparison")
     assert page.locator(".shape-1").count() == 1 and page.locator(".shape-2").count() == 1
     drawn = lambda of: page.locator(of).first.get_attribute("d")
-    assert drawn(".shape-1") != drawn(".shape-2"), "a novice and a trained pilot have the same scores"
-    assert drawn(".overlaid.line-1") != drawn(".overlaid.line-2"), "two flights have the same track"
+    assert drawn(".shape-1") != drawn(".shape-2"), "a novice and a trained pilot must have different scores"
+    assert drawn(".overlaid.line-1") != drawn(".overlaid.line-2"), "two flights must have different tracks"
     overall = [json.loads((folder / "assessment.json").read_text(encoding="utf-8"))["scores"]["overall"] for folder in (session, other)]
     text = page.inner_text("main") + page.inner_text("header")
     assert all(f"{score:.1f}" in text for score in overall) and "other" in text, overall

@@ -1,5 +1,5 @@
-"""Tests the requirements of MAVSDK's and PX4's own system tests: streams, information, flights by command, missions in
-MAVSDK's own format, sticks and their loss, flight termination."""
+"""Tests the requirements of MAVSDK's and PX4's own system tests: streams, information, commanded flights, missions in
+MAVSDK's own format, sticks and loss of stick input, flight termination."""
 
 import math
 import time
@@ -36,7 +36,7 @@ def take_off(action, telemetry, height_m):
 
 
 def away_m(telemetry, latitude_deg, longitude_deg):
-    """Returns the horizontal distance to a position, m."""
+    """Returns the horizontal distance to a position in meters."""
     p = telemetry.position()
     north = (p.latitude_deg - latitude_deg) / DEGREES_PER_METER
     east = (p.longitude_deg - longitude_deg) / DEGREES_PER_METER * math.cos(math.radians(latitude_deg))
@@ -85,8 +85,8 @@ def test_wire_mavsdk_receives_all_streams_and_the_identification(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_by_command_and_returns_home(vehicle):
-    """Takeoff height, go-to with a heading, a circle, a speed, hold, return at its height; the vehicle lands and
-    disarms at home."""
+    """Takeoff height, go-to with a heading, a circle, a speed, hold, and return at the return height. The vehicle lands
+    and disarms at home."""
     system, telemetry = vehicle
     action = Action(system)
     with pytest.raises(Exception):
@@ -120,8 +120,8 @@ def test_wire_mavsdk_flies_by_command_and_returns_home(vehicle):
 
 @pytest.mark.timeout(600)
 def test_wire_mavsdk_flies_a_square_with_pictures_and_returns(vehicle):
-    """A mission in MAVSDK's own format: speeds, gimbal, pictures, delays; with a jump to an item, and a return at the
-    end."""
+    """A mission in MAVSDK's own format, with speeds, gimbal commands, pictures, delays, a jump to an item, and a final
+    return."""
     system, telemetry = vehicle
     action, mission = Action(system), Mission(system)
     home = wait_for("home", lambda: (h := telemetry.home()) and math.isfinite(h.latitude_deg) and h)
@@ -199,7 +199,7 @@ def test_wire_mavsdk_flies_with_sticks_and_their_loss_holds(vehicle):
     wait_for("the failsafe's hold", lambda: telemetry.flight_mode() == FlightMode.HOLD)
     held = telemetry.position().relative_altitude_m
     fly("position mode again", lambda: telemetry.flight_mode() == FlightMode.POSCTL, 0.0, 0.0, 0.5, 0.0)
-    fly("2 m further up by hand", lambda: telemetry.position().relative_altitude_m > held + 2.0, 0.0, 0.0, 0.9, 0.0)
+    fly("2 m higher by stick input", lambda: telemetry.position().relative_altitude_m > held + 2.0, 0.0, 0.0, 0.9, 0.0)
     # A landing away from home would be a crash in this job, followed by a respawn in the air.
     action.return_to_launch()
     wait_for("disarmed", lambda: not telemetry.armed())

@@ -1,4 +1,4 @@
-"""Tests pymavlink with and without the vehicle's signing key, over every kind of link and across a restart."""
+"""Tests pymavlink with and without the vehicle's signing key, over every link type and across a restart."""
 
 import contextlib
 import hashlib
@@ -177,7 +177,7 @@ def test_wire_signed_frames_cannot_be_replayed_on_any_link_or_after_a_restart(tm
         assert not is_acknowledged(wire, forged)
         assert is_acknowledged(wire, good)
         assert not is_acknowledged(wire, good), "a replayed command must be ignored"
-        # The memory is written once per second, and at a normal exit.
+        # The signing memory file is written once per second and at a normal exit.
         memory = key.with_name("key.heard.1")
         stream = f"255 190 {COMMANDS} "
         spandrel.wait_for("the memory", lambda: memory.exists() and stream in memory.read_text(encoding="utf-8"), 60)

@@ -30,7 +30,7 @@ LOOKS = 12
 
 
 def distance_m(a, b):
-    """Returns the distance between two nearby positions, m."""
+    """Returns the distance between two nearby positions in meters."""
     north = (a.lat - b.lat) * 111_319.5
     east = (a.lon - b.lon) * 111_319.5 * math.cos(math.radians(a.lat))
     return math.hypot(north, east)
@@ -79,7 +79,8 @@ def test_regress_a_naive_script_flies(launch):
 
 @pytest.mark.timeout(600)
 def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
-    """DroneKit 2.9.2 as in its own example; then a mission, which it uploads only through the older request."""
+    """Uses DroneKit 2.9.2 as in its own example, then for a mission, which it uploads only through the older
+    request."""
     port = launch("ardupilot", "--camera", "off", speed=2)
     vehicle = None
     try:

@@ -1,4 +1,4 @@
-"""Compares the cohort statistics with SciPy's on random data."""
+"""Compares the cohort statistics with SciPy's results on random data."""
 
 import json
 import math
@@ -129,7 +129,7 @@ def test_val_correlations(study):
 
 
 def regression(y, columns):
-    """Least squares with SciPy: estimates, errors, p values, intervals, R squared, p of the model."""
+    """Least squares with SciPy: estimates, errors, p-values, intervals, R squared, and the model's p-value."""
     x = np.column_stack([np.ones(len(y)), *columns])
     estimates, _, _, _ = np.linalg.lstsq(x, y, rcond=None)
     residuals = y - x @ estimates

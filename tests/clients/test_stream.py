@@ -24,8 +24,8 @@ ENOUGH = 10
 LIMIT_S = 400
 # Maximum picture rate, Hz: the stream has at least 33 ms between pictures.
 RATE_MAX_HZ = 30.4
-# Maximum median difference from the window's picture, of 255: coding and color subsampling cause about 2, and waves and
-# noise in the meantime some more; a different picture causes over 30.
+# Maximum median difference from the window's picture, out of 255: coding and color subsampling cause about 2, and waves
+# and noise in the meantime some more; a different picture causes over 30.
 MAX_DIFFERENCE = 12
 # Bytes that are buffered for the decoder while the machine is busy.
 BUFFER = 4 << 20

@@ -1,5 +1,5 @@
-"""`spandrel train` and its flights: the vehicle outlives the session, flight logs can be downloaded, and a killed
-monitor is replaced."""
+"""`spandrel train` and its flights: the vehicle keeps running after the session, flight logs can be downloaded, and a
+killed monitor is replaced."""
 
 import json
 import os
@@ -17,7 +17,7 @@ from spandrel import wait_for
 
 # Height that counts as flying in the drill's session, m.
 HEIGHT_M = 2.0
-# Heartbeats after the end of the session that prove that the vehicle is still running; one per second of vehicle time.
+# Number of heartbeats after the session that prove that the vehicle is still running; one per second of vehicle time.
 BEATS = 5
 
 
@@ -87,7 +87,7 @@ def land(action, telemetry):
 
 
 def heartbeats(link, count):
-    """Waits for a number of new heartbeats of the autopilot."""
+    """Waits for a number of new autopilot heartbeats."""
     while link.recv_match(blocking=False) is not None:
         pass
     heard = 0
@@ -103,7 +103,7 @@ def heartbeats(link, count):
 
 @pytest.mark.timeout(600)
 def test_regress_vehicle_stays_connected_after_landing(training, tmp_path, measured):
-    """After the session is scored, a connected ground station keeps its vehicle, downloads the flight log, and flies
+    """After the session is scored, a connected ground station stays connected, downloads the flight log, and flies
     again."""
     station = mavutil.mavlink_connection(f"udpin:127.0.0.1:{training.gcs_port}")
     mavsdk, system = sdk.connect(training.sdk_port)
@@ -124,7 +124,7 @@ def test_regress_vehicle_stays_connected_after_landing(training, tmp_path, measu
     wait_for("the download", lambda: any(result != LogFilesResult.NEXT for result in done))
     kept = next(session.glob("vehicle/log/*/*.ulg"))
     assert target.read_bytes() == kept.read_bytes()
-    # A second flight of the same vehicle must not change the scores of the session.
+    # A second flight with the same vehicle must not change the session's scores.
     before = (session / "assessment.json").read_bytes()
     action, telemetry = sdk.take_off(system, HEIGHT_M)
     land(action, telemetry)

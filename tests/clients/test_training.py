@@ -24,7 +24,7 @@ def run_with(text, *args):
 
 @pytest.fixture(scope="module")
 def sessions(tmp_path_factory):
-    """Two real sessions of a novice in a separate folder."""
+    """Two real sessions by a novice in a separate folder."""
     folder = tmp_path_factory.mktemp("training") / "sessions"
     for seed in ("7", "8"):
         spandrel.run("demo", "--skill", "novice", "--seed", seed, "--speed", "max", "--trainee", "anna", "--sessions", str(folder))
@@ -132,7 +132,7 @@ def test_rebuild_keeps_sessions_of_other_stations(sessions, tmp_path):
     code, _, errors = run_with("", "records", "rebuild", "--sessions", str(other), *database)
     assert code == 2 and "2 sessions have no folder on this machine" in errors
     assert len(json.loads(spandrel.run("records", "list", "--json", *database))) == 2
-    # With confirmation, the sessions are deleted from the records. They were not erased, so they reappear when their
+    # With confirmation, the sessions are removed from the records. They were not erased, so they reappear when their
     # folders are imported.
     assert "0 sessions, 0 skipped, 2 without a folder on this machine deleted" in spandrel.run("records", "rebuild", "--yes", "--sessions", str(other), *database)
     assert "2 new or changed" in spandrel.run("records", "import", "--sessions", str(sessions), *database)

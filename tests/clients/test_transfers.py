@@ -8,8 +8,8 @@ from pymavlink.dialects.v20 import common as mavlink
 import spandrel
 from spandrel import wait_for
 
-# Time limit for responses, which usually arrive within milliseconds, wall seconds; it only prevents a broken run from
-# hanging.
+# Time limit for responses, wall seconds. Responses usually arrive within milliseconds; the limit only prevents a broken
+# run from hanging.
 LIMIT_S = 30
 LAT, LON = 467_052_000, 83_814_000
 
@@ -22,7 +22,7 @@ class Station:
         wait_for("the vehicle", self.call, limit_s=LIMIT_S)
 
     def call(self):
-        """Sends a heartbeat; returns whether there is one from the vehicle."""
+        """Sends a heartbeat; returns whether the vehicle has sent one."""
         self.link.mav.heartbeat_send(mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, mavlink.MAV_STATE_ACTIVE)
         return self.link.recv_match(type="HEARTBEAT", blocking=True, timeout=0.2)
 
@@ -45,7 +45,8 @@ class Station:
                                             0, 0, 0, float("nan"), LAT, LON, height)
 
     def answer(self, until_seq, height):
-        """Answers requests until an item number or an acknowledgment; returns the acknowledgment's result."""
+        """Answers requests until an item number is requested or an acknowledgment arrives. Returns the acknowledgment's
+        result."""
         while True:
             heard = self.hear("MISSION_REQUEST_INT", "MISSION_ACK")
             if heard.get_type() == "MISSION_ACK":

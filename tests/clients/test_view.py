@@ -109,7 +109,7 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
 
 
 def screenshot_with_hud(screen):
-    """Returns a screenshot if it shows the battery, otherwise nothing."""
+    """Returns a screenshot if it shows the battery, otherwise None."""
     photograph = screen.photograph()
     return [photograph] if len(display.pixels_of(photograph, GREEN)) > 0 else []
 
@@ -178,7 +178,7 @@ def test_wire_training_continues_without_a_display(tmp_path, asked, title):
     )
     try:
         told = tmp_path / "train.txt"
-        spandrel.wait_for("continuation without a window", lambda: "the session continues without it" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
+        spandrel.wait_for("the message that the session continues", lambda: "the session continues without it" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
         spandrel.wait_for("the start of the flight", lambda: "Take off, fly the tasks" in told.read_text(encoding="utf-8"), DRAW_LIMIT_S)
         assert title in told.read_text(encoding="utf-8")
         assert "no display" in told.read_text(encoding="utf-8") and training.poll() is None

@@ -1,5 +1,5 @@
-"""`spandrel serve` in a real browser: tasks of trainees, instructors and administrators, wide and narrow, light and
-dark."""
+"""`spandrel serve` in a real browser: tasks of trainees, instructors and administrators, with wide and narrow windows
+and light and dark themes."""
 
 import json
 import os
@@ -131,8 +131,8 @@ def test_every_page_passes_axe(browser, server, sessions, size, scheme):
 
 
 def test_progress_page_shows_repetitions_and_tables_download(browser, server, tmp_path):
-    """Like participant 18 of the TASBID paper: scores, on-path share by task and crashes over the repetitions;
-    learning curves from the fourth on."""
+    """Like participant 18 in the TASBID paper: scores, on-path share by task, and crashes over the repetitions, with
+    learning curves from the fourth repetition on."""
     person = BrowserUser(browser, server, "lena")
     page = person.page
     person.go("/trainees/lena")
@@ -234,7 +234,7 @@ def test_questionnaire_language_follows_browser_and_selection(browser, sessions,
         assert given()["language"] == "de" and sorted(given()["answers"].values()) == [1, 5]
         person.keep("questions-german")
         person.check()
-        # A returning user continues in the language of the answers, regardless of the browser.
+        # A returning user continues in the language of the saved answers, regardless of the browser.
         person.go(f"/sessions/{session.name}/questions")
         assert page.get_attribute("html", "lang") == "de"
         person.go(f"/sessions/{session.name}/questions?language=de-CH")
@@ -452,7 +452,7 @@ def test_users_can_change_their_password(browser, server, sessions):
     assert person.go("/account").status == 200
     elsewhere.log_in("dora", "another long word")
     assert elsewhere.page.url.endswith("/sessions")
-    # Another program sets the password on the command line, which ends all of her browser sessions.
+    # Another program sets the password on the command line, which ends all her browser sessions.
     webserver.set_password(sessions, "dora", "trainee", password="yet another long word")
     for one in (person, elsewhere):
         one.go("/sessions")

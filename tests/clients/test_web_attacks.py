@@ -15,7 +15,7 @@ import spandrel
 import webserver
 
 EVIL = "<script>alert(1)</script>"
-# Number of kills of the server at random times.
+# Number of times that the server is killed, each at a random moment.
 KILLS = 200
 SEED = 20260801
 
@@ -134,7 +134,7 @@ def test_script_in_any_field_is_escaped(server, sessions):
 
 
 def test_hostile_task_name_is_escaped_everywhere(server, sessions, tmp_path):
-    """A task with a script as its name is flown several times, and appears escaped on every page that shows its name."""
+    """A task with a script as its name is flown several times. Every page that shows the name escapes it."""
     job = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
     evil = re.sub(r'(\[\[tasks\]\](?:\n(?!\[).*)*?\nname = )"[^"]*"', lambda found: f'{found.group(1)}"{EVIL}"', job)
     evil = evil.replace('name = "drill-hover"', 'name = "evil-task"')
@@ -323,7 +323,7 @@ def test_network_access_requires_passwords_and_tls(tmp_path):
 
 
 def test_dns_rebinding_is_rejected(tmp_path):
-    """DNS rebinding: a domain of another site that resolves to 127.0.0.1."""
+    """DNS rebinding: another site's domain that resolves to 127.0.0.1."""
     server = webserver.Server(tmp_path / "sessions")
     try:
         browser = webserver.Browser(server.address)
@@ -367,7 +367,7 @@ def test_200_kills_lose_no_confirmed_data(tmp_path):
     # the kill.
     sent, confirmed, held = {}, {}, {}
     taken, cut_off = set(), 0
-    # Duration of an undisturbed import; kills are distributed around it, so that some imports succeed and some do not.
+    # Duration of an uninterrupted import. Kills occur around this time, so that some imports succeed and some do not.
     undisturbed = webserver.Server(tmp_path / "other")
     begin = time.monotonic()
     status, _, _ = webserver.Browser(undisturbed.address).upload(

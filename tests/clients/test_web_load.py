@@ -79,7 +79,7 @@ def test_300_simultaneous_logins_use_bounded_memory(sessions):
         assert set(statuses) <= {403, 503} and statuses.count(403) > 0, sorted(set(statuses))
         assert 503 in statuses, "a full queue must reject requests"
         assert peak_kb(server.process) < MAX_KB, f"{peak_kb(server.process)} kB, {before_kb} kB before"
-        # The list remained available during the logins, so it does not wait behind them.
+        # The list remained available during the logins, so it does not wait for them.
         assert set(pages) == {200} and len(pages) > 5, len(pages)
         assert webserver.Browser(server.address).log_in("ada") == 303
     finally:
@@ -87,7 +87,7 @@ def test_300_simultaneous_logins_use_bounded_memory(sessions):
 
 
 def begin_upload(server, browser, token):
-    """Sends the head of an upload and the first part of its file."""
+    """Sends the header of an upload and the first part of its file."""
     raw = socket.create_connection(host_of(server), timeout=webserver.PATIENCE_S)
     host, port = host_of(server)
     raw.sendall(
@@ -162,7 +162,7 @@ MAX_COSTS = 4.0
 
 
 def insert_sessions(database):
-    """Inserts copies of the example study's records with other names directly into the tables."""
+    """Inserts copies of the example study's records, under other names, directly into the tables."""
     lines = (spandrel.ROOT / "examples" / "cohort" / "records.jsonl").read_text(encoding="utf-8").splitlines()
     originals = [json.loads(line) for line in lines]
     columns = ["id", "trainee", "started_unix_us", "scenario", "scenario_sha256", "vehicle", "vehicle_sha256", "telemetry_sha256",
@@ -192,7 +192,8 @@ def test_cohort_page_reloads_are_cached(tmp_path):
         browser = webserver.Browser(server.address)
 
         def cost(reloads):
-            """Returns the processor seconds of simultaneous reloads, and the number of list pages served meanwhile."""
+            """Returns the processor time of simultaneous reloads in seconds, and the number of list pages served
+            meanwhile."""
             before, over, lists = processor_s(server.process), threading.Event(), []
 
             def read_lists():
@@ -214,7 +215,7 @@ def test_cohort_page_reloads_are_cached(tmp_path):
         together, pages = cost(RELOADS)
         print(f"one: {once:.2f} s of processor time, {RELOADS} at once: {together:.2f} s; {pages} other pages meanwhile")
         assert together < MAX_COSTS * once, (together, once)
-        # Other pages must not wait behind the cohort's.
+        # Other pages must not wait for the cohort page.
         assert pages > RELOADS
     finally:
         server.close()

@@ -58,7 +58,7 @@ def test_users_see_only_their_own_data(sessions, database):
 
 
 def test_servers_and_stations_share_one_database(sessions, database, tmp_path):
-    """A server in another classroom has the same users, and shows the sessions imported by a third program."""
+    """A server in another classroom has the same users and shows the sessions that a third program imported."""
     elsewhere = tmp_path / "sessions"
     elsewhere.mkdir()
     first, second = serve(sessions, database), serve(elsewhere, database)

@@ -9,7 +9,7 @@ mod hover;
 #[expect(dead_code, reason = "its main reads the command line")]
 mod score_tlog;
 
-/// Maximum number of lines of an example, so that it can be read at a glance.
+/// Maximum number of lines in an example, so that it can be read at a glance.
 const MAX_LINES: usize = 60;
 
 #[test]

@@ -1,9 +1,9 @@
-//! Finds import cycles between the files of a crate: files that cannot be understood, tested or moved separately.
+//! Finds import cycles between a crate's files: files that cannot be understood, tested or moved separately.
 
 use crate::paths::{Import, Token, code_only, imports, inline_paths, is_word, tokens, without_imports, without_tests};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One file of a crate.
+/// One file in a crate.
 struct SourceModule {
     /// Path relative to the crate's `src`.
     file: String,
@@ -15,7 +15,7 @@ struct SourceModule {
     body: Vec<Token>,
 }
 
-/// All files of a crate, by module path.
+/// All of a crate's files, by module path.
 pub struct CrateFiles {
     modules: BTreeMap<Vec<String>, SourceModule>,
 }
@@ -24,7 +24,7 @@ pub struct CrateFiles {
 type Edges = BTreeMap<Vec<String>, BTreeSet<Vec<String>>>;
 
 impl CrateFiles {
-    /// Parses the files of a crate, given as paths relative to `src` and texts. Excludes test modules.
+    /// Parses a crate's files, given as paths relative to `src` and texts. Excludes test modules.
     pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let mut modules = BTreeMap::new();
         let mut for_tests = Vec::new();

@@ -91,7 +91,7 @@ fn rows(imports: &Imports) -> Vec<Vec<&'static str>> {
     (0..=highest).rev().map(|level| layers().filter(|layer| levels[layer] == level).collect()).collect()
 }
 
-/// Returns the centers of the boxes in pixels. Starting with the lowest row, sorts the layers of each row by the mean
+/// Returns the centers of the boxes in pixels. Starting with the lowest row, sorts each row's layers by the mean
 /// position of the layers that they import from.
 fn centers(rows: &[Vec<&'static str>], imports: &Imports) -> BTreeMap<&'static str, (usize, usize)> {
     let mut out: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();

@@ -16,7 +16,7 @@ const CRATES: &[(&str, &[ModuleLayer], &str)] = &[
     ("view", &[], "view"),
     (PROGRAM, &[("errors", "errors"), ("io", "io"), ("records", "records"), ("web", "server"), ("window", "window")], "cli"),
 ];
-/// The package at the root of the workspace.
+/// The package at the workspace root.
 const PROGRAM: &str = "";
 /// Each layer with the layers that it may use.
 const ALLOWED_IMPORTS: &[(&str, &[&str])] = &[
@@ -159,7 +159,7 @@ pub fn count_imports(file: &str, source: &str, imports: &mut Imports) {
     }
 }
 
-/// Returns the display name of the folder of a layer's crate.
+/// Returns the display name of the folder with a layer's crate.
 pub fn crate_label(layer: &str) -> String {
     match folder_of(layer) {
         PROGRAM => "src".to_owned(),
@@ -186,7 +186,7 @@ fn clock_violations(folder: &str, file: &str, code: &str) -> Vec<String> {
 }
 
 /// Returns the crate and module of a file: `crates/sitl/src/autopilot/core.rs` is the `autopilot::core` module of the
-/// crate `sitl`.
+/// `sitl` crate.
 fn module_of(file: &str) -> Option<(&'static str, Vec<String>)> {
     let parts: Vec<&str> = file.trim_end_matches(".rs").split(['/', '\\']).collect();
     let (folder, module) = match &parts[..] {

@@ -10,7 +10,7 @@ pub fn enums(code: &[Token]) -> BTreeSet<String> {
     defined.map(|three| three[1].1.clone()).collect()
 }
 
-/// Returns the catch-all arms in matches on one of `enums`, each as a line number and the name of the enum.
+/// Returns the catch-all arms in matches on one of `enums`, each as a line number and the enum's name.
 pub fn found(code: &[Token], enums: &BTreeSet<String>) -> Vec<(usize, String)> {
     let implementations = impl_blocks(code);
     let mut out = Vec::new();

@@ -1,9 +1,9 @@
-//! Command line reference page: the help text of the program and of every subcommand.
+//! Command line reference page: the help text of the program and every subcommand.
 
 use crate::{check, page_head};
 use clap::{Command, CommandFactory};
 
-/// Appends the help of a command and of its subcommands.
+/// Appends the help for a command and its subcommands.
 fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
     let text = command.render_long_help().to_string();
     let text: Vec<&str> = text.lines().map(str::trim_end).collect();
@@ -20,7 +20,7 @@ fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
 fn exact_commands_page_matches_the_program() {
     let mut command = spandrel::Cli::command();
     command.build();
-    let about = "The help text of every subcommand, as printed by `--help`. Exit codes: 0 success, 1 failure, 2 invalid arguments or files.";
+    let about = "The help text of every subcommand, as printed by `--help`. The exit code is 0 for success, 1 for failure, and 2 for invalid arguments or files.";
     let mut page = page_head("Command line", about);
     help(&mut command, "spandrel", 2, &mut page);
     check("commands.md", &page);

@@ -1,4 +1,4 @@
-//! Data dictionary page: columns of the frames export, fields of the assessment, columns of the cohort tables.
+//! Data dictionary page: frames export columns, assessment fields, and cohort table columns.
 
 use crate::table::{code, table};
 use crate::{check, page_head};
@@ -33,7 +33,7 @@ fn assessment() -> String {
     table(&["field", "unit", "definition"], rows)
 }
 
-/// Returns the header of every table of an empty cohort.
+/// Returns the header of every table for an empty cohort.
 fn cohort_tables() -> String {
     let selection = Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Exclude };
     let cohort = cohort(&[], &selection);
@@ -52,13 +52,16 @@ fn cohort_tables() -> String {
 #[test]
 fn exact_data_dictionary_matches_the_code() {
     let about = "Units and definitions of all numbers that Spandrel exports. [How a flight is scored](assessment.md) explains the terms. \
-                 Numbers are written with the fewest digits that read back to the same bits.";
-    let frames_about = "`spandrel export SESSION --frames FILE.csv` and `--parquet FILE.parquet` write one row for each scored frame. An empty \
-                        cell in CSV is a null in Parquet: the telemetry has no value for that frame. Flags are 1 or 0 in CSV. In \
-                        Parquet, the metadata of each field contains its unit, frame and definition.";
-    let assessment_about = "`spandrel assess SESSION --json FILE` and `assessment.json`. `[]` marks the elements of a list, and `*` the keys of a map.";
-    let cohort_about = "`spandrel cohort --csv FOLDER` writes these tables. `crashes.csv` has a column `task_ID` for each task after `trainee`. \
-                        `progress.csv` has a column `on_path_ID` for each task after `seconds`.";
+                 Spandrel writes each number with the fewest digits that parse back to the same bits.";
+    let frames_about = "`spandrel export SESSION --frames FILE.csv` and `--parquet FILE.parquet` write one row per scored \
+                        frame. If the telemetry has no value for a frame, the CSV cell is empty and the Parquet value is \
+                        null. Flags are 1 or 0 in CSV. In Parquet, each field's metadata gives its unit, frame and \
+                        definition.";
+    let assessment_about = "`spandrel assess SESSION --json FILE` and `assessment.json`. `[]` stands for list elements, \
+                            and `*` stands for map keys.";
+    let cohort_about = "`spandrel cohort --csv FOLDER` writes these tables. After the `trainee` column, `crashes.csv` has \
+                        one `task_ID` column per task. After the `seconds` column, `progress.csv` has one `on_path_ID` \
+                        column per task.";
     let page = format!(
         "{}\n## Frames\n\n{frames_about}\n\n{}\n## Assessment\n\n{assessment_about}\n\n{}\n## Cohort tables\n\n{cohort_about}\n{}",
         page_head("Data dictionary", about),

@@ -48,7 +48,7 @@ fn streams() -> String {
         }
     }
     rows.sort();
-    table(&["message", "id", "component", "ground station, Hz", "SDK, Hz", "payload, Hz", "interface"], rows)
+    table(&["message", "id", "component", "ground station (Hz)", "SDK (Hz)", "payload (Hz)", "interface"], rows)
 }
 
 fn handled() -> String {
@@ -65,12 +65,12 @@ fn exact_messages_page_matches_the_code() {
         .map(|f| f.name)
         .collect();
     let about = format!(
-        "The vehicle sends these streams unrequested, at rates that depend on the kind of link. With `--flavor {}`, ground stations and SDKs \
+        "The vehicle sends these streams without a request, at rates that depend on the type of link. With `--flavor {}`, ground stations and SDKs \
          receive only heartbeats until they request streams; payload links receive all streams immediately. SET_MESSAGE_INTERVAL changes a \
-         rate, and REQUEST_MESSAGE requests a single message. The named values for scoring are listed under [scoring data](wire.md#scoring-data).",
+         rate, and REQUEST_MESSAGE requests a single message. [Scoring data](wire.md#scoring-data) lists the named values used for scoring.",
         asks.join(" or ")
     );
-    let acts = "The vehicle handles these messages. It forwards all other messages to the links of their target.";
+    let acts = "The vehicle handles these messages. It forwards all other messages to the links of the target.";
     let page =
         format!("{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}", page_head("Messages", &about), streams(), handled());
     check("messages.md", &page);

@@ -61,8 +61,7 @@ fn rows(parameters: &[Value], acts: bool) -> String {
 #[test]
 fn exact_parameters_page_matches_the_code() {
     let about = "Names, units, ranges and defaults of all parameters, as the vehicle reports them to ground stations (MAVLink \
-                 component metadata). Stored parameters have no effect; the vehicle keeps their values for clients that \
-                 expect them.";
+                 component metadata). Stored parameters have no effect. The vehicle keeps their values for clients that expect them.";
     let mut page = page_head("Parameters", about);
     for (title, face) in [("PX4 and generic interface", &PX4), ("ArduPilot interface", &COPTER)] {
         let parameters = described(face);

@@ -1,4 +1,4 @@
-//! Flights of the exported plan in mission mode: on the path of every task, without contacts, with photos.
+//! Flies the exported plan in mission mode: on every task's path, without contacts, with photos.
 #![allow(deprecated, reason = "ground stations still write DO_MOUNT_CONTROL into plans")]
 
 use serde_json::Value;
@@ -137,7 +137,7 @@ fn exact_exported_plan_meets_ground_station_requirements() {
     assert!(f64::from(lowest) > water + 1.0, "{lowest} m above home, water at {water} m");
 }
 
-/// Results of a flight of the plan.
+/// Results of flying the plan once.
 #[derive(Debug, Default)]
 struct FlightResults {
     landed: bool,
@@ -276,8 +276,8 @@ const FLIGHT_CASES: [(&str, u64); 6] =
 /// Maximum root mean square of the roll and pitch rates, deg/s, measured with a real PX4 on this plan (issue about
 /// flight tests).
 const MAX_RMS_DEG_S: f64 = 9.0;
-/// Maximum roll or pitch rate, deg/s: a jerk of 4 m/s³ tilts the drone at 23 deg/s, with the same again as a margin for
-/// gusts and the end of the flight.
+/// Maximum roll or pitch rate, deg/s: a jerk of 4 m/s³ tilts the drone at 23 deg/s, doubled as a margin for gusts and
+/// the end of the flight.
 const MAX_RATE_DEG_S: f64 = 60.0;
 
 #[test]

@@ -1,9 +1,9 @@
-//! Messages of the ArduPilot dialect that the codec lacks. Each definition has an ID, a name and fields. The wire order
-//! and CRC_EXTRA are derived from them (MAVLink guide, "Serialization").
+//! ArduPilot dialect messages that the codec does not support. Each definition has an ID, a name and fields, which
+//! determine the wire order and CRC_EXTRA (MAVLink guide, "Serialization").
 
 use super::codec::{Encodable, Encoder};
 
-/// Wire type of a field.
+/// Type of a field on the wire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldType {
     /// MAVLink `uint16_t`.
@@ -49,7 +49,7 @@ pub struct MessageDefinition {
     pub name: &'static str,
     /// Name and type of each base field.
     pub fields: &'static [(&'static str, FieldType)],
-    /// Name and type of each extension field. They are not part of CRC_EXTRA.
+    /// Name and type of each extension field. Extension fields are not part of CRC_EXTRA.
     pub extensions: &'static [(&'static str, FieldType)],
 }
 
@@ -115,14 +115,13 @@ pub const EKF_STATUS_REPORT: MessageDefinition = MessageDefinition {
 };
 
 impl MessageDefinition {
-    /// Returns the indices of the fields in wire order: larger types first, with fields of the same size in definition
-    /// order.
+    /// Returns the field indices in wire order: larger types first, and fields of equal size in definition order.
     fn order(&self) -> impl Iterator<Item = usize> {
         let places = |long: bool| (0..self.fields.len()).filter(move |k| self.fields[*k].1.is_long() == long);
         places(true).chain(places(false))
     }
 
-    /// Returns CRC_EXTRA, the checksum seed of the message.
+    /// Returns CRC_EXTRA, the message's checksum seed.
     #[must_use]
     pub fn crc_extra(&self) -> u8 {
         let fields = self.order().map(|k| format!("{} {} ", self.fields[k].1.name(), self.fields[k].0));
@@ -132,7 +131,7 @@ impl MessageDefinition {
         (crc as u8) ^ (crc >> 8) as u8
     }
 
-    /// Creates a message. The values are in definition order, extension fields last.
+    /// Creates a message from field values in definition order, with extension fields last.
     #[must_use]
     pub fn message(&'static self, values: &[f64]) -> DialectMessage {
         DialectMessage { definition: self, values: values.to_vec() }

@@ -11,11 +11,11 @@ const SIGNATURE_LEN: usize = 13;
 /// A received frame: its message, its sender and its raw bytes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReceivedFrame {
-    /// System ID of the sender (1 to 255).
+    /// Sender's system ID (1 to 255).
     pub system_id: u8,
-    /// Component ID of the sender.
+    /// Sender's component ID.
     pub component_id: u8,
-    /// Sequence number of the frame; wraps at 256.
+    /// Frame sequence number, which wraps at 256.
     pub sequence: u8,
     /// Message ID, set even if the payload could not be decoded.
     pub message_id: u32,
@@ -63,7 +63,7 @@ impl Decoder {
         self.bad_bytes
     }
 
-    /// Decodes bytes from a stream. Keeps an incomplete frame at the end for the next call.
+    /// Decodes bytes from a stream. Keeps a trailing incomplete frame for the next call.
     pub fn push(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.extend_from_slice(bytes);
         let mut frames = Vec::new();
@@ -82,9 +82,9 @@ impl Decoder {
         frames
     }
 
-    /// Decodes one datagram. An incomplete frame at its end is counted as bad and dropped. Each byte is examined once,
-    /// and each possible start of a frame costs one checksum over at most 267 bytes, so decoding takes linear time for
-    /// any content.
+    /// Decodes one datagram. A trailing incomplete frame counts as bad and is dropped. Each byte is examined once, and
+    /// each possible frame start costs one checksum over at most 267 bytes, so decoding takes linear time for any
+    /// input.
     pub fn datagram(&mut self, bytes: &[u8]) -> Vec<ReceivedFrame> {
         self.buffer.clear();
         let mut frames = Vec::new();
@@ -138,7 +138,7 @@ fn next_v2(bytes: &[u8]) -> ParseStep {
     let message_id = u32::from_le_bytes([bytes[7], bytes[8], bytes[9], 0]);
     let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
     let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
-    // The checksum of a message that is not in the dialect cannot be verified. Such a frame is only routed.
+    // If a message is not in the dialect, its checksum cannot be verified, so the frame is only routed.
     if extra.is_some_and(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
         return ParseStep::Skip(1);
     }
@@ -187,7 +187,7 @@ fn known(message_id: u32) -> bool {
 
 /// A message that an [`Encoder`] can frame.
 pub trait Encodable {
-    /// Returns the complete frame with the encoder's sender and next sequence number.
+    /// Returns the complete frame, with the encoder's sender IDs and next sequence number.
     fn frame(&self, encoder: &mut Encoder) -> Vec<u8>;
 }
 
@@ -230,7 +230,8 @@ impl Encoder {
         self.encode_foreign(message_id, MavMessage::extra_crc(message_id), payload)
     }
 
-    /// Encodes one frame like [`Self::encode_payload`], but for a message of another dialect with the given CRC_EXTRA.
+    /// Encodes one frame like [`Self::encode_payload`], but for a message from another dialect with the given
+    /// CRC_EXTRA.
     pub fn encode_foreign(&mut self, message_id: u32, crc_extra: u8, payload: &[u8]) -> Vec<u8> {
         let used = payload.iter().rposition(|b| *b != 0).map_or(1, |last| last + 1).min(255).min(payload.len());
         let id = message_id.to_le_bytes();

@@ -14,9 +14,9 @@ pub enum Opcode {
     None = 0,
     /// Terminates one session.
     TerminateSession = 1,
-    /// Terminates all sessions of the client.
+    /// Terminates all of the client's sessions.
     ResetSessions = 2,
-    /// Lists a directory, starting at the entry index in the offset.
+    /// Lists a directory, starting at the entry whose index is in the offset field.
     ListDirectory = 3,
     /// Opens a file for reading and returns its size.
     OpenFileRo = 4,
@@ -34,7 +34,7 @@ pub enum Opcode {
     RemoveDirectory = 10,
     /// Opens a file for writing.
     OpenFileWo = 11,
-    /// Truncates a file to the length in the offset.
+    /// Truncates a file to the length in the offset field.
     TruncateFile = 12,
     /// Renames a file or directory: two paths separated by a null byte.
     Rename = 13,
@@ -81,9 +81,9 @@ impl Opcode {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum FtpError {
-    /// Failure without a specific reason.
+    /// Unspecified failure.
     Fail = 1,
-    /// The size field exceeds the capacity of a packet.
+    /// The size field exceeds the packet capacity.
     InvalidDataSize = 3,
     /// The client has no session with this ID.
     InvalidSession = 4,
@@ -112,7 +112,7 @@ pub struct FtpPacket {
     pub opcode: u8,
     /// Size field: number of data bytes, or the number of bytes that a read requests.
     pub size: u8,
-    /// Opcode of the request, in a response.
+    /// In a response, the opcode of the request.
     pub request: u8,
     /// Whether this is the last packet of a burst.
     pub burst_complete: bool,
@@ -155,13 +155,13 @@ impl FtpPacket {
         bytes
     }
 
-    /// Returns the data covered by the size field; `None` if the size exceeds the capacity of a packet.
+    /// Returns the data covered by the size field; `None` if the size exceeds the packet capacity.
     #[must_use]
     pub fn sized(&self) -> Option<&[u8]> {
         self.data.get(..usize::from(self.size))
     }
 
-    /// Creates a positive response to this request. Data beyond the capacity of a packet is dropped.
+    /// Creates a positive response to this request. Data beyond the packet capacity is dropped.
     #[must_use]
     pub fn acknowledge(&self, data: &[u8]) -> Self {
         let length = data.len().min(DATA_MAX);
@@ -183,8 +183,8 @@ impl FtpPacket {
     }
 }
 
-/// Continues the checksum of CalcFileCRC32 over more bytes, starting from `sum` (0 for the first bytes): CRC-32 with the
-/// reflected polynomial 0xEDB88320, initial value 0 and no final inversion, as in PX4 and MAVSDK.
+/// Updates the CalcFileCRC32 checksum `sum` (0 at the start of a file) with more bytes: CRC-32 with the reflected
+/// polynomial 0xEDB88320, initial value 0 and no final inversion, as in PX4 and MAVSDK.
 #[must_use]
 pub fn checksum(sum: u32, bytes: &[u8]) -> u32 {
     let mut crc = crc32fast::Hasher::new_with_initial(!sum);
@@ -225,8 +225,8 @@ mod tests {
 
     #[test]
     fn val_ftp_checksum_is_crc32_without_inversions() {
-        // The CRC catalog gives cbf43926 as the check value of CRC-32/ISO-HDLC for "123456789", which inverts the initial and
-        // final values.
+        // The CRC catalog lists cbf43926 as the CRC-32/ISO-HDLC checksum of "123456789". That variant inverts the
+        // initial and final values.
         assert_eq!(!checksum(!0, b"123456789"), 0xcbf4_3926);
         assert_eq!(checksum(checksum(0, b"1234"), b"56789"), checksum(0, b"123456789"));
     }

@@ -5,11 +5,11 @@ use super::codec::{Encoder, ReceivedFrame};
 
 /// Message ID of TUNNEL.
 const TUNNEL: u32 = 385;
-/// Payload type of notes; types from 32768 are reserved for private use.
+/// Payload type of notes; types 32768 and above are reserved for private use.
 const NOTE_PAYLOAD_TYPE: u16 = 33_077;
 /// Number of bytes before the text: payload type, target system, target component, text length.
 const HEADER_LEN: usize = 5;
-/// Maximum length of the text, bytes.
+/// Maximum text length, bytes.
 pub const MAX_TEXT_LEN: usize = 128;
 
 /// Encodes a note for a component. Text longer than [`MAX_TEXT_LEN`] is truncated at a character boundary.

@@ -49,7 +49,7 @@ impl<L: Copy + Ord> Router<L> {
         self.links_by_sender.retain(|_, links| !links.is_empty());
     }
 
-    /// Returns the links in `all` that a frame from link `from` is forwarded to.
+    /// Returns the links in `all` that should receive a frame from link `from`.
     #[must_use]
     pub fn targets_of(&self, from: L, frame: &ReceivedFrame, all: &[L]) -> Vec<L> {
         if frame.message_id == SETUP_SIGNING {
@@ -69,7 +69,7 @@ impl<L: Copy + Ord> Default for Router<L> {
     }
 }
 
-/// Returns the target system and component of a frame; 0 means broadcast. Frames with unknown messages count as broadcasts.
+/// Returns a frame's target system and component; 0 means broadcast. Frames with unknown messages count as broadcasts.
 #[must_use]
 pub fn target(frame: &ReceivedFrame) -> (u8, u8) {
     if let Some(message) = &frame.message {
@@ -83,7 +83,8 @@ pub fn target(frame: &ReceivedFrame) -> (u8, u8) {
     (byte(system), byte(component))
 }
 
-/// Returns the payload offsets of target system and target component, determined by encoding a message with different targets.
+/// Returns the payload offsets of the target system and target component. Determines them by encoding a message with
+/// different targets.
 fn target_offsets(message_id: u32) -> [Option<usize>; 2] {
     let place = |field: fn(&mut MavMessage) -> Option<&mut u8>| {
         let mut message = MavMessage::default_message_from_id(message_id)?;

@@ -14,23 +14,23 @@ const MESSAGE_ID_OFFSET: usize = 7;
 const HEADER_LEN: usize = 10;
 /// Incompatibility flag that marks a signed frame.
 const FLAG_SIGNED: u8 = 0x01;
-/// Length of the signature block: link ID, 48-bit timestamp and 48-bit signature, bytes.
+/// Length of the signature block (link ID, 48-bit timestamp, 48-bit signature), bytes.
 const SIGNATURE_LEN: usize = 13;
 /// Message ID of RADIO_STATUS, which telemetry radios send unsigned because they have no key.
 const RADIO_STATUS: u32 = 109;
-/// Maximum age of the first timestamp of a new stream, in timestamp units (one minute).
+/// Maximum age of a new stream's first timestamp, in timestamp units (one minute).
 const MAX_NEW_STREAM_LAG: u64 = 6_000_000;
-/// Maximum lead of a timestamp over a valid clock, in timestamp units (one day, to tolerate a wrong time zone).
-/// Accepting a later timestamp would make all valid frames too old, even after a restart.
+/// Maximum amount by which a timestamp may be ahead of a valid clock, in timestamp units (one day, to tolerate a wrong
+/// time zone). Accepting a later timestamp would make all valid frames too old, even after a restart.
 const MAX_TIMESTAMP_LEAD: u64 = 8_640_000_000;
 /// Timestamp of 2024-01-01T00:00:00Z. An earlier clock has not been set.
 const MIN_VALID_CLOCK: u64 = 28_401_840_000_000;
-/// Maximum number of streams (system, component, link ID) with a stored last timestamp.
+/// Maximum number of streams (system, component, link ID) whose last timestamps are stored.
 const MAX_STREAMS: usize = 512;
 /// Epoch of signing timestamps: 2015-01-01T00:00:00Z in Unix time, µs.
 const SIGNING_EPOCH_UNIX_US: u64 = 1_420_070_400_000_000;
 
-/// Signing key: a secret that both ends of a link share.
+/// Signing key: a secret shared by both ends of a link.
 #[derive(Clone, PartialEq, Eq)]
 pub struct SigningKey(pub [u8; 32]);
 
@@ -55,7 +55,7 @@ impl SigningKey {
     }
 }
 
-/// Converts Unix time, µs, to a signing timestamp in units of 10 µs since 2015.
+/// Converts Unix time (µs) to a signing timestamp in units of 10 µs since 2015.
 #[must_use]
 pub fn stamp(unix_us: u64) -> u64 {
     unix_us.saturating_sub(SIGNING_EPOCH_UNIX_US) / 10
@@ -68,7 +68,7 @@ fn is_valid_timestamp(stamp: &u64) -> bool {
     *stamp <= MAX_TIMESTAMP
 }
 
-/// Result of verifying the signature of a frame.
+/// Result of verifying a frame's signature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SignatureVerdict {
     /// The frame is signed with the correct key and is not a replay.
@@ -102,8 +102,8 @@ impl Signing {
         Self { key, link_id, newest: stamp, clock: stamp, last_timestamps: BTreeMap::new() }
     }
 
-    /// Signs a complete MAVLink 2 frame of the dialect with a timestamp later than all previous ones. Frames that are already
-    /// signed, and other data, are returned unchanged.
+    /// Signs a complete MAVLink 2 frame of the dialect with a timestamp later than all previous ones. Returns already
+    /// signed frames and any other data unchanged.
     #[must_use]
     pub fn sign(&mut self, mut frame: Vec<u8>, stamp: u64) -> Vec<u8> {
         let whole =
@@ -142,8 +142,8 @@ impl Signing {
         if self.clock >= MIN_VALID_CLOCK { self.clock + MAX_TIMESTAMP_LEAD } else { MAX_TIMESTAMP }
     }
 
-    /// Returns the state needed to reject replays after a restart with the same key, as text. The first line is the latest
-    /// timestamp; each further line is a stream with its system, component, link ID and last timestamp.
+    /// Returns, as text, the state needed to reject replays after a restart with the same key. The first line is the
+    /// latest timestamp. Each other line describes a stream: system, component, link ID and last timestamp.
     #[must_use]
     pub fn save(&self) -> String {
         let lines =
@@ -155,7 +155,7 @@ impl Signing {
     /// frame to be rejected.
     ///
     /// # Errors
-    /// Returns the number of the first invalid line, from 1. The state is then unchanged.
+    /// Returns the number of the first invalid line, counting from 1, and leaves the state unchanged.
     pub fn restore(&mut self, memory: &str) -> Result<(), usize> {
         let stream = |line: &str| -> Option<((u8, u8, u8), u64)> {
             let words: Vec<&str> = line.split(' ').collect();

@@ -1,4 +1,4 @@
-//! Messages sent by ground station clients: heartbeats, commands, and the selection of position mode.
+//! Messages sent by ground station clients: heartbeats, commands, and position mode selection.
 
 use super::dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavFrame, MavMessage, MavModeFlag,
@@ -7,12 +7,12 @@ use super::dialect::{
 use super::units::deg_e7;
 use spandrel_model::geodesy::Geo;
 
-/// Number of the PX4 main mode "Position" (POSCTL).
+/// PX4's main mode number for "Position" (POSCTL).
 const PX4_POSITION: f32 = 3.0;
-/// Number of the ArduCopter mode "PosHold".
+/// ArduCopter's mode number for "PosHold".
 const COPTER_POSHOLD: f32 = 16.0;
 
-/// Creates the heartbeat of a ground station.
+/// Creates a ground station heartbeat.
 #[must_use]
 pub fn heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {
@@ -23,8 +23,8 @@ pub fn heartbeat() -> MavMessage {
     })
 }
 
-/// Creates the heartbeat of a companion component that does not control the vehicle, such as the monitor or an
-/// observer. The dialect's default cannot be used, because it reports an armed vehicle.
+/// Creates a heartbeat for a companion component that does not control the vehicle, such as the monitor or an observer.
+/// The dialect's default cannot be used, because it reports an armed vehicle.
 #[must_use]
 pub fn companion_heartbeat() -> MavMessage {
     MavMessage::HEARTBEAT(HEARTBEAT_DATA {
@@ -37,7 +37,7 @@ pub fn companion_heartbeat() -> MavMessage {
     })
 }
 
-/// Creates a command for a component of a vehicle, with confirmation 0.
+/// Creates a command for a vehicle component, with confirmation 0.
 #[must_use]
 pub fn command(system: u8, component: u8, command: MavCmd, params: [f32; 7]) -> COMMAND_LONG_DATA {
     COMMAND_LONG_DATA {

@@ -1,6 +1,6 @@
-//! Defect codes of the AASHTO MBEI with their names (docs/src/reference/domain.md, "Defects"), and defect sizes by condition
-//! state (the limits are in "Condition states" on the same page; sizes without a limit there are estimates). [`crate::elements`]
-//! lists the defect codes permitted on each element.
+//! AASHTO MBEI defect codes and their names (docs/src/reference/domain.md, "Defects"), and defect sizes by condition
+//! state (the limits are in "Condition states" on the same page; sizes without a limit there are estimates).
+//! [`crate::elements`] lists the defect codes permitted on each element.
 
 use crate::random::RandomStream;
 
@@ -26,7 +26,7 @@ pub const ABRASION: u32 = 1190;
 /// All defect codes used in random placement, in ascending order.
 pub const ALL: &[u32] = &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION];
 
-/// Returns true if a defect code is a line defect (a crack), whose width must be resolved in a photo.
+/// Returns true if a defect code represents a line defect (a crack), whose width must be resolved in a photo.
 #[must_use]
 pub fn is_line(kind: u32) -> bool {
     matches!(kind, FATIGUE | PSC_CRACK | CRACK)
@@ -63,12 +63,12 @@ pub struct SizeRanges {
 pub fn size_ranges(kind: u32, condition_state: u8) -> SizeRanges {
     let poor = condition_state >= 3;
     let (length_m, width) = match (kind, poor) {
-        // 6 in (0.152 m) separates the condition states.
+        // The boundary between the condition states is 6 in (0.152 m).
         (SPALL, false) => ((0.10, 0.152), (0.6, 0.9)),
         (SPALL, true) => ((0.16, 0.80), (0.5, 0.9)),
         (REBAR, false) => ((0.15, 0.40), (0.15, 0.3)),
         (REBAR, true) => ((0.30, 0.90), (0.15, 0.4)),
-        // 0.012 in and 0.05 in, which are 0.30 mm and 1.27 mm.
+        // 0.012 in (0.30 mm) and 0.05 in (1.27 mm).
         (CRACK, false) => ((0.40, 1.50), (0.000_30, 0.001_27)),
         (CRACK, true) => ((0.40, 2.00), (0.001_28, 0.003)),
         // 0.004 in and 0.009 in.

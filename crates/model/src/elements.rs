@@ -72,7 +72,7 @@ macro_rules! elements {
         }
 
         impl Element {
-            /// All elements of the table, in ascending order of their numbers.
+            /// All elements in the table, in ascending order of their numbers.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
 
             /// Returns the element with this number.
@@ -84,7 +84,7 @@ macro_rules! elements {
                 }
             }
 
-            /// Returns the number of the element.
+            /// Returns the element number.
             #[must_use]
             pub const fn number(self) -> u16 {
                 match self {

@@ -46,7 +46,8 @@ impl<F> Vec3<F> {
         Self::new(0.0, 0.0, 0.0)
     }
 
-    /// Creates a vector from raw components that are known to be expressed in `F`. State the reason at the call: `// FRAME: …`.
+    /// Creates a vector from raw components that are known to be expressed in `F`. State the reason at the call site:
+    /// `// FRAME: …`.
     #[must_use]
     pub const fn assume(v: Vector3<f64>) -> Self {
         Self { v, frame: PhantomData }
@@ -265,7 +266,8 @@ impl<A, B> Rotation<A, B> {
         Self::assume(UnitQuaternion::identity())
     }
 
-    /// Creates a rotation from a quaternion that is known to rotate from `A` to `B`. State why at the call: `// FRAME: …`.
+    /// Creates a rotation from a quaternion that is known to rotate from `A` to `B`. State the reason at the call site:
+    /// `// FRAME: …`.
     #[must_use]
     pub fn assume(q: UnitQuaternion<f64>) -> Self {
         Self { q, frames: PhantomData }
@@ -322,7 +324,7 @@ impl<A, B> Rotation<A, B> {
         if between.norm() > 1e-9 { Self::assume(UnitQuaternion::new_normalize(between)) } else { self }
     }
 
-    /// Applies a further rotation by a rotation vector (axis times angle in radians) expressed in the source frame `A`.
+    /// Applies another rotation, given as a rotation vector (axis times angle in radians) in the source frame `A`.
     #[must_use]
     pub fn rotated_by(self, rotation_vector_rad: Vec3<A>) -> Self {
         let v = rotation_vector_rad.raw();

@@ -1,5 +1,5 @@
-//! Conversion between WGS84 and the local tangent plane at the scenario origin. Local coordinates are exact east, north, up,
-//! computed through earth-centered coordinates without a flat-earth approximation.
+//! Conversion between WGS84 and the local tangent plane at the scenario origin. Local coordinates (east, north, up) are
+//! exact: they are computed through earth-centered coordinates, without a flat-earth approximation.
 
 use super::frames::{Enu, Vec3};
 use super::math;
@@ -21,7 +21,7 @@ pub struct Geo {
     pub altitude_m: f64,
 }
 
-/// The local tangent plane about an origin, with conversions in both directions.
+/// The local tangent plane at an origin, with conversions in both directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalPlane {
     origin: Geo,
@@ -84,8 +84,8 @@ fn ecef_from_geo(geo: Geo) -> [f64; 3] {
     [(n + h) * cl * co, (n + h) * cl * so, (n * (1.0 - ECCENTRICITY_SQUARED) + h) * sl]
 }
 
-/// Converts earth-centered coordinates by Bowring's iteration. The error is below a nanometer after three iterations for heights
-/// within 10 km of the ellipsoid.
+/// Converts earth-centered coordinates with Bowring's iteration. The error is below a nanometer after three iterations
+/// for heights within 10 km of the ellipsoid.
 fn geo_from_ecef(p: [f64; 3]) -> Geo {
     let r = math::hypot(p[0], p[1]);
     let mut lat = math::atan2(p[2], r * (1.0 - ECCENTRICITY_SQUARED));

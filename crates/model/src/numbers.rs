@@ -1,6 +1,6 @@
 //! Formats numbers for messages that compare a value with a limit.
 
-/// Maximum number of decimals. A smaller difference from the limit is below the resolution of any measurement.
+/// Maximum number of decimals. A smaller difference from the limit is below any measurement's resolution.
 const MAX_DECIMALS: usize = 6;
 
 /// Formats a value with at least `digits` decimals, and with as many more as needed to show which side of the limit it

@@ -12,7 +12,7 @@ pub struct RandomStream {
 }
 
 impl RandomStream {
-    /// Creates the `name` stream for `seed`: the SHA-256 of both seeds xoshiro256++.
+    /// Creates the `name` stream for `seed`: an xoshiro256++ generator initialized with the SHA-256 of both.
     #[must_use]
     pub fn new(seed: u64, name: &str) -> Self {
         let mut hasher = Sha256::new();
@@ -23,7 +23,7 @@ impl RandomStream {
         Self { generator: Xoshiro256PlusPlus::from_seed(key) }
     }
 
-    /// Returns an integer of 64 random bits.
+    /// Returns 64 random bits as an integer.
     pub fn bits(&mut self) -> u64 {
         self.generator.next_u64()
     }
@@ -43,8 +43,8 @@ impl RandomStream {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize
     }
 
-    /// Returns a standard normal number by Marsaglia's polar method. Discards the second value of the method, which
-    /// keeps the generator the only state.
+    /// Returns a standard normal number, using Marsaglia's polar method. Discards the method's second value, so the
+    /// generator is the only state.
     pub fn normal(&mut self) -> f64 {
         loop {
             let u = self.range(-1.0, 1.0);

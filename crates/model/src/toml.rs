@@ -40,7 +40,7 @@ impl fmt::Display for Problem {
 /// Maximum number of problems to display, about one screenful; the rest are only counted.
 const MAX_DISPLAYED_PROBLEMS: usize = 50;
 
-/// Splits a list of problems into the first 50, which are displayed, and the number of remaining problems.
+/// Splits a list of problems into the first 50, which are displayed, and the number of the rest.
 #[must_use]
 pub fn split_displayed(problems: &[Problem]) -> (&[Problem], usize) {
     let count = problems.len().min(MAX_DISPLAYED_PROBLEMS);
@@ -70,7 +70,7 @@ impl std::error::Error for Problems {}
 /// Allowed values and default of a key as defined by the code. A test compares them with the documentation.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct DocumentedKey {
-    /// Description of the allowed values.
+    /// Description of allowed values.
     pub allowed: String,
     /// Default value as text, or `required`, or `none` for an optional key.
     pub default: String,
@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// Records a problem with a key, at the line of the key, or at the line of the table if the key is missing.
+    /// Records a problem with a key. The line is the key's line, or the table's line if the key is missing.
     pub fn add_problem(&mut self, section: &Section, key: &str, value: &str, allowed: &str, message: &str) {
         let line = section.table.and_then(|t| t.get(key)).and_then(|i| self.line_of(i)).unwrap_or(section.line);
         self.add_problem_at(line, &section.full_key(key), value, allowed, message);

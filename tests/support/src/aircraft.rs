@@ -4,7 +4,7 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_model::vehicle::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
 
-/// Returns a quadrotor of 1.3 kg, about the size of a Phantom.
+/// Returns a 1.3 kg quadrotor about the size of a Phantom.
 #[expect(clippy::too_many_lines, reason = "one value, field by field")]
 pub fn quad() -> Vehicle {
     let arm = 0.1237;

@@ -103,7 +103,7 @@ impl Bench {
         self.state.rigid.position_m
     }
 
-    /// Creates a bench with the aircraft ready, armed and hovering at a height, m.
+    /// Creates a bench with the aircraft ready, armed and hovering at a height, given in meters.
     pub fn airborne(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
         let mut bench = Self::new(vehicle, seed);
         bench.take_off(height_m);

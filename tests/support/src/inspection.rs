@@ -17,8 +17,8 @@ pub fn phantom() -> spandrel_model::vehicle::Vehicle {
     spandrel_model::vehicle::read("phantom2.toml", spandrel_model::shipped::PHANTOM2).unwrap()
 }
 
-/// Flies the tasks in turn, with the camera in the viewing directions of the paths, until `seconds` have passed; then
-/// lands on the pad.
+/// Flies the tasks in turn, with the camera in the paths' viewing directions, until `seconds` have passed. Then lands
+/// on the pad.
 pub fn record_inspection(job: &Scenario, seconds: f64, picture_every: usize) -> Tape {
     let mut tape = Tape::of(job);
     let pad = job.ground_team.pad_m;

@@ -13,9 +13,9 @@ use spandrel_monitor::assessment::{AssessedSession, assess_log};
 use spandrel_monitor::measures::attention::SiteSurvey;
 use std::sync::Arc;
 
-/// Frame rate of the test job, Hz. It divides the truth rate of 50 Hz, so that frames coincide with samples.
+/// Frame rate of the test job, Hz. It evenly divides the truth rate of 50 Hz, so that frames coincide with samples.
 pub const RATE_HZ: f64 = 25.0;
-/// Scenario CRC of the test job.
+/// The test job's scenario CRC.
 pub const CRC: u32 = 0xC0FF_EE00;
 /// Session seed on the tape.
 pub const SEED: u64 = 7;
@@ -364,7 +364,7 @@ impl Tape {
         self.send(&MavMessage::ILLUMINATOR_STATUS(lamp));
     }
 
-    /// Sets the gimbal pitch, rad above the horizon.
+    /// Sets the gimbal pitch in radians above the horizon.
     pub fn gimbal(&mut self, pitch_rad: f64) {
         self.send(&MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(GIMBAL_DEVICE_ATTITUDE_STATUS_DATA {
             time_boot_ms: self.clock_ms(),

@@ -30,7 +30,7 @@ pub fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_ITEM_INT
     }
 }
 
-/// Returns the position of the landing pad, m north of the origin.
+/// Returns the position of the landing pad, in meters north of the origin.
 pub fn home_north(station: &Station) -> f64 {
     station.site_position_m()[0]
 }

@@ -12,7 +12,7 @@ use spandrel_sitl::endpoint::flavor::{self, Flavor};
 use spandrel_sitl::testing::{STATION, Vehicle};
 use std::ops::{Deref, DerefMut};
 
-/// Link of the ground station.
+/// The ground station's link.
 pub const GCS: LinkId = STATION;
 
 /// Returns command parameters; missing ones are 0.
@@ -91,7 +91,7 @@ impl Station {
         self.sim.handle_datagram(GCS, &bytes);
     }
 
-    /// Runs for a time, ms, and collects the vehicle's messages.
+    /// Runs for a time, given in ms, and collects the vehicle's messages.
     pub fn run_ms(&mut self, ms: i64) {
         let until = self.sim.now() + SimTime::from_ms(ms);
         self.sim.handle_timeout(until);
@@ -127,7 +127,7 @@ impl Station {
         self.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some(p.vx.hypot(p.vy)) } else { None }).unwrap()
     }
 
-    /// Returns the gimbal pitch, deg.
+    /// Returns the gimbal pitch in degrees.
     pub fn gimbal_deg(&self) -> f32 {
         let q =
             self.last_message(|m| if let MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(g) = m { Some(g.q) } else { None }).unwrap();
@@ -176,7 +176,7 @@ impl Station {
         })
     }
 
-    /// Returns the reported local position: north, east, down, m.
+    /// Returns the reported local position: north, east, down, in meters.
     pub fn place(&self) -> [f32; 3] {
         self.last_message(|m| match m {
             MavMessage::LOCAL_POSITION_NED(p) => Some([p.x, p.y, p.z]),
@@ -185,7 +185,7 @@ impl Station {
         .unwrap()
     }
 
-    /// Returns the reported geographic position as north, east, down of the scenario origin, m.
+    /// Returns the reported geographic position as north, east, down of the scenario origin, in meters.
     pub fn site_position_m(&self) -> [f64; 3] {
         let place = self.last_message(|m| match m {
             MavMessage::GLOBAL_POSITION_INT(g) => Some(Geo {

@@ -57,7 +57,7 @@ pub struct Studio {
     pub site: Site,
     pub scene: Arc<Scene>,
     pub gpu: Gpu,
-    /// Simulation time of the images.
+    /// Simulation time at which the images are drawn.
     pub at: SimTime,
     renderer: Renderer,
     overlay: Overlay,

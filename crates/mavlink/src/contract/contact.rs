@@ -1,4 +1,4 @@
-//! Kinds of contact: the codes of the named value `contact`.
+//! Contact kinds: the codes in the `contact` named value.
 
 use serde::Serialize;
 

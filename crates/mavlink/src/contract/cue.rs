@@ -8,7 +8,7 @@ pub const BATTERY_RED: i32 = 1 << 1;
 pub const SPEEDING: i32 = 1 << 2;
 /// The drone is off the path, but still close enough to be in the task.
 pub const OFF_PATH: i32 = 1 << 3;
-/// The clearance is below the limit of the task.
+/// The clearance is below the task's limit.
 pub const TOO_CLOSE: i32 = 1 << 4;
 /// The aircraft is, or recently was, in contact with an object.
 pub const CRASH: i32 = 1 << 5;

@@ -1,6 +1,6 @@
-//! The interface between a vehicle and the clients that score, display and control it: messages in addition to standard
-//! telemetry, and their interpretation. Its version is [`VERSION`]. It is specified in
-//! `docs/src/reference/contract.md`, so that vehicles from other vendors can be scored.
+//! The interface between a vehicle and the clients that score, display and control it. It adds messages to standard
+//! telemetry and defines their meaning. Its version is [`VERSION`]. `docs/src/reference/contract.md` specifies it, so
+//! that vehicles from other vendors can be scored.
 //!
 //! Both sides use this module: the vehicle encodes, and the monitor decodes.
 //!
@@ -22,5 +22,5 @@ pub mod named_values;
 pub mod sticks;
 pub mod truth;
 
-/// Version of the interface. Incremented with every change that an older vehicle or monitor would misinterpret.
+/// Interface version, incremented with every change that an older vehicle or monitor would misinterpret.
 pub const VERSION: u32 = 1;

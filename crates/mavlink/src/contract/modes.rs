@@ -1,9 +1,9 @@
-//! Flight modes by number for PX4 (`px4_custom_mode.h`: main mode in the third byte, sub-mode in the fourth) and ArduCopter
-//! (`mode.h`). The names are those that ground stations show.
+//! Mode numbers of PX4 (`px4_custom_mode.h`: main mode in the third byte, sub-mode in the fourth) and ArduCopter
+//! (`mode.h`), with the names that ground stations show.
 
 use serde::Serialize;
 
-/// Source that controls the aircraft.
+/// Source of the commands that fly the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ControlSource {
@@ -13,7 +13,7 @@ pub enum ControlSource {
     Mission,
     /// A program that sends setpoints.
     Script,
-    /// The autopilot on its own: hold, takeoff, return, land.
+    /// The autopilot in an automatic mode: hold, takeoff, return or land.
     Autopilot,
 }
 
@@ -78,7 +78,7 @@ pub fn name(autopilot: u8, custom_mode: u32) -> String {
 
 impl ControlSource {
     /// Returns the control source for the autopilot type and custom mode of a heartbeat. Unknown modes count as
-    /// controlled by the pilot.
+    /// pilot-controlled.
     #[must_use]
     pub fn of(autopilot: u8, custom_mode: u32) -> Self {
         lookup(autopilot, custom_mode).map_or(Self::Pilot, |(_, source)| source)

@@ -5,7 +5,7 @@
 use super::contact::ContactKind;
 use crate::dialect::{MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA};
 
-/// A named value with its content.
+/// A named value and its data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Named {
     /// `contact`: kind of the current contact (the most severe one if there are several). Sent on change and at 10 Hz.
@@ -15,20 +15,21 @@ pub enum Named {
     Hits(i32),
     /// `respawns`: number of respawns since simulation start. Sent on change and every 5 s.
     Respawns(i32),
-    /// `traffic`: time when the bridges were closed to traffic (negative) or reopened, ms since simulation start. Sent on change,
-    /// and every 5 s after the first closing.
+    /// `traffic`: time at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
+    /// Sent on change, and every 5 s after the first closing.
     Traffic(i32),
-    /// `seed`: seed of the session; the 32-bit field is unsigned. Sent every 5 s.
+    /// `seed`: session seed; the 32-bit field is interpreted as unsigned. Sent every 5 s.
     Seed(u32),
     /// `scn_crc`: CRC-32 of the active scenario. Sent every 5 s.
     ScenarioCrc(u32),
-    /// `clearance`: distance from the center of the drone to the nearest surface other than the landing pad, m. Sent at 30 Hz.
+    /// `clearance`: distance from the drone's center to the nearest surface other than the landing pad, m. Sent at 30
+    /// Hz.
     ClearanceM(f64),
     /// `lux`: ambient light at the drone, lx; for display only. Sent at 5 Hz.
     Lux(f64),
     /// `pace`: simulation speed as a multiple of real time. Sent every 5 s unless it is 1.
     Pace(f64),
-    /// `cues`: active cues of the monitor, as the bits in [`super::cue`]. Sent on change and at 5 Hz.
+    /// `cues`: the monitor's active cues, as [`super::cue`] bits. Sent on change and at 5 Hz.
     Cues(i32),
 }
 
@@ -50,7 +51,7 @@ impl Named {
         }
     }
 
-    /// Encodes the message. `time_boot_ms` is the simulation time, ms modulo 2^32.
+    /// Encodes the message. `time_boot_ms` is the simulation time in ms, modulo 2^32.
     #[must_use]
     pub fn message(self, time_boot_ms: u32) -> MavMessage {
         let name = self.name();

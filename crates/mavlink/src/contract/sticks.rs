@@ -11,7 +11,8 @@ const TRAVEL_US: i16 = 500;
 pub struct Sticks([i16; 4]);
 
 impl Sticks {
-    /// Converts the pulse widths of RC_CHANNELS 1 to 4, us: roll, pitch, throttle, yaw. Widths beyond full travel are clamped.
+    /// Converts the pulse widths of RC_CHANNELS 1 to 4 (roll, pitch, throttle, yaw), in us. Widths beyond full travel
+    /// are clamped.
     #[must_use]
     pub fn from_us(channels: [u16; 4]) -> Self {
         let [right, forward, up, clockwise] = channels.map(|us| {
@@ -28,7 +29,8 @@ impl Sticks {
     }
 }
 
-/// Returns the pulse widths of RC_CHANNELS 1 to 4, us, for stick positions forward, right, up and clockwise in [-1, 1].
+/// Returns the pulse widths of RC_CHANNELS 1 to 4, in us. The stick positions (forward, right, up, clockwise) are in
+/// [-1, 1].
 #[must_use]
 pub fn to_us([forward, right, up, clockwise]: [f64; 4]) -> [u16; 4] {
     [right, forward, up, clockwise].map(|axis| (f64::from(CENTER_US) + f64::from(TRAVEL_US) * axis).round() as u16)

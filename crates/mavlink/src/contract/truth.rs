@@ -1,5 +1,5 @@
-//! Ground truth: HIL_STATE_QUATERNION at 50 Hz. `time_usec` is the time since simulation start, which is the reference clock of a
-//! flight.
+//! Ground truth: HIL_STATE_QUATERNION at 50 Hz. `time_usec` is the time since simulation start, which is the flight's
+//! reference clock.
 
 use super::continuity::is_jump;
 use crate::dialect::HIL_STATE_QUATERNION_DATA;
@@ -73,8 +73,8 @@ impl PublishedTruth {
     }
 }
 
-/// Converts the timestamp of a truth message. Values beyond the range of [`SimTime`] (292 years) are invalid; they saturate,
-/// which preserves the order of messages.
+/// Converts the timestamp of a truth message. Values beyond the range of [`SimTime`] (292 years) are invalid; they
+/// saturate, which preserves the message order.
 #[must_use]
 pub fn clock(time_usec: u64) -> SimTime {
     SimTime::from_us(i64::try_from(time_usec).unwrap_or(i64::MAX).min(i64::MAX / 1_000))

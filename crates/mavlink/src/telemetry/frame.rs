@@ -58,7 +58,7 @@ impl Frame {
 /// Aircraft state at a time between two truth messages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InterpolatedState {
-    /// Motion; the attitude is that of the preceding sample.
+    /// Motion, with the attitude from the preceding sample.
     pub motion: Motion<Enu>,
     /// Whether the time is in a gap that is too long to interpolate.
     pub missing: bool,
@@ -67,8 +67,8 @@ pub struct InterpolatedState {
 }
 
 impl Flight {
-    /// Returns the first time when the aircraft was more than `height_m` above the pad. `pad_up_m` is the pad's height
-    /// in the scenario frame, m.
+    /// Returns the first time at which the aircraft was more than `height_m` above the pad. `pad_up_m` is the pad's
+    /// height in the scenario frame, m.
     #[must_use]
     pub fn lift_off(&self, pad_up_m: f64, height_m: f64) -> Option<SimTime> {
         self.truths.iter().find(|truth| truth.motion.position_m.up() - pad_up_m > height_m).map(|truth| truth.time)
@@ -80,8 +80,8 @@ impl Flight {
         self.truths.last().map(|truth| truth.time)
     }
 
-    /// Returns the aircraft state at `time`. Before the first and after the last truth message, that message's state is returned.
-    /// `None` if there are no truth messages.
+    /// Returns the aircraft state at `time`. Before the first truth message or after the last one, returns that
+    /// message's state. `None` if there are no truth messages.
     #[must_use]
     pub fn between(&self, time: SimTime) -> Option<InterpolatedState> {
         let after = self.truths.partition_point(|truth| truth.time <= time);
@@ -145,7 +145,7 @@ impl Flight {
         changes.iter().map(|change| change.2).chain([now]).max_by_key(|contact| contact.severity()).unwrap_or_default()
     }
 
-    /// Returns the times when `hits` increased without a corresponding `contact` message, which indicates a lost
+    /// Returns the times at which `hits` increased without a corresponding `contact` message, which indicates a lost
     /// message.
     #[must_use]
     pub fn missed_contacts(&self) -> Vec<SimTime> {

@@ -57,7 +57,7 @@ impl RecordSplitter {
         self.split(1, take)
     }
 
-    /// Returns the length of the log up to the end of the last complete record read so far in bytes.
+    /// Returns the log length in bytes, up to the end of the last complete record read so far.
     #[must_use]
     pub fn complete_bytes(&self) -> u64 {
         self.complete_bytes

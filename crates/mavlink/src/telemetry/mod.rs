@@ -1,6 +1,7 @@
-//! Telemetry processing: a MAVLink frame becomes a [`sample::Sample`], samples become a [`timeline::Flight`] (sorted, with known
-//! gaps), and a flight is resampled at the scoring rate to [`frame::Frame`]s. [`tlog`] is the format of log files, and
-//! [`log_stream`] reads them in chunks. Monitor, pilot, view and report use this module. It does not depend on scoring.
+//! Telemetry processing: a MAVLink frame becomes a [`sample::Sample`], samples become a [`timeline::Flight`] (sorted,
+//! with known gaps), and a flight is resampled at the scoring rate into [`frame::Frame`]s. [`tlog`] is the format of
+//! log files, and [`log_stream`] reads them in chunks. Monitor, pilot, view and report use this module. It does not
+//! depend on scoring.
 
 mod block_list;
 pub mod frame;

@@ -1,4 +1,4 @@
-//! Wind and position estimated by the autopilot, for exports only. Scoring does not use them.
+//! The autopilot's wind and position estimates, which are only exported, never used for scoring.
 
 use super::frame::MAX_INTERPOLATED_GAP;
 use super::sample::FrameHeader;
@@ -12,13 +12,13 @@ use spandrel_model::time::SimTime;
 
 /// Component ID of the autopilot. Other components' positions are ignored.
 const AUTOPILOT: u8 = 1;
-/// Maximum difference between a message's own timestamp and truth time for the timestamp to be used. Otherwise, the
-/// message gets the time of the preceding truth message.
+/// Maximum difference from truth time at which a message's own timestamp is used. Otherwise, the message gets the time
+/// of the preceding truth message.
 const MAX_CLOCK_DIFFERENCE: SimTime = SimTime::from_ms(2_000);
 /// Maximum age of a wind report (estimate: reports are sent once per second, and one may be lost).
 const MAX_WIND_AGE: SimTime = SimTime::from_ms(2_500);
 
-/// Wind and estimated position of one flight.
+/// Wind and estimated position during one flight.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Navigation {
     estimate_m: Signal<Vec3<Enu>>,
@@ -85,7 +85,7 @@ impl NavigationReader {
         }
     }
 
-    /// Returns the data of one epoch of the timeline, sorted by time.
+    /// Returns the data for one timeline epoch, sorted by time.
     #[must_use]
     pub fn of(mut self, epoch: usize) -> Navigation {
         let mut navigation = if epoch < self.epochs.len() { self.epochs.swap_remove(epoch) } else { Navigation::default() };

@@ -42,9 +42,9 @@ pub enum SampleValue {
     Hits(i32),
     /// Number of respawns since simulation start.
     Respawns(i32),
-    /// Time when the bridges were closed to traffic (negative) or reopened, ms since simulation start.
+    /// Time at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     Traffic(i32),
-    /// Seed of the session.
+    /// Session seed.
     Seed(u64),
     /// CRC-32 of the active scenario.
     ScenarioCrc(u32),
@@ -52,13 +52,13 @@ pub enum SampleValue {
     Clearance(f64),
     /// Gimbal pitch relative to the horizon, rad, up positive.
     GimbalPitch(f64),
-    /// Horizontal field of view of the camera, rad.
+    /// The camera's horizontal field of view, rad.
     FieldOfView(f64),
-    /// Heartbeat of the autopilot.
+    /// Autopilot heartbeat.
     Heartbeat {
         /// Whether the motors are armed.
         armed: bool,
-        /// Source that controls the aircraft.
+        /// Source of the commands that fly the aircraft.
         by: ControlSource,
     },
     /// Whether the autopilot reports that the aircraft is on the ground.
@@ -70,11 +70,11 @@ pub enum SampleValue {
 /// A decoded message that the timeline stores.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// System and component ID of the sender.
+    /// Sender's system and component ID.
     pub sender: (u8, u8),
     /// Sequence number assigned by the sender.
     pub sequence: u8,
-    /// Checksum of the frame. It distinguishes a duplicate from a later frame with the same sequence number.
+    /// Frame checksum. It distinguishes a duplicate from a later frame with the same sequence number.
     pub checksum: u16,
     /// Timestamp in the message, if it has one.
     pub message_time: Option<SimTime>,
@@ -87,15 +87,15 @@ pub struct Sample {
 pub struct FrameHeader {
     /// MAVLink message ID (24 bits in MAVLink 2).
     pub message_id: u32,
-    /// System and component ID of the sender.
+    /// Sender's system and component ID.
     pub sender: (u8, u8),
-    /// Sequence number of the frame; wraps at 256.
+    /// Frame sequence number, which wraps at 256.
     pub sequence: u8,
-    /// Offset of the payload in the frame, bytes.
+    /// Payload offset in the frame, bytes.
     pub payload_at: usize,
-    /// Offset of the end of the payload, where the checksum starts, bytes.
+    /// Offset of the payload end, where the checksum starts, bytes.
     pub payload_end: usize,
-    /// Total length of the frame, bytes.
+    /// Total frame length, bytes.
     pub total: usize,
 }
 
@@ -173,7 +173,7 @@ pub fn truth_time(frame: &[u8]) -> Option<SimTime> {
     HIL_STATE_QUATERNION_DATA::deser(MavlinkVersion::V2, payload).ok().map(|truth| clock(truth.time_usec))
 }
 
-/// Decodes a frame whose checksum was verified; `None` if the timeline does not store its message.
+/// Decodes a frame whose checksum has been verified; `None` if the timeline does not store its message.
 #[must_use]
 pub fn read(frame: &[u8], plane: &LocalPlane) -> Option<Sample> {
     let header = FrameHeader::peek(frame)?;

@@ -46,7 +46,7 @@ impl<T: Copy> Signal<T> {
         &self.points
     }
 
-    /// Returns all changes for modification, because some times become known only later.
+    /// Returns all changes as a mutable slice, because some times are not known until later.
     pub(super) fn all_mut(&mut self) -> &mut [(SimTime, i64, T)] {
         &mut self.points
     }

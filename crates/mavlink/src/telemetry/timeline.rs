@@ -17,16 +17,16 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::time::SimTime;
 use std::ops::ControlFlow;
 
-/// Maximum difference between a message's own timestamp and truth time for the timestamp to be used.
+/// Maximum difference from truth time at which a message's own timestamp is used.
 const MAX_CLOCK_DIFFERENCE: SimTime = SimTime::from_ms(2_000);
-/// Maximum difference between the time found by sequence number and the time of arrival.
+/// Maximum difference between the time found by sequence number and the arrival time.
 const MAX_SEQUENCE_TIME_DIFFERENCE: SimTime = SimTime::from_ms(500);
 /// Maximum lag of a late frame, in sequence numbers. Larger differences indicate a large loss, because the numbers wrap
 /// at 256.
 const MAX_LATE_FRAMES: i64 = 64;
 /// Component ID of the monitor, whose own messages are ignored.
 const MONITOR_COMPONENT: u8 = 191;
-/// Period after which a 32-bit counter of milliseconds wraps: 49.7 days.
+/// Period after which a 32-bit millisecond counter wraps: 49.7 days.
 const CLOCK_PERIOD_MS: i64 = 1 << 32;
 
 /// Unwraps a 32-bit timestamp in milliseconds: returns the nonnegative value that is closest to `near`.
@@ -36,7 +36,7 @@ fn unwrap_timestamp(own: SimTime, near: SimTime) -> SimTime {
     SimTime::from_ms((own.ms() + CLOCK_PERIOD_MS * rounds.max(0)).min(i64::MAX / 1_000_000))
 }
 
-/// Statistics of the telemetry link.
+/// Telemetry link statistics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct LinkCounts {
     /// Number of frames received from the vehicle's system.
@@ -72,8 +72,8 @@ impl SequenceUnwrapper {
         Self { sender, newest, newest_truth_order: -1, epochs: vec![(-1, 0); 256] }
     }
 
-    /// Returns the order of a frame. `ahead` means that the frame is the latest truth message so far, so its number cannot be
-    /// lower than that of the previous truth message.
+    /// Returns a frame's increasing number. `ahead` means that the frame is the latest truth message so far, so its
+    /// number cannot be lower than that of the previous truth message.
     fn place(&mut self, sequence: u8, checksum: u16, ahead: bool) -> FrameOrder {
         let difference = i64::from((i64::from(sequence) - self.newest).rem_euclid(256) as u8 as i8);
         let mut order = self.newest + difference;
@@ -183,8 +183,8 @@ impl Timeline {
         self.newest
     }
 
-    /// Returns the ID of the vehicle's system, which is known after the first truth message. Messages from other
-    /// systems are not part of the flight.
+    /// Returns the vehicle's system ID, which is known after the first truth message. Messages from other systems are
+    /// not part of the flight.
     #[must_use]
     pub fn system(&self) -> Option<u8> {
         self.system
@@ -244,7 +244,7 @@ impl Timeline {
             self.sequencers.push(SequenceUnwrapper::new(header.sender, header.sequence));
             self.sequencers.len() - 1
         });
-        // Only some frames of ground stations are routed to the monitor, so gaps in their sequence numbers are not losses.
+        // Only some ground station frames are routed to the monitor, so gaps in their sequence numbers are not losses.
         let counted = self.system == Some(header.sender.0);
         match self.sequencers[index].place(header.sequence, checksum, ahead) {
             FrameOrder::Duplicate => {
@@ -304,7 +304,7 @@ impl Timeline {
         FrameDisposition::Restarted(sample)
     }
 
-    /// Returns the flight of one epoch, sorted by time.
+    /// Returns the flight data for one epoch, sorted by time.
     #[must_use]
     pub fn flight(&self, epoch: usize) -> Flight {
         let mut flight = Flight { ended_by_restart: epoch < self.epoch_ends.len(), ..Flight::default() };
@@ -327,12 +327,12 @@ fn sequence_key(entry: &TruthEntry) -> ((u8, u8), i64, SimTime) {
     (entry.sender, entry.order, entry.truth.time)
 }
 
-/// Returns the time of a sample. `numbered` contains the truth messages of the flight, sorted by [`sequence_key`].
+/// Returns the time of a sample. `numbered` contains the flight's truth messages, sorted by [`sequence_key`].
 fn time_of(entry: &TimedSample, numbered: &[&TruthEntry]) -> SimTime {
     let near = |a: SimTime, b: SimTime, within: SimTime| a.saturating_sub(b) <= within && b.saturating_sub(a) <= within;
     let arrival = entry.arrival.get();
     if let Some(own) = entry.message_time.get() {
-        // The message for a lost photo is sent again much later, with the original timestamp.
+        // A lost photo message is resent much later, with its original timestamp.
         let late = matches!(entry.value, SampleValue::Snapshot(_)) && arrival.is_some_and(|arrival| own <= arrival);
         if late || arrival.is_none_or(|arrival| near(own, arrival, MAX_CLOCK_DIFFERENCE)) {
             return own;
@@ -365,17 +365,17 @@ pub struct Flight {
     pub hits: Signal<i32>,
     /// Number of respawns since simulation start.
     pub respawns: Signal<i32>,
-    /// Times when the bridges were closed to traffic (negative) or reopened, ms since simulation start.
+    /// Times at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     pub traffic: Signal<i32>,
     /// Distance to the nearest surface, m.
     pub clearance: Signal<f64>,
     /// Gimbal pitch relative to the horizon, rad, up positive.
     pub gimbal: Signal<f64>,
-    /// Horizontal field of view of the camera, rad.
+    /// The camera's horizontal field of view, rad.
     pub field_of_view: Signal<f64>,
     /// Whether the motors are armed.
     pub armed: Signal<bool>,
-    /// Source that controls the aircraft; one value per heartbeat (1 s).
+    /// Source of the commands that fly the aircraft; one value per heartbeat (1 s).
     pub flown_by: Signal<ControlSource>,
     /// Whether the autopilot reports that the aircraft is on the ground.
     pub on_ground: Signal<bool>,

@@ -9,7 +9,7 @@ use super::sample::FrameHeader;
 /// Length of the timestamp before each frame, bytes.
 pub const TIMESTAMP_LEN: usize = 8;
 
-/// A record of a telemetry log.
+/// A record in a telemetry log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TlogRecord<'a> {
     /// Timestamp: session start plus simulation time, µs since the Unix epoch.
@@ -43,14 +43,14 @@ impl<'a> TlogReader<'a> {
         Self { bytes, at: 0, complete_bytes: 0, skipped: 0 }
     }
 
-    /// Returns the length of the log up to the end of the last complete record read so far in bytes. A restarted monitor truncates
-    /// the file to this length and continues.
+    /// Returns the log length in bytes, up to the end of the last complete record read so far. A restarted monitor
+    /// truncates the file to this length and continues.
     #[must_use]
     pub fn complete_bytes(&self) -> usize {
         self.complete_bytes
     }
 
-    /// Returns the number of bytes read so far that belong to no record.
+    /// Returns the number of bytes read so far that are not part of any record.
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.skipped
@@ -87,8 +87,8 @@ impl<'a> Iterator for TlogReader<'a> {
             self.at = next;
         }
         let (record, end) = self.record_at(self.at)?;
-        // After a corrupt length, a byte inside a record can look like the start of a frame. The checksum of known messages
-        // detects this.
+        // After a corrupt length, a byte inside a record can look like the start of a frame. For known messages, the
+        // checksum detects this.
         if !FrameHeader::is_plausible(record.frame) {
             let next = self.resynchronize()?;
             self.skipped += next - self.at;
@@ -101,8 +101,8 @@ impl<'a> Iterator for TlogReader<'a> {
     }
 }
 
-/// Returns the length of a log up to the end of its last complete record in bytes. Truncate the file to this length before
-/// appending to it.
+/// Returns the length of a log in bytes, up to the end of its last complete record. Truncate the file to this length
+/// before appending to it.
 #[must_use]
 pub fn complete_len(bytes: &[u8]) -> usize {
     let mut reader = TlogReader::new(bytes);
@@ -110,21 +110,21 @@ pub fn complete_len(bytes: &[u8]) -> usize {
     reader.complete_bytes()
 }
 
-/// Returns the Unix time of the first record of a log in µs; `None` for an empty log.
+/// Returns the Unix time of a log's first record in µs; `None` for an empty log.
 #[must_use]
 pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
     TlogReader::new(bytes).next().map(|first| first.timestamp_us)
 }
 
-/// Returns the Unix time of simulation time zero, µs: the timestamp of the first truth message minus its simulation time. `None`
-/// for a log without truth messages.
+/// Returns the Unix time of simulation time zero in µs: the timestamp of the first truth message minus its simulation
+/// time. `None` for a log without truth messages.
 #[must_use]
 pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
     TlogReader::new(bytes).find_map(|record| zero_of_record_us(&record))
 }
 
-/// Returns the Unix time of simulation time zero, µs, from a single record: its timestamp minus its simulation time. `None` if
-/// the record is not a truth message.
+/// Returns the Unix time of simulation time zero in µs, calculated from a single record: its timestamp minus its
+/// simulation time. `None` if the record is not a truth message.
 #[must_use]
 pub fn zero_of_record_us(record: &TlogRecord<'_>) -> Option<u64> {
     let time = super::sample::truth_time(record.frame)?;

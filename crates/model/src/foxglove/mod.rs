@@ -1,7 +1,7 @@
-//! JSON messages for Foxglove: five of its standard message types (frame transforms, location fix, log, camera calibration, scene
-//! update; <https://docs.foxglove.dev/docs/sdk/schemas>) and two custom types.
+//! JSON messages for Foxglove: five standard message types (frame transforms, location fix, log, camera calibration,
+//! scene update; <https://docs.foxglove.dev/docs/sdk/schemas>) and two custom types.
 //!
-//! Axes of the frames: `site` is east, north, up from the scenario origin, m; `drone` is forward, left, up; `camera` is right,
+//! Frame axes: `site` is east, north, up from the scenario origin, m; `drone` is forward, left, up; `camera` is right,
 //! down, forward.
 
 mod schema;
@@ -15,9 +15,9 @@ use serde_json::{Value, json};
 pub const DRONE_ESTIMATE: &str = "drone_estimate";
 /// Frame ID of the true aircraft pose.
 pub const DRONE: &str = "drone";
-/// Frame ID of the camera.
+/// Camera frame ID.
 pub const CAMERA: &str = "camera";
-/// Frame ID of the site: east, north, up.
+/// Site frame ID; axes east, north, up.
 pub const SITE: &str = "site";
 
 /// Message topic. The discriminant is the index into [`CHANNELS`].
@@ -29,7 +29,7 @@ pub enum Topic {
     Fix,
     /// Log messages.
     Log,
-    /// Calibration of the camera.
+    /// Camera calibration.
     Camera,
     /// Site geometry.
     Site,
@@ -73,7 +73,7 @@ pub const CHANNELS: [Channel; 7] = [
 /// One message on a channel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChannelMessage {
-    /// Topic of the message.
+    /// Message topic.
     pub topic: Topic,
     /// UTC, nanoseconds since the Unix epoch.
     pub unix_ns: u64,
@@ -156,7 +156,7 @@ pub fn fix(unix_ns: u64, geo: Geo, horizontal_m: f64, vertical_m: f64) -> Channe
         "longitude": geo.longitude_deg,
         "altitude": geo.altitude_m,
         "position_covariance": [h, 0.0, 0.0, 0.0, h, 0.0, 0.0, 0.0, v],
-        // DIAGONAL_KNOWN
+        // Covariance type DIAGONAL_KNOWN.
         "position_covariance_type": 2,
     });
     ChannelMessage::new(Topic::Fix, unix_ns, &value)
@@ -177,7 +177,8 @@ pub fn log(unix_ns: u64, severity: u8, text: &str) -> ChannelMessage {
     ChannelMessage::new(Topic::Log, unix_ns, &value)
 }
 
-/// Creates the calibration message of an ideal pinhole camera from its focal length and its image width and height, px.
+/// Creates the calibration message of an ideal pinhole camera from its focal length, image width and image height, in
+/// px.
 #[must_use]
 pub fn camera(unix_ns: u64, focal_px: f64, (width_px, height_px): (u32, u32)) -> ChannelMessage {
     let (f, w, h) = (focal_px, width_px, height_px);
@@ -224,7 +225,7 @@ pub fn site(unix_ns: u64, glb_base64: &str) -> ChannelMessage {
     ChannelMessage::new(Topic::Site, unix_ns, &value)
 }
 
-/// Creates a battery message from voltage, V, and current, A, if known, and the remaining charge, %.
+/// Creates a battery message from the voltage (V) and current (A), if known, and the remaining charge (%).
 #[must_use]
 pub fn battery(unix_ns: u64, volts_amperes: Option<(f64, f64)>, remaining_pct: f64) -> ChannelMessage {
     let value = json!({
@@ -243,7 +244,7 @@ pub struct ScoringSignals {
     pub clearance_m: f64,
     /// Ambient illuminance at the drone, lx, if known.
     pub lux: Option<f64>,
-    /// Label of the surface type in contact.
+    /// Label of the surface type that the aircraft touches.
     pub contact: &'static str,
     /// Number of contacts so far.
     pub hits: i32,

@@ -27,9 +27,9 @@ pub struct Scenario {
     pub bridges: Vec<Bridge>,
     /// The tasks, in file order; the index is t in the scoring formulas.
     pub tasks: Vec<Task>,
-    /// Number, size and types of the defects.
+    /// Defect number, size and types.
     pub defects: DefectSpec,
-    /// Number of vehicles and pedestrians, and speed of vehicles.
+    /// Number of vehicles and pedestrians, and vehicle speed.
     pub traffic: TrafficSpec,
     /// Wind model, mean wind and gusts.
     pub wind: WindSpec,
@@ -37,7 +37,7 @@ pub struct Scenario {
     pub light: LightSpec,
     /// Session rules for crashes, battery and GNSS.
     pub rules: SessionRules,
-    /// Thresholds of the in-flight feedback.
+    /// Thresholds for in-flight feedback.
     pub feedback: FeedbackThresholds,
     /// Scoring parameters.
     pub scoring: ScoringParams,
@@ -45,16 +45,16 @@ pub struct Scenario {
     pub crc: u32,
 }
 
-/// Settings of the height grid and the water level.
+/// Height grid and water level settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TerrainSpec {
     /// Side length of the square terrain, centered on the origin, m.
     pub size_m: f64,
     /// Grid spacing, m.
     pub spacing_m: f64,
-    /// Water level, m up.
+    /// Water level above the origin, m.
     pub water_level_m: f64,
-    /// Source of the heights.
+    /// Height source.
     pub source: TerrainSource,
 }
 
@@ -63,25 +63,26 @@ pub struct TerrainSpec {
 pub enum TerrainSource {
     /// Level ground at one height.
     Flat {
-        /// Height of the ground, m up.
+        /// Ground height above the origin, m.
         height_m: f64,
     },
     /// A valley with a lake between mountains, generated from a separate seed, so that every session has the same terrain.
     Valley {
         /// Terrain seed.
         seed: u64,
-        /// Width of the lake, m.
+        /// Lake width, m.
         lake_width_m: f64,
-        /// Direction of the valley's axis, degrees clockwise from north.
+        /// Direction of the valley axis, degrees clockwise from north.
         axis_deg: f64,
-        /// Height of the mountains above the water, m.
+        /// Mountain height above the water, m.
         relief_m: f64,
-        /// Depth of the lake at its deepest point, m.
+        /// Maximum depth of the lake, m.
         lake_depth_m: f64,
     },
-    /// Heights from a file in the scenario's folder (comma-separated, m up; rows south to north, columns west to east).
+    /// Heights from a file in the scenario's folder (m above the origin, comma-separated; rows from south to north,
+    /// columns from west to east).
     File {
-        /// Row-major heights, m up: `heights_m[row][column]`.
+        /// Row-major heights above the origin, m: `heights_m[row][column]`.
         heights_m: Vec<Vec<f64>>,
     },
 }
@@ -89,11 +90,11 @@ pub enum TerrainSource {
 /// Positions of the ground crew and of the level landing pad, where the drone takes off and lands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundTeam {
-    /// Center of the upper surface of the landing pad, m.
+    /// Center of the landing pad's upper surface, m.
     pub pad_m: Vec3<Enu>,
     /// Initial heading of the drone on the pad, degrees clockwise from north.
     pub pad_heading_deg: f64,
-    /// Half side length of the square pad, m.
+    /// Half the side length of the square pad, m.
     pub pad_half_m: f64,
     /// Position of the inspector's feet, m (contact type: person).
     pub inspector_m: Vec3<Enu>,
@@ -101,7 +102,7 @@ pub struct GroundTeam {
     pub truck_m: Vec3<Enu>,
     /// Truck heading, degrees clockwise from north.
     pub truck_heading_deg: f64,
-    /// Maximum horizontal distance from the center of the pad for a landing to count as at home, m.
+    /// Maximum horizontal distance from the pad's center at which the drone counts as landed at home, m.
     pub home_radius_m: f64,
 }
 
@@ -110,7 +111,7 @@ pub struct GroundTeam {
 pub struct Task {
     /// Task number for display and export, from 1 in file order.
     pub id: u32,
-    /// Display name of the task.
+    /// Display name.
     pub name: String,
     /// Index into [`Scenario::bridges`], or `None` for a free path (drills).
     pub bridge: Option<usize>,
@@ -124,7 +125,7 @@ pub struct Task {
     pub path_m: Vec<Vec3<Enu>>,
     /// Viewing directions: for each path point, a unit vector toward the inspected surface.
     pub look: Vec<Vec3<Enu>>,
-    /// Too-close threshold of this task, m; `None` to use the threshold of the job.
+    /// Too-close threshold of this task, m; `None` to use the job's threshold.
     pub too_close_m: Option<f64>,
     /// True if the lamp is recommended in this task. Used in briefings and by the synthetic trainee.
     pub dark: bool,
@@ -172,27 +173,28 @@ pub struct PlacedDefect {
     pub line: bool,
 }
 
-/// Settings of the traffic on the bridges.
+/// Bridge traffic settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficSpec {
-    /// Number of cars on all bridges together.
+    /// Total number of cars on all bridges.
     pub cars: usize,
-    /// Number of trucks on all bridges together.
+    /// Total number of trucks on all bridges.
     pub trucks: usize,
-    /// Number of pedestrians on all walkways together.
+    /// Total number of pedestrians on all walkways.
     pub pedestrians: usize,
     /// Mean speed of cars and trucks, m/s.
     pub car_speed_m_s: f64,
 }
 
-/// Wind settings of a job.
+/// A job's wind settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindSpec {
     /// Wind model: a constant force or a velocity field.
     pub model: WindModel,
-    /// Mean wind speed at 20 ft (6.096 m) above the water, m/s. The levels are light 2.2 mph, gentle 11 mph, medium 22 mph.
+    /// Mean wind speed at 20 ft (6.096 m) above the water, m/s. The levels are light (2.2 mph), gentle (11 mph) and
+    /// medium (22 mph).
     pub speed_m_s: f64,
-    /// Constant force of the `paper` model, N.
+    /// Constant force in the `paper` model, N.
     pub paper_force_n: f64,
     /// Direction that the wind blows from, degrees clockwise from north.
     pub from_deg: f64,
@@ -213,7 +215,7 @@ pub enum WindModel {
     Physical,
 }
 
-/// A gust or a change of the mean wind.
+/// A gust or a change in the mean wind.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WindEvent {
     /// A 1-cosine gust (MIL-F-8785C) that is added to the mean wind.
@@ -227,7 +229,7 @@ pub enum WindEvent {
         /// Direction that the gust blows from, degrees clockwise from north.
         from_deg: f64,
     },
-    /// A linear change of the mean wind.
+    /// A linear change in the mean wind.
     Change {
         /// Start time of the change.
         at: SimTime,
@@ -240,7 +242,7 @@ pub enum WindEvent {
     },
 }
 
-/// Daylight settings of a job.
+/// A job's daylight settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightSpec {
     /// UTC date and time of simulation start, seconds since the Unix epoch.
@@ -258,9 +260,9 @@ pub struct LightSpec {
 pub struct SessionRules {
     /// Action after a survivable crash.
     pub after_crash: AfterCrash,
-    /// Battery model of the session.
+    /// Battery model for the session.
     pub battery: BatteryModel,
-    /// True if the vehicle returns to launch at low battery. False in the job of the TASBID paper.
+    /// True if the vehicle returns to launch at low battery. False in the TASBID paper's job.
     pub low_battery_return: bool,
     /// Low battery level, %, that triggers the warning and, if enabled, the return to launch.
     pub low_battery_pct: f64,
@@ -295,9 +297,9 @@ pub enum BatteryModel {
 /// Feedback thresholds (docs/src/reference/assessment.md, "Feedback during the flight").
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedbackThresholds {
-    /// Minimum distance from the center of the drone to any surface, m.
+    /// Minimum distance from the drone's center to any surface, m.
     pub too_close_m: f64,
-    /// Distance where the too-close warning clears, m.
+    /// Distance at which the too-close warning clears, m.
     pub too_close_clear_m: f64,
     /// Outer limit of the off-path band, m.
     pub off_path_max_m: f64,
@@ -305,9 +307,9 @@ pub struct FeedbackThresholds {
     pub off_path_after: SimTime,
     /// Minimum time that the cue stays visible.
     pub off_path_hold: SimTime,
-    /// Minimum battery level that is displayed in green, %.
+    /// Minimum battery level displayed in green, %.
     pub battery_green_pct: f64,
-    /// Minimum battery level that is displayed in yellow, %; lower levels are red.
+    /// Minimum battery level displayed in yellow, %; lower levels are red.
     pub battery_yellow_pct: f64,
     /// Minimum interval between two text messages from the same rule.
     pub text_interval: SimTime,

@@ -15,12 +15,12 @@ use std::collections::BTreeMap;
 
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
-/// Maximum number of cells per side of the height grid; building 4 million cells takes about one second and 32 MB.
+/// Maximum number of height grid cells per side. Building 4 million cells takes about one second and 32 MB.
 const MAX_CELLS_PER_SIDE: f64 = 2_000.0;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
 const MAX_BRIDGES: usize = 16;
 
-/// Function that loads a file by name from the folder of the scenario; returns its text or an error message.
+/// Function that loads a file by name from the scenario's folder and returns its text or an error message.
 pub type SiblingLoader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
 /// Parses a scenario file. `file` is the file name used in messages.
@@ -209,7 +209,7 @@ fn read_bridges(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
     out
 }
 
-/// Reads the table with the dimensions of a bridge and checks that they are consistent with each other.
+/// Reads the dimensions table of a bridge and checks that the dimensions are consistent with each other.
 fn read_dimensions(r: &mut Reader, s: &mut Section, bridge: &BridgeType) -> BridgeKind {
     let mut s = r.section(s, bridge.name);
     let values: Vec<f64> = bridge.fields.iter().map(|f| r.number(&mut s, f.key, (f.min, f.max), Some(f.default))).collect();

@@ -1,5 +1,5 @@
-//! Resolved scenario files: the source text with the seed and the placed defects of a session inserted. A resolved file has the
-//! same CRC as its source.
+//! Resolved scenario files: the source text plus the seed and placed defects of a session. A resolved file has the same
+//! CRC as its source.
 
 use super::job::PlacedDefect;
 use super::point::point;
@@ -8,7 +8,7 @@ use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 
-/// Tolerance on the length of unit vectors, for vectors rounded to three decimals.
+/// Tolerance for the length of unit vectors that are rounded to three decimals.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
 /// Inserts a seed and placed defects into the source text. Parsing the result yields the same job with exactly these defects.
@@ -97,7 +97,7 @@ pub fn crc(text: &str) -> u32 {
     crc32fast::hash(canonical_form(document.as_item()).as_bytes())
 }
 
-/// Returns the canonical form of a TOML item: sorted keys without comments and formatting.
+/// Returns the canonical form of a TOML item: sorted keys without comments or formatting.
 fn canonical_form(item: &Item) -> String {
     let mut out = String::new();
     write_canonical(item, "", &mut out);

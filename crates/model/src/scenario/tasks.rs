@@ -1,4 +1,4 @@
-//! Reads the tasks of a job. Their reference paths are derived from a bridge or listed point by point.
+//! Reads a job's tasks. Their reference paths are derived from a bridge or listed point by point.
 
 use super::bridges::Bridge;
 use super::bridges::path::{SPACING_M, TaskKind, TaskPath};
@@ -7,7 +7,8 @@ use super::point::MAX_COORDINATE_M;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 
-/// Minimum stand-off distance of task paths derived from a bridge, m. It leaves a margin to the too-close warning at 2.5 m.
+/// Minimum stand-off distance of task paths derived from a bridge, m. It leaves a margin before the too-close warning
+/// at 2.5 m.
 const MIN_STAND_OFF_M: f64 = 4.0;
 /// Maximum on-path threshold, m. The threshold must be below 8 m, the outer limit of the off-path band.
 const MAX_THRESHOLD_M: f64 = 7.999;
@@ -26,8 +27,8 @@ const TASK_KINDS: [(&str, TaskKind); 5] = [
     ("free", TaskKind::Free),
 ];
 
-/// Returns the default on-path threshold of a task kind, m (docs/src/reference/assessment.md, "On path"; the TASBID
-/// paper specifies none).
+/// Returns the default on-path threshold of a task kind in meters (docs/src/reference/assessment.md, "On path"; the
+/// TASBID paper specifies none).
 fn default_threshold_m(kind: TaskKind) -> f64 {
     match kind {
         TaskKind::SlabSide | TaskKind::ArchBottom => 3.0,
@@ -98,7 +99,7 @@ fn read_bridge_index(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &
     found
 }
 
-/// Creates a path from the points in the file, resampled. The camera points along the path unless the file specifies a
+/// Creates a path by resampling the points in the file. The camera points along the path unless the file specifies a
 /// target.
 fn free_path(
     r: &mut Reader,
@@ -110,7 +111,7 @@ fn free_path(
 ) -> TaskPath {
     let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     if points.is_empty() && kind == TaskKind::Free {
-        r.add_problem(s, "points_m", "", "one or more [east, north, up]", "a free path needs points");
+        r.add_problem(s, "points_m", "", "one or more [east, north, up]", "a free path without points");
     }
     let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
     if length_m > MAX_PATH_LENGTH_M {

@@ -5,8 +5,8 @@ use crate::math::M_S_PER_MPH;
 use crate::time::SimTime;
 use crate::toml::{Reader, Section};
 
-/// Wind levels of the TASBID paper: speed, mph, and force, N. The speed of the light level is 2.2 mph, which makes its
-/// 0.12 N follow the same square law as the 3 N and 12 N of the other levels.
+/// Wind levels of the TASBID paper: speed (mph) and force (N). The light level's speed is 2.2 mph, so that its force of
+/// 0.12 N follows the same square law as the 3 N and 12 N of the other levels.
 const WIND_LEVELS: [(&str, (f64, f64)); 4] =
     [("calm", (0.0, 0.0)), ("light", (2.2, 0.12)), ("gentle", (11.0, 3.0)), ("medium", (22.0, 12.0))];
 

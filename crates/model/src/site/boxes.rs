@@ -14,15 +14,16 @@ pub struct OrientedBox {
     pub half_m: [f64; 3],
 }
 
-/// Number of steps of the golden-section search along a capsule's axis, which narrow 10 m to less than a micrometer.
+/// Number of steps in the golden-section search along a capsule's axis, enough to narrow 10 m to less than a
+/// micrometer.
 const SEARCH_STEPS: usize = 36;
 /// (√5 - 1)/2.
 const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
-/// Minimum axis length of a capsule whose ends are separate contacts, m.
+/// Minimum capsule axis length at which the ends are separate contacts, m.
 const MIN_AXIS_LENGTH_M: f64 = 1e-6;
 
 impl OrientedBox {
-    /// Returns the radius of the bounding sphere about the center in meters.
+    /// Returns the radius of the bounding sphere about the center, in meters.
     #[must_use]
     pub fn radius_m(&self) -> f64 {
         self.half_m.iter().map(|h| h * h).sum::<f64>().sqrt()
@@ -37,7 +38,8 @@ impl OrientedBox {
         self.axes[0] * local[0] + self.axes[1] * local[1] + self.axes[2] * local[2]
     }
 
-    /// Returns the signed distance (m, negative inside), surface point and outward unit normal nearest to a point.
+    /// Returns the signed distance (m, negative inside) from a point to the nearest surface point, that surface point,
+    /// and its outward unit normal.
     #[must_use]
     pub fn nearest(&self, point_m: Vec3<Enu>) -> (f64, Vec3<Enu>, Vec3<Enu>) {
         let p = self.local_from_world(point_m);
@@ -76,8 +78,9 @@ impl OrientedBox {
         (enter <= leave).then_some((enter, normal))
     }
 
-    /// Calls `found` with gap, surface point and normal of each near-contact of a convex probe. A ball has one contact.
-    /// A capsule has contacts at its deepest point and at both ends, so a capsule lying on a face rests on two points.
+    /// Calls `found` with the gap, surface point and normal of each near-contact of a convex probe. A ball has one
+    /// contact. A capsule has contacts at its deepest point and at both ends, so a capsule lying on a face rests on two
+    /// points.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, mut found: impl FnMut(f64, Vec3<Enu>, Vec3<Enu>)) {
         let mut test = |center: Vec3<Enu>, radius: f64| {
             let (distance, point, normal) = self.nearest(center);
@@ -101,8 +104,8 @@ impl OrientedBox {
         }
     }
 
-    /// Returns the fraction of the segment from `a` to `b` where the signed distance is minimal. The distance is convex
-    /// along a line, so a golden-section search finds the minimum.
+    /// Returns the position of the minimum signed distance on the segment from `a` to `b`, as a fraction of its length.
+    /// The distance is convex along a line, so a golden-section search finds the minimum.
     fn closest_fraction(&self, a_m: Vec3<Enu>, b_m: Vec3<Enu>) -> f64 {
         let at = |t: f64| self.nearest(a_m.lerp(b_m, t)).0;
         let (mut low, mut high) = (0.0, 1.0);
@@ -123,7 +126,7 @@ impl OrientedBox {
     }
 }
 
-/// Returns the bounding sphere of a probe: its center and radius, m.
+/// Returns the center and radius of a probe's bounding sphere, in meters.
 #[must_use]
 pub fn bounding_sphere(probe: &HullProbe) -> (Vec3<Enu>, f64) {
     match *probe {

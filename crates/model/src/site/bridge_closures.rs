@@ -3,14 +3,14 @@
 
 use crate::time::SimTime;
 
-/// Sorted times when the bridges were closed and reopened. Bridges are open at the start. Plain data, so that traffic
-/// remains a function of time.
+/// Sorted times at which the bridges were closed and reopened. Bridges are open at the start. Plain data, so that
+/// traffic remains a function of time.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct BridgeClosures(Vec<(SimTime, bool)>);
 
 impl BridgeClosures {
-    /// Returns the code of a change as sent in NAMED_VALUE_INT `traffic`: its time, ms, positive for an opening and negative for
-    /// a closure. Each code is self-contained, so messages may be delayed, duplicated or reordered.
+    /// Returns the code of a change as sent in NAMED_VALUE_INT `traffic`: its time in ms, positive for an opening and
+    /// negative for a closure. Each code is self-contained, so messages may be delayed, duplicated or reordered.
     #[must_use]
     pub fn code(at: SimTime, open: bool) -> i32 {
         // Zero has no sign, so a change at time 0 is encoded as 1 ms.

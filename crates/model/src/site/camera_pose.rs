@@ -18,8 +18,8 @@ pub struct CameraPose {
 }
 
 impl CameraPose {
-    /// Returns the camera pose for an aircraft pose. The attitude determines the heading. The gimbal keeps the camera free of
-    /// roll at the pitch angle `gimbal_rad` above the horizon, rad.
+    /// Returns the camera pose for an aircraft pose. The attitude determines the heading. The gimbal keeps the camera
+    /// free of roll and at a pitch of `gimbal_rad` above the horizon.
     #[must_use]
     pub fn on_aircraft(camera: &Camera, Pose { position_m, ned_from_frd }: Pose<Enu>, gimbal_rad: f64, lamp_on: bool) -> Self {
         let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, gimbal_rad, ned_from_frd.yaw_rad());

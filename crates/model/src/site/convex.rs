@@ -4,14 +4,14 @@
 use crate::frames::{Enu, Vec3};
 use crate::scenario::bridges::Solid;
 
-/// Maximum number of iterations of the search along a capsule's axis. The search stops earlier if the result cannot improve
-/// noticeably (see [`DISTANCE_TOLERANCE_M`]).
+/// Maximum number of iterations in the search along a capsule's axis. The search stops earlier if the result cannot
+/// improve noticeably (see [`DISTANCE_TOLERANCE_M`]).
 const MAX_SEARCH_ROUNDS: usize = 40;
 /// Tolerance within which two distances count as equal, m. Identifies segments that lie flat on a face.
 const DISTANCE_TOLERANCE_M: f64 = 1e-7;
-/// Maximum distance from the surface for a point to get the normal of the face, m.
+/// Maximum distance from the surface at which a point gets the face's normal, m.
 const CONTACT_TOLERANCE_M: f64 = 1e-9;
-/// Tolerance on the cosine between the normals of perpendicular faces of a box.
+/// Tolerance for the cosine of the angle between the normals of a box's perpendicular faces.
 const PERPENDICULAR_TOLERANCE: f64 = 1e-12;
 
 /// A convex polyhedron, preprocessed for queries.
@@ -56,7 +56,7 @@ struct HullFace {
 struct HullEdge {
     start: Vec3<Enu>,
     along: Vec3<Enu>,
-    /// Direction in the plane of the face, perpendicular to the edge and pointing outward; not normalized.
+    /// Direction in the face's plane, perpendicular to the edge and pointing outward; not normalized.
     outward: Vec3<Enu>,
     inverse_length_squared: f64,
 }
@@ -129,7 +129,7 @@ impl Convex {
         let along = b - a;
         let length = along.norm();
         let (at_a, at_b) = (ends[0].distance_m, ends[1].distance_m);
-        // The distance to a surface changes by at most one meter per meter.
+        // Over one meter, the distance to a surface changes by at most one meter.
         if 0.5 * (at_a + at_b - length) > enough_m || length < CONTACT_TOLERANCE_M {
             return None;
         }
@@ -188,7 +188,7 @@ impl Convex {
     }
 }
 
-/// Interval of a ray that is behind all planes tested so far.
+/// Part of a ray that is behind all planes tested so far.
 struct RayInterval {
     enter: f64,
     leave: f64,
@@ -366,7 +366,7 @@ mod tests {
 
     #[test]
     fn prop_box_and_hull_queries_agree() {
-        // Tolerance for the rounding of the corners of a rotated box, m.
+        // Tolerance for rounding errors in a rotated box's corners, m.
         const TOLERANCE_M: f64 = 1e-9;
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::new(11.0, -40.0, 7.0), 71.0));
         b.add_box("block", Element::RcDeck, [-3.0, -0.5, -0.2], [1.3, 0.4, 0.1]);

@@ -18,8 +18,8 @@ use crate::vehicle::{Camera, Lamp};
 
 /// Reference camera, which can photograph every placed defect. Its resolution is lower than that of the shipped cameras
 /// (3000 px over 100 degrees; estimate for a small low-end inspection drone), and its gimbal has the full range.
-/// Placement must not depend on the aircraft, because simulator and monitor each place the defects from only the
-/// scenario and the seed.
+/// Placement must not depend on the aircraft, because the simulator and the monitor each derive the defects from the
+/// scenario and the seed alone.
 pub const REFERENCE_CAMERA: Camera = Camera {
     position_m: Vec3::new(0.0, 0.0, 0.0),
     width_px: 3000,
@@ -38,12 +38,12 @@ pub const REFERENCE_LAMP: Lamp = Lamp { flux_lm: 1000.0, beam_rad: math::PI / 3.
 
 /// Minimum distance of the reference camera from any surface, m (half of 0.59 m tip to tip, plus a margin).
 pub const CAMERA_CLEARANCE_M: f64 = 0.8;
-/// Candidate distances of the reference camera from the path toward the defect, as fractions of the task's threshold.
-/// The largest one leaves a margin.
+/// Candidate distances by which the reference camera leaves the path toward the defect, as fractions of the task's
+/// threshold. The largest one leaves a margin.
 const APPROACH_FRACTIONS: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
-/// Half angle of the search cone about the viewing direction of the path, rad (estimate of camera pan and tilt).
+/// Half angle of the search cone about the path's viewing direction, rad (estimate of camera pan and tilt).
 const SEARCH_CONE_RAD: f64 = 0.9;
-/// Unit vector that points up.
+/// Unit vector pointing up.
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Maximum distance of the search for faces, m (estimate; thin lines fail the visibility check at much shorter
 /// distances).
@@ -57,28 +57,28 @@ const MIN_SEPARATION_M: f64 = 2.0;
 /// Maximum number of attempts per defect. The first third requires the full separation; later attempts reduce it
 /// gradually.
 const MAX_ATTEMPTS: usize = 3000;
-/// Number of path points to try as positions of the reference camera, nearest first.
+/// Number of path points to try as reference camera positions, nearest first.
 const CANDIDATE_POINTS: usize = 5;
 
-/// Returns the properties of an aircraft's camera or lamp that fall short of the reference, with both values; empty if
-/// there are none.
+/// Returns the properties of an aircraft's camera and lamp that fall short of the reference, each with both values.
+/// Empty if there are none.
 #[must_use]
 pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
     let candela = |l: &Lamp| l.flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_rad)));
     let wanting = [
-        ("focal length, px", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
-        ("lamp intensity, cd", candela(lamp), candela(&REFERENCE_LAMP)),
-        // Use the reciprocal, so that higher is better in all rows.
-        ("light sensitivity, 1/lx", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
-        ("gimbal up, rad", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
-        ("gimbal down, rad", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
+        ("focal length (px)", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
+        ("lamp intensity (cd)", candela(lamp), candela(&REFERENCE_LAMP)),
+        // Use the reciprocal, so that a higher value is better in every row.
+        ("light sensitivity (1/lx)", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
+        ("gimbal up limit (rad)", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
+        ("gimbal down limit (rad)", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
     ];
     // Angles converted from degrees have a rounding error.
     let short = |has: f64, needs: f64| has.is_nan() || has < needs * (1.0 - 1e-9);
     wanting
         .iter()
         .filter(|w| short(w.1, w.2))
-        .map(|(what, has, needs)| format!("{what}: {has:.4}, at least {needs:.4}"))
+        .map(|(what, has, needs)| format!("{what}: {has:.4}, must be at least {needs:.4}"))
         .collect()
 }
 
@@ -87,7 +87,7 @@ pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
 pub struct PlacementContext<'a> {
     /// All bridge members. The object ID of a ray hit is an index into this list.
     pub members: &'a [Member],
-    /// All tasks of the job.
+    /// All the job's tasks.
     pub tasks: &'a [Task],
     /// Ray queries against static geometry.
     pub cast: RayCast<'a>,
@@ -97,9 +97,9 @@ pub struct PlacementContext<'a> {
     pub clearance_m: &'a dyn Fn(Vec3<Enu>) -> f64,
 }
 
-/// Returns the defects of a session: those of a resolved file, or otherwise defects drawn from the seed. There are fewer than
-/// requested only if the settings leave no position that can be photographed (for example, no bridge within reach of a task, or
-/// defect codes that are not permitted on any element within reach).
+/// Returns the defects of a session: those in a resolved file, or otherwise defects drawn from the seed. Returns fewer
+/// than requested only if the settings leave no position that can be photographed (for example, no bridge within reach
+/// of a task, or defect codes that are not permitted on any element within reach).
 #[must_use]
 pub fn place_defects(settings: &DefectSpec, context: &PlacementContext, seed: u64) -> Vec<PlacedDefect> {
     if let Some(placed) = &settings.placed {
@@ -196,7 +196,7 @@ fn defect_direction(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     }
 }
 
-/// Returns the ends of a defect's length and of its width, each extended by a margin.
+/// Returns the end points of a defect along its length and its width, each extended by a margin.
 fn end_points(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
     let across = defect.normal.cross(defect.along);
     let (l, w) = (0.5 * defect.length_m + margin_m, 0.5 * defect.width_m + margin_m);

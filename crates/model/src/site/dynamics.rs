@@ -20,7 +20,7 @@ pub struct Dynamics {
     pub traffic: TrafficPlan,
     /// Model of sun, sky and reflections.
     pub light: LightModel,
-    /// Defects of the session.
+    /// The session's defects.
     pub defects: Vec<PlacedDefect>,
 }
 
@@ -92,7 +92,7 @@ mod tests {
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
     use crate::scenario::*;
 
-    /// Number of seeds to check the placement with.
+    /// Number of seeds used to check the placement.
     const SEED_COUNT: u64 = 50;
     const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 
@@ -262,7 +262,7 @@ mod tests {
         assert_eq!(Site::build(&scenario, 8).defects(), &once.defects()[..3]);
     }
 
-    /// Returns the illuminance of the slab's soffit between the stringers at five positions along the arch in lx.
+    /// Returns the illuminance, in lx, of the slab's soffit between the stringers at five positions along the arch.
     fn soffit_lux(scenario: &Scenario) -> Vec<f64> {
         let site = Site::build(scenario, 1);
         let placement = scenario.bridges[0].placement();
@@ -285,8 +285,8 @@ mod tests {
         }
         let overcast = soffit_lux(&scenario(1.0));
         assert!(overcast.iter().all(|lux| (200.0..2000.0).contains(lux)), "{overcast:?}");
-        // At 19:10 UTC the sun is behind clouds about 5 deg above the horizon, and the illuminance of the soffits drops to 20 to
-        // 200 lx, the range of dark areas.
+        // At 19:10 UTC the sun is behind clouds about 5 deg above the horizon, and the soffit illuminance drops to 20
+        // to 200 lx, the range for dark areas.
         let mut evening = scenario(1.0);
         evening.light.start_unix_s += 7 * 3600 + 600;
         let dark = soffit_lux(&evening);

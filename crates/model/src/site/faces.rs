@@ -14,7 +14,7 @@ pub(super) struct MemberFace {
 
 /// Returns the face of a solid that contains a point, with the point projected onto its plane; `None` if there is none.
 pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
-    /// Maximum distance for a point to count as on a face, m.
+    /// Maximum distance from a face at which a point counts as on the face, m.
     const FACE_TOLERANCE_M: f64 = 0.002;
     let mut best: Option<(f64, MemberFace)> = None;
     for indices in &solid.faces {
@@ -38,7 +38,8 @@ fn polygon_normal(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
 }
 
 impl MemberFace {
-    /// Returns the distance from a point in the plane of the face to the nearest edge in meters; negative outside the face.
+    /// Returns the distance, in meters, from a point in the face's plane to the nearest edge; negative outside the
+    /// face.
     pub(super) fn edge_distance_m(&self, point_m: Vec3<Enu>) -> f64 {
         let count = self.corners_m.len();
         (0..count)
@@ -49,7 +50,7 @@ impl MemberFace {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the direction of the longest edge of the face.
+    /// Returns the direction of the face's longest edge.
     pub(super) fn long_axis(&self) -> Vec3<Enu> {
         let count = self.corners_m.len();
         let edges = (0..count).map(|k| self.corners_m[(k + 1) % count] - self.corners_m[k]);

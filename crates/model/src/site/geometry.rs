@@ -13,11 +13,11 @@ use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::parry::math::Vector;
 use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost, BvhNode};
 
-/// Object ID of the ground.
+/// Ground object ID.
 pub const GROUND: ObjectId = ObjectId(900_000);
-/// Object ID of the water.
+/// Water object ID.
 pub const WATER: ObjectId = ObjectId(900_001);
-/// Object ID of the landing pad.
+/// Landing pad object ID.
 pub const PAD: ObjectId = ObjectId(900_002);
 
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
@@ -55,7 +55,7 @@ impl<T> BvhLeafCost for LeafHit<T> {
 }
 
 impl Geometry {
-    /// Builds bridges, ground and landing pad of a scenario.
+    /// Builds a scenario's bridges, ground and landing pad.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let members: Vec<Member> = scenario.bridges.iter().flat_map(crate::scenario::Bridge::members).collect();
@@ -96,7 +96,7 @@ impl Geometry {
         (p.east() - self.pad_m.east()).abs() <= self.pad_half_m && (p.north() - self.pad_m.north()).abs() <= self.pad_half_m
     }
 
-    /// Returns the height of ground or pad below a point, m up.
+    /// Returns the height of the ground or pad below a point, in meters above the origin.
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
         let height = self.terrain.ground.ground(east_m, north_m).0;
@@ -111,7 +111,7 @@ impl Geometry {
         let limit = max_m.next_up();
         let to_box = |node: &BvhNode, _: f64| {
             let over = (node.mins() - at).max(at - node.maxs());
-            // Inside a bounding box, the depth cannot exceed the distance to the nearest side.
+            // Inside a bounding box, the depth cannot exceed the distance to the nearest face.
             if over.max_element() < 0.0 { over.max_element() } else { over.max(Vector::ZERO).length() }
         };
         let to_member = |leaf: u32, best_m: f64| {
@@ -159,7 +159,7 @@ impl Geometry {
         const ACCURACY_M: f64 = 1e-3;
         let middle = (from + to) * 0.5;
         let half_m = 0.5 * (to - from).norm();
-        // The distance to a surface changes by at most one meter per meter.
+        // Over one meter, the distance to a surface changes by at most one meter.
         let near = self.nearest(middle, less_than_m + half_m)?;
         if near.distance_m - half_m >= less_than_m {
             return None;
@@ -304,7 +304,7 @@ fn probe_ends(probe: &HullProbe) -> impl Iterator<Item = (Vec3<Enu>, f64)> {
     ends.into_iter().take(count).map(move |p| (p, radius))
 }
 
-/// Returns the corners of the axis-aligned bounding box of a probe including its margin.
+/// Returns the corners of a probe's axis-aligned bounding box, including its margin.
 fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     let (a, b, radius) = match *probe {
         HullProbe::Ball { center_m, radius_m } => (center_m.array(), center_m.array(), radius_m),
@@ -315,8 +315,8 @@ fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     (pick(f64::min, -reach), pick(f64::max, reach))
 }
 
-/// Appends the contacts of a probe with one convex shape: one contact for a ball; contacts at both ends of a capsule, and between
-/// the ends if the capsule lies across an edge.
+/// Appends a probe's contacts with one convex shape. A ball has one contact. A capsule has contacts at both ends, and
+/// also between the ends if it lies across an edge.
 fn add_shape_contacts(
     probe: &HullProbe,
     margin_m: f64,

@@ -13,7 +13,7 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Names and colors (red, green, blue) of the materials.
+/// Material names and colors (red, green, blue).
 const MATERIALS: [(&str, f64, f64, f64); 4] =
     [("structure", 0.62, 0.60, 0.57), ("ground", 0.33, 0.40, 0.25), ("water", 0.16, 0.30, 0.38), ("pad", 0.85, 0.55, 0.10)];
 
@@ -47,7 +47,7 @@ pub fn glb(site: &Site) -> Vec<u8> {
     parts.finish()
 }
 
-/// Vertex indices of the two upward-facing triangles of a square.
+/// Vertex indices of the two upward-facing triangles that form a square.
 const SQUARE_TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
 fn square([west, south]: [f64; 2], [east, north]: [f64; 2], up: f64) -> [Vec3<Enu>; 4] {
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn val_gltf_crate_reads_all_members_with_elements_and_vertices() {
-        // 32-bit floats represent positions within 1 km to 6e-5 m.
+        // 32-bit floats represent positions within 1 km with an accuracy of 6e-5 m.
         const ROUNDING_M: f64 = 6e-5;
         let site = Site::build(&two_bridges(), 1);
         let (document, buffers, _) = gltf::import_slice(glb(&site)).unwrap();

@@ -1,5 +1,5 @@
-//! Ground surface, triangulated over a square grid, with exact queries: height at a point, nearest point, first hit of a ray.
-//! Outside the grid, the ground continues horizontally at the heights of the border.
+//! Ground surface, triangulated over a square grid, with exact queries: height at a point, nearest point, first hit of
+//! a ray. Outside the grid, the ground continues horizontally at the border heights.
 
 use super::convex::SurfacePoint;
 use super::nearest_points::{nearest_on_crease, nearest_on_triangle};
@@ -7,11 +7,11 @@ use crate::frames::{Enu, Vec3};
 
 /// Number of cells along each side of a block. Queries use the minimum and maximum heights of blocks to skip cells.
 const BLOCK_CELLS: i64 = 8;
-/// Maximum distance from the surface for a point to get the normal of the triangle, m.
+/// Maximum distance from the surface at which a point gets the triangle's normal, m.
 const CONTACT_TOLERANCE_M: f64 = 1e-9;
 /// Tolerance within which two distances count as equal, m.
 const DISTANCE_TOLERANCE_M: f64 = 1e-7;
-/// Maximum length of a ray, m; scenario files allow terrain of up to 4 km.
+/// Maximum length of a ray, m; scenario files allow terrain up to 4 km wide.
 const MAX_RAY_LENGTH_M: f64 = 20_000.0;
 
 /// Heights at the corners of square grid cells, each split into two triangles from its southwest to its northeast corner.
@@ -99,7 +99,8 @@ impl HeightGrid {
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
     }
 
-    /// Returns the minimum and maximum height of a block. Blocks outside the grid have the heights of the nearest block inside.
+    /// Returns the minimum and maximum heights of a block. Blocks outside the grid have the same heights as the nearest
+    /// block inside.
     fn block_height_range(&self, row: i64, column: i64) -> (f64, f64) {
         let last = self.blocks_per_side as i64 - 1;
         self.blocks[row.clamp(0, last) as usize * self.blocks_per_side + column.clamp(0, last) as usize]

@@ -18,7 +18,8 @@ pub(super) struct LaneTrack {
 }
 
 impl LaneTrack {
-    /// Returns the placement of an object at an arc length in meters. The lane continues straight beyond its ends.
+    /// Returns the placement of an object at an arc length, given in meters. The lane continues straight beyond its
+    /// ends.
     pub(super) fn at(&self, s_m: f64) -> MoverPlacement {
         let last = self.points_m.len() - 2;
         let k = self.arc_m[1..=last].partition_point(|arc| *arc <= s_m).min(last);
@@ -27,7 +28,7 @@ impl LaneTrack {
         MoverPlacement { position_m, forward, velocity_m_s: forward * self.speed_m_s }
     }
 
-    /// Returns the arc length of the track point that is nearest to a point in meters; at most `beyond_m` beyond the ends.
+    /// Returns the arc length, in meters, of the track point nearest to a point, at most `beyond_m` beyond the ends.
     pub(super) fn nearest_arc_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
         let last = self.points_m.len() - 2;
         let place = |k: usize| {

@@ -26,7 +26,7 @@ const SKY_RAY_COUNT: usize = 64;
 const SKY_REACH_M: f64 = 250.0;
 /// Maximum length of a shadow, m (estimate).
 const SHADOW_REACH_M: f64 = 600.0;
-/// Offset of the start of a ray from its surface, m.
+/// Distance from a surface at which its rays start, m.
 const SURFACE_OFFSET_M: f64 = 0.01;
 /// Extraterrestrial solar illuminance, lx (IES RP-21, 127.5 klx).
 const SOLAR_LUX: f64 = 127_500.0;
@@ -34,8 +34,8 @@ const SOLAR_LUX: f64 = 127_500.0;
 const CLEAR_EXTINCTION: f64 = 0.21;
 /// Reflectance of weathered concrete and steel under the deck (estimate; fresh concrete 0.3 to 0.4).
 const STRUCTURE_ALBEDO: f64 = 0.25;
-/// Exponential decay rate of the illuminance per degree of the sun below the horizon, from 800 lx at sunset to the published 3.4
-/// lx at the end of civil twilight (-6 deg).
+/// Exponential decay rate of the illuminance per degree that the sun is below the horizon, from 800 lx at sunset to the
+/// published 3.4 lx at the end of civil twilight (-6 deg).
 const TWILIGHT_DECAY_PER_DEG: f64 = 0.91;
 /// Illuminance under a moonless night sky, lx (published order of magnitude).
 const NIGHT_LUX: f64 = 0.002;
@@ -52,8 +52,8 @@ pub struct Daylight {
 }
 
 impl Daylight {
-    /// Computes the daylight availability of IES RP-21 for a sun direction. Cloud cover interpolates between clear and overcast
-    /// sky.
+    /// Computes the daylight availability for a sun direction according to IES RP-21. Interpolates between a clear and
+    /// an overcast sky by cloud cover.
     #[must_use]
     pub fn at(sun: Vec3<Enu>, cloud_cover: f64) -> Self {
         let s = sun.up();
@@ -100,7 +100,7 @@ enum RayTarget {
     Structure { sun: f64 },
 }
 
-/// Sums over one bundle of rays, by type of surface.
+/// Sums over one ray bundle, by surface type.
 #[derive(Debug, Clone, Copy, Default)]
 struct LightSums {
     outside_lux: f64,
@@ -109,7 +109,7 @@ struct LightSums {
 }
 
 impl LightModel {
-    /// Creates the model from the light settings of a scenario and the geographic position of its origin.
+    /// Creates the model from a scenario's light settings and the geographic position of its origin.
     #[must_use]
     pub fn new(light: &LightSpec, location: Geo) -> Self {
         Self {
@@ -127,15 +127,15 @@ impl LightModel {
         Daylight::at(sun::direction(self.light.start_unix_s as f64 + at.s(), self.location), self.light.cloud_cover)
     }
 
-    /// Returns the fraction of the solid angle of the upper hemisphere that is open sky, 0 to 1.
+    /// Returns the open-sky fraction of the upper hemisphere's solid angle, 0 to 1.
     #[must_use]
     pub fn sky_view(&self, position_m: Vec3<Enu>, cast: RayCast) -> f64 {
         let open = self.upper.iter().filter(|d| cast(position_m, **d, SKY_REACH_M).is_none()).count();
         open as f64 / self.upper.len() as f64
     }
 
-    /// Returns the illuminance of a surface with an outward normal in lx. If the normal is `None`, returns the mean over all
-    /// orientations. The lamp is excluded.
+    /// Returns the illuminance, in lx, of a surface with the given outward normal. If the normal is `None`, returns the
+    /// mean over all orientations. The lamp is excluded.
     #[must_use]
     pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: SimTime, cast: RayCast) -> f64 {
         let day = self.daylight(at);
@@ -150,9 +150,10 @@ impl LightModel {
         direct + gathered.indirect_lux()
     }
 
-    /// Returns the indirect light on a surface by the model of [`Self::ambient_lux`], in two parts: as a fraction of the sky's
-    /// horizontal illuminance, and as a fraction of the sun's illuminance on a surface that faces it. A renderer can scale both
-    /// to another daylight level without new rays. `rays` (see [`ray_bundle`]) may be fewer than for measurements.
+    /// Returns the indirect light on a surface according to the model of [`Self::ambient_lux`], in two parts: as a
+    /// fraction of the sky's horizontal illuminance, and as a fraction of the sun's illuminance on a surface that faces
+    /// it. A renderer can scale both to another daylight level without new rays. `rays` (see [`ray_bundle`]) may be
+    /// fewer than for measurements.
     #[must_use]
     pub fn indirect_fractions(
         &self,
@@ -234,8 +235,8 @@ impl LightModel {
 }
 
 impl LightSums {
-    /// Returns the indirect illuminance by the enclosure model: visible members receive the same indirect light as this point, in
-    /// addition to their direct sunlight.
+    /// Returns the indirect illuminance according to the enclosure model: visible members receive the same indirect
+    /// light as this point, in addition to their direct sunlight.
     fn indirect_lux(&self) -> f64 {
         (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_fraction)
     }
@@ -302,13 +303,13 @@ mod tests {
     const PLACE: Geo = Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 0.0 };
 
     fn model(cloud_cover: f64) -> LightModel {
-        // 2024-06-20 12:00 UTC is within two minutes of local noon; the elevation of the sun is 67 deg.
+        // 2024-06-20 12:00 UTC is within two minutes of local noon; the sun's elevation is 67 deg.
         let light = LightSpec { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 };
         LightModel::new(&light, PLACE)
     }
 
-    /// Returns a ray query for water at height 0 and a deck slab along east, `width_m` wide and 1 m thick, with its soffit at 20
-    /// m.
+    /// Returns a ray query for water at height 0 and a deck slab that runs east-west, `width_m` wide and 1 m thick,
+    /// with its soffit at 20 m.
     fn deck(width_m: f64) -> impl Fn(Vec3<Enu>, Vec3<Enu>, f64) -> Option<RayHit> {
         move |o, d, max| {
             let plane = |height: f64, normal: f64| {

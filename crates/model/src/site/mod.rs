@@ -38,7 +38,7 @@ use dynamics::{Dynamics, StaticQueries};
 use geometry::Geometry;
 use std::sync::Arc;
 
-/// The site of a job. It is immutable after construction; positions of moving objects are a function of time.
+/// A job's site. It is immutable after construction; the positions of moving objects are a function of time.
 #[derive(Debug, Clone)]
 pub struct Site {
     geometry: Arc<Geometry>,
@@ -138,7 +138,7 @@ impl Site {
         self.dynamics.traffic.contacts(probe, margin_m, at, out);
     }
 
-    /// Returns the height of ground or pad (not water) below a point, m up.
+    /// Returns the height of the ground or pad (not water) below a point, in meters above the origin.
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
         self.geometry.ground_up_m(east_m, north_m)
@@ -150,8 +150,8 @@ impl Site {
         self.dynamics.light.sky_view(position_m, &self.cast())
     }
 
-    /// Returns the ambient illuminance (sun, sky, water, ground reflection; no lamp), lx, on a surface with this outward normal,
-    /// or for `None` the mean over all orientations at a point in the air.
+    /// Returns the ambient illuminance in lx (sun, sky, and reflection by water and ground; no lamp) on a surface with
+    /// this outward normal. `None` yields the mean over all orientations at a point in the air.
     #[must_use]
     pub fn ambient_lux(&self, position_m: Vec3<Enu>, normal: Option<Vec3<Enu>>, at: QueryTime) -> f64 {
         self.dynamics.light.ambient_lux(position_m, normal, at, &self.cast())

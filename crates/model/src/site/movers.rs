@@ -57,7 +57,7 @@ impl MoverKind {
         }
     }
 
-    /// Returns the radius of the bounding sphere about the object's position on the road in meters.
+    /// Returns the radius of the bounding sphere about the object's position on the road, in meters.
     pub(super) fn reach_m(self) -> f64 {
         match self {
             Self::Car => 2.9,

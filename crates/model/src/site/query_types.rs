@@ -28,7 +28,7 @@ pub enum Surface {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ObjectId(pub u32);
 
-/// The nearest point of the site to a query point.
+/// The site's nearest point to a query point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestPoint {
     /// Distance from the query point to the surface, m; negative inside a solid.
@@ -37,9 +37,9 @@ pub struct NearestPoint {
     pub point_m: Vec3<Enu>,
     /// Outward unit normal of the surface at that point.
     pub normal: Vec3<Enu>,
-    /// Type of the surface.
+    /// Surface type.
     pub surface: Surface,
-    /// ID of the object.
+    /// Object ID.
     pub object: ObjectId,
 }
 
@@ -50,13 +50,13 @@ pub struct RayHit {
     pub distance_m: f64,
     /// Outward unit normal of the surface.
     pub normal: Vec3<Enu>,
-    /// Type of the surface.
+    /// Surface type.
     pub surface: Surface,
-    /// ID of the object.
+    /// Object ID.
     pub object: ObjectId,
 }
 
-/// A contact or near-contact between a convex part of the aircraft and one object of the site.
+/// A contact or near-contact between a convex part of the aircraft and one object on the site.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Point on the object's surface, m.
@@ -67,9 +67,9 @@ pub struct Contact {
     pub gap_m: f64,
     /// Velocity of the object at that point, m/s; nonzero for traffic.
     pub velocity_m_s: Vec3<Enu>,
-    /// Type of the surface.
+    /// Surface type.
     pub surface: Surface,
-    /// ID of the object.
+    /// Object ID.
     pub object: ObjectId,
 }
 

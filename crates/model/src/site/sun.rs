@@ -1,6 +1,6 @@
-//! Position of the sun by the low-accuracy method of Meeus, Astronomical Algorithms (2nd ed.), chapter 25 (0.01 deg in
-//! longitude), with the sidereal time of chapter 12. The direction is accurate to 0.1 deg between 1950 and 2050. Refraction is
-//! ignored.
+//! Sun position according to the low-accuracy method of Meeus, Astronomical Algorithms (2nd ed.), chapter 25 (0.01 deg
+//! in longitude), with the sidereal time of chapter 12. The direction is accurate to 0.1 deg between 1950 and 2050.
+//! Refraction is ignored.
 
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
@@ -63,7 +63,7 @@ pub fn elevation_rad(direction: Vec3<Enu>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Stated accuracy of the method plus the rounding of the published values, deg.
+    /// The method's stated accuracy plus the rounding of the published values, deg.
     const TOLERANCE_DEG: f64 = 0.1;
 
     fn azimuth_deg(d: Vec3<Enu>) -> f64 {

@@ -9,11 +9,11 @@ use crate::scenario::{Bridge, GroundTeam, Scenario, TerrainSource, TerrainSpec a
 
 /// Radius of level ground around the landing pad, m.
 const LEVEL_RADIUS_M: f64 = 16.0;
-/// Slope of earthworks, as horizontal distance per unit of height.
+/// Earthwork slope, as horizontal distance per unit height.
 const EARTHWORK_SLOPE: f64 = 1.2;
-/// Downward grade of the roads that lead away from the bridges (estimate: maximum grade of mountain highways).
+/// Downward grade of the roads that lead away from the bridges (estimate: maximum grade on mountain highways).
 const ROAD_GRADE: f64 = 0.07;
-/// Depth of the excavation below the springings of an arch, m.
+/// Depth of the excavation below an arch's springings, m.
 const EXCAVATION_M: f64 = 1.0;
 /// Minimum embedment depth of structures in the ground, m.
 const EMBEDMENT_M: f64 = 0.5;
@@ -23,12 +23,12 @@ const EMBEDMENT_M: f64 = 0.5;
 pub struct Terrain {
     /// Ground surface.
     pub ground: HeightGrid,
-    /// Water level, m up.
+    /// Water level above the origin, m.
     pub water_m: f64,
 }
 
 impl Terrain {
-    /// Creates the terrain of a scenario.
+    /// Creates a scenario's terrain.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let settings = &scenario.terrain;
@@ -128,7 +128,7 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     })
 }
 
-/// Returns the depth of the underside of a bridge below the deck at the ends of its opening in meters.
+/// Returns the depth of a bridge's underside below its deck at the ends of its opening, in meters.
 fn underside_depth_m(bridge: &Bridge) -> f64 {
     match &bridge.kind {
         crate::scenario::BridgeKind::Arch(arch) => -arch.intrados_z_m(0.5 * arch.span_m),

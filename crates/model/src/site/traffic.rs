@@ -14,18 +14,18 @@ use crate::scenario::bridges::Lane;
 use crate::scenario::{GroundTeam, TrafficSpec as TrafficSettings};
 use crate::time::SimTime;
 
-/// First object number of traffic and crew; lower numbers are bridge members and other static objects.
+/// First object number used for traffic and crew. Lower numbers are bridge members and other static objects.
 pub const FIRST_TRAFFIC_OBJECT: u32 = 1_000_000;
-/// Object ID of the inspector.
+/// Inspector's object ID.
 pub const INSPECTOR: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 2);
-/// Object ID of the crew's truck.
+/// Crew truck's object ID.
 pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 1);
 
 /// Minimum spacing of vehicles in a lane, center to center, m (estimate: a truck and a gap).
 const VEHICLE_SPACING_M: f64 = 24.0;
 /// Minimum spacing of pedestrians on a walkway, center to center, m (estimate).
 const PEDESTRIAN_SPACING_M: f64 = 4.0;
-/// Minimum length of the part of a loop that is beyond the ends of the lane, m (estimate).
+/// Minimum length of the part of a loop beyond the ends of the lane, m (estimate).
 const LOOP_GAP_M: f64 = 40.0;
 /// Maximum offset of an object from even spacing, as a fraction of the spacing.
 const SPACING_JITTER: f64 = 0.25;
@@ -34,10 +34,10 @@ const WALKING_SPEED_M_S: (f64, f64) = (1.34, 0.26);
 /// Maximum deviation of a lane's speed from the mean car speed, as a fraction of it (estimate).
 const LANE_SPEED_SPREAD: f64 = 0.1;
 
-/// A moving object of the traffic plan.
+/// A moving object in the traffic plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mover {
-    /// Type of the object.
+    /// Object type.
     pub kind: MoverKind,
     /// Number among the objects of the same type, from 1.
     pub number: u32,
@@ -133,14 +133,14 @@ impl TrafficPlan {
         &self.closures
     }
 
-    /// Returns all moving objects of the plan.
+    /// Returns all moving objects in the plan.
     #[must_use]
     pub fn movers(&self) -> &[Mover] {
         &self.movers
     }
 
-    /// Returns the placement of an object at a time; `None` while it is beyond the ends of the bridge, and on a lap that it could
-    /// not begin because the bridge was closed.
+    /// Returns the placement of an object at a time; `None` while it is beyond the ends of the bridge, or on a lap that
+    /// it could not begin because the bridge was closed.
     #[must_use]
     pub fn placement(&self, mover: &Mover, at: SimTime) -> Option<MoverPlacement> {
         let track = &self.tracks[mover.track];
@@ -175,8 +175,8 @@ impl TrafficPlan {
         best
     }
 
-    /// Returns the minimum distance of traffic from a point at any time, m, if it is below `max_m`. Assumes that every vehicle
-    /// type of the plan uses every lane, and that pedestrians use every walkway.
+    /// Returns the minimum distance of traffic from a point at any time, in meters, if it is below `max_m`. Assumes
+    /// that every vehicle type in the plan uses every lane, and that pedestrians use every walkway.
     #[must_use]
     pub fn min_distance_over_time_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let mut least: Option<f64> = None;
@@ -227,7 +227,7 @@ impl TrafficPlan {
         best
     }
 
-    /// Appends the contacts of a probe with traffic and crew. The velocity of a contact is the velocity of the object.
+    /// Appends a probe's contacts with traffic and crew. A contact has the object's velocity.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         let (center_m, radius_m) = bounding_sphere(probe);
         self.visit_near(center_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {

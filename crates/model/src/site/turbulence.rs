@@ -91,8 +91,8 @@ impl SecondOrderFilter {
     }
 }
 
-/// Returns the lower Cholesky factor of a 2x2 covariance matrix. A last pivot that is slightly negative from rounding is set to
-/// zero.
+/// Returns the lower Cholesky factor of a 2x2 covariance matrix. If rounding makes the last pivot slightly negative, it
+/// is set to zero.
 fn cholesky_2x2(q11: f64, q12: f64, q22: f64) -> (f64, f64, f64) {
     let l11 = q11.max(0.0).sqrt();
     let l21 = if l11 > 0.0 { q12 / l11 } else { 0.0 };

@@ -1,7 +1,8 @@
-//! Decides whether a photo captures a defect, by the rule in docs/src/reference/assessment.md, "Photographs". The defect must be
-//! inside the central 80% of the image, unoccluded, viewed at most 60 degrees from its normal, at least 10 px long in its
-//! longest visible dimension, at least 0.5 px wide if it is a line, and lit well enough for an exposure within the camera's
-//! limits. The camera is an ideal pinhole; the lamp is at the lens and points along the optical axis.
+//! Decides whether a photo captures a defect, according to the rule in docs/src/reference/assessment.md, "Photographs".
+//! The defect must be inside the central 80% of the image, unoccluded, viewed at most 60 degrees from its normal, at
+//! least 10 px long in its longest visible dimension, at least 0.5 px wide if it is a line, and lit well enough for an
+//! exposure within the camera's limits. The camera is an ideal pinhole; the lamp is at the lens and points along the
+//! optical axis.
 
 use super::camera_pose::CameraPose;
 use super::light::RayCast;
@@ -11,11 +12,11 @@ use crate::numbers::{format_limit, format_with_limit};
 use crate::scenario::PlacedDefect;
 use crate::vehicle::{Camera, Lamp};
 
-/// Maximum distance of evaluated defects from the lens, m.
+/// Maximum distance from the lens at which defects are evaluated, m.
 pub const MAX_RANGE_M: f64 = 60.0;
-/// Central fraction of image width and height where defects count as captured.
+/// Central fraction of the image's width and height in which defects count as captured.
 pub const CENTRAL_FRACTION: f64 = 0.8;
-/// Maximum angle between the line of sight and the normal of the defect, rad.
+/// Maximum angle between the line of sight and the defect's normal, rad.
 pub const MAX_INCIDENCE_RAD: f64 = math::PI / 3.0;
 /// Minimum length of the longest visible dimension, px.
 pub const MIN_EXTENT_PX: f64 = 10.0;
@@ -23,21 +24,21 @@ pub const MIN_EXTENT_PX: f64 = 10.0;
 pub const MIN_LINE_WIDTH_PX: f64 = 0.5;
 /// Calibration constant of an incident-light meter, lx s ISO (ISO 2720 specifies 240 to 400).
 const METER_CALIBRATION: f64 = 250.0;
-/// Offsets of the sample points for the occlusion test from the center of a defect, as fractions of its length.
+/// Offsets of the occlusion test's sample points from the center of a defect, as fractions of the defect's length.
 const SAMPLE_OFFSETS: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
-/// Height of the ends of lines of sight above the surface, m.
+/// Height above the surface at which lines of sight end, m.
 const SURFACE_OFFSET_M: f64 = 0.005;
-/// Length of the last part of a line of sight, which is excluded from the occlusion test, m.
+/// Length at the end of a line of sight that is excluded from the occlusion test, m.
 const OCCLUSION_MARGIN_M: f64 = 0.01;
 
-/// Visibility of one defect in a photo, with the measurements behind each condition.
+/// Visibility of one defect in a photo, with the measurements for each condition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefectView {
     /// Defect ID ([`PlacedDefect::id`]).
     pub defect_id: u32,
     /// True if the defect is inside the central 80% of the image.
     pub in_frame: bool,
-    /// True if most sample points of the defect are in the line of sight.
+    /// True if most of the defect's sample points have a clear line of sight.
     pub unoccluded: bool,
     /// Angle between the line of sight and the defect's normal, rad.
     pub incidence_rad: f64,
@@ -49,7 +50,7 @@ pub struct DefectView {
     pub illuminance_lux: f64,
     /// Illuminance needed for an exposure within the camera's limits, lx.
     pub needed_lux: f64,
-    /// Distance of the defect from the lens, m.
+    /// Distance between the defect and the lens, m.
     pub distance_m: f64,
     /// True for a line defect, which must have a minimum width in the image.
     pub line: bool,
@@ -59,17 +60,17 @@ pub struct DefectView {
     pub hit: bool,
 }
 
-/// Function that returns the ambient illuminance at a position on a surface with a normal, lx.
+/// Function that returns the ambient illuminance, lx, at a position on a surface with the given normal.
 pub type AmbientLight<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> f64;
 
-/// Returns the illuminance needed for an exposure within the camera's limits, lx: C N²/(t S).
+/// Returns the illuminance needed for an exposure within the camera's limits, in lx: C N²/(t S).
 #[must_use]
 pub fn needed_lux(camera: &Camera) -> f64 {
     METER_CALIBRATION * camera.f_number * camera.f_number / (camera.exposure_max_s * camera.iso_max)
 }
 
-/// Returns the illuminance of a surface by a lamp at the lens, lx: flux over the solid angle of the beam, with the inverse square
-/// and cosine laws.
+/// Returns the illuminance that a lamp at the lens produces on a surface, in lx: flux over the solid angle of the beam,
+/// with the inverse square and cosine laws.
 #[must_use]
 pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3<Enu>) -> f64 {
     let to = point_m - pose.position_m;
@@ -238,7 +239,7 @@ mod tests {
     };
     const LAMP: Lamp = Lamp { flux_lm: 2200.0, beam_rad: math::PI / 3.0 };
 
-    /// Creates a crack of 0.5 m by 2 mm that is 3 m north of the camera and faces it.
+    /// Creates a 0.5 m by 2 mm crack that is 3 m north of the camera and faces it.
     fn crack() -> PlacedDefect {
         PlacedDefect {
             id: 1,
@@ -287,18 +288,18 @@ mod tests {
     #[test]
     fn exact_frontal_view_is_a_hit_with_pinhole_dimensions() {
         let view = evaluate(&crack(), &pose(), &unobstructed, 1000.0);
-        // Focal length 2000 px at 90 deg and 4000 px.
+        // A field of view of 90 deg and a width of 4000 px yield a focal length of 2000 px.
         assert!(view.hit && view.reasons().is_empty(), "{view:?}");
         assert!((view.extent_px - 2000.0 * 0.5 / 3.0).abs() < 1e-9);
         assert!((view.width_px - 2000.0 * 0.002 / 3.0).abs() < 1e-9);
-        // 250 * 2.8² / (0.01 * 1600).
+        // C N²/(t S) = 250 * 2.8² / (0.01 * 1600).
         assert!((view.needed_lux - 122.5).abs() < 1e-9);
     }
 
     #[test]
     fn exact_framing_and_occlusion_fail_independently() {
         let mut aside = pose();
-        // 40 deg off axis: tan 40 deg = 0.839, just outside 0.8 of the half image, but still in front of the camera.
+        // 40 deg off axis: tan 40 deg = 0.839, just outside 80% of the half image, but still in front of the camera.
         let (s, c) = math::sin_cos(40.0_f64.to_radians());
         (aside.forward, aside.right) = (Vec3::new(s, c, 0.0), Vec3::new(c, -s, 0.0));
         assert_only_failing(&evaluate(&crack(), &aside, &unobstructed, 1000.0), 0, "central");

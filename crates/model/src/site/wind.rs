@@ -1,9 +1,9 @@
-//! Wind field: mean profile over water and ground, weather changes, 1-cosine gusts and Dryden turbulence (MIL-F-8785C, low
-//! altitude).
+//! Wind field: mean profile over water and ground, weather changes, 1-cosine gusts, and Dryden turbulence (MIL-F-8785C,
+//! low altitude).
 //!
-//! Turbulence depends on the motion of the vehicle and therefore has state, which is plain data and part of a snapshot. Shelter,
-//! wakes and acceleration near structures are not modeled: the mean profile is that of open water, or, over land below 20 ft,
-//! that of grass.
+//! Turbulence depends on the motion of the vehicle and therefore has state, which is plain data and part of a snapshot.
+//! Shelter, wakes and acceleration near structures are not modeled: the mean profile is that of open water or, below 20
+//! ft over land, that of grass.
 
 use super::turbulence::{Dryden, FirstOrderFilter, SecondOrderFilter};
 use crate::frames::{Ned, Vec3};
@@ -55,7 +55,7 @@ pub struct WindField {
 }
 
 impl WindField {
-    /// Creates the wind field from the settings of a scenario and the seed of a session.
+    /// Creates the wind field from a scenario's settings and a session's seed.
     #[must_use]
     pub fn new(wind: &WindSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "wind.turbulence");
@@ -97,13 +97,14 @@ impl WindField {
         self.over_ground = over_ground;
     }
 
-    /// Changes the mean wind linearly, starting at `at` and over the duration `over`, to a speed at 20 ft, m/s, and a
-    /// direction that it blows from, degrees clockwise from north. Affects only the `physical` model.
+    /// Changes the mean wind linearly, starting at `at` and lasting `over`, to a new speed at 20 ft (m/s) and a new
+    /// direction that it blows from (degrees clockwise from north). Affects only the `physical` model.
     pub fn add_change(&mut self, at: SimTime, over: SimTime, speed_m_s: f64, from_deg: f64) {
         self.wind.events.push(WindEvent::Change { at, over, speed_m_s, from_deg });
     }
 
-    /// Returns the air velocity over ground, m/s, at a time not later than the next sample. Zero in the `paper` model.
+    /// Returns the air velocity over ground in m/s. The time must not be later than the next sample. Zero in the
+    /// `paper` model.
     #[must_use]
     pub fn air_velocity(&self, at: SimTime) -> Vec3<Ned> {
         if self.wind.model == WindModel::Paper {
@@ -113,8 +114,8 @@ impl WindField {
         self.previous_m_s.lerp(self.current_m_s, (since / SAMPLE_PERIOD.s()).clamp(0.0, 1.0))
     }
 
-    /// Returns the constant force of the `paper` model at the center of mass in N; zero in the `physical` model. The force points
-    /// downwind, including the vertical wind component.
+    /// Returns the constant force, in N, that the `paper` model applies at the center of mass; zero in the `physical`
+    /// model. The force points downwind, including the vertical wind component.
     #[must_use]
     pub fn paper_force_n(&self) -> Vec3<Ned> {
         if self.wind.model == WindModel::Physical {
@@ -126,7 +127,7 @@ impl WindField {
         direction * self.wind.paper_force_n
     }
 
-    /// Returns the air velocity including gusts and changes of the mean wind but without turbulence in m/s.
+    /// Returns the air velocity in m/s, including gusts and mean wind changes but without turbulence.
     #[must_use]
     pub fn mean_velocity(&self, at: SimTime, height_m: f64) -> Vec3<Ned> {
         let mean = mean_at(&self.wind, at);
@@ -169,7 +170,8 @@ fn direction_toward(from_rad: f64) -> Vec3<Ned> {
     Vec3::new(-c, -s, 0.0)
 }
 
-/// Returns the ratio of the wind speed at a height to the wind speed at 20 ft by the logarithmic profile over water.
+/// Returns the ratio of the wind speed at a height to the wind speed at 20 ft according to the logarithmic profile over
+/// water.
 #[must_use]
 pub fn profile(height_m: f64) -> f64 {
     log_profile(height_m, WATER_ROUGHNESS_M)
@@ -225,7 +227,7 @@ mod tests {
         }
     }
 
-    /// Returns samples of the turbulence over `seconds` at the sample rate of the wind.
+    /// Returns `seconds` of turbulence samples at the wind's sample rate.
     fn turbulence(wind: &WindSpec, seconds: i64, height_m: f64, airspeed_m_s: f64) -> Vec<Vec3<Ned>> {
         let mut field = WindField::new(wind, 11);
         let mean = field.mean_velocity(SimTime::ZERO, height_m);
@@ -305,7 +307,7 @@ mod tests {
         w.events =
             vec![WindEvent::Gust { at: SimTime::from_s(2.0), duration: SimTime::from_s(4.0), peak_m_s: 6.0, from_deg: 180.0 }];
         let field = WindField::new(&w, 1);
-        // The trapezoid rule is exact for a whole period of a cosine, so only rounding remains.
+        // The trapezoidal rule is exact for a whole period of a cosine, so only rounding errors remain.
         let dt_s = 0.01;
         let traveled: f64 = (0..1000).map(|k| field.mean_velocity(SimTime::from_ms(10 * k), 6.0).north() * dt_s).sum();
         assert!((traveled - 12.0).abs() < 1e-9, "{traveled}");
@@ -348,7 +350,7 @@ mod tests {
 
     #[test]
     fn prop_air_velocity_is_continuous() {
-        // Within one millisecond the air changes by at most a tenth of the step between two samples.
+        // Within one millisecond, the air velocity changes by at most a tenth of the step between two samples.
         let mut field = WindField::new(&wind(), 3);
         let (mut last, mut last_jump) = (None, 0.0_f64);
         for k in 0..20_000 {

@@ -24,13 +24,13 @@ pub fn unmet_requirement(rotors: &[Rotor], model: &RotorModel, mass_kg: f64) -> 
     };
     let map = DMatrix::from_fn(4, rotors.len(), entry).svd(true, true);
     if map.singular_values.min() < MIN_SINGULAR_VALUE_RATIO * map.singular_values.max() {
-        return Some("rotors that are not in a line and spin in both directions");
+        return Some("rotors that are not all in one line and that spin in both directions");
     }
     let weight = DVector::from_vec(vec![mass_kg * GRAVITY_M_S2, 0.0, 0.0, 0.0]);
     let most_n = model.thrust_coefficient_n_s2 * model.max_speed_rad_s * model.max_speed_rad_s;
     let hover = map.solve(&weight, 0.0).ok()?;
     let holds = hover.iter().all(|thrust_n| (0.0..=most_n).contains(thrust_n));
-    (!holds).then_some("rotors around the center of mass, so that no rotor exceeds its thrust range in level hover")
+    (!holds).then_some("rotors placed around the center of mass so that each stays within its thrust range in level hover")
 }
 
 #[cfg(test)]

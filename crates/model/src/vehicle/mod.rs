@@ -9,7 +9,7 @@ pub use read::{FORMAT, read, read_with_keys};
 use crate::frames::{Frd, Vec3};
 use crate::math;
 
-/// Parameters of an aircraft, validated. Body frame: forward, right, down from the center of mass.
+/// Validated aircraft parameters. Body frame: forward, right, down from the center of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vehicle {
     /// Aircraft ID: the stem of the file name, such as `phantom2`.
@@ -24,15 +24,15 @@ pub struct Vehicle {
     pub rotors: Vec<Rotor>,
     /// Rotor parameters shared by all rotors.
     pub rotor: RotorModel,
-    /// Aerodynamic drag of the body.
+    /// Aerodynamic body drag.
     pub drag: Drag,
     /// Collision hull and contact behavior.
     pub hull: Hull,
     /// Battery parameters.
     pub battery: BatterySpec,
-    /// Limits of the flight controller.
+    /// Flight controller limits.
     pub limits: FlightLimits,
-    /// Error models and rates of the sensors.
+    /// Sensor error models and rates.
     pub sensors: SensorSpec,
     /// Camera and gimbal parameters.
     pub camera: Camera,
@@ -179,7 +179,7 @@ pub struct SensorSpec {
     pub range_noise_m: f64,
     /// Bias of each range finder, m.
     pub range_bias_m: f64,
-    /// Maximum range of the range finders, m.
+    /// Maximum measurable distance of the range finders, m.
     pub range_max_m: f64,
     /// Optical-flow horizontal velocity noise with sufficient light and texture, m/s; 0 if there is no optical-flow sensor.
     pub flow_velocity_m_s: f64,
@@ -216,7 +216,7 @@ pub struct Camera {
 pub const SENSOR_WIDTH_MM: f64 = 6.17;
 
 impl Camera {
-    /// Returns the focal length for a sensor of width [`SENSOR_WIDTH_MM`] in mm.
+    /// Returns the focal length in mm for a sensor of width [`SENSOR_WIDTH_MM`].
     #[must_use]
     pub fn focal_mm(&self) -> f64 {
         0.5 * SENSOR_WIDTH_MM / math::tan(0.5 * self.hfov_rad)
@@ -255,6 +255,6 @@ impl Camera {
 pub struct Lamp {
     /// Luminous flux, lm; 0 if there is no lamp.
     pub flux_lm: f64,
-    /// Full angle of the beam, rad.
+    /// Full beam angle, rad.
     pub beam_rad: f64,
 }

@@ -50,14 +50,14 @@ fn read_vehicle(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
     let lift_kg =
         rotors.len() as f64 * rotor.thrust_coefficient_n_s2 * rotor.max_speed_rad_s * rotor.max_speed_rad_s / GRAVITY_M_S2;
     if lift_kg < MIN_THRUST_TO_WEIGHT * mass_kg && r.problems.is_empty() {
-        let most = format!("at most {:.3}, as the rotors can lift {lift_kg:.3} kg", lift_kg / MIN_THRUST_TO_WEIGHT);
+        let most = format!("at most {:.3}, because the rotors can lift {lift_kg:.3} kg", lift_kg / MIN_THRUST_TO_WEIGHT);
         r.add_problem(root, "mass_kg", &mass_kg.to_string(), &most, "too heavy to fly");
     }
     if r.problems.is_empty()
         && let Some(allowed) = super::control_authority::unmet_requirement(&rotors, &rotor, mass_kg)
     {
         let places = rotors.iter().map(|rotor| format!("{:?}", rotor.position_m.array())).collect::<Vec<_>>().join(", ");
-        r.add_problem(root, "rotors.position_m", &places, allowed, "no control authority about all axes");
+        r.add_problem(root, "rotors.position_m", &places, allowed, "insufficient control authority");
     }
     Vehicle {
         id: file_stem(file),
@@ -81,7 +81,7 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
     let places = r.points(&mut s, "position_m", (-5.0, 5.0));
     let spins = r.integers(&mut s, "spin", (-1, 1));
     if places.len() < 4 || places.len() > MAX_ROTORS || places.len() != spins.len() || spins.contains(&0) {
-        r.add_problem(&s, "spin", "", "4 to 8 rotors, each with a spin of -1 or 1", "wrong number of rotors or spins");
+        r.add_problem(&s, "spin", "", "4 to 8 rotors, each with a spin of -1 or 1", "wrong number of rotors or invalid spin");
     }
     let model = RotorModel {
         radius_m: r.number(&mut s, "radius_m", (0.01, 1.0), None),
@@ -129,7 +129,7 @@ fn hull(r: &mut Reader, root: &mut Section) -> Hull {
     let cage_m = 0.5 * hull.tip_to_tip_m;
     let carrying = hull.feet_m.iter().filter(|foot| foot.down() >= cage_m).count();
     if hull.caged && carrying < MIN_FEET {
-        let allowed = format!("at least {MIN_FEET} feet {cage_m} m or more below the center");
+        let allowed = format!("at least {MIN_FEET} landing feet, each at least {cage_m} m below the center");
         r.add_problem(&s, "feet_m", "", &allowed, "the aircraft would rest on its spherical cage and roll");
     }
     r.finish(&s);
@@ -166,8 +166,8 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
         rate_rad_s: r.number(&mut s, "rate_deg_s", (20.0, 1500.0), None).to_radians(),
         slow_down_time_s: r.number(&mut s, "slow_down_time_s", (0.2, 10.0), None),
     };
-    // At maximum tilt the braking deceleration is g tan(tilt). The effects of air drag and of the time needed to tilt roughly
-    // cancel (verified in simulation for every shipped aircraft).
+    // At maximum tilt, the braking deceleration is g tan(tilt). The effects of air drag and the time needed to tilt
+    // roughly cancel out (verified in simulation for every shipped aircraft).
     let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
     if limits.slow_down_time_s < least_s && r.problems.is_empty() {
         let allowed = format!("at least {least_s:.2}, which is full speed divided by g tan(tilt_deg)");

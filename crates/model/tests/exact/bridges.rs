@@ -9,9 +9,9 @@ use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
 use spandrel_model::site::convex::Convex;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Tolerance for rounding errors of positions a few hundred meters from the origin, m.
+/// Tolerance for rounding errors in positions a few hundred meters from the origin, m.
 const ROUNDING_M: f64 = 1e-9;
-/// Relative tolerance for rounding errors of volumes, which are sums of many products.
+/// Relative tolerance for rounding errors in volumes, which are sums of many products.
 const VOLUME_TOLERANCE: f64 = 1e-9;
 
 fn bridge(kind: BridgeKind) -> Bridge {
@@ -291,7 +291,7 @@ fn min_clearance_m(shapes: &[Convex], path: &TaskPath) -> f64 {
 
 /// Checks that a path has steps of at most 1 m, turns that a slow aircraft can follow, and unit viewing directions.
 fn assert_smooth(path: &TaskPath) {
-    // Sine of the angle for 0.8 m of an arc with a radius of 4 m, with a margin.
+    // Sine of the angle that 0.8 m spans on an arc with a 4 m radius, plus a margin.
     const MAX_TURN_SINE: f64 = 0.25;
     let n = path.path_m.len();
     assert_eq!(path.look.len(), n);
@@ -387,7 +387,7 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
     assert!(message.starts_with("wide.toml:"), "{message}");
 }
 
-/// Element numbers of the AASHTO MBEI (2015 interims), with the member names that they apply to.
+/// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
 const MEMBER_NAMES: [(u16, &[&str]); 18] = [
     (12, &["slab"]),
     (107, &["girder"]),

@@ -1,4 +1,4 @@
-//! Tests of the table of bridge elements against the AASHTO manual, and of the defects on elements and in shipped jobs.
+//! Tests of the bridge element table against the AASHTO manual, and of the defects on elements and in shipped jobs.
 
 use spandrel_model::defect_codes;
 use spandrel_model::elements::{Element, ElementMaterial};

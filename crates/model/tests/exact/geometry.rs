@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 
 /// Resolution of 32-bit floats for positions within 1 km, m.
 const ROUNDING_M: f64 = 6e-5;
-/// Maximum displacement of a ray hit by rounding, m, for rays with a cosine of incidence of at least [`MIN_COSINE`].
+/// Maximum displacement of a ray hit caused by rounding, m, for incidence cosines of at least [`MIN_COSINE`].
 const HIT_TOLERANCE_M: f64 = 2e-3;
-/// Minimum cosine of incidence of the rays that are compared.
+/// Minimum incidence cosine for rays to be compared.
 const MIN_COSINE: f64 = 0.1;
 
 type Triangle = [Vec3<Enu>; 3];

@@ -1,4 +1,4 @@
-//! Tests of the ground's queries (nearest points, rays, contacts) against brute-force searches over all triangles.
+//! Tests of ground queries (nearest points, rays, contacts) against brute-force searches over all triangles.
 
 use super::site::distance_to_triangle;
 use spandrel_model::frames::{Enu, Vec3};
@@ -8,7 +8,7 @@ use spandrel_model::site::heights::HeightGrid;
 /// Tolerance for rounding errors at the scale of the test grid, m.
 const ROUNDING_M: f64 = 1e-9;
 
-/// Returns a rough height grid of 20 x 20 cells of 5 m.
+/// Returns a rough height grid of 20 x 20 cells, each 5 m wide.
 fn rough_grid() -> HeightGrid {
     let mut random = RandomStream::new(9, "rough");
     HeightGrid::new((0..21 * 21).map(|_| random.range(-6.0, 6.0)).collect(), 5.0)
@@ -35,7 +35,7 @@ fn prop_nearest_ground_point_matches_brute_force() {
 
 #[test]
 fn prop_segments_are_nearest_to_the_ground_at_ends_or_creases() {
-    // Half the spacing of the sample points, m.
+    // Half the sample point spacing, m.
     const SAMPLING_TOLERANCE_M: f64 = 0.5 * 4.0 / 400.0;
     let grid = rough_grid();
     let mut random = RandomStream::new(6, "segments");

@@ -6,7 +6,7 @@ use spandrel_model::scenario::{Scenario, TaskKind};
 use spandrel_model::site::geometry::Geometry;
 use spandrel_model::site::{Contact, HullProbe, Surface};
 
-/// Tolerance for rounding errors of positions a few hundred meters from the origin, m.
+/// Tolerance for rounding errors in positions a few hundred meters from the origin, m.
 const ROUNDING_M: f64 = 1e-9;
 
 fn scenario(text: &str) -> Scenario {
@@ -119,7 +119,8 @@ fn random_capsule(p: Vec3<Enu>, random: &mut RandomStream) -> (Vec3<Enu>, Vec3<E
 
 #[test]
 fn prop_capsule_contacts_include_the_deepest_point() {
-    // Half the spacing of the sample points along the longest capsule, m. The distance changes by at most one meter per meter.
+    // Half the spacing of the sample points along the longest capsule, m. Over one meter, the distance changes by at
+    // most one meter.
     const SAMPLING_TOLERANCE_M: f64 = 0.5 * 0.8 / 400.0;
     // Tolerance within which distances count as equal, m.
     const DISTANCE_TOLERANCE_M: f64 = 2e-7;
@@ -160,7 +161,7 @@ fn prop_capsule_contacts_include_the_deepest_point() {
 fn exact_capsule_on_the_deck_has_contacts_at_both_ends() {
     let scenario = two_bridges();
     let geometry = Geometry::new(&scenario);
-    // The center of a deck panel of the arch bridge, at a height of 34 m.
+    // The center of a deck panel on the arch bridge, at a height of 34 m.
     let (a_m, b_m) = (Vec3::new(3.2, 0.3, 34.05), Vec3::new(3.5, 0.5, 34.05));
     let mut contacts = Vec::new();
     geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m: 0.05 }, 0.01, &mut contacts);
@@ -274,7 +275,7 @@ fn regress_two_builds_of_a_site_are_bit_identical() {
 
 #[test]
 fn prop_min_clearance_of_a_segment_matches_sampling() {
-    // Half the spacing of the sample points plus the accuracy of the search, 1 mm.
+    // Half the sample point spacing plus the search accuracy of 1 mm.
     const SAMPLING_TOLERANCE_M: f64 = 0.5 * 6.0 / 600.0 + 1e-3;
     let geometry = Geometry::new(&two_bridges());
     let mut random = RandomStream::new(11, "pieces");
@@ -384,7 +385,7 @@ fn prop_capsule_contacts_with_the_ground_match_sampling() {
     let mut random = RandomStream::new(13, "ridges");
     let (mut touching, mut across) = (0, 0);
     for _ in 0..3000 {
-        // Long, nearly horizontal capsules above the crests of the roads next to the ends of the arch bridge.
+        // Long, nearly horizontal capsules above the road crests next to the ends of the arch bridge.
         let (e, n) = (random.range(62.0, 90.0), random.range(-9.0, 9.0));
         let half = Vec3::new(random.normal(), random.normal(), 0.1 * random.normal()).unit() * random.range(0.3, 3.0);
         let middle = Vec3::new(e, n, ground.ground(e, n).0 + random.range(0.0, 0.6));

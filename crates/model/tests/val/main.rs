@@ -1,4 +1,4 @@
-//! Tests of the shipped scenario and vehicle files and of their documentation.
+//! Tests of the shipped scenario and vehicle files and their documentation.
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod documentation;

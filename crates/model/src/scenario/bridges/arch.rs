@@ -10,7 +10,7 @@ use crate::math;
 const BEAM_INSET_M: f64 = 0.4;
 /// Depth of abutments and skewbacks below the intrados at the springings, m (estimate).
 const FOUNDATION_DEPTH_M: f64 = 3.5;
-/// Length of the skewbacks, m (estimate).
+/// Skewback length, m (estimate).
 const SKEWBACK_LENGTH_M: f64 = 3.0;
 /// Minimum length of a column, m; shorter columns are omitted (estimate).
 const MIN_COLUMN_LENGTH_M: f64 = 0.25;
@@ -25,67 +25,67 @@ bridge_dimensions! {
         rib_width_m 0.8 to 6.0, 1.5, "Rib width, m; 1.0 to 1.8 m (estimate).";
         rib_spacing_m 3.0 to 30.0, 5.8, "Distance between rib axes, m; 0.55 to 0.7 of the deck width (estimate).";
         crown_gap_m 2.0 to 12.0, 3.4, "Clear height between slab soffit and crown extrados: the interlayer, m (estimate).";
-        panels 6.0 to 40.0, 14.0, "Panels between springings; span/16 to span/10 per panel (estimate); a whole number.";
-        column_m 0.4 to 3.0, 0.8, "Side of the spandrel columns, m; 0.6 to 1.2 m (estimate).";
+        panels 6.0 to 40.0, 14.0, "Number of panels between springings; span/16 to span/10 per panel (estimate); a whole number.";
+        column_m 0.4 to 3.0, 0.8, "Side length of the spandrel columns, m; 0.6 to 1.2 m (estimate).";
         deck_width_m 5.0 to 40.0, 9.6, "Deck width, m; Bixby Creek 7.3 m.";
         slab_m 0.15 to 0.5, 0.23, "Slab thickness, m; 8 to 10 in (estimate).";
         floorbeam_depth_m 0.4 to 3.0, 0.95, "Floorbeam depth, m; 0.9 to 1.5 m (estimate).";
         floorbeam_width_m 0.2 to 1.5, 0.45, "Floorbeam width, m; 0.4 to 0.5 m (estimate).";
-        stringers 2.0 to 12.0, 4.0, "Lines of stringers; 3 to 6 (estimate); a whole number.";
+        stringers 2.0 to 12.0, 4.0, "Number of stringer lines; 3 to 6 (estimate); a whole number.";
         stringer_depth_m 0.3 to 2.0, 0.7, "Stringer depth, m; 0.6 to 1.0 m (estimate).";
         stringer_width_m 0.15 to 1.0, 0.3, "Stringer width, m (estimate).";
         railing_m 0.6 to 2.0, 1.0, "Railing height, m; 32 to 42 in (estimate).";
-        approach_m 2.0 to 60.0, 12.0, "Length of deck beyond each springing, m (estimate).";
+        approach_m 2.0 to 60.0, 12.0, "Deck length beyond each springing, m (estimate).";
     }
 }
 
 impl Arch {
-    /// Returns the length of the deck in meters.
+    /// Returns the deck length in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         self.span_m + 2.0 * self.approach_m
     }
 
-    /// Returns the height of the rib axis at x in bridge axes, m: the parabola z_crown - 4 r x² / L².
+    /// Returns the height of the rib axis at x in bridge axes, in meters: the parabola z_crown - 4 r x² / L².
     #[must_use]
     pub fn axis_z_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         -(self.slab_m + self.crown_gap_m + 0.5 * self.crown_depth_m) - self.rise_m * u * u
     }
 
-    /// Returns the vertical depth of the rib at x, m: d_c + (d_s - d_c)(2x/L)².
+    /// Returns the vertical depth of the rib at x, in meters: d_c + (d_s - d_c)(2x/L)².
     #[must_use]
     pub fn rib_depth_m(&self, x: f64) -> f64 {
         let u = 2.0 * x / self.span_m;
         self.crown_depth_m + (self.springing_depth_m - self.crown_depth_m) * u * u
     }
 
-    /// Returns the height of the top of the rib at x in meters.
+    /// Returns the height of the rib's top at x, in meters.
     #[must_use]
     pub fn extrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) + 0.5 * self.rib_depth_m(x)
     }
 
-    /// Returns the height of the underside of the rib at x in meters.
+    /// Returns the height of the rib's underside at x, in meters.
     #[must_use]
     pub fn intrados_z_m(&self, x: f64) -> f64 {
         self.axis_z_m(x) - 0.5 * self.rib_depth_m(x)
     }
 
-    /// Returns the curvature coefficient c of the intrados, 1/m: at x, the intrados is c x² below its crown.
+    /// Returns the curvature coefficient c of the intrados, in 1/m: at x, the intrados is c x² below its crown.
     #[must_use]
     pub fn intrados_curvature_per_m(&self) -> f64 {
         (4.0 * self.rise_m + 2.0 * (self.springing_depth_m - self.crown_depth_m)) / (self.span_m * self.span_m)
     }
 
-    /// Returns the positions of the ends of the straight rib segments, two segments per panel, from springing to springing.
+    /// Returns the end positions of the straight rib segments (two per panel) from springing to springing.
     #[must_use]
     pub fn rib_nodes(&self) -> Vec<f64> {
         let n = 2 * self.panels.round() as i32;
         (0..=n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Returns the height of the top of the rib as built, m: straight between nodes on [`Self::extrados_z_m`].
+    /// Returns the height of the rib's top as built, in meters: straight between nodes on [`Self::extrados_z_m`].
     #[must_use]
     pub fn rib_top_z_m(&self, x: f64) -> f64 {
         let step = self.span_m / (2.0 * self.panels.round());
@@ -93,7 +93,7 @@ impl Arch {
         math::lerp(self.extrados_z_m(from), self.extrados_z_m(from + step), (x - from) / step)
     }
 
-    /// Returns the height of the underside of the floorbeams in meters.
+    /// Returns the height of the floorbeams' undersides in meters.
     #[must_use]
     pub fn floorbeam_z_m(&self) -> f64 {
         -self.slab_m - self.floorbeam_depth_m
@@ -140,7 +140,7 @@ impl Arch {
         m.0
     }
 
-    /// Adds all members of the bridge to a builder.
+    /// Adds all the bridge's members to a builder.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.ribs(b);
         self.columns(b);
@@ -184,7 +184,7 @@ impl Arch {
                     [x + half, y + half, top],
                 );
             }
-            // Struts connect tall pairs at a third of their height, well below the flight space of the interlayer.
+            // Struts connect tall pairs at a third of their height, well below the flight space in the interlayer.
             if top - foot > 9.0 {
                 let z = foot + (top - foot) / 3.0;
                 let inner = 0.5 * self.rib_spacing_m - half;
@@ -238,7 +238,7 @@ impl Arch {
         add_railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::RcRailing);
     }
 
-    /// Returns the height of the underside of abutments and skewbacks in meters.
+    /// Returns the height of the abutment and skewback undersides in meters.
     #[must_use]
     pub fn foundation_z_m(&self) -> f64 {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_DEPTH_M

@@ -1,5 +1,5 @@
-//! Dimensions of the bridge types. One table per type states each key with its range, default and meaning; the type's fields, the
-//! reader of scenario files and the check of scenarios/README.md all derive from it.
+//! Dimensions of the bridge types. One table per type lists each key with its range, default and meaning. The type's
+//! fields, the scenario file reader and the check of scenarios/README.md are all derived from it.
 
 /// A numeric key of a bridge type in scenario files.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,8 +51,8 @@ impl InconsistencyList {
     }
 }
 
-/// Defines the dimensions of a bridge type from one table: key, range, default, meaning. The type's name in scenario files
-/// follows the name of the struct.
+/// Defines the dimensions of a bridge type from one table: key, range, default, meaning. The type's name in scenario
+/// files comes from the struct name.
 macro_rules! bridge_dimensions {
     (
         $(#[$doc:meta])*
@@ -67,10 +67,10 @@ macro_rules! bridge_dimensions {
         }
 
         impl $bridge {
-            /// Value of `type` in scenario files, and name of the table with the dimensions.
+            /// Value of `type` in scenario files, and name of the dimensions table.
             pub const TYPE: &'static str = $name;
 
-            /// Keys of the dimensions in scenario files.
+            /// Dimension keys in scenario files.
             pub const FIELDS: &'static [$crate::scenario::bridges::BridgeField] = &[
                 $($crate::scenario::bridges::BridgeField {
                     key: stringify!($key),

@@ -20,7 +20,7 @@ pub use solid::{Footing, Member, Solid};
 /// A bridge of any type, with its position and heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bridge {
-    /// Name of the bridge, used in tasks and exports.
+    /// Bridge name, used in tasks and exports.
     pub name: String,
     /// Center of the deck's upper surface at midspan, m.
     pub center_m: Vec3<Enu>,
@@ -42,7 +42,7 @@ pub enum BridgeKind {
 /// A traffic lane or walkway: a polyline on the deck's upper surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
-    /// Index of the bridge in the scenario.
+    /// The bridge's index in the scenario.
     pub bridge: usize,
     /// Points in the direction of travel, m.
     pub points_m: Vec<Vec3<Enu>>,
@@ -50,12 +50,12 @@ pub struct Lane {
     pub walkway: bool,
 }
 
-/// A bridge type in the format of scenario files.
+/// Representation of a bridge type in scenario files.
 #[derive(Debug, Clone, Copy)]
 pub struct BridgeType {
-    /// Value of the `type` key, and name of the table with the dimensions.
+    /// Value of the `type` key, and name of the dimensions table.
     pub name: &'static str,
-    /// Keys in the table with the dimensions.
+    /// Keys in the dimensions table.
     pub fields: &'static [BridgeField],
     /// Function that creates a bridge from values in the order of the keys.
     pub create: fn(&[f64]) -> BridgeKind,
@@ -89,7 +89,7 @@ impl Bridge {
         Placement::new(self.center_m, self.heading_deg)
     }
 
-    /// Returns all members of the bridge.
+    /// Returns all the bridge's members.
     #[must_use]
     pub fn members(&self) -> Vec<Member> {
         let mut builder = MemberBuilder::new(&self.name, self.placement());
@@ -100,7 +100,7 @@ impl Bridge {
         builder.finish()
     }
 
-    /// Returns the length of the deck in meters.
+    /// Returns the deck length in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         match &self.kind {
@@ -109,7 +109,7 @@ impl Bridge {
         }
     }
 
-    /// Returns the width of the deck in meters.
+    /// Returns the deck width in meters.
     #[must_use]
     pub fn deck_width_m(&self) -> f64 {
         match &self.kind {
@@ -118,7 +118,7 @@ impl Bridge {
         }
     }
 
-    /// Returns half the length of the opening under the bridge that must stay free of terrain in meters.
+    /// Returns half the length, in meters, of the opening under the bridge, which must stay free of terrain.
     #[must_use]
     pub fn opening_half_m(&self) -> f64 {
         match &self.kind {
@@ -136,7 +136,7 @@ impl Bridge {
         }
     }
 
-    /// Returns the two lanes and two walkways of the bridge. `index` is the index of the bridge in the scenario.
+    /// Returns the bridge's two lanes and two walkways. `index` is the bridge's index in the scenario.
     #[must_use]
     pub fn lanes(&self, index: usize) -> Vec<Lane> {
         let placement = self.placement();

@@ -1,4 +1,4 @@
-//! Derives the reference paths of tasks from the dimensions of a bridge, in bridge axes.
+//! Derives the tasks' reference paths from a bridge's dimensions, in bridge axes.
 
 use super::arch::Arch;
 use super::solid::{LocalPoint, Placement};
@@ -9,14 +9,14 @@ use crate::math;
 /// Maximum spacing of reference points, m (at most 1 m is allowed: docs/src/reference/assessment.md, "On path").
 pub const SPACING_M: f64 = 0.8;
 
-/// Type of a task's path.
+/// Type of task path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TaskKind {
     /// A straight line along one side of the deck slab.
     SlabSide,
     /// A curve below the arch.
     ArchBottom,
-    /// A straight line through the space between deck and arch.
+    /// A straight line through the space between the deck and the arch.
     Interlayer,
     /// A closed loop around a pier near the water.
     PierCircle,
@@ -91,8 +91,8 @@ pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
     LocalPath { points, look, closed: false }
 }
 
-/// Returns the viewing direction of task 2 at point `k`: up at the soffits and slightly ahead, panning slowly between left and
-/// right rib.
+/// Returns the viewing direction of task 2 at point `k`: up at the soffits and slightly ahead, panning slowly between
+/// the left and right ribs.
 fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 30.0;
     let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
@@ -103,7 +103,8 @@ fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPo
     [ahead - from[0], 0.5 * arch.rib_spacing_m * side, arch.intrados_z_m(ahead) - from[2]]
 }
 
-/// Returns the path of task 3: a horizontal line between deck and arch on the centerline, halfway between floorbeams and crown.
+/// Returns the path of task 3: a horizontal line on the centerline between the deck and the arch, halfway between the
+/// floorbeams and the crown.
 pub(super) fn interlayer(arch: &Arch) -> LocalPath {
     let half = 0.3 * arch.span_m;
     let z = 0.5 * (arch.floorbeam_z_m() + arch.extrados_z_m(0.0));
@@ -143,7 +144,7 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<L
             let (s, c) = math::sin_cos(angle);
             add(cx + stand_off_m * c, cy + stand_off_m * s, c, s);
         }
-        // The line along the face to the next corner, without its ends, which are part of the corners.
+        // The line along the face to the next corner, without its endpoints, which are part of the corners.
         let (nx, ny, _) = corners[(k + 1) % 4];
         let (s, c) = math::sin_cos(from + math::FRAC_PI_2);
         let along = equal_steps(0.0, (nx - cx).abs().max((ny - cy).abs()));

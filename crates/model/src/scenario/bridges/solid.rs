@@ -12,7 +12,7 @@ pub struct Member {
     pub name: String,
     /// Bridge element that the member belongs to.
     pub element: Element,
-    /// Solid of the member, in site coordinates.
+    /// The member's solid, in site coordinates.
     pub solid: Solid,
 }
 
@@ -42,9 +42,9 @@ pub type LocalPoint = [f64; 3];
 pub struct Footing {
     /// Start and end along the bridge.
     pub x_m: (f64, f64),
-    /// Right and left end across the bridge.
+    /// Right and left ends across the bridge.
     pub y_m: (f64, f64),
-    /// Height of the underside of the footing.
+    /// Height of the footing's underside.
     pub up_m: f64,
 }
 
@@ -93,12 +93,12 @@ pub enum BeamDirection {
     Across,
 }
 
-/// Plate thicknesses of a steel beam, m.
+/// Steel beam plate thicknesses, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateThickness {
     /// Thickness of both flanges.
     pub flange_m: f64,
-    /// Thickness of the web plate.
+    /// Web plate thickness.
     pub web_m: f64,
 }
 
@@ -202,13 +202,14 @@ impl MemberBuilder {
                 [0, 1, 2].map(|i| center[i] + out[i] + slide * axis[i])
             })
         };
-        // Seen from the first end the ring runs clockwise, which is counterclockwise seen from outside its first face.
+        // Seen from the first end, the ring runs clockwise, which is counterclockwise seen from outside its first face.
         let corners: Vec<LocalPoint> = ring(ends[1]).chain(ring(ends[0])).collect();
         self.push(part, element, &corners, prism_faces(sides as usize));
     }
 }
 
-/// Returns the faces of a prism: the first `n` vertices form one end, counterclockwise seen from outside, the next `n` the other.
+/// Returns the faces of a prism. The first `n` vertices form one end, counterclockwise seen from outside; the next `n`
+/// form the other end.
 fn prism_faces(n: usize) -> Vec<Vec<u32>> {
     let n = n as u32;
     let mut faces = vec![(0..n).collect::<Vec<u32>>(), (n..2 * n).rev().collect()];

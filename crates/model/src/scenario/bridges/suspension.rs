@@ -5,7 +5,7 @@ use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
 use super::solid::{BeamDirection, Footing, MemberBuilder, PlateThickness};
 use crate::elements::Element;
 
-/// Half the width of the girders, which are centered on the edges of the deck, m (estimate).
+/// Half the width of the girders, which are centered on the deck edges, m (estimate).
 const GIRDER_HALF_WIDTH_M: f64 = 0.2;
 /// Plate thicknesses of the welded stiffening girders (estimate).
 const GIRDER_PLATES: PlateThickness = PlateThickness { flange_m: 0.04, web_m: 0.016 };
@@ -17,7 +17,7 @@ const STRINGER_PLATES: PlateThickness = PlateThickness { flange_m: 0.02, web_m: 
 const LEG_GAP_M: f64 = 0.02;
 /// Height of the bearings below the girders, m (estimate).
 const BEARING_HEIGHT_M: f64 = 0.2;
-/// Depth of the portal struts of the towers, m (estimate).
+/// Depth of the towers' portal struts, m (estimate).
 const PORTAL_DEPTH_M: f64 = 1.2;
 /// Depth of the anchorages below the deck, m (estimate).
 const ANCHORAGE_DEPTH_M: f64 = 12.0;
@@ -35,7 +35,7 @@ bridge_dimensions! {
         cable_clearance_m 0.5 to 10.0, 2.0, "Height of the cable above the deck at midspan, m (estimate).";
         cable_radius_m 0.05 to 0.6, 0.15, "Corner radius of the main cables, m; 0.12 to 0.25 m for spans of about 330 m (estimate).";
         hanger_spacing_m 3.0 to 20.0, 7.0, "Distance between hangers, m; Deer Isle 9 to 12 m (estimate).";
-        hanger_radius_m 0.01 to 0.1, 0.03, "Corner radius of the hangers, m; 50 to 65 mm pairs (estimate).";
+        hanger_radius_m 0.01 to 0.1, 0.03, "Corner radius of the hangers, m; pairs of 50 to 65 mm (estimate).";
         deck_width_m 5.0 to 40.0, 8.4, "Deck width, m; Deer Isle 7.2 m.";
         slab_m 0.15 to 0.5, 0.2, "Slab thickness, m; 8 to 10 in (estimate).";
         girder_depth_m 0.8 to 8.0, 2.0, "Depth of the stiffening girders, m; Deer Isle about 2 m.";
@@ -52,13 +52,14 @@ bridge_dimensions! {
 }
 
 impl Suspension {
-    /// Returns the length of the deck between the anchorages' far ends in meters.
+    /// Returns the deck length between the far ends of the anchorages, in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
         self.main_span_m + 2.0 * (self.side_span_m + self.anchorage_m)
     }
 
-    /// Returns the height of the cable at x in meters. The cable is a parabola in the main span and straight in the side spans.
+    /// Returns the height of the cable at x, in meters. The cable is a parabola in the main span and straight in the
+    /// side spans.
     #[must_use]
     pub fn cable_z_m(&self, x: f64) -> f64 {
         let half = 0.5 * self.main_span_m;
@@ -71,20 +72,20 @@ impl Suspension {
         }
     }
 
-    /// Returns the lateral distance of cables, hangers and tower legs from the deck's centerline, m. It keeps the legs clear of
-    /// the girders.
+    /// Returns the lateral distance of cables, hangers and tower legs from the deck's centerline, in meters. It keeps
+    /// the legs clear of the girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
         0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M + LEG_GAP_M + 0.5 * self.leg_y_m
     }
 
-    /// Returns the height of the underside of the girders in meters.
+    /// Returns the height of the girders' underside in meters.
     #[must_use]
     pub fn girder_z_m(&self) -> f64 {
         -self.slab_m - self.girder_depth_m
     }
 
-    /// Returns the distance from midspan to the point where the cables enter the anchorages in meters.
+    /// Returns the distance, in meters, from midspan to the point where the cables enter the anchorages.
     #[must_use]
     pub fn anchor_x_m(&self) -> f64 {
         0.5 * self.main_span_m + self.side_span_m
@@ -133,7 +134,7 @@ impl Suspension {
         m.require_at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
         m.require_at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
         m.require_at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
-        m.require_at_least("pier_top_m", self.pier_top_m, portal_m, "below girders and portal (slab_m, girder_depth_m)");
+        m.require_at_least("pier_top_m", self.pier_top_m, portal_m, "below the girders and the portal (slab_m, girder_depth_m)");
         m.require_at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
         m.0
     }
@@ -145,7 +146,7 @@ impl Suspension {
         (1..n).map(|k| self.main_span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
-    /// Adds all members of the bridge to a builder.
+    /// Adds all the bridge's members to a builder.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.towers(b);
         self.cables(b);
@@ -154,12 +155,12 @@ impl Suspension {
         self.anchorages(b);
     }
 
-    /// Returns the height of the top of the tower legs, which is below the cables on both sides of the saddle, m.
+    /// Returns the height of the tower leg tops, which are below the cables on both sides of the saddle, in meters.
     fn leg_top_m(&self) -> f64 {
         self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_HEIGHT_M
     }
 
-    /// Returns the height where the cable leaves the saddle, at the faces of the tower legs, m.
+    /// Returns the height where the cable leaves the saddle, at the faces of the tower legs, in meters.
     fn saddle_edge_z_m(&self) -> f64 {
         let (half, reach) = (0.5 * self.main_span_m, 0.5 * self.leg_x_m);
         self.cable_z_m(half - reach).min(self.cable_z_m(half + reach))
@@ -246,7 +247,7 @@ impl Suspension {
                 b.add_steel_beam(&name, Element::SteelStringer, corners, BeamDirection::Along, STRINGER_PLATES);
             }
         }
-        // In the main span the floorbeams extend to the hangers, which support them.
+        // In the main span, the floorbeams extend to the hangers, which support them.
         let held = self.cable_y_m() + 0.15;
         for (k, x) in self.floorbeams().into_iter().enumerate() {
             let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
@@ -284,7 +285,7 @@ impl Suspension {
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
             let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
             b.add_box(&format!("anchorage-{name}"), Element::RcFooting, [low, -far, foot.up_m], [high, far, top]);
-            // On each side of the deck the cable enters a block. The girders end on movable bearings.
+            // On each side of the deck, the cable enters a block. The girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
                 let grip = if low < 0.0 { high - 2.0 * CABLE_EMBEDMENT_M } else { low };
                 let block = format!("anchorage-{name}/{side}");
