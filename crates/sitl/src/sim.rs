@@ -222,7 +222,7 @@ impl Sim {
         self.endpoint.links.await_heartbeat(link);
     }
 
-    /// Limits the outgoing rate of a link, bytes/s.
+    /// Limits a link's outgoing data rate, in bytes/s.
     pub fn limit_link(&mut self, link: LinkId, bytes_s: f64) {
         self.endpoint.links.limit(link, bytes_s, self.now);
     }
@@ -304,8 +304,8 @@ impl Sim {
         !self.pending_responses.is_empty()
     }
 
-    /// Returns `None` unless the simulation is waiting for peers that have never responded; otherwise, whether data has
-    /// been received from all of them.
+    /// Returns `None` unless the simulation is waiting for the first response of one or more peers. Otherwise, returns
+    /// whether all of these peers have sent any data.
     #[must_use]
     pub fn awaits_first_response(&self) -> Option<bool> {
         let has_received = |(link, step, has_received): (LinkId, LockstepState, bool)| {
@@ -358,7 +358,7 @@ impl Sim {
         self.events.pop_front()
     }
 
-    /// SHA-256 digest of the state at all ticks so far.
+    /// SHA-256 digest of the state in all ticks so far.
     #[must_use]
     pub fn digest(&self) -> [u8; 32] {
         self.digest.clone().finalize().into()

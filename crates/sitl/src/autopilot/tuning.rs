@@ -125,7 +125,7 @@ pub struct Tuning {
     pub start_unix_s: i64,
     /// `MPC_HOLD_DZ`: stick deadband as a fraction of full deflection.
     pub stick_deadband: f64,
-    /// Further operator settings.
+    /// Other operator settings.
     pub rules: OperatorRules,
 }
 

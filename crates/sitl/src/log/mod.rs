@@ -46,7 +46,7 @@ impl FlightLogEncoder {
         Self { writer, due }
     }
 
-    /// Writes the rows that are due. With `last`, writes every topic regardless of its schedule.
+    /// Writes the rows that are due. If `last` is true, writes every topic regardless of its schedule.
     pub fn observe(&mut self, view: &VehicleSnapshot, last: bool) {
         for ((number, topic), due) in (0u16..).zip(TOPICS).zip(&mut self.due) {
             if !due.fire(view.clock.now) && !last {

@@ -169,7 +169,7 @@ pub(super) struct ClearSphere {
 }
 
 impl ClearSphere {
-    /// Returns the radius around `position_m` that is guaranteed to be free now in meters.
+    /// Returns the radius around `position_m`, in meters, that is guaranteed to be free of obstacles now.
     pub(super) fn remaining_radius_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
         self.radius_m - (position_m - self.center_m).norm() - MAX_OBJECT_SPEED_M_S * (now - self.since).s()
     }

@@ -10,7 +10,7 @@ use spandrel_model::time::SimTime;
 /// Range of surface effects in rotor radii. Farther surfaces change thrust by less than 0.3% (Cheeseman-Bennett at 5 R: 1.0025).
 const REACH_RADII: f64 = 5.0;
 
-/// Returns the range of surface effects in meters.
+/// Returns the range of surface effects, in meters.
 #[must_use]
 pub fn reach_m(model: &AirframeModel) -> f64 {
     REACH_RADII * model.rotor.radius_m

@@ -100,8 +100,8 @@ impl Sim {
         landed && !wet && !self.hard_contact && !self.is_upside_down()
     }
 
-    /// Resets the vehicle to its last safe hover after a delay if it has crashed and is motionless away from the landing pad, is
-    /// tipped over, or touches water.
+    /// Resets the vehicle to its last safe hover after a delay if it has crashed and is motionless away from the
+    /// landing pad, has tipped over, or is touching water.
     fn respawn_when_down(&mut self) {
         let rules = &self.config.scenario.rules;
         if !self.has_lifted_off || self.end_reason.is_some() || self.config.after_crash() != AfterCrash::Respawn {

@@ -1,5 +1,5 @@
-//! Control allocation: converts torque and thrust to motor commands, based on the rotor geometry. On saturation, yaw is
-//! reduced first, then collective thrust, then roll and pitch in proportion.
+//! Control allocation: converts torque and thrust to motor commands, based on the rotor geometry. On saturation, it
+//! reduces yaw first, then collective thrust, then roll and pitch proportionally.
 
 use crate::physics::{Actuators, MAX_ROTORS};
 use nalgebra::{Matrix4, Vector4};
@@ -61,7 +61,7 @@ impl Mixer {
             .map(|rotor| Vector4::new(-rotor.position_m.right(), rotor.position_m.forward(), rotor.spin * reach, 1.0))
             .collect();
         let gram = effect.iter().fold(Matrix4::zeros(), |sum, e| sum + e * e.transpose());
-        // Without an inverse (collinear rotors, identical spin), only collective thrust remains.
+        // Without an inverse (collinear rotors or identical spin directions), only collective thrust can be controlled.
         let inverse =
             gram.try_inverse().unwrap_or_else(|| Matrix4::from_diagonal(&Vector4::new(0.0, 0.0, 0.0, 1.0 / count as f64)));
         let each_n = vehicle.mass_kg * GRAVITY_M_S2 / count as f64;
@@ -165,7 +165,7 @@ mod tests {
     use crate::autopilot::testing::vehicle_with;
     use crate::sensors::tests::error_free_sensors;
 
-    /// N and N m; rounding error of a dozen products.
+    /// Rounding error of about a dozen products, N and N m.
     const ROUNDING: f64 = 1e-10;
 
     fn wrench(vehicle: &Vehicle, thrusts: &[f64; MAX_ROTORS]) -> [f64; 4] {

@@ -1,6 +1,6 @@
-//! Error-state Kalman filter. The state runs at the inertial sample rate, the covariance at 100 Hz. States are position,
-//! velocity, attitude, inertial sensor biases, GNSS drift, barometer offset, optical-flow scale and magnetometer bias. It fuses
-//! GNSS, barometer, magnetometer and optical flow.
+//! Error-state Kalman filter. The state runs at the inertial sample rate, the covariance at 100 Hz. The states are
+//! position, velocity, attitude, inertial sensor biases, GNSS drift, barometer offset, optical-flow scale and
+//! magnetometer bias. It fuses GNSS, barometer, magnetometer and optical flow.
 //!
 //! The range finder is not fused by default, because the surface below may be a deck, a truck or water. It decides
 //! which height to use when GNSS and barometer contradict each other.
@@ -375,8 +375,8 @@ impl Estimator {
         self.covariance.variance(P).max(self.covariance.variance(P + 1)).sqrt()
     }
 
-    /// Sets the time without a fused velocity after which the position becomes invalid, s, the height reference, and
-    /// whether the motors are off. The heading can be reset to the magnetometer alone only with the motors off.
+    /// Sets the time without a fused velocity after which the position becomes invalid (s), the height reference, and
+    /// whether the motors are off. Only with the motors off can the magnetometer alone reset the heading.
     pub fn configure(&mut self, dead_reckoning_limit_s: f64, reference: HeightReference, motors_off: bool) {
         (self.dead_reckoning_limit_s, self.configured_reference, self.motors_off) =
             (dead_reckoning_limit_s, reference, motors_off);
@@ -393,7 +393,7 @@ impl Estimator {
         }
     }
 
-    /// Returns the accumulated position reset to GNSS since the last call in meters.
+    /// Returns the accumulated position reset to GNSS since the last call, in meters.
     pub fn take_position_reset(&mut self) -> Option<Vec3<Ned>> {
         let step_m = self.position_step_m.take();
         self.position_resets += u32::from(step_m.is_some());
@@ -462,7 +462,7 @@ impl Estimator {
         }
     }
 
-    /// Acceleration relative to the ground in the last inertial sampling interval, m/s².
+    /// Acceleration relative to the ground during the last inertial sampling interval, m/s².
     #[must_use]
     pub fn acceleration_m_s2(&self) -> Vec3<Ned> {
         self.acceleration_m_s2
@@ -491,8 +491,8 @@ impl Estimator {
     #[must_use]
     pub fn error(&self, truth: &SimulatedTruth) -> [f64; 15] {
         let turn = self.attitude.inverse().then(truth.attitude).raw();
-        // FRAME: the inverse estimate followed by the truth is the small rotation in NED from the estimated to the true
-        // attitude.
+        // FRAME: the inverse of the estimate followed by the true attitude is the small rotation in NED from the
+        // estimated to the true attitude.
         let theta: Vector3<f64> = turn.scaled_axis();
         let parts = [
             (truth.position_m - self.position_m).array(),

@@ -19,7 +19,7 @@ pub struct SensorStatus {
     pub compass: bool,
     /// Whether the barometer is used.
     pub barometer: bool,
-    /// Whether GNSS is used if it has a fix.
+    /// Whether GNSS is used when it has a fix.
     pub gnss: bool,
     /// Whether the vehicle tracks its attitude setpoint.
     pub tracks_attitude: bool,

@@ -56,7 +56,7 @@ impl Navigator {
         let (n, e) = request.center_m.unwrap_or((here.north(), here.east()));
         let center_m = Vec3::new(n, e, request.up_m.map_or(here.down(), |up| -up));
         if self.fence_check(input).circle_leaves_fence(center_m, radius.abs()) {
-            return RequestOutcome::Denied("Circle leaves geofence".into());
+            return RequestOutcome::Denied("Orbit leaves geofence".into());
         }
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
         let left_rad = if request.arc_rad > 0.0 { request.arc_rad } else { f64::INFINITY };
@@ -68,7 +68,7 @@ impl Navigator {
         RequestOutcome::Accepted
     }
 
-    /// Starts a circle ahead of the nose. On the ground, changes only the mode.
+    /// Starts a circle ahead of the nose. On the ground, only changes the mode.
     pub(super) fn request_circle_ahead(&mut self, input: &NavigatorInput) -> RequestOutcome {
         if !input.is_flying() {
             (self.modes.intended, self.orbit) = (FlightMode::Orbit, None);

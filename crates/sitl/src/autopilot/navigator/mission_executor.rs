@@ -158,8 +158,8 @@ impl Navigator {
         self.trajectory.as_ref().is_some_and(passed)
     }
 
-    /// Climb target for an item that moves away while the vehicle is still on the ground: straight up to the default
-    /// takeoff height.
+    /// Climb target, straight up to the default takeoff height, if the item leads elsewhere and the vehicle has not
+    /// taken off yet.
     fn needs_takeoff_first(&self, step: &MissionStep, input: &NavigatorInput) -> Option<Vec3<Ned>> {
         let away = matches!(step, MissionStep::Waypoint { .. } | MissionStep::Near(_) | MissionStep::Circle { .. });
         let here = input.here();
@@ -302,7 +302,8 @@ impl Navigator {
         }
     }
 
-    /// Resumes a suspended item: a takeoff above the same position, a landing in progress, a return in its saved phase.
+    /// Resumes a suspended item: a takeoff above the same position, a landing in progress, or a return in its saved
+    /// phase.
     fn resume_step(&mut self, step: &MissionStep, left: SuspendedStep) {
         let before = left.target_m;
         match *step {

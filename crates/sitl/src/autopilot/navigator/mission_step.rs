@@ -2,7 +2,7 @@
 
 use spandrel_model::frames::{Ned, Vec3};
 
-/// One mission item as the autopilot flies it. The endpoint keeps the corresponding MAVLink items.
+/// One mission item as the autopilot flies it. The endpoint stores the corresponding MAVLink items.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MissionStep {
     /// Fly to a point.

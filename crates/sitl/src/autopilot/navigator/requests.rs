@@ -144,7 +144,7 @@ impl Navigator {
 
     fn request_takeoff(&mut self, height_m: Option<f64>, input: &NavigatorInput) -> RequestOutcome {
         if height_m.is_some_and(|h| !h.is_finite() || h.abs() > MAX_DISTANCE_M) {
-            return RequestOutcome::Denied("Takeoff height out of range".into());
+            return RequestOutcome::Denied("Takeoff altitude out of range".into());
         }
         let here = input.here();
         let home_up = self.home.up_m();
@@ -157,7 +157,7 @@ impl Navigator {
         }
         let before = self.commanded.takeoff_up_m.replace(wanted_up);
         if input.is_flying() && self.commanded.takeoff_up_m.is_some_and(|wanted| up >= wanted) {
-            self.events.push(Severity::Info, "Already higher than takeoff altitude");
+            self.events.push(Severity::Info, "Already above takeoff altitude");
             return self.set_mode(FlightMode::Hold, input);
         }
         let outcome = self.set_mode(FlightMode::Takeoff, input);

@@ -116,7 +116,7 @@ impl Navigator {
             self.returning.phase = ReturnPhase::Stay;
             let down = input.here().down().max(home.down() - rules.final_height_m);
             self.target_m = Vec3::new(home.north(), home.east(), down);
-            self.events.push(Severity::Info, "Holding at final height");
+            self.events.push(Severity::Info, "Holding at final altitude");
         } else {
             self.returning.phase = ReturnPhase::Land;
             self.events.push(Severity::Info, "Landing");
