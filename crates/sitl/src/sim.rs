@@ -1,5 +1,5 @@
-//! One simulation step in a documented order (docs/src/reference/wire.md, "One simulation step"). Sans-IO: takes datagrams and
-//! timestamps, returns datagrams.
+//! Runs simulation steps in the documented order (docs/src/reference/wire.md, "One simulation step"). Performs no I/O:
+//! it takes datagrams and timestamps and returns datagrams.
 
 mod crash_handling;
 mod file_jobs;
@@ -126,7 +126,7 @@ pub struct Sim {
     faults: Faults,
     file_jobs: FileJobScheduler,
     instructor_settings: InstructorSettings,
-    /// Times at which traffic was stopped and released.
+    /// Times at which traffic stopped and resumed.
     closures: BridgeClosures,
     /// Number of parameter changes already applied to the environment.
     applied_changes: u64,

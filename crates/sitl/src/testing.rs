@@ -1,4 +1,4 @@
-//! In-process vehicle for tests and scripts. It uses no sockets or clock, runs as fast as the machine allows, and
+//! In-process vehicle for tests and scripts. It uses no sockets and no clock, runs as fast as the machine allows, and
 //! produces identical results in every run.
 //!
 //! ```
@@ -68,7 +68,7 @@ pub enum MissedExpectation {
     },
 }
 
-/// Builder for a [`Vehicle`]. Defaults: the hover drill, the phantom2, seed 1, PX4.
+/// Builder for a [`Vehicle`]. Defaults: the hover drill, the phantom2 aircraft, seed 1, PX4.
 #[derive(Debug, Clone)]
 pub struct VehicleBuilder {
     scenario: String,

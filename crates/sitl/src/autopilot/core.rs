@@ -35,7 +35,7 @@ use spandrel_model::vehicle::Vehicle;
 /// Rate of the control loops, Hz.
 pub const CONTROL_HZ: f64 = 400.0;
 
-/// Latest readings of the sensors that the estimator does not fuse.
+/// Latest readings from the sensors that the estimator does not fuse.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct UnfusedReadings {
     battery: Option<BatteryReading>,

@@ -121,7 +121,7 @@ pub struct Tuning {
     pub circle_rate_rad_s: f64,
     /// Follow mode settings.
     pub follow: FollowRule,
-    /// UTC at simulation start, Unix seconds.
+    /// UTC time at the start of the simulation, Unix seconds.
     pub start_unix_s: i64,
     /// `MPC_HOLD_DZ`: stick deadband as a fraction of full deflection.
     pub stick_deadband: f64,

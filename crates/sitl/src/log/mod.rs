@@ -59,7 +59,7 @@ impl FlightLogEncoder {
         }
     }
 
-    /// Writes a text message (severity 0 emergency to 7 debug).
+    /// Writes a text message (severity 0 = emergency to 7 = debug).
     pub fn text(&mut self, severity: u8, now: SimTime, text: &str) {
         self.writer.text(severity, now.us().max(0).cast_unsigned(), text);
     }

@@ -10,7 +10,7 @@ use spandrel_model::scenario::BatteryModel;
 const EMPTY_CELL_V: f64 = 3.2;
 
 /// Returns the pack's open-circuit voltage at a state of charge, in V. Interpolates linearly between the eleven points
-/// of the vehicle file.
+/// in the vehicle file.
 #[must_use]
 pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f64) -> f64 {
     let x = charge.clamp(0.0, 1.0) * 10.0;

@@ -37,7 +37,7 @@ struct ContactConstraint {
     gap: f64,
     target: f64,
     approach: f64,
-    /// Response of the body and of this contact point to an impulse at this point.
+    /// Response of the body and the contact point to an impulse at that point.
     response: ImpulseResponse,
     inverse_effective: f64,
     impulse: Vector3<f64>,

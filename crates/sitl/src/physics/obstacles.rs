@@ -44,7 +44,7 @@ impl Obstacles for OpenSky {
     }
 }
 
-/// Returns the more severe of two surfaces for reports. The order is person, vehicle, bridge, terrain, water, other
+/// Returns the more severe of two surfaces, for reports. The order is person, vehicle, bridge, terrain, water, other
 /// (docs/src/reference/wire.md, "Scoring data").
 #[must_use]
 pub fn more_severe_surface(a: Surface, b: Surface) -> Surface {

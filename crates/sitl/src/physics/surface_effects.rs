@@ -40,7 +40,7 @@ pub fn ceiling_factor(distance_over_radius: f64) -> f64 {
     g * g
 }
 
-/// Returns the thrust factor of each rotor from the surfaces below and above its hub along the rotor axis.
+/// Returns each rotor's thrust factor, based on the surfaces below and above its hub along the rotor axis.
 pub fn factors(model: &AirframeModel, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
     let mut out = [1.0; MAX_ROTORS];
     let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();

@@ -61,7 +61,7 @@ pub fn pressure_pa(altitude_m: f64) -> f64 {
 mod tests {
     #[test]
     fn val_pressure_at_1000_m_matches_standard_atmosphere() {
-        // ISO 2533 table: 89 874.6 Pa at 1000 m; tolerance 5 Pa.
+        // ISO 2533 lists 89,874.6 Pa at 1,000 m; tolerance 5 Pa.
         assert!((super::pressure_pa(1000.0) - 89_874.6).abs() < 5.0);
     }
 }

@@ -16,7 +16,7 @@ use spandrel_model::vehicle;
 pub const SATELLITES: usize = 22;
 /// Elevation mask, rad (10 degrees, common in receivers).
 const MASK_RAD: f64 = 0.174_533;
-/// Minimum number of satellites for a fix (four unknowns plus one for consistency).
+/// Minimum number of satellites for a fix (four for the four unknowns, and one for a consistency check).
 const MIN_SATELLITES: usize = 5;
 /// Maximum horizontal dilution of precision for a fix (estimate: receivers flag larger values as unusable).
 const MAX_HDOP: f64 = 8.0;

@@ -32,7 +32,7 @@ pub struct GnssReading {
     pub epv_m: f64,
 }
 
-/// Readings that became available in one tick.
+/// Readings that become available in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Readings {
     /// Accelerometer and gyroscope.

@@ -68,8 +68,8 @@ impl Inbox {
         }
     }
 
-    /// Returns the datagrams to process at `now`, ordered by link and then by arrival. Further calls in the same tick continue
-    /// within the remaining limits.
+    /// Returns the datagrams to process at `now`, ordered by link and then by arrival. Further calls in the same tick
+    /// share the remaining limits.
     pub fn take(&mut self, now: SimTime) -> Vec<(LinkId, ReceivedDatagram)> {
         if self.waiting == 0 {
             return Vec::new();

@@ -29,7 +29,7 @@ const CONTROL_RESERVE: f64 = 0.08;
 /// All gains and limits of the control cascade.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gains {
-    /// Moments of inertia about forward, right, down, kg m².
+    /// Moments of inertia about the forward, right and down axes, kg m².
     pub inertia_kg_m2: [f64; 3],
     /// Lead factor of the motor lag compensation.
     pub lead: f64,

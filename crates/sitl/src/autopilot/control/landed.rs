@@ -13,7 +13,7 @@ const STOPPED_DURATION_S: f64 = 0.3;
 const DESCENT_MIN_M_S: f64 = 0.25;
 /// Time over which the thrust fades out after ground contact, s. After that, the landing is complete.
 const THRUST_FADE_S: f64 = 0.5;
-/// Margin above the on-ground range finder reading within which the vehicle still counts as on the ground, m.
+/// Margin above the range finder reading on the ground within which the vehicle still counts as on the ground, m.
 const RANGE_MARGIN_M: f64 = 0.35;
 /// Minimum tilt cosine on the ground (40 degrees).
 const MIN_TILT_COSINE: f64 = 0.766;

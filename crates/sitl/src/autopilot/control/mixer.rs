@@ -140,8 +140,8 @@ impl Mixer {
             highest = highest.max(tilt[i]);
         }
         let tilt_share = ((high - low) / (highest - lowest).max(1e-9)).min(1.0);
-        // Adjusts the collective thrust to leave headroom for roll and pitch. The shift is the same for all rotors with
-        // an equal collective share.
+        // Adjusts the collective thrust to leave headroom for roll and pitch. The shift is the same for all rotors that
+        // have an equal share of the collective thrust.
         let each = self.columns[0][3].max(1e-6);
         let room = (low - lowest * tilt_share, high - highest * tilt_share);
         let common = (demand.thrust_n * each).max(room.0).min(room.1) / each;

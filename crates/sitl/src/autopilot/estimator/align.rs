@@ -13,7 +13,7 @@ const REST_FORCE_TOLERANCE_M_S2: f64 = 1.5;
 /// Mean rates beyond this many standard deviations of the gyroscope bias count as motion.
 const BIAS_SIGMAS: f64 = 5.0;
 /// Residual rocking of a vehicle at rest, as a fraction of the gyroscope bias (1 sigma, estimate). It limits how
-/// accurately the mean rate determines the bias; the filter estimates the rest in flight.
+/// accurately the mean rate determines the bias; the filter estimates the rest of the bias in flight.
 pub const ROCKING_BIAS_FRACTION: f64 = 0.1;
 
 /// Gyroscope characteristics from the data sheet.

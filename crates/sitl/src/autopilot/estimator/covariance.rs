@@ -28,7 +28,7 @@ pub const FLOW: usize = 19;
 /// Index of the magnetometer bias error; constant over a session.
 pub const MAG: usize = 20;
 
-/// Spectral densities of the process noise, SI units per second.
+/// Spectral densities of the process noise, in SI units per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProcessNoise {
     /// Accelerometer, (m/s²)²/Hz.

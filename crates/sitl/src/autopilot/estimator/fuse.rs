@@ -15,7 +15,7 @@ pub(super) const INNOVATION_GATE: f64 = 5.0;
 /// for seconds. The weight is about twice its time constant times the fix rate, halved because part of the excess is
 /// white noise.
 const MULTIPATH_WEIGHT: f64 = 40.0;
-/// Time for which optical flow counts as an independent velocity source after its last fusion, s.
+/// Time after its last fusion for which optical flow counts as an independent velocity source, s.
 const FLOW_FRESH_S: f64 = 1.0;
 /// Time for which a fix counts as current, s (estimate: five fixes at the usual rate).
 const FIX_FRESH_S: f64 = 1.0;

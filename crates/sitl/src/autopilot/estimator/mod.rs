@@ -38,12 +38,13 @@ const REGAIN_FRACTION: f64 = 0.5;
 /// Specific force above which the sampling blurs the direction of a shock, m/s², and the fraction of it treated as uncertain.
 const SHOCK_M_S2: f64 = 40.0;
 const SHOCK_UNCERTAIN_FRACTION: f64 = 0.1;
-/// Time over which fixes are averaged before the origin of the local frame is set, s (estimate; PX4 requires 10 s of
-/// good fixes, EKF2_REQ_GPS_H).
+/// Time over which fixes are averaged before the local frame's origin is set, s (estimate; PX4 requires 10 s of good
+/// fixes, EKF2_REQ_GPS_H).
 const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
 
-/// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water an aircraft often has neither GNSS nor optical
-/// flow, and this estimator's drift stays within its limits for about this long (`crates/sitl/tests/flight`).
+/// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water, an aircraft often has neither GNSS
+/// nor optical flow, and this estimator's drift stays within its limits for about this long
+/// (`crates/sitl/tests/flight`).
 pub const DEAD_RECKONING_LIMIT_S: f64 = 60.0;
 
 /// Measurement noise from the sensors' data sheets.

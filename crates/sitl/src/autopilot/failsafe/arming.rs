@@ -65,7 +65,8 @@ impl ArmingCheck<'_> {
         }
     }
 
-    /// Returns true if arming requires a position: for the mode, for hold without a pilot, or for the geofence.
+    /// Returns true if arming requires a position estimate: for the mode, to hold position without a pilot, or for the
+    /// geofence.
     fn needs_position(&self) -> bool {
         let intended = self.input.flight.intended;
         !self.input.tuning.arming_depends_on_mode || !self.sticks_fresh() || intended.needs_position() || self.fence_set

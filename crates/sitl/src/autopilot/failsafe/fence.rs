@@ -71,7 +71,7 @@ pub struct FenceZone {
     pub inclusion: bool,
 }
 
-/// Breached limit, with the values of MAVLink's FENCE_BREACH.
+/// Breached limit, with the values of MAVLink's FENCE_BREACH enum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Breach {
     /// Minimum height above home (1).

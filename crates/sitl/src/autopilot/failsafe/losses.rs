@@ -127,7 +127,7 @@ fn sticks_fresh(links: &LinkStatus, input: &FailsafeInput) -> bool {
     links.sticks_fresh(input.tuning.manual_timeout_s(), input.now)
 }
 
-/// The mode that keeps the vehicle in place: hold, or land if there is no position.
+/// The mode that keeps the vehicle in place: hold, or land without a position estimate.
 fn hold_mode(input: &FailsafeInput) -> FlightMode {
     if input.estimate.position_valid { FlightMode::Hold } else { FlightMode::Land }
 }

@@ -1,4 +1,4 @@
-//! Flying a circle around a point.
+//! Flies circles around a point.
 
 use super::Navigator;
 use super::input::NavigatorInput;

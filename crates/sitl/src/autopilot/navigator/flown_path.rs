@@ -7,7 +7,7 @@ use spandrel_model::frames::{Ned, Vec3};
 const ACCURACY_M: f64 = 2.0;
 /// Maximum number of points (ArduCopter: SRTL_POINTS).
 const MAX_POINTS: usize = 300;
-/// Maximum deviation of the simplified path from the recorded one, m (ArduCopter: half the accuracy).
+/// Maximum deviation of the simplified path from the recorded one, m (ArduCopter: half of SRTL_ACCURACY).
 const SIMPLIFY_TOLERANCE_M: f64 = 0.5 * ACCURACY_M;
 /// Acceptance radius of recorded points, m.
 const REACHED_M: f64 = 1.0;

@@ -1,4 +1,4 @@
-//! Following a moving target: PX4's follow-me (FLW_TGT_*) and ArduCopter's FOLLOW (FOLL_*).
+//! Follows a moving target: PX4's follow-me (FLW_TGT_*) and ArduCopter's FOLLOW (FOLL_*).
 
 use crate::autopilot::control::shaper::heading_of;
 use spandrel_model::frames::{Ned, Vec3};

@@ -58,13 +58,13 @@ pub struct Mission {
     pub current: usize,
     /// End time of the current item's wait.
     pub wait_until: Option<SimTime>,
-    /// Cruise speed set by the mission, m/s.
+    /// Cruise speed that the mission set, m/s.
     pub speed_m_s: Option<f64>,
     /// Items that were reached but not yet reported.
     pub reached: Vec<usize>,
     /// Whether the current item has started.
     pub item_started: bool,
-    /// Commands of passed items that have not been carried out yet.
+    /// Commands from passed items that have not been carried out yet.
     pub pending_commands: Vec<MissionStep>,
     /// Target of the initial climb of a mission without a takeoff item, m.
     pub initial_climb_m: Option<Vec3<Ned>>,

@@ -1,4 +1,4 @@
-//! Execution of mission items.
+//! Executes mission items.
 
 use super::Navigator;
 use super::automatic::{HEIGHT_REACHED_M, TURN_MIN_DISTANCE_M};
@@ -181,7 +181,7 @@ impl Navigator {
         if (target - here).norm() < input.tuning.accept_radius_m { target } else { here }
     }
 
-    /// Carries out the commands of passed items.
+    /// Carries out the commands from passed items.
     fn run_passed_commands(&mut self, input: &NavigatorInput) {
         for command in std::mem::take(&mut self.mission.pending_commands) {
             match command {

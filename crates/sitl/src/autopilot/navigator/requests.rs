@@ -10,7 +10,7 @@ use crate::autopilot::flight_state::FlightMode;
 use crate::autopilot::request::{AutopilotRequest, RequestOutcome, TurnCommand};
 use spandrel_model::frames::{Ned, Vec3};
 
-/// Limit beyond which heights and distances are rejected as errors, m.
+/// Largest height or distance that a request may contain, m.
 const MAX_DISTANCE_M: f64 = 20_000.0;
 /// Throttle stick position above which thrust exceeds half of the hover thrust (ArduPilot: get_non_takeoff_throttle).
 const HALF_HOVER_THROTTLE: f64 = -0.5;
@@ -102,7 +102,8 @@ impl Navigator {
         None
     }
 
-    /// Returns true on the ground if the throttle stick is so high that a mode with direct throttle would take off immediately.
+    /// Returns true on the ground if the throttle stick is so high that the vehicle would take off immediately in a
+    /// mode with direct throttle.
     fn throttle_too_high(&self, mode: FlightMode, input: &NavigatorInput) -> bool {
         let direct = |mode: FlightMode| matches!(mode, FlightMode::Stabilized | FlightMode::Acro);
         let high = input.links.sticks.up > HALF_HOVER_THROTTLE && input.sticks_fresh();
