@@ -336,7 +336,7 @@ impl Sim {
         self.endpoint.links.lockstep_states().any(|(_, step, _)| step == LockstepState::Late)
     }
 
-    /// Time when the next tick is due.
+    /// Time at which the next tick is due.
     #[must_use]
     pub fn poll_timeout(&self) -> SimTime {
         self.now + STEP

@@ -192,7 +192,7 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
-    /// Returns a builder.
+    /// Returns a builder with the default settings.
     #[must_use]
     pub fn builder() -> VehicleBuilder {
         VehicleBuilder::default()

@@ -19,7 +19,7 @@ pub enum LinkLossAction {
 }
 
 impl LinkLossAction {
-    /// Returns the action for a parameter value: 0 ignore, 1 hold, 2 return, 3 land, 5 and 6 terminate.
+    /// Returns the action for a parameter value: 0 = ignore, 1 = hold, 2 = return, 3 = land, 5 and 6 = terminate.
     #[must_use]
     pub fn from_number(n: i32) -> Option<Self> {
         Some(match n {

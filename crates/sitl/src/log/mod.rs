@@ -88,7 +88,7 @@ impl From<params::ParamValue> for UlogValue<'_> {
 /// Output of the flight recorder for the host to store.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LogOutput {
-    /// The start of a new log. The value is its UTC timestamp for the file name, in microseconds since the Unix epoch.
+    /// Start of a new log, with the UTC timestamp for its file name in microseconds since the Unix epoch.
     Begin(u64),
     /// Bytes to append to the ULog file.
     Bytes(Vec<u8>),

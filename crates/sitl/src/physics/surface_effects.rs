@@ -25,8 +25,8 @@ pub fn ground_factor(height_over_radius: f64) -> f64 {
     1.0 / (1.0 - r * r)
 }
 
-/// Returns the ratio of induced velocities without and with a ceiling, the gamma of Hsiao and Chirarattananon. Constant
-/// below R/4, as in the public Crazyflie firmware.
+/// Returns the induced velocity without a ceiling divided by the one with a ceiling (gamma in Hsiao and
+/// Chirarattananon). Constant below R/4, as in the public Crazyflie firmware.
 #[must_use]
 pub fn ceiling_gamma(distance_over_radius: f64) -> f64 {
     let d = distance_over_radius.max(0.25);

@@ -31,7 +31,7 @@ const CONTROL_RESERVE: f64 = 0.08;
 pub struct Gains {
     /// Moments of inertia about the forward, right and down axes, kg m².
     pub inertia_kg_m2: [f64; 3],
-    /// Lead factor of the motor lag compensation.
+    /// Lead factor for motor lag compensation.
     pub lead: f64,
     /// Roll and pitch rate gain, rad/s² per rad/s.
     pub rate: f64,

@@ -16,7 +16,7 @@ pub struct TorqueThrustSetpoint {
     pub thrust_n: f64,
 }
 
-/// Fraction of the demand that was allocated.
+/// Allocated fractions of the demand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AllocationStatus {
     /// Allocated fraction of the roll and pitch torque, 0 to 1.
@@ -85,8 +85,8 @@ impl Mixer {
         }
     }
 
-    /// Computes motor commands for a demand. `voltage_fraction` is battery voltage divided by full voltage; motors turn slower at
-    /// lower voltage.
+    /// Computes motor commands for a demand. `voltage_fraction` is battery voltage divided by full voltage; motors turn
+    /// more slowly at lower voltage.
     pub fn mix(&mut self, demand: &TorqueThrustSetpoint, voltage_fraction: f64, dt_s: f64) -> (Actuators, AllocationStatus) {
         let top = (self.max_rad_s * voltage_fraction).max(self.idle_rad_s + 1.0);
         let low = self.thrust_coefficient * self.idle_rad_s * self.idle_rad_s;
@@ -106,7 +106,7 @@ impl Mixer {
     }
 
     /// Compensates for rotor inertia. An accelerating rotor applies torque immediately through its inertia and
-    /// permanently through its drag. Filtering the yaw torque with a lag makes the total follow the demand.
+    /// permanently through its drag. Filtering the yaw torque with a lag makes the total torque follow the demand.
     fn compensate_rotor_spin(&mut self, torque: Vec3<Frd>, dt_s: f64) -> Vec3<Frd> {
         self.yaw_n_m += (torque.down() - self.yaw_n_m) * dt_s / (dt_s + self.spin_time_s);
         Vec3::new(torque.forward(), torque.right(), self.yaw_n_m)

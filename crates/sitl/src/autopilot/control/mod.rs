@@ -44,7 +44,7 @@ pub struct ControlInput<'a> {
     pub dt_s: f64,
 }
 
-/// Control loop state.
+/// State of the control loops.
 #[derive(Debug, Clone)]
 pub struct Control {
     /// Gains of all control loops.

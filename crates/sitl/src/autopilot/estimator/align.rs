@@ -4,7 +4,7 @@ use crate::sensors::ImuReading;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 
-/// Averaging time, s.
+/// Averaging time for the alignment, s.
 pub const ALIGN_S: f64 = 0.5;
 /// Maximum angular rate at rest, rad/s.
 const REST_RATE_MAX_RAD_S: f64 = 0.15;

@@ -12,8 +12,8 @@ use spandrel_model::time::SimTime;
 pub struct BatteryMonitor {
     low_warned: bool,
     critical_warned: bool,
-    /// Most severe battery level (1 low, 2 critical, 3 emergency) whose failsafe has triggered in this flight. Each
-    /// level triggers once, so the pilot can override it.
+    /// Most severe battery level (1 = low, 2 = critical, 3 = emergency) whose failsafe has triggered in this flight.
+    /// Each level triggers once, so the pilot can override it.
     highest_handled_level: usize,
     /// Times at which the voltage fell below the low and critical thresholds.
     low_voltage_since: [Option<SimTime>; 2],
@@ -45,7 +45,7 @@ impl BatteryMonitor {
         }
     }
 
-    /// Battery level: 0 good, 1 low, 2 critical, 3 emergency.
+    /// Battery level: 0 = good, 1 = low, 2 = critical, 3 = emergency.
     fn level(&mut self, battery: &BatteryReading, input: &FailsafeInput) -> usize {
         let (tuning, rules) = (input.tuning, &input.tuning.rules.responses);
         let mut sagged = [false; 2];

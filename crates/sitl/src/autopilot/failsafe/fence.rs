@@ -17,7 +17,7 @@ pub enum FenceOutline {
 }
 
 impl FenceOutline {
-    /// Returns true if a point is inside.
+    /// Returns true if a point is inside the outline.
     #[must_use]
     pub fn contains(&self, (n, e): (f64, f64)) -> bool {
         match self {

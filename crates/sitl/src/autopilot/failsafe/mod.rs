@@ -133,7 +133,7 @@ impl Failsafe {
         self.battery.check(input, &mut self.events)
     }
 
-    /// Updates the state of the geofence.
+    /// Updates the geofence state.
     pub fn update_fence(&mut self, input: &FailsafeInput) {
         self.fence_monitor.update_set(&FenceCheck::new(&self.fence, input.tuning, input.flight.home_m));
     }

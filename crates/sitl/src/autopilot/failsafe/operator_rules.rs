@@ -34,7 +34,7 @@ pub struct LinkLossExceptions {
 }
 
 impl LinkLossExceptions {
-    /// Returns the exceptions for PX4's bit mask: 1 mission, 2 hold, 4 offboard.
+    /// Returns the exceptions for PX4's bit mask: 1 = mission, 2 = hold, 4 = offboard.
     #[must_use]
     pub fn from_bits(bits: i32) -> Self {
         Self { mission: bits & 1 != 0, hold: bits & 2 != 0, offboard: bits & 4 != 0, manual: false }
@@ -358,7 +358,7 @@ pub struct OperatorRules {
     pub mission_requirement: MissionRequirement,
     /// `MIS_DIST_1WP`: maximum distance of the first waypoint from home, m; 0 or less: no limit.
     pub first_waypoint_m: f64,
-    /// `MIS_RESTART`: restart the mission whenever its mode is entered.
+    /// `MIS_RESTART`: restart the mission on every entry into mission mode.
     pub mission_restarts: bool,
     /// Bit 1 of `AUTO_OPTIONS`: a mission takes off immediately after arming. Otherwise it waits for a raised throttle
     /// or a start command.

@@ -11,16 +11,17 @@ use crate::autopilot::request::RequestOutcome;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
-/// Rate at which the distance error to the circle is corrected, 1/s (estimate: much slower than the velocity loop).
+/// Gain on the distance error from the circle, 1/s (estimate: much slower than the velocity loop).
 const RADIAL_GAIN_PER_S: f64 = 0.6;
-/// Integral gain on the remaining distance error, 1/s² (estimate: damping ratio 0.8 with the rate above), and its limit, m/s.
+/// Integral gain on the remaining distance error, 1/s² (estimate: damping ratio 0.8 with the gain above), and its
+/// limit, m/s.
 const TRIM_PER_S2: f64 = 0.14;
 const TRIM_MAX_M_S: f64 = 2.0;
 /// Fraction of the available acceleration that a circle may use.
 const CIRCLE_ACCELERATION_FRACTION: f64 = 0.5;
-/// Allowed radii, m.
+/// Allowed orbit radii, m.
 const RADIUS_LIMITS_M: std::ops::RangeInclusive<f64> = 1.0..=1_000.0;
-/// Default speed, m/s.
+/// Default orbit speed, m/s.
 const DEFAULT_SPEED_M_S: f64 = 2.0;
 
 impl Navigator {

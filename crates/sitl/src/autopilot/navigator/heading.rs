@@ -120,7 +120,7 @@ impl Heading {
         self.turned_by_pilot
     }
 
-    /// Turns to a heading, rad; `None` stops the turn. In GUIDED the yaw stick has priority.
+    /// Turns to a heading, rad; `None` stops the turn. In GUIDED, the yaw stick has priority.
     pub fn turn_to(&mut self, yaw_rad: Option<f64>, mode: FlightMode, input: &NavigatorInput) {
         if self.turn_by_pilot(mode, input) {
             return;

@@ -306,7 +306,7 @@ impl Navigator {
         self.modes.active = self.modes.intended;
     }
 
-    /// Changes the requested mode, for a failsafe or a pilot taking over.
+    /// Changes the requested mode, for a failsafe or a stick takeover.
     pub fn change_mode(&mut self, mode: FlightMode, ends_override: bool, input: &NavigatorInput) {
         self.modes.intended = mode;
         self.modes.overridden &= !ends_override;
