@@ -70,7 +70,7 @@ def test_wire_mavsdk_motor_failure_makes_the_vehicle_fall(failing):
     wait_for("a stopped motor", lambda: motors()[0] == STANDING_US and max(motors()[1:]) > STANDING_US)
     wait_for("the fall", lambda: telemetry.position().relative_altitude_m < 0.5)
     wait_for("an inverted attitude", lambda: abs(telemetry.attitude_euler().roll_deg) > UPSIDE_DEG)
-    wait_for("the message about the attitude", lambda: "Attitude lost: motor or propeller failure?" in texts)
+    wait_for("the message about the attitude", lambda: "Attitude control lost: motor/propeller failure?" in texts)
     wait_for("the status text", lambda: "Crash detected" in texts)
     failure.inject(FailureUnit.SYSTEM_MOTOR, FailureType.OK, 1)
     told = len(texts)

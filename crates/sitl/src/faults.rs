@@ -39,7 +39,7 @@ pub enum FailureType {
     Garbage,
     /// Constant error (4).
     Wrong,
-    /// Alternation between one second on and one second off (7).
+    /// One second on, one second off, repeatedly (7).
     Intermittent,
 }
 
@@ -90,7 +90,7 @@ impl FailureType {
 /// Constant position error, north and east, and constant height error, m (estimates: a multipath jump below a deck).
 const POSITION_ERROR_M: f64 = 25.0;
 const HEIGHT_ERROR_M: f64 = 8.0;
-/// Standard deviations of garbage readings: position, m, height, m, and magnetic field, gauss.
+/// Standard deviations of garbage readings: position (m), height (m) and magnetic field (gauss).
 const GARBAGE_M: f64 = 30.0;
 const GARBAGE_UP_M: f64 = 10.0;
 const GARBAGE_GAUSS: f64 = 0.5;
@@ -208,7 +208,7 @@ impl Faults {
                 FailureType::Off | FailureType::Stuck | FailureType::Intermittent => [0.0; 3],
             };
             fix.position_m += Vec3::<Ned>::new(n, e, d);
-            // A receiver without signal still reports that it has no fix.
+            // A receiver without a signal still reports that it has no fix.
             if kind == FailureType::Off || (kind == FailureType::Intermittent && is_silent(now)) {
                 (fix.fix, fix.satellites) = (0, 0);
             }
@@ -226,7 +226,7 @@ impl Faults {
         }
         if let Some(kind) = kinds[sensor_index(FailureUnit::Magnetometer)] {
             let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {
-                // Rotated by 90 degrees, as by a magnet near the sensor.
+                // Rotated by 90 degrees, as if by a magnet near the sensor.
                 FailureType::Wrong => Vec3::new(-field.right(), field.forward(), field.down()),
                 FailureType::Off | FailureType::Stuck | FailureType::Garbage | FailureType::Intermittent => {
                     field + Vec3::new(x, y, z)

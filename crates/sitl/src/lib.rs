@@ -1,9 +1,9 @@
 //! A simulated multirotor with a MAVLink interface: physics, sensors, autopilot and protocol endpoint in one simulator
 //! that does not use sockets or clocks.
 //!
-//! [`sim::Sim`] is the complete vehicle at its site. The host advances time (`handle_timeout`), passes in received datagrams
-//! (`handle_datagram`) and sends outgoing ones (`poll_transmit`). Real time, ten times real time and unlimited speed run the same
-//! code with different timestamps. A clone of the simulator is a snapshot.
+//! [`sim::Sim`] is the complete vehicle at its site. The host advances time (`handle_timeout`), passes in received
+//! datagrams (`handle_datagram`) and sends outgoing ones (`poll_transmit`). The same code runs in real time, at ten
+//! times real time and at unlimited speed; only the timestamps differ. A clone of the simulator is a snapshot.
 //!
 //! Each step runs in this order: sensors ([`sensors`]), the autopilot ([`autopilot`]: estimator, failsafes, navigator,
 //! control), six-degree-of-freedom motion and contact ([`physics`]), then outgoing telemetry ([`endpoint`]). The

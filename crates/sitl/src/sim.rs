@@ -1,5 +1,5 @@
-//! One simulation step in a documented order (docs/src/reference/wire.md, "One simulation step"). Sans-IO: takes datagrams and
-//! timestamps, returns datagrams.
+//! Runs simulation steps in the documented order (docs/src/reference/wire.md, "One simulation step"). Performs no I/O:
+//! it takes datagrams and timestamps and returns datagrams.
 
 mod crash_handling;
 mod file_jobs;
@@ -126,7 +126,7 @@ pub struct Sim {
     faults: Faults,
     file_jobs: FileJobScheduler,
     instructor_settings: InstructorSettings,
-    /// Times at which traffic was stopped and released.
+    /// Times at which traffic stopped and resumed.
     closures: BridgeClosures,
     /// Number of parameter changes already applied to the environment.
     applied_changes: u64,
@@ -222,7 +222,7 @@ impl Sim {
         self.endpoint.links.await_heartbeat(link);
     }
 
-    /// Limits the outgoing rate of a link, bytes/s.
+    /// Limits a link's outgoing data rate, in bytes/s.
     pub fn limit_link(&mut self, link: LinkId, bytes_s: f64) {
         self.endpoint.links.limit(link, bytes_s, self.now);
     }
@@ -304,8 +304,8 @@ impl Sim {
         !self.pending_responses.is_empty()
     }
 
-    /// Returns `None` unless the simulation is waiting for peers that have never responded; otherwise, whether data has
-    /// been received from all of them.
+    /// Returns `None` unless the simulation is waiting for the first response of one or more peers. Otherwise, returns
+    /// whether all of these peers have sent any data.
     #[must_use]
     pub fn awaits_first_response(&self) -> Option<bool> {
         let has_received = |(link, step, has_received): (LinkId, LockstepState, bool)| {
@@ -336,7 +336,7 @@ impl Sim {
         self.endpoint.links.lockstep_states().any(|(_, step, _)| step == LockstepState::Late)
     }
 
-    /// Time when the next tick is due.
+    /// Time at which the next tick is due.
     #[must_use]
     pub fn poll_timeout(&self) -> SimTime {
         self.now + STEP
@@ -358,7 +358,7 @@ impl Sim {
         self.events.pop_front()
     }
 
-    /// SHA-256 digest of the state at all ticks so far.
+    /// SHA-256 digest of the state in all ticks so far.
     #[must_use]
     pub fn digest(&self) -> [u8; 32] {
         self.digest.clone().finalize().into()

@@ -1,4 +1,4 @@
-//! In-process vehicle for tests and scripts. It uses no sockets or clock, runs as fast as the machine allows, and
+//! In-process vehicle for tests and scripts. It uses no sockets and no clock, runs as fast as the machine allows, and
 //! produces identical results in every run.
 //!
 //! ```
@@ -35,7 +35,7 @@ use std::sync::Arc;
 
 /// Link that the harness uses.
 pub const STATION: LinkId = LinkId(1);
-/// MAVLink system and component ID of the harness, which are the usual values of a ground station.
+/// MAVLink system and component ID of the harness: the usual values for a ground station.
 const STATION_ID: (u8, u8) = (255, 190);
 /// Interval between checks of a condition.
 const CHECK_INTERVAL: SimTime = SimTime::from_ms(20);
@@ -68,7 +68,7 @@ pub enum MissedExpectation {
     },
 }
 
-/// Builder for a [`Vehicle`]. Defaults: the hover drill, the phantom2, seed 1, PX4.
+/// Builder for a [`Vehicle`]. Defaults: the hover drill, the phantom2 aircraft, seed 1, PX4.
 #[derive(Debug, Clone)]
 pub struct VehicleBuilder {
     scenario: String,
@@ -192,7 +192,7 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
-    /// Returns a builder.
+    /// Returns a builder with the default settings.
     #[must_use]
     pub fn builder() -> VehicleBuilder {
         VehicleBuilder::default()
@@ -240,13 +240,13 @@ impl Vehicle {
         beats.into_iter().find_map(armed).unwrap_or(false)
     }
 
-    /// Returns the true position in the scenario's frame in meters.
+    /// Returns the true position in the scenario's frame, in meters.
     #[must_use]
     pub fn position_m(&self) -> Vec3<Enu> {
         self.sim.truth().rigid.position_m.enu()
     }
 
-    /// Returns the true height above the landing pad in meters.
+    /// Returns the true height above the landing pad, in meters.
     #[must_use]
     pub fn height_m(&self) -> f64 {
         self.position_m().up() - self.pad_up_m
@@ -380,7 +380,7 @@ impl Vehicle {
         }));
     }
 
-    /// Returns a command to the autopilot at a position in the scenario's frame in meters.
+    /// Returns a command to the autopilot at a position in the scenario's frame, in meters.
     fn command_at(&self, command: MavCmd, position_m: Vec3<Enu>, params: [f32; 4]) -> MavMessage {
         let place = self.sim.site().plane().geo_from_enu(position_m);
         MavMessage::COMMAND_INT(station::command_at(1, 1, command, params, place))

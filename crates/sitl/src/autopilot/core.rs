@@ -35,7 +35,7 @@ use spandrel_model::vehicle::Vehicle;
 /// Rate of the control loops, Hz.
 pub const CONTROL_HZ: f64 = 400.0;
 
-/// Latest readings of the sensors that the estimator does not fuse.
+/// Latest readings from the sensors that the estimator does not fuse.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct UnfusedReadings {
     battery: Option<BatteryReading>,
@@ -210,7 +210,7 @@ impl Autopilot {
         self.failsafe.links.ground_station = Some(now);
     }
 
-    /// Returns the velocity of a target that reports only positions, computed from its last two positions, m/s.
+    /// Returns the velocity, in m/s, of a target that reports only positions, computed from its last two positions.
     #[must_use]
     pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
         self.navigator.follower.target_velocity(position_m, now)
@@ -251,7 +251,7 @@ impl Autopilot {
         self.navigator.home.rally_points = rally_points;
     }
 
-    /// Replaces the zones of the geofence.
+    /// Replaces the geofence zones.
     pub fn set_fence(&mut self, zones: Vec<FenceZone>) {
         self.failsafe.fence.set_zones(zones);
     }
@@ -331,8 +331,8 @@ impl Autopilot {
         self.events.append(&mut self.failsafe.events);
     }
 
-    /// Continues after a respawn in the air: resets estimator and controllers to this state, armed. A manual mode is kept;
-    /// otherwise the mode is Hold.
+    /// Continues after a respawn in the air: resets the estimator and controllers to this state, armed. Keeps a manual
+    /// mode; otherwise switches to Hold.
     pub fn respawn(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
         self.estimator.reset_to_pose(position_m, velocity_m_s, attitude, now);
         self.estimate = self.estimator.estimate();
@@ -538,7 +538,7 @@ impl Autopilot {
         self.navigate(tick, Navigator::touch_down);
     }
 
-    /// Updates the status for telemetry from the state of all modules.
+    /// Updates the telemetry status from the state of all modules.
     fn update_status(&mut self) {
         let (status, navigator, failsafe) = (&mut self.status, &self.navigator, &self.failsafe);
         status.armed = self.armed;

@@ -32,7 +32,7 @@ pub struct AutopilotEvent {
     pub severity: Severity,
     /// Status text.
     pub text: String,
-    /// The sensor change that caused the event. Emulated autopilots can use their own text for it.
+    /// The sensor change that caused the event. Emulated autopilots can report it with their own text.
     pub sensor: Option<SensorChange>,
 }
 

@@ -22,7 +22,7 @@ pub struct OffboardSetpoint {
     pub position_m: [Option<f64>; 3],
     /// Velocity, m/s (north, east, down).
     pub velocity_m_s: [Option<f64>; 3],
-    /// Acceleration, m/s² (north, east, down): flown directly if the axis has no position or velocity, and fed forward
+    /// Acceleration, m/s² (north, east, down): used directly if the axis has no position or velocity, and fed forward
     /// otherwise.
     pub acceleration_m_s2: [Option<f64>; 3],
     /// Heading, rad.

@@ -19,7 +19,7 @@ pub enum LinkLossAction {
 }
 
 impl LinkLossAction {
-    /// Returns the action for a parameter value: 0 ignore, 1 hold, 2 return, 3 land, 5 and 6 terminate.
+    /// Returns the action for a parameter value: 0 = ignore, 1 = hold, 2 = return, 3 = land, 5 and 6 = terminate.
     #[must_use]
     pub fn from_number(n: i32) -> Option<Self> {
         Some(match n {
@@ -121,11 +121,11 @@ pub struct Tuning {
     pub circle_rate_rad_s: f64,
     /// Follow mode settings.
     pub follow: FollowRule,
-    /// UTC at simulation start, Unix seconds.
+    /// UTC time at the start of the simulation, Unix seconds.
     pub start_unix_s: i64,
     /// `MPC_HOLD_DZ`: stick deadband as a fraction of full deflection.
     pub stick_deadband: f64,
-    /// Further operator settings.
+    /// Other operator settings.
     pub rules: OperatorRules,
 }
 

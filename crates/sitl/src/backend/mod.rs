@@ -29,7 +29,7 @@ impl Backend {
         }
     }
 
-    /// Returns the built-in autopilot for commands if it is the active backend.
+    /// Returns the built-in autopilot, to send commands to it, if it is the active backend.
     pub fn builtin_mut(&mut self) -> Option<&mut Autopilot> {
         match self {
             Self::Builtin(autopilot) => Some(autopilot),

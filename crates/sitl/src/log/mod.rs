@@ -46,7 +46,7 @@ impl FlightLogEncoder {
         Self { writer, due }
     }
 
-    /// Writes the rows that are due. With `last`, writes every topic regardless of its schedule.
+    /// Writes the rows that are due. If `last` is true, writes every topic regardless of its schedule.
     pub fn observe(&mut self, view: &VehicleSnapshot, last: bool) {
         for ((number, topic), due) in (0u16..).zip(TOPICS).zip(&mut self.due) {
             if !due.fire(view.clock.now) && !last {
@@ -59,7 +59,7 @@ impl FlightLogEncoder {
         }
     }
 
-    /// Writes a text message (severity 0 emergency to 7 debug).
+    /// Writes a text message (severity 0 = emergency to 7 = debug).
     pub fn text(&mut self, severity: u8, now: SimTime, text: &str) {
         self.writer.text(severity, now.us().max(0).cast_unsigned(), text);
     }
@@ -88,7 +88,7 @@ impl From<params::ParamValue> for UlogValue<'_> {
 /// Output of the flight recorder for the host to store.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LogOutput {
-    /// The start of a new log. The value is its UTC timestamp for the file name, in microseconds since the Unix epoch.
+    /// Start of a new log, with the UTC timestamp for its file name in microseconds since the Unix epoch.
     Begin(u64),
     /// Bytes to append to the ULog file.
     Bytes(Vec<u8>),

@@ -6,7 +6,7 @@ use spandrel_model::foxglove::{self, ChannelMessage, FramePose};
 use spandrel_model::time::{Schedule, SimTime};
 use std::collections::VecDeque;
 
-/// Message rates in simulation time, Hz: frames, position fixes, scoring, slow data.
+/// Message rates in simulation time, Hz: frames, position fixes, scoring, slowly changing data.
 const RATES_HZ: [f64; 4] = [25.0, 5.0, 10.0, 1.0];
 
 /// Schedules of the recorded channels.
@@ -26,7 +26,7 @@ impl FoxgloveScene {
         (self.start_unix_s * 1_000_000_000 + now.ns()).max(0).cast_unsigned()
     }
 
-    /// Returns a log message with MAVLink severity.
+    /// Returns a log message with a MAVLink severity.
     pub fn text(&self, severity: u8, now: SimTime, text: &str) -> ChannelMessage {
         foxglove::log(self.unix_ns(now), severity, text)
     }

@@ -9,7 +9,7 @@ use spandrel_model::geodesy::Geo;
 /// A logged topic.
 #[derive(Debug, Clone, Copy)]
 pub struct UlogTopic {
-    /// Topic name: PX4's name, or a custom one with the prefix `spandrel_`.
+    /// Topic name: PX4's name, or a custom one with the `spandrel_` prefix.
     pub name: &'static str,
     /// Field definitions after the timestamp.
     pub fields: &'static str,

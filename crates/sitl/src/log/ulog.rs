@@ -71,7 +71,7 @@ impl UlogWriter {
         self.message(b'D', &[&number.to_le_bytes(), row]);
     }
 
-    /// Writes a text message with its severity (0 emergency to 7 debug).
+    /// Writes a text message with its severity (0 = emergency to 7 = debug).
     pub fn text(&mut self, severity: u8, at_us: u64, text: &str) {
         self.message(b'L', &[&[b'0' + severity.min(7)], &at_us.to_le_bytes(), text.as_bytes()]);
     }

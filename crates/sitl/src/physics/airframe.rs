@@ -65,7 +65,7 @@ impl AirframeModel {
         math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
     }
 
-    /// Returns the rotor speed at hover in rad/s.
+    /// Returns the rotor speed at hover, in rad/s.
     #[must_use]
     pub fn hover_rotor_rad_s(&self) -> f64 {
         let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
@@ -79,7 +79,7 @@ impl AirframeModel {
         (speed - self.rotor.idle_speed_rad_s) / (self.rotor.max_speed_rad_s - self.rotor.idle_speed_rad_s)
     }
 
-    /// Returns the target rotor speeds in rad/s.
+    /// Returns the target rotor speeds, in rad/s.
     pub(super) fn target_rotor_speeds(&self, actuators: &Actuators, battery: &BatteryState) -> [f64; MAX_ROTORS] {
         let mut out = [0.0; MAX_ROTORS];
         if !actuators.armed || battery.empty() {

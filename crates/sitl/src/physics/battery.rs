@@ -1,5 +1,5 @@
-//! Battery model: open-circuit voltage as a function of charge, internal resistance and power draw; or, alternatively,
-//! the fixed endurance from the TASBID paper.
+//! Battery model: open-circuit voltage as a function of charge, internal resistance and power draw; alternatively, the
+//! fixed endurance from the TASBID paper.
 
 use super::airframe::AirframeModel;
 use super::state::{PhysicsState as Physics, PowerLoad};
@@ -9,8 +9,8 @@ use spandrel_model::scenario::BatteryModel;
 /// Cell voltage below which the pack counts as empty, V (estimate; usual LiPo practice).
 const EMPTY_CELL_V: f64 = 3.2;
 
-/// Returns the open-circuit voltage of the pack at a state of charge in V. Interpolates linearly between the eleven
-/// points of the vehicle file.
+/// Returns the pack's open-circuit voltage at a state of charge, in V. Interpolates linearly between the eleven points
+/// in the vehicle file.
 #[must_use]
 pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f64) -> f64 {
     let x = charge.clamp(0.0, 1.0) * 10.0;
@@ -18,7 +18,7 @@ pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f6
     f64::from(battery.cells) * math::lerp(battery.ocv_cell_v[low], battery.ocv_cell_v[low + 1], x - low as f64)
 }
 
-/// Returns the total electrical power draw in W.
+/// Returns the total electrical power draw, in W.
 fn power_w(model: &AirframeModel, physics: &Physics, load: PowerLoad) -> f64 {
     let rotor = &model.rotor;
     let shaft: f64 = physics.rigid.rotor_rad_s.iter().map(|w| rotor.torque_coefficient_n_m_s2 * w * w * w).sum();

@@ -14,16 +14,16 @@ pub const CONTACT_SEARCH_MARGIN_M: f64 = 0.01;
 const MIN_BOUNCE_SPEED_M_S: f64 = 0.3;
 /// Gap below which bodies count as touching, m.
 const TOUCH_DISTANCE_M: f64 = 1e-3;
-/// Penetration depth left uncorrected, m.
+/// Penetration depth that is not corrected, m.
 const PENETRATION_SLOP_M: f64 = 1e-5;
 /// Fraction of the penetration corrected per step.
 const CORRECTION_FRACTION: f64 = 0.2;
 /// Maximum iterations of the impulse solver. A resting body starts from the impulses of the last step and needs only a
 /// few.
 const MAX_ITERATIONS: usize = 16;
-/// Convergence threshold: the largest impulse change as a fraction of the impulse of gravity in one step.
+/// Convergence threshold: the largest impulse change, as a fraction of gravity's impulse over one step.
 const CONVERGENCE_THRESHOLD: f64 = 1e-9;
-/// Time constant with which a rotor in contact loses speed, s (estimate).
+/// Time constant with which a rotor loses speed during contact, s (estimate).
 const ROTOR_STRIKE_TIME_CONSTANT_S: f64 = 0.08;
 
 struct ContactConstraint {
@@ -37,7 +37,7 @@ struct ContactConstraint {
     gap: f64,
     target: f64,
     approach: f64,
-    /// Response of the body and of this contact point to an impulse at this point.
+    /// Response of the body and the contact point to an impulse at that point.
     response: ImpulseResponse,
     inverse_effective: f64,
     impulse: Vector3<f64>,

@@ -27,13 +27,13 @@ impl BodyProbe {
         Self { a_m, b_m, radius_m, rotor: None }
     }
 
-    /// Returns the largest distance from the center of mass in meters.
+    /// Returns the largest distance of any probe from the center of mass, in meters.
     #[must_use]
     pub fn reach_m(&self) -> f64 {
         self.a_m.norm().max(self.b_m.norm()) + self.radius_m
     }
 
-    /// Returns the probe transformed to the pose of the aircraft.
+    /// Returns the probe transformed to the aircraft's pose.
     #[must_use]
     pub fn transformed(&self, rigid: &RigidState) -> HullProbe {
         let place = |p: Vec3<Frd>| -> Vec3<Enu> { (rigid.position_m + rigid.attitude * p).enu() };

@@ -28,7 +28,7 @@ const SURFACE_EFFECT_INTERVAL_S: f64 = 0.02;
 
 impl AirframeModel {
     /// Runs one physics step that starts at `now`.
-    #[allow(clippy::too_many_arguments, reason = "inputs for one step, each of a different type")]
+    #[allow(clippy::too_many_arguments, reason = "each input of the step has a different type")]
     pub fn advance(
         &self,
         state: &mut PhysicsState,

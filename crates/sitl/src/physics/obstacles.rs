@@ -12,7 +12,7 @@ pub const MAX_OBJECT_SPEED_M_S: f64 = 38.5;
 pub trait Obstacles {
     /// Appends contacts and near-contacts of a probe.
     fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>);
-    /// Returns the distance to the nearest solid object within `max_m`, including the landing pad, m.
+    /// Returns the distance, in meters, to the nearest solid object within `max_m`, including the landing pad.
     fn clearance(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
     /// Returns the first hit along a ray within `max_m`.
     fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit>;
@@ -44,7 +44,7 @@ impl Obstacles for OpenSky {
     }
 }
 
-/// Returns the more severe of two surfaces for reports. The order is person, vehicle, bridge, terrain, water, other
+/// Returns the more severe of two surfaces, for reports. The order is person, vehicle, bridge, terrain, water, other
 /// (docs/src/reference/wire.md, "Scoring data").
 #[must_use]
 pub fn more_severe_surface(a: Surface, b: Surface) -> Surface {

@@ -121,8 +121,8 @@ fn body_drag(model: &AirframeModel, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Ve
 }
 
 impl AirframeModel {
-    /// Returns the rotor speeds and accelerations when the difference from the target has decayed to the fraction
-    /// `left` of its initial value.
+    /// Returns the rotor speeds and accelerations at the time when their difference from the target has decayed to the
+    /// fraction `left` of its initial value.
     fn rotor_instant(&self, state: &RigidState, target_rad_s: &[f64; MAX_ROTORS], left: f64) -> RotorInstant {
         let mut out = RotorInstant { speed: [0.0; MAX_ROTORS], acceleration: [0.0; MAX_ROTORS] };
         let pairs = state.rotor_rad_s.iter().zip(target_rad_s).take(self.rotors.len());
@@ -135,7 +135,8 @@ impl AirframeModel {
     }
 
     fn rotor_momentum(&self, speed: &[f64; MAX_ROTORS]) -> Vector3<f64> {
-        // Counterclockwise as seen from above is a rotation vector that points up, opposite to the body's down axis.
+        // A counterclockwise rotation, as seen from above, has a rotation vector that points up, opposite to the body's
+        // down axis.
         let z: f64 = self.rotors.iter().zip(speed).map(|(r, w)| -r.spin * self.rotor.inertia_kg_m2 * w).sum();
         Vector3::new(0.0, 0.0, z)
     }

@@ -57,7 +57,7 @@ impl AirState {
 pub struct PowerLoad {
     /// Whether the lamp is on.
     pub lamp_on: bool,
-    /// Whether the vehicle has lifted off, which starts the clock of the `paper` battery model.
+    /// Whether the vehicle has lifted off, which starts the `paper` battery model's clock.
     pub airborne: bool,
 }
 
@@ -149,7 +149,7 @@ pub struct PhysicsState {
     pub rigid: RigidState,
     /// Battery state.
     pub battery: BatteryState,
-    /// Specific force of the last step, m/s²: non-gravitational force per mass, as measured by an accelerometer.
+    /// Specific force of the last step, m/s²: non-gravitational force per unit mass, as measured by an accelerometer.
     pub specific_force_m_s2: Vec3<Frd>,
     /// Contacts of the last step.
     pub contact: ContactReport,
@@ -169,7 +169,7 @@ pub(super) struct ClearSphere {
 }
 
 impl ClearSphere {
-    /// Returns the radius around `position_m` that is guaranteed to be free now in meters.
+    /// Returns the radius around `position_m`, in meters, that is guaranteed to be free of obstacles now.
     pub(super) fn remaining_radius_m(&self, position_m: Vec3<Enu>, now: SimTime) -> f64 {
         self.radius_m - (position_m - self.center_m).norm() - MAX_OBJECT_SPEED_M_S * (now - self.since).s()
     }

@@ -10,7 +10,7 @@ use spandrel_model::time::SimTime;
 /// Range of surface effects in rotor radii. Farther surfaces change thrust by less than 0.3% (Cheeseman-Bennett at 5 R: 1.0025).
 const REACH_RADII: f64 = 5.0;
 
-/// Returns the range of surface effects in meters.
+/// Returns the range of surface effects, in meters.
 #[must_use]
 pub fn reach_m(model: &AirframeModel) -> f64 {
     REACH_RADII * model.rotor.radius_m
@@ -25,8 +25,8 @@ pub fn ground_factor(height_over_radius: f64) -> f64 {
     1.0 / (1.0 - r * r)
 }
 
-/// Returns the ratio of induced velocities without and with a ceiling, the gamma of Hsiao and Chirarattananon. Constant
-/// below R/4, as in the public Crazyflie firmware.
+/// Returns the induced velocity without a ceiling divided by the one with a ceiling (gamma in Hsiao and
+/// Chirarattananon). Constant below R/4, as in the public Crazyflie firmware.
 #[must_use]
 pub fn ceiling_gamma(distance_over_radius: f64) -> f64 {
     let d = distance_over_radius.max(0.25);
@@ -40,7 +40,7 @@ pub fn ceiling_factor(distance_over_radius: f64) -> f64 {
     g * g
 }
 
-/// Returns the thrust factor of each rotor from the surfaces below and above its hub along the rotor axis.
+/// Returns each rotor's thrust factor, based on the surfaces below and above its hub along the rotor axis.
 pub fn factors(model: &AirframeModel, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
     let mut out = [1.0; MAX_ROTORS];
     let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();

@@ -34,7 +34,7 @@ impl Barometer {
         }
     }
 
-    /// Returns height above the origin, m, and static pressure, Pa, if a sample is due.
+    /// Returns the height above the origin (m) and the static pressure (Pa) if a sample is due.
     pub fn read(&mut self, up_m: f64, now: SimTime) -> Option<(f64, f64)> {
         if !self.due.fire(now) {
             return None;
@@ -44,14 +44,14 @@ impl Barometer {
         Some((measured, pressure_pa(self.origin_altitude_m + measured)))
     }
 
-    /// Returns the current offset, m, for estimator tests.
+    /// Returns the current offset in meters, for estimator tests.
     #[must_use]
     pub fn offset_m(&self) -> f64 {
         self.offset_m
     }
 }
 
-/// Returns the static pressure at an altitude in the standard troposphere, Pa (ISO 2533).
+/// Returns the static pressure, in Pa, at an altitude in the standard troposphere (ISO 2533).
 #[must_use]
 pub fn pressure_pa(altitude_m: f64) -> f64 {
     101_325.0 * math::pow((1.0 - 2.255_77e-5 * altitude_m).max(0.01), 5.255_88)
@@ -61,7 +61,7 @@ pub fn pressure_pa(altitude_m: f64) -> f64 {
 mod tests {
     #[test]
     fn val_pressure_at_1000_m_matches_standard_atmosphere() {
-        // ISO 2533 table: 89 874.6 Pa at 1000 m; tolerance 5 Pa.
+        // ISO 2533 lists 89,874.6 Pa at 1,000 m; tolerance 5 Pa.
         assert!((super::pressure_pa(1000.0) - 89_874.6).abs() < 5.0);
     }
 }

@@ -16,15 +16,15 @@ use spandrel_model::vehicle;
 pub const SATELLITES: usize = 22;
 /// Elevation mask, rad (10 degrees, common in receivers).
 const MASK_RAD: f64 = 0.174_533;
-/// Minimum number of satellites for a fix (four unknowns plus one for consistency).
+/// Minimum number of satellites for a fix (four for the four unknowns, and one for a consistency check).
 const MIN_SATELLITES: usize = 5;
 /// Maximum horizontal dilution of precision for a fix (estimate: receivers flag larger values as unusable).
 const MAX_HDOP: f64 = 8.0;
 /// Range within which structures hide satellites, m (larger than any site).
 const BLOCKING_RANGE_M: f64 = 400.0;
-/// Slowly drifting fraction of the position noise; the white fraction accounts for the remaining variance.
+/// Slowly drifting fraction of the position noise; the white-noise fraction accounts for the remaining variance.
 pub const DRIFT_FRACTION: f64 = 0.8;
-/// White fraction of the position noise: `DRIFT_FRACTION`² + `WHITE_FRACTION`² = 1.
+/// White-noise fraction of the position noise: `DRIFT_FRACTION`² + `WHITE_FRACTION`² = 1.
 pub const WHITE_FRACTION: f64 = 0.6;
 /// Time constant of the drift, s (estimate: ionosphere and orbit errors at one receiver change over minutes).
 pub const DRIFT_TIME_S: f64 = 120.0;
@@ -133,7 +133,7 @@ impl GnssReceiver {
         }
     }
 
-    /// Returns the current drift, m, for estimator tests.
+    /// Returns the current drift in meters, for estimator tests.
     #[must_use]
     pub fn drift_m(&self) -> Vec3<Ned> {
         self.drift

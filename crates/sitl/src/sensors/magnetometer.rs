@@ -12,7 +12,8 @@ use spandrel_model::vehicle;
 /// First-degree IGRF-13 coefficients g10, g11, h11 for 2020, gauss.
 const DIPOLE_GAUSS: [f64; 3] = [-0.294_048, -0.014_509, 0.046_525];
 
-/// Returns the Earth's magnetic field as a tilted centered dipole in gauss. Its direction is accurate to a few degrees.
+/// Returns the Earth's magnetic field, in gauss, modeled as a tilted centered dipole. Its direction is accurate to a
+/// few degrees.
 #[must_use]
 pub fn earth_field_gauss(place: Geo) -> Vec3<Ned> {
     let [g10, g11, h11] = DIPOLE_GAUSS;
@@ -50,7 +51,7 @@ impl Magnetometer {
         }
     }
 
-    /// Returns the field in body axes, gauss, if a sample is due.
+    /// Returns the field in body axes, in gauss, if a sample is due.
     pub fn read(&mut self, rigid: &RigidState, now: SimTime) -> Option<Vec3<Frd>> {
         if !self.due.fire(now) {
             return None;

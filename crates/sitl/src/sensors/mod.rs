@@ -114,7 +114,7 @@ impl Sensors {
         out
     }
 
-    /// Returns the illuminance on the nearest surface if the lamp pointed at it in lx.
+    /// Returns the illuminance, in lx, that the lamp would produce on the nearest surface if it pointed there.
     fn lamp_lux(&self, on: bool) -> f64 {
         if !on || self.lamp.flux_lm <= 0.0 {
             return 0.0;

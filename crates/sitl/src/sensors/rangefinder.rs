@@ -20,7 +20,7 @@ pub struct RangeReadings {
 }
 
 impl RangeReadings {
-    /// Returns the shortest range in meters.
+    /// Returns the shortest range, in meters.
     #[must_use]
     pub fn min_range_m(&self) -> f64 {
         self.around_m.iter().fold(self.down_m.min(self.up_m), |a, b| a.min(*b))

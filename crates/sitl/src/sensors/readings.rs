@@ -14,7 +14,7 @@ pub struct ImuReading {
 /// One GNSS fix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GnssReading {
-    /// Fix type: 0 none, 2 two-dimensional, 3 three-dimensional.
+    /// Fix type: 0 = no fix, 2 = 2D, 3 = 3D.
     pub fix: u8,
     /// Satellites used.
     pub satellites: u8,
@@ -32,7 +32,7 @@ pub struct GnssReading {
     pub epv_m: f64,
 }
 
-/// Readings that became available in one tick.
+/// Readings that become available in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Readings {
     /// Accelerometer and gyroscope.

@@ -6,14 +6,15 @@ use spandrel_model::time::SimTime;
 
 /// Sensor queries against the environment. [`Site`] implements this trait; tests use [`FlatGround`].
 pub trait Surroundings {
-    /// Returns the distance to the first hit along a unit direction in meters, or `None` if there is none within `max_m`.
+    /// Returns the distance, in meters, to the first hit along a unit direction, or `None` if there is none within
+    /// `max_m`.
     fn ray_m(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<f64>;
     /// Returns true only if there is nothing solid within `max_m` in any direction, including the landing pad.
     /// Returning false is always safe and only costs time.
     fn is_clear_within(&self, _position_m: Vec3<Enu>, _max_m: f64, _at: SimTime) -> bool {
         false
     }
-    /// Returns the mean ambient light at a point in lx.
+    /// Returns the mean ambient light at a point, in lx.
     fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64;
 }
 

@@ -58,7 +58,7 @@ impl Sim {
             _ => ContactKind::None,
         };
         let before = std::mem::replace(&mut self.scoring.contact, contact);
-        // Hitting a person or vehicle during another contact is a new hit and ends the session.
+        // Hitting a person or vehicle during another contact counts as a new hit and ends the session.
         let grave = |contact: ContactKind| matches!(contact, ContactKind::Person | ContactKind::Vehicle);
         let onset = contact != ContactKind::None && before == ContactKind::None;
         let worse = grave(contact) && !grave(before);
@@ -100,8 +100,8 @@ impl Sim {
         landed && !wet && !self.hard_contact && !self.is_upside_down()
     }
 
-    /// Resets the vehicle to its last safe hover after a delay if it has crashed and is motionless away from the landing pad, is
-    /// tipped over, or touches water.
+    /// Resets the vehicle to its last safe hover after a delay if it has crashed and is motionless away from the
+    /// landing pad, has tipped over, or is touching water.
     fn respawn_when_down(&mut self) {
         let rules = &self.config.scenario.rules;
         if !self.has_lifted_off || self.end_reason.is_some() || self.config.after_crash() != AfterCrash::Respawn {
@@ -201,7 +201,7 @@ mod tests {
     use std::sync::Arc;
 
     const MS: SimTime = SimTime::from_ms(1);
-    /// Last safe hover in these tests, NED, m.
+    /// Last safe hover position in these tests, NED, m.
     const SAFE: (f64, f64, f64) = (3.0, 4.0, -6.0);
 
     /// A vehicle that has flown and is now 50 m from the landing pad, level and at rest.

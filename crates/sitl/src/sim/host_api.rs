@@ -34,7 +34,7 @@ impl Sim {
         self.scoring.hits
     }
 
-    /// Stops the heartbeats of the camera component.
+    /// Stops the camera component's heartbeats.
     pub fn mute_camera_heartbeat(&mut self) {
         self.endpoint.payload.equipment.camera.announced.disabled_at_start = true;
     }
@@ -64,7 +64,7 @@ impl Sim {
         self.endpoint.links.set_signing_time(stamp);
     }
 
-    /// Number of frames ignored because their signature was missing or invalid.
+    /// Number of frames ignored because of a missing or invalid signature.
     #[must_use]
     pub fn rejected_frames(&self) -> u64 {
         self.endpoint.links.rejected_frames()

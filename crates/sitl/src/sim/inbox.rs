@@ -68,8 +68,8 @@ impl Inbox {
         }
     }
 
-    /// Returns the datagrams to process at `now`, ordered by link and then by arrival. Further calls in the same tick continue
-    /// within the remaining limits.
+    /// Returns the datagrams to process at `now`, ordered by link and then by arrival. Further calls in the same tick
+    /// share the remaining limits.
     pub fn take(&mut self, now: SimTime) -> Vec<(LinkId, ReceivedDatagram)> {
         if self.waiting == 0 {
             return Vec::new();
@@ -112,8 +112,8 @@ mod tests {
         let taken = inbox.take(SimTime::from_ms(1));
         assert_eq!(taken.iter().filter(|(link, _)| *link == FLOODING_LINK).count(), MAX_DATAGRAMS_PER_TICK);
         assert_eq!(taken.last(), Some(&(QUIET_LINK, datagram(&[99]))));
-        assert!(inbox.take(SimTime::from_ms(1)).is_empty(), "the same tick again");
-        assert_eq!(inbox.take(SimTime::from_ms(2))[0], (FLOODING_LINK, datagram(&[8; 20])), "in order");
+        assert!(inbox.take(SimTime::from_ms(1)).is_empty(), "second call in the same tick");
+        assert_eq!(inbox.take(SimTime::from_ms(2))[0], (FLOODING_LINK, datagram(&[8; 20])), "datagrams must keep their order");
     }
 
     #[test]
@@ -124,7 +124,7 @@ mod tests {
         (0..MAX_QUEUED_BYTES / MAX_BYTES_PER_TICK + 3).for_each(|_| inbox.push(QUIET_LINK, datagram(&[0; MAX_BYTES_PER_TICK])));
         assert_eq!(inbox.dropped(), 7 + 3);
         inbox.push(LinkId(3), datagram(&[0; MAX_BYTES_PER_TICK + 1]));
-        assert_eq!(inbox.dropped(), 7 + 3 + 1, "longer than any client's");
+        assert_eq!(inbox.dropped(), 7 + 3 + 1, "datagrams longer than any client sends");
         inbox.close(FLOODING_LINK);
         assert!(inbox.take(SimTime::from_ms(1)).iter().all(|(link, _)| *link == QUIET_LINK));
     }

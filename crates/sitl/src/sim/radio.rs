@@ -26,7 +26,7 @@ impl RadioLink {
         Self { loss: 0.0, delay: SimTime::ZERO, stream, outgoing: VecDeque::new(), incoming: VecDeque::new() }
     }
 
-    /// Sets the fraction of datagrams lost, 0 to 1, and the delay of the others.
+    /// Sets the packet loss, 0 to 1, and the delay of the remaining datagrams.
     pub fn set(&mut self, loss: f64, delay: SimTime) {
         (self.loss, self.delay) = (loss.clamp(0.0, 1.0), delay);
     }

@@ -1,4 +1,4 @@
-//! Runs one simulation tick in the order documented in docs/src/reference/wire.md, "One simulation step".
+//! Runs one simulation tick, in the order documented in docs/src/reference/wire.md, "One simulation step".
 
 use super::{STEP, Sim};
 use crate::autopilot::CONTROL_HZ;

@@ -230,13 +230,13 @@ fn flight_motor_failure_changes_attitude_and_is_reported() {
     let mut station = holding();
     let level = |s: &Station| s.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap();
     let before = level(&station);
-    assert!(before.roll.hypot(before.pitch) < 0.2 && !has_text(&station, "Attitude lost"), "{before:?}");
+    assert!(before.roll.hypot(before.pitch) < 0.2 && !has_text(&station, "Attitude control lost"), "{before:?}");
     assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
     let (mut tilt, mut turn) = (0.0f32, 0.0f32);
     let told = station.run_until(2.0, |s| {
         let now = level(s);
         (tilt, turn) = (tilt.max(now.roll.abs().max(now.pitch.abs())), turn.max(now.yawspeed.abs()));
-        has_text(s, "Attitude lost: motor or propeller failure?")
+        has_text(s, "Attitude control lost: motor/propeller failure?")
     });
     assert!(told && tilt > 0.7 && turn > 0.5, "reported {told}, tilt {tilt} rad, turn rate {turn} rad/s");
     let obeys = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION;

@@ -321,7 +321,7 @@ fn flight_com_act_fail_act_terminates_on_a_failed_motor() {
         station.run_ms(20);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, p(&[MOTOR, OFF, 1.0])), ACCEPTED);
         station.run_until(3.0, |s| s.has_text("Disarmed: motor failure"));
-        assert!(station.has_text("Attitude lost"), "{:?}", station.texts());
+        assert!(station.has_text("Attitude control lost"), "{:?}", station.texts());
         assert_eq!(station.has_text("Disarmed: motor failure"), terminate, "{:?}", station.texts());
     }
 }

@@ -3,18 +3,18 @@
 use spandrel_model::scenario::{BatteryModel, SessionRules};
 use spandrel_model::vehicle::{FlightLimits, Vehicle};
 
-/// Mass, limits, battery and landing gear of the aircraft.
+/// The aircraft's mass, limits, battery and landing gear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Airframe {
     /// Mass, kg.
     pub mass_kg: f64,
     /// Flight limits.
     pub limits: FlightLimits,
-    /// Voltage of the fully charged battery, V.
+    /// Battery voltage at full charge, V.
     pub full_v: f64,
     /// Whether voltage sag affects the motors.
     pub models_voltage_sag: bool,
-    /// Height of the center of mass above ground on the landing gear, m.
+    /// Height of the center of mass above the ground when the vehicle stands on its landing gear, m.
     pub resting_height_m: f64,
 }
 

@@ -1,4 +1,5 @@
-//! Attitude and rate loops: thrust direction first, heading second, then body rates with an integral for unmodeled effects.
+//! Attitude and rate loops. They correct the thrust direction first and the heading second. An integral in the rate
+//! loop compensates for unmodeled effects.
 
 use super::gains::Gains;
 use super::mixer::AllocationStatus;
@@ -7,9 +8,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 
-/// Limit of the rate-error integral, rad/s² of angular acceleration.
+/// Limit of the rate-error integral, as an angular acceleration in rad/s².
 const INTEGRAL_MAX_RAD_S2: f64 = 20.0;
-/// Factor by which yaw rate feedforward may exceed the attitude loop's limit.
+/// Factor by which yaw rate feedforward may exceed the attitude loop's rate limit.
 const YAW_RATE_LIMIT_FACTOR: f64 = 1.2;
 /// Tilt error above which heading control is suspended, rad.
 const HEADING_CONTROL_MAX_TILT_RAD: f64 = 0.9;
@@ -26,7 +27,7 @@ impl AttitudeLoop {
         self.integral = Vec3::zero();
     }
 
-    /// Computes the torque for an attitude setpoint with a yaw rate feedforward (about the vertical, rad/s).
+    /// Computes the torque for an attitude setpoint with a yaw rate feedforward about the vertical axis (rad/s).
     pub fn torque(
         &mut self,
         gains: &Gains,
@@ -50,7 +51,7 @@ impl AttitudeLoop {
         dt_s: f64,
     ) -> Vec3<Frd> {
         let error = rates - now.rates_rad_s;
-        // Anti-windup at motor limits.
+        // Prevents integral windup at the motor limits.
         if allocated.tilt > 0.99 {
             self.integral += Vec3::new(error.forward(), error.right(), 0.0) * (gains.rate_integral * dt_s);
         }
@@ -63,7 +64,7 @@ impl AttitudeLoop {
         let turn = (acceleration + self.integral).raw();
         let j = Vector3::from(gains.inertia_kg_m2);
         let w = now.rates_rad_s.raw();
-        // FRAME: inertia is about the body axes.
+        // FRAME: the moments of inertia are about the body axes.
         Vec3::assume(j.component_mul(&turn) + w.cross(&j.component_mul(&w)))
     }
 }
@@ -83,7 +84,7 @@ fn desired_rates(gains: &Gains, attitude: Rotation<Frd, Ned>, desired: Rotation<
     let axis = z.cross(aim);
     let sine = axis.norm();
     let angle = math::atan2(sine, aim.down());
-    // Upside down, any axis works; roll is fastest.
+    // If the vehicle is upside down, any axis works; roll is the fastest.
     let axis = if sine > 1e-6 { axis / sine } else { Vec3::new(1.0, 0.0, 0.0) };
     let tilt = (axis * (gains.attitude * angle)).limited(gains.rate_max_rad_s);
     let up = into_body * Vec3::<Ned>::new(0.0, 0.0, 1.0);

@@ -29,9 +29,9 @@ const CONTROL_RESERVE: f64 = 0.08;
 /// All gains and limits of the control cascade.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gains {
-    /// Moments of inertia about forward, right, down, kg m².
+    /// Moments of inertia about the forward, right and down axes, kg m².
     pub inertia_kg_m2: [f64; 3],
-    /// Lead factor of the motor lag compensation.
+    /// Lead factor for motor lag compensation.
     pub lead: f64,
     /// Roll and pitch rate gain, rad/s² per rad/s.
     pub rate: f64,
@@ -63,9 +63,9 @@ pub struct Gains {
     pub acceleration_m_s2: f64,
     /// Maximum planned vertical acceleration, m/s².
     pub climb_acceleration_m_s2: f64,
-    /// Lag of the attitude response, s.
+    /// Attitude response lag, s.
     pub attitude_lag_s: f64,
-    /// Horizontal drag in still air divided by mass: per m/s, and per (m/s)².
+    /// Horizontal drag in still air divided by mass: the linear coefficient, 1/s, and the quadratic one, 1/m.
     pub drag: (f64, f64),
     /// Maximum roll and pitch rate, rad/s.
     pub rate_max_rad_s: f64,
@@ -94,7 +94,7 @@ impl Gains {
         let full_n = n * r.thrust_coefficient_n_s2 * r.max_speed_rad_s * r.max_speed_rad_s;
         let thrust_max_n = full_n * (1.0 - CONTROL_RESERVE);
         let idle_n = n * r.thrust_coefficient_n_s2 * r.idle_speed_rad_s * r.idle_speed_rad_s;
-        // Height must be held at full tilt, so the available thrust limits the tilt too.
+        // The vehicle must hold its height at full tilt, so the available thrust also limits the tilt.
         let tilt_rad = vehicle.limits.tilt_rad.min(math::acos((1.05 * hover_n / thrust_max_n).min(1.0)));
         let spare = (thrust_max_n / hover_n - 1.0) * GRAVITY_M_S2;
         let yaw_rate = YAW_BANDWIDTH_RATIO * rate;

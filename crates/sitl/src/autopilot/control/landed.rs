@@ -13,14 +13,14 @@ const STOPPED_DURATION_S: f64 = 0.3;
 const DESCENT_MIN_M_S: f64 = 0.25;
 /// Time over which the thrust fades out after ground contact, s. After that, the landing is complete.
 const THRUST_FADE_S: f64 = 0.5;
-/// Margin above the on-ground range finder reading within which the vehicle still counts as on the ground, m.
+/// Margin above the range finder reading on the ground within which the vehicle still counts as on the ground, m.
 const RANGE_MARGIN_M: f64 = 0.35;
-/// Minimum cosine of the tilt on the ground (40 degrees).
+/// Minimum tilt cosine on the ground (40 degrees).
 const MIN_TILT_COSINE: f64 = 0.766;
-/// Height, m, or climb rate, m/s, at which the vehicle counts as off the ground.
+/// Height (m) or climb rate (m/s) above which the vehicle counts as off the ground.
 const OFF_GROUND_M: f64 = 0.35;
 const OFF_GROUND_M_S: f64 = 0.4;
-/// Time without a takeoff command after which a takeoff that has not left the ground is abandoned, s.
+/// Time without a takeoff command after which a vehicle still on the ground abandons the takeoff, s.
 const TAKEOFF_TIMEOUT_S: f64 = 1.0;
 /// Thrust ramp time at takeoff, s.
 const SPOOL_UP_S: f64 = 0.6;
@@ -44,7 +44,7 @@ pub enum PhaseChange {
     LiftingOff,
     /// The vehicle is off the ground.
     TakenOff,
-    /// The takeoff was abandoned on the ground.
+    /// The takeoff was abandoned before liftoff.
     TakeoffAbandoned,
     /// The vehicle has landed.
     Landed,
@@ -62,11 +62,11 @@ pub struct LandingInput<'a> {
     pub estimate: &'a Estimate,
     /// Downward range finder reading, m.
     pub range_down_m: Option<f64>,
-    /// Height of the center of mass above ground on the landing gear, m.
+    /// Height of the center of mass above the ground when the vehicle stands on its landing gear, m.
     pub resting_height_m: f64,
     /// Whether the mode commands a takeoff.
     pub wants_to_fly: bool,
-    /// Time on the ground after which the vehicle disarms, before and after a flight, s; 0 or less for never.
+    /// Time on the ground after which the vehicle disarms, before and after a flight, s; 0 or less disables this.
     pub ground_time_limits_s: [f64; 2],
     /// Time of this tick.
     pub now: SimTime,
@@ -106,7 +106,7 @@ impl LandingDetector {
         self.clear_timers();
     }
 
-    /// Continues in the air at full thrust after a respawn. The vehicle counts as flown.
+    /// Continues in the air at full thrust after a respawn. Marks the vehicle as having flown.
     pub fn continue_in_air(&mut self, now: SimTime) {
         (self.phase, self.flown) = (FlightPhase::InAir, true);
         self.liftoff_started = now - SimTime::from_s(SPOOL_UP_S);

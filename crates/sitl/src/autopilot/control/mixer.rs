@@ -1,5 +1,5 @@
-//! Control allocation: converts torque and thrust to motor commands, based on the rotor geometry. On saturation, yaw is
-//! reduced first, then collective thrust, then roll and pitch in proportion.
+//! Control allocation: converts torque and thrust to motor commands, based on the rotor geometry. On saturation, it
+//! reduces yaw first, then collective thrust, then roll and pitch proportionally.
 
 use crate::physics::{Actuators, MAX_ROTORS};
 use nalgebra::{Matrix4, Vector4};
@@ -16,7 +16,7 @@ pub struct TorqueThrustSetpoint {
     pub thrust_n: f64,
 }
 
-/// Fraction of the demand that was allocated.
+/// Allocated fractions of the demand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AllocationStatus {
     /// Allocated fraction of the roll and pitch torque, 0 to 1.
@@ -61,7 +61,7 @@ impl Mixer {
             .map(|rotor| Vector4::new(-rotor.position_m.right(), rotor.position_m.forward(), rotor.spin * reach, 1.0))
             .collect();
         let gram = effect.iter().fold(Matrix4::zeros(), |sum, e| sum + e * e.transpose());
-        // Without an inverse (collinear rotors, identical spin), only collective thrust remains.
+        // Without an inverse (collinear rotors or identical spin directions), only collective thrust can be controlled.
         let inverse =
             gram.try_inverse().unwrap_or_else(|| Matrix4::from_diagonal(&Vector4::new(0.0, 0.0, 0.0, 1.0 / count as f64)));
         let each_n = vehicle.mass_kg * GRAVITY_M_S2 / count as f64;
@@ -85,8 +85,8 @@ impl Mixer {
         }
     }
 
-    /// Computes motor commands for a demand. `voltage_fraction` is battery voltage divided by full voltage; motors turn slower at
-    /// lower voltage.
+    /// Computes motor commands for a demand. `voltage_fraction` is battery voltage divided by full voltage; motors turn
+    /// more slowly at lower voltage.
     pub fn mix(&mut self, demand: &TorqueThrustSetpoint, voltage_fraction: f64, dt_s: f64) -> (Actuators, AllocationStatus) {
         let top = (self.max_rad_s * voltage_fraction).max(self.idle_rad_s + 1.0);
         let low = self.thrust_coefficient * self.idle_rad_s * self.idle_rad_s;
@@ -106,7 +106,7 @@ impl Mixer {
     }
 
     /// Compensates for rotor inertia. An accelerating rotor applies torque immediately through its inertia and
-    /// permanently through its drag. Filtering the yaw torque with a lag makes the total follow the demand.
+    /// permanently through its drag. Filtering the yaw torque with a lag makes the total torque follow the demand.
     fn compensate_rotor_spin(&mut self, torque: Vec3<Frd>, dt_s: f64) -> Vec3<Frd> {
         self.yaw_n_m += (torque.down() - self.yaw_n_m) * dt_s / (dt_s + self.spin_time_s);
         Vec3::new(torque.forward(), torque.right(), self.yaw_n_m)
@@ -140,8 +140,8 @@ impl Mixer {
             highest = highest.max(tilt[i]);
         }
         let tilt_share = ((high - low) / (highest - lowest).max(1e-9)).min(1.0);
-        // Adjusts the collective thrust to leave headroom for roll and pitch. The shift is the same for all rotors with
-        // an equal collective share.
+        // Adjusts the collective thrust to leave headroom for roll and pitch. The shift is the same for all rotors that
+        // have an equal share of the collective thrust.
         let each = self.columns[0][3].max(1e-6);
         let room = (low - lowest * tilt_share, high - highest * tilt_share);
         let common = (demand.thrust_n * each).max(room.0).min(room.1) / each;
@@ -165,7 +165,7 @@ mod tests {
     use crate::autopilot::testing::vehicle_with;
     use crate::sensors::tests::error_free_sensors;
 
-    /// N and N m; rounding error of a dozen products.
+    /// Rounding error of about a dozen products, N and N m.
     const ROUNDING: f64 = 1e-10;
 
     fn wrench(vehicle: &Vehicle, thrusts: &[f64; MAX_ROTORS]) -> [f64; 4] {

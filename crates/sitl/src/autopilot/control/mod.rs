@@ -44,7 +44,7 @@ pub struct ControlInput<'a> {
     pub dt_s: f64,
 }
 
-/// Control loop state.
+/// State of the control loops.
 #[derive(Debug, Clone)]
 pub struct Control {
     /// Gains of all control loops.
@@ -55,7 +55,7 @@ pub struct Control {
     pub attitude_target: Rotation<Frd, Ned>,
     /// Collective thrust setpoint, 0 to 1.
     pub thrust: f64,
-    /// Cosine of the angle between desired and estimated thrust direction.
+    /// Cosine of the angle between desired and estimated thrust directions.
     pub attitude_error_cosine: f64,
     velocity_loop: VelocityLoop,
     attitude_loop: AttitudeLoop,

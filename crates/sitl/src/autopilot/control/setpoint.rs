@@ -6,9 +6,9 @@ use spandrel_model::frames::{Frd, Vec3};
 /// A setpoint for the control loops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Setpoint {
-    /// Motors idling on the ground.
+    /// Idle motors on the ground.
     Idle,
-    /// Velocity.
+    /// Velocity and heading.
     Velocity(VelocitySetpoint),
     /// Vertical velocity with fixed roll and pitch.
     Level {

@@ -9,7 +9,7 @@ use spandrel_model::math;
 const APPROACH_S: f64 = 0.25;
 /// Time to build up full acceleration, s.
 pub const ACCELERATION_RAMP_S: f64 = 0.15;
-/// Time to build up full horizontal acceleration in a mission or return, s (estimate: about 50 deg/s of tilt).
+/// Time to build up full horizontal acceleration in a mission or return, s (estimate: a tilt rate of about 50 deg/s).
 pub const AUTO_ACCELERATION_RAMP_S: f64 = 0.5;
 
 /// Motion limits.
@@ -61,8 +61,8 @@ impl MotionShaper {
     }
 }
 
-/// Approach speed from which a given deceleration stops at the target: linear in distance near the target, square root
-/// farther away.
+/// Speed from which the given deceleration stops the vehicle at the target: proportional to the distance near the
+/// target, and to the square root of the distance farther away.
 #[must_use]
 pub fn approach_speed(distance_m: f64, gain: f64, deceleration_m_s2: f64) -> f64 {
     let bend = deceleration_m_s2 / (gain * gain);
@@ -123,7 +123,7 @@ mod tests {
             shaper.advance(Vec3::zero(), &limits, 0.0025);
             least = least.min(shaper.velocity_m_s.north());
         }
-        // m/s; even a tenth of walking speed backward would be noticeable.
+        // In m/s. Even drifting backward at a tenth of walking speed would be noticeable.
         assert!(least > -0.15 && shaper.velocity_m_s.norm() < 1e-3, "{least}");
     }
 }

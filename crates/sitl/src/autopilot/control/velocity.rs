@@ -110,8 +110,8 @@ fn drag(gains: &Gains, velocity_m_s: Vec3<Ned>) -> Vec3<Ned> {
     Vec3::new(velocity_m_s.north() * k, velocity_m_s.east() * k, 0.0)
 }
 
-/// Specific force for a desired acceleration within tilt and thrust limits, vertical before horizontal, and whether the
-/// horizontal and the vertical part are within those limits.
+/// Returns the specific force for a desired acceleration within the tilt and thrust limits, with priority for the
+/// vertical part, and whether the horizontal and the vertical part are within these limits.
 fn limit_acceleration(gains: &Gains, mass_kg: f64, wanted_m_s2: Vec3<Ned>) -> (Vec3<Ned>, bool, bool) {
     let (low, high) = (gains.thrust_min_n / mass_kg, gains.thrust_max_n / mass_kg);
     let lift = GRAVITY_M_S2 - wanted_m_s2.down();
@@ -134,7 +134,7 @@ fn attitude_thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, yaw_rad: f64,
     AttitudeThrustSetpoint { attitude, thrust_n: thrust(mass_kg, now, force, gains) }
 }
 
-/// Collective thrust whose vertical component is correct at the current tilt.
+/// Collective thrust with the correct vertical component at the current tilt.
 fn thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, gains: &Gains) -> f64 {
     let upright = (now.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
     if upright <= 0.0 {

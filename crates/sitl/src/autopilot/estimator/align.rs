@@ -4,7 +4,7 @@ use crate::sensors::ImuReading;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 
-/// Averaging time, s.
+/// Averaging time for the alignment, s.
 pub const ALIGN_S: f64 = 0.5;
 /// Maximum angular rate at rest, rad/s.
 const REST_RATE_MAX_RAD_S: f64 = 0.15;
@@ -12,8 +12,8 @@ const REST_RATE_MAX_RAD_S: f64 = 0.15;
 const REST_FORCE_TOLERANCE_M_S2: f64 = 1.5;
 /// Mean rates beyond this many standard deviations of the gyroscope bias count as motion.
 const BIAS_SIGMAS: f64 = 5.0;
-/// Residual rocking of a vehicle at rest, as a fraction of the gyroscope bias (1 sigma, estimate). It limits the
-/// accuracy of the bias from the mean rate; the filter estimates the rest in flight.
+/// Residual rocking of a vehicle at rest, as a fraction of the gyroscope bias (1 sigma, estimate). It limits how
+/// accurately the mean rate determines the bias; the filter estimates the rest of the bias in flight.
 pub const ROCKING_BIAS_FRACTION: f64 = 0.1;
 
 /// Gyroscope characteristics from the data sheet.
@@ -142,7 +142,7 @@ mod tests {
             }
             alignment.result(field)
         };
-        // 20 sigma of the bias, observed when the caged aircraft rocked on its cage.
+        // 20 times the bias sigma, as observed when the caged aircraft rocked on its cage.
         assert_eq!(feed(0.06, 800), None);
         let aligned = feed(0.002, 400).expect("at rest");
         assert!(aligned.gyro_variance >= 9e-8, "{}", aligned.gyro_variance);

@@ -3,15 +3,15 @@
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Time constant of the average rejection rate, s (estimate: one second of rejected measurements drops a source, single outliers
-/// do not).
+/// Time constant of the average rejection rate, s (estimate: one second of rejected measurements drops a source, but
+/// single outliers do not).
 const REJECTION_AVERAGING_S: f64 = 0.5;
 /// Rejection rate above which a source is dropped.
 const DROP_THRESHOLD: f64 = 0.8;
 /// Rejection rate below which a source is used again; reached after 2 s of consistent measurements.
 const RECOVERY_THRESHOLD: f64 = 0.02;
-/// Maximum interval between measurements that the average counts, s, so that one rejection after a long gap does not
-/// drop a source.
+/// Cap on the interval between measurements in the average, s. Without it, one rejection after a long gap could drop a
+/// source.
 const MAX_INTERVAL_S: f64 = 0.25;
 /// Time after which a rejected source is used again if no better source remains, s.
 pub const REJECTION_TIMEOUT_S: f64 = 3.0;
@@ -52,15 +52,15 @@ impl InnovationCheck {
     }
 }
 
-/// Detects whether a rejected source has a constant offset from the filter, as after a jump, rather than noise.
+/// Detects whether a rejected source has a constant offset from the filter (as after a jump) or is only noisy.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OffsetMonitor {
     previous: Option<(Vec3<Ned>, SimTime)>,
 }
 
 impl OffsetMonitor {
-    /// Records an offset from the filter, m. Returns the time for which the offset has stayed constant within
-    /// `tolerance_m`, s.
+    /// Records an offset from the filter, m. Returns how many seconds the offset has stayed constant within
+    /// `tolerance_m`.
     pub fn hold_s(&mut self, distance_m: Vec3<Ned>, tolerance_m: f64, now: SimTime) -> f64 {
         match self.previous {
             Some((then, since)) if (distance_m - then).norm() <= tolerance_m => (now - since).s(),
@@ -113,7 +113,7 @@ mod tests {
         };
         assert!(!feed(true, 1_000) && !feed(false, 500), "half a second of rejections is not a fault");
         assert!(feed(false, 500), "one second of rejections is a fault");
-        assert!(feed(true, 1_000), "not used again immediately");
+        assert!(feed(true, 1_000), "the source must not be used again immediately");
         assert!(!feed(true, 1_000));
     }
 }

@@ -28,7 +28,7 @@ pub const FLOW: usize = 19;
 /// Index of the magnetometer bias error; constant over a session.
 pub const MAG: usize = 20;
 
-/// Spectral densities of the process noise, SI units per second.
+/// Spectral densities of the process noise, in SI units per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProcessNoise {
     /// Accelerometer, (m/s²)²/Hz.
@@ -111,7 +111,7 @@ impl Covariance {
         shock_variance: f64,
     ) {
         let g = delta_velocity_m_s;
-        // d(velocity)/d(attitude): theta x gained.
+        // d(velocity)/d(attitude): rotation vector x velocity change.
         let a = [[0.0, g.z, -g.y], [-g.z, 0.0, g.x], [g.y, -g.x, 0.0]];
         let r = attitude * -dt_s;
         let b = [[r.m11, r.m12, r.m13], [r.m21, r.m22, r.m23], [r.m31, r.m32, r.m33]];
@@ -161,8 +161,8 @@ impl Covariance {
         }
     }
 
-    /// Multiplies the matrix by F transposed in place. F has off-diagonal elements only in its first rows; the part
-    /// below them is mirrored afterward.
+    /// Multiplies the matrix by F transposed in place. F has off-diagonal elements only in its first rows; the rows
+    /// below them are mirrored afterward.
     fn columns(&mut self, a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], dt_s: f64) {
         for row in &mut self.m[..BG] {
             for i in 0..3 {
@@ -237,7 +237,7 @@ mod tests {
     use nalgebra::SMatrix;
 
     type SquareMatrix = SMatrix<f64, STATES, STATES>;
-    /// Rounding error of sums of order-one products, dimensionless.
+    /// Rounding error of sums of terms of order one, dimensionless.
     const ROUNDING: f64 = 1e-12;
 
     fn full(c: &Covariance) -> SquareMatrix {

@@ -12,9 +12,10 @@ use spandrel_model::time::SimTime;
 /// Innovation gate, standard deviations.
 pub(super) const INNOVATION_GATE: f64 = 5.0;
 /// Weight of the reported GNSS variance in excess of the open-sky error. The excess is mostly multipath, which lasts
-/// for seconds (about twice its time constant times the fix rate, halved because part of it is white).
+/// for seconds. The weight is about twice its time constant times the fix rate, halved because part of the excess is
+/// white noise.
 const MULTIPATH_WEIGHT: f64 = 40.0;
-/// Time for which optical flow counts as an independent velocity source after its last fusion, s.
+/// Time after its last fusion for which optical flow counts as an independent velocity source, s.
 const FLOW_FRESH_S: f64 = 1.0;
 /// Time for which a fix counts as current, s (estimate: five fixes at the usual rate).
 const FIX_FRESH_S: f64 = 1.0;
@@ -66,8 +67,8 @@ impl Estimator {
             self.checks.gnss_offset_monitor.clear();
             return;
         }
-        // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, a constant offset is accepted, but
-        // noise is not.
+        // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, the filter accepts a constant
+        // offset but not noise.
         let off = self.fix_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
         let steady_s = self.checks.gnss_offset_monitor.hold_s(flat, INNOVATION_GATE * (2.0 * variance).sqrt(), now);
@@ -140,7 +141,7 @@ impl Estimator {
         self.covariance.reset(DRIFT + 2, 1, self.process.drift[2]);
     }
 
-    /// Resets height and climb rate to GNSS.
+    /// Resets height and climb rate to the GNSS values.
     fn set_height(&mut self, fix: &GnssReading, now: SimTime) {
         self.reset_height_drift();
         let (p, v) = (self.position_m, self.velocity_m_s);

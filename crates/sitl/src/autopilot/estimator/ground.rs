@@ -1,10 +1,10 @@
-//! Height arbitration by range finder: the height that keeps the ground level constant is correct.
+//! Uses the range finder to choose between two heights: the one that implies a constant ground level is correct.
 
 /// Decision threshold, as a fraction of the height difference: the ground level must move by less than this according
 /// to one height and by more than the remainder according to the other.
 const DECISION_FRACTION: f64 = 0.3;
 
-/// Ground level from the range finder, relative to each height, m down.
+/// Ground levels from the range finder, computed from each height, m down.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct GroundEstimate {
     range_m: Option<f64>,
@@ -12,7 +12,7 @@ pub struct GroundEstimate {
 }
 
 impl GroundEstimate {
-    /// Adds the vertical distance to the ground, m; infinite if the ground is out of range.
+    /// Adds a measurement of the vertical distance to the ground, m; infinite if the ground is out of range.
     pub fn add_measurement(&mut self, range_m: f64) {
         self.range_m = Some(range_m).filter(|range| range.is_finite());
         if self.range_m.is_none() {

@@ -14,7 +14,7 @@ use spandrel_model::time::SimTime;
 /// Height uncertainty of a sensor that is not the reference, m (1 sigma; estimate: a pressure change of 1 hPa corresponds to 8
 /// m).
 const NON_REFERENCE_SIGMA_M: f64 = 10.0;
-/// Timeout for a height reference, s (estimate: ten readings of a range finder at 10 Hz).
+/// Height reference timeout, s (estimate: ten range finder readings at 10 Hz).
 const REFERENCE_TIMEOUT_S: f64 = 1.0;
 /// Roughness of the ground below the range finder, m (1 sigma; estimate: grass, gravel).
 const GROUND_ROUGHNESS_M: f64 = 0.05;
@@ -69,8 +69,8 @@ impl Estimator {
         self.covariance.reset(BARO, 1, offset);
     }
 
-    /// Corrects the height with the measured distance `below_m` to the ground. After a step in the ground (an edge, a
-    /// truck), it keeps the height and adopts the new ground level.
+    /// Corrects the height with the measured distance `below_m` to the ground. If the surface changes abruptly (an
+    /// edge, a truck), keeps the height and adopts the new ground level.
     pub(super) fn follow_range(&mut self, below_m: f64, now: SimTime) {
         if self.configured_reference != HeightReference::RangeFinder || !below_m.is_finite() {
             self.height_reference.ground_down_m = None;

@@ -45,7 +45,7 @@ impl HeightReferenceState {
         self.barometer = Some(now);
     }
 
-    /// Clears the ground level after the vehicle was moved.
+    /// Clears the ground level after the vehicle has been moved.
     pub fn clear_ground(&mut self) {
         (self.ground_down_m, self.check, self.off) = (None, InnovationCheck::default(), OffsetMonitor::default());
     }

@@ -1,6 +1,6 @@
-//! Error-state Kalman filter. The state runs at the inertial sample rate, the covariance at 100 Hz. States are position,
-//! velocity, attitude, inertial sensor biases, GNSS drift, barometer offset, optical-flow scale and magnetometer bias. It fuses
-//! GNSS, barometer, magnetometer and optical flow.
+//! Error-state Kalman filter. The state runs at the inertial sample rate, the covariance at 100 Hz. The states are
+//! position, velocity, attitude, inertial sensor biases, GNSS drift, barometer offset, optical-flow scale and
+//! magnetometer bias. It fuses GNSS, barometer, magnetometer and optical flow.
 //!
 //! The range finder is not fused by default, because the surface below may be a deck, a truck or water. It decides
 //! which height to use when GNSS and barometer contradict each other.
@@ -38,12 +38,13 @@ const REGAIN_FRACTION: f64 = 0.5;
 /// Specific force above which the sampling blurs the direction of a shock, m/s², and the fraction of it treated as uncertain.
 const SHOCK_M_S2: f64 = 40.0;
 const SHOCK_UNCERTAIN_FRACTION: f64 = 0.1;
-/// Time over which fixes are averaged before the origin of the local frame is set, s (estimate; PX4 requires 10 s of
-/// good fixes, EKF2_REQ_GPS_H).
+/// Time over which fixes are averaged before the local frame's origin is set, s (estimate; PX4 requires 10 s of good
+/// fixes, EKF2_REQ_GPS_H).
 const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
 
-/// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water an aircraft often has neither GNSS nor optical
-/// flow, and this estimator's drift stays within its limits for about this long (`crates/sitl/tests/flight`).
+/// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water, an aircraft often has neither GNSS
+/// nor optical flow, and this estimator's drift stays within its limits for about this long
+/// (`crates/sitl/tests/flight`).
 pub const DEAD_RECKONING_LIMIT_S: f64 = 60.0;
 
 /// Measurement noise from the sensors' data sheets.
@@ -375,8 +376,8 @@ impl Estimator {
         self.covariance.variance(P).max(self.covariance.variance(P + 1)).sqrt()
     }
 
-    /// Sets the time without a fused velocity after which the position becomes invalid, s, the height reference, and
-    /// whether the motors are off. The heading can be reset to the magnetometer alone only with the motors off.
+    /// Sets the time without a fused velocity after which the position becomes invalid (s), the height reference, and
+    /// whether the motors are off. Only with the motors off can the magnetometer alone reset the heading.
     pub fn configure(&mut self, dead_reckoning_limit_s: f64, reference: HeightReference, motors_off: bool) {
         (self.dead_reckoning_limit_s, self.configured_reference, self.motors_off) =
             (dead_reckoning_limit_s, reference, motors_off);
@@ -393,7 +394,7 @@ impl Estimator {
         }
     }
 
-    /// Returns the accumulated position reset to GNSS since the last call in meters.
+    /// Returns the accumulated position reset to GNSS since the last call, in meters.
     pub fn take_position_reset(&mut self) -> Option<Vec3<Ned>> {
         let step_m = self.position_step_m.take();
         self.position_resets += u32::from(step_m.is_some());
@@ -462,7 +463,7 @@ impl Estimator {
         }
     }
 
-    /// Acceleration relative to the ground in the last inertial sampling interval, m/s².
+    /// Acceleration relative to the ground during the last inertial sampling interval, m/s².
     #[must_use]
     pub fn acceleration_m_s2(&self) -> Vec3<Ned> {
         self.acceleration_m_s2
@@ -491,8 +492,8 @@ impl Estimator {
     #[must_use]
     pub fn error(&self, truth: &SimulatedTruth) -> [f64; 15] {
         let turn = self.attitude.inverse().then(truth.attitude).raw();
-        // FRAME: the inverse estimate followed by the truth is the small rotation in NED from the estimated to the true
-        // attitude.
+        // FRAME: the inverse of the estimate followed by the true attitude is the small rotation in NED from the
+        // estimated to the true attitude.
         let theta: Vector3<f64> = turn.scaled_axis();
         let parts = [
             (truth.position_m - self.position_m).array(),

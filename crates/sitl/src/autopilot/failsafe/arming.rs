@@ -9,7 +9,7 @@ use spandrel_model::frames::{Frd, Vec3};
 
 /// Stick deflection that counts as centered for arming.
 const CENTERED: f64 = 0.2;
-/// Minimum cosine of the tilt for arming (20 degrees).
+/// Minimum tilt cosine for arming (20 degrees).
 const MIN_LEVEL_COSINE: f64 = 0.94;
 /// Minimum clearance above the vehicle for arming, m.
 const MIN_OVERHEAD_CLEARANCE_M: f64 = 1.0;
@@ -65,7 +65,8 @@ impl ArmingCheck<'_> {
         }
     }
 
-    /// Returns true if arming requires a position: for the mode, for hold without a pilot, or for the geofence.
+    /// Returns true if arming requires a position estimate: for the mode, to hold position without a pilot, or for the
+    /// geofence.
     fn needs_position(&self) -> bool {
         let intended = self.input.flight.intended;
         !self.input.tuning.arming_depends_on_mode || !self.sticks_fresh() || intended.needs_position() || self.fence_set
@@ -81,7 +82,7 @@ impl ArmingCheck<'_> {
             return out;
         }
         if !self.needs_position() {
-            // No position estimate is required.
+            // A position estimate is not required.
         } else if !flight.global_position_known {
             out.push("No GNSS fix".into());
         } else if !estimate.position_valid || estimate.horizontal_m > ARMING_ACCURACY_M {
@@ -91,7 +92,7 @@ impl ArmingCheck<'_> {
             out.push("Not level".into());
         }
         match flight.battery {
-            None => out.push("No battery measurement".into()),
+            None => out.push("No battery readings".into()),
             Some(b) if b.remaining_pct < tuning.battery_critical_pct.max(rules.arm_charge_pct) => {
                 out.push("Battery too low".into());
             }

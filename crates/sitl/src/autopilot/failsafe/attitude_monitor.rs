@@ -19,9 +19,9 @@ const CONTROL_LOST_S: f64 = 0.3;
 pub struct AttitudeMonitor {
     /// Whether the vehicle tracks its attitude setpoint.
     pub tracks_attitude: bool,
-    /// Start of the attitude error.
+    /// Time at which the attitude error began.
     error_since: Option<SimTime>,
-    /// Start of the upset attitude.
+    /// Time at which the upset began.
     upset_since: Option<SimTime>,
 }
 
@@ -42,8 +42,8 @@ impl AttitudeMonitor {
         self.upset_since = None;
     }
 
-    /// Reports a vehicle in the air that does not follow its attitude setpoint because of a failed motor, failed propeller or
-    /// obstruction. Acts once per flight.
+    /// Reports a flying vehicle that does not follow its attitude setpoint, for example because of a failed motor or
+    /// propeller, or an obstruction. Acts once per flight.
     pub fn check_tracking(&mut self, input: &FailsafeInput, events: &mut EventQueue) -> Option<FailsafeRequest> {
         let flight = &input.flight;
         if flight.attitude_error_cosine > UPSET_COSINE || flight.landed == LandedState::OnGround {
@@ -55,7 +55,7 @@ impl AttitudeMonitor {
             return None;
         }
         self.tracks_attitude = false;
-        events.push(Severity::Critical, "Attitude lost: motor or propeller failure?");
+        events.push(Severity::Critical, "Attitude control lost: motor/propeller failure?");
         respond(input.tuning.rules.responses.motor_failure, "motor failure", Severity::Critical, input, events)
     }
 
@@ -72,7 +72,7 @@ impl AttitudeMonitor {
         let since = *self.upset_since.get_or_insert(input.now);
         ((input.now - since).s() > UPSET_S).then(|| {
             events.push(Severity::Critical, "Crash detected");
-            FailsafeRequest::terminate("crashed")
+            FailsafeRequest::terminate("crash")
         })
     }
 }

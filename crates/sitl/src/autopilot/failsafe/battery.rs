@@ -12,15 +12,15 @@ use spandrel_model::time::SimTime;
 pub struct BatteryMonitor {
     low_warned: bool,
     critical_warned: bool,
-    /// Most severe battery level (1 low, 2 critical, 3 emergency) whose failsafe has triggered in this flight. Each
-    /// level triggers once, so the pilot can override it.
+    /// Most severe battery level (1 = low, 2 = critical, 3 = emergency) whose failsafe has triggered in this flight.
+    /// Each level triggers once, so the pilot can override it.
     highest_handled_level: usize,
-    /// Start of the time below the low and critical voltages.
+    /// Times at which the voltage fell below the low and critical thresholds.
     low_voltage_since: [Option<SimTime>; 2],
 }
 
 impl BatteryMonitor {
-    /// Warns of a low battery. In flight, returns the failsafe request.
+    /// Warns about a low battery. In flight, returns the failsafe request.
     pub fn check(&mut self, input: &FailsafeInput, events: &mut EventQueue) -> Option<FailsafeRequest> {
         let battery = input.flight.battery?;
         let left_pct = battery.remaining_pct;
@@ -45,7 +45,7 @@ impl BatteryMonitor {
         }
     }
 
-    /// Battery level: 0 good, 1 low, 2 critical, 3 emergency.
+    /// Battery level: 0 = good, 1 = low, 2 = critical, 3 = emergency.
     fn level(&mut self, battery: &BatteryReading, input: &FailsafeInput) -> usize {
         let (tuning, rules) = (input.tuning, &input.tuning.rules.responses);
         let mut sagged = [false; 2];
@@ -62,15 +62,15 @@ impl BatteryMonitor {
         }
     }
 
-    /// Runs the failsafe. It also triggers if the flight started with a low battery, or had no position when the level
-    /// was reached.
+    /// Requests the failsafe action. It also triggers if the flight started with a low battery, or if the vehicle had
+    /// no position when the battery reached the level.
     fn act(&mut self, battery: &BatteryReading, input: &FailsafeInput, events: &mut EventQueue) -> Option<FailsafeRequest> {
         const NAMES: [&str; 4] = ["", "low battery", "critical battery", "battery emergency"];
         let level = self.level(battery, input);
         if level <= self.highest_handled_level {
             return None;
         }
-        // The most severe action configured at or below this level.
+        // The action configured for the most severe new level that has one.
         let configured = input.tuning.rules.responses.battery;
         let (level, response) = (self.highest_handled_level + 1..=level).rev().find_map(|k| Some((k, configured[k - 1]?)))?;
         if response == FailsafeResponse::Return && !input.estimate.position_valid {

@@ -17,7 +17,7 @@ pub enum FenceOutline {
 }
 
 impl FenceOutline {
-    /// Returns true if a point is inside.
+    /// Returns true if a point is inside the outline.
     #[must_use]
     pub fn contains(&self, (n, e): (f64, f64)) -> bool {
         match self {
@@ -71,7 +71,7 @@ pub struct FenceZone {
     pub inclusion: bool,
 }
 
-/// Breached limit, with the values of MAVLink's FENCE_BREACH.
+/// Breached limit, with the values of MAVLink's FENCE_BREACH enum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Breach {
     /// Minimum height above home (1).
@@ -195,6 +195,6 @@ mod tests {
         for (place, allowed) in [((5.0, 5.0), true), ((0.0, 0.0), false), ((50.0, 0.0), false), ((100.0, 0.0), true)] {
             assert_eq!(fence.allows(place), allowed, "{place:?}");
         }
-        assert!(Fence::default().allows((1e6, 0.0)), "no zones, no boundary");
+        assert!(Fence::default().allows((1e6, 0.0)), "every position is allowed without zones");
     }
 }

@@ -42,7 +42,7 @@ pub struct FlightSummary {
     pub mission_is_empty: bool,
     /// Whether the estimator has ever had a global position.
     pub global_position_known: bool,
-    /// Cosine of the angle between desired and estimated thrust direction.
+    /// Cosine of the angle between desired and estimated thrust directions.
     pub attitude_error_cosine: f64,
     /// Latest battery reading.
     pub battery: Option<BatteryReading>,

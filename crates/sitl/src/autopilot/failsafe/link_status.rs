@@ -48,13 +48,13 @@ impl LinkStatus {
         pairs.iter().any(|(now, then)| now.abs() > least && (now - then).abs() > least)
     }
 
-    /// Returns the maximum deflection of any stick.
+    /// Returns the largest stick deflection.
     #[must_use]
     pub fn deflection(&self) -> f64 {
         self.lateral_deflection().max(self.sticks.up.abs())
     }
 
-    /// Returns the maximum deflection of any stick except throttle.
+    /// Returns the largest stick deflection, excluding the throttle.
     #[must_use]
     pub fn lateral_deflection(&self) -> f64 {
         let s = &self.sticks;

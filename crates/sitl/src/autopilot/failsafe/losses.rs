@@ -9,7 +9,7 @@ use crate::autopilot::flight_state::FlightMode;
 use crate::autopilot::tuning::LinkLossAction;
 use spandrel_model::time::SimTime;
 
-/// Time without position after which an automatic mode is aborted, s.
+/// Time without a position after which an automatic mode is aborted, s.
 const POSITION_LOSS_TIMEOUT_S: f64 = 1.0;
 
 /// A possible loss, in the order of the checks. The first one that requires a different mode ends the checks.
@@ -28,7 +28,7 @@ impl Loss {
     pub const ALL: [Self; 3] = [Self::Position, Self::Manual, Self::Link];
 }
 
-/// Mode of, and reason for, a failsafe that lasts as long as the loss.
+/// Mode of a failsafe that lasts as long as the loss, and the reason for it.
 pub type LossMode = (FlightMode, &'static str);
 
 /// The response to a loss.
@@ -77,7 +77,7 @@ impl LossMonitor {
         let lasting = (input.now - since).s() > POSITION_LOSS_TIMEOUT_S;
         let pilot_flies = sticks_fresh(links, input) && !input.tuning.rules.responses.lands_without_position;
         if pilot_flies {
-            (intended.is_manual() || lasting).then_some((FlightMode::Altitude, "position lost, holding height only"))
+            (intended.is_manual() || lasting).then_some((FlightMode::Altitude, "position lost, holding altitude only"))
         } else {
             lasting.then_some((FlightMode::Land, "position lost, landing"))
         }
@@ -127,7 +127,7 @@ fn sticks_fresh(links: &LinkStatus, input: &FailsafeInput) -> bool {
     links.sticks_fresh(input.tuning.manual_timeout_s(), input.now)
 }
 
-/// The mode that keeps the vehicle in place: hold, or land if there is no position.
+/// The mode that keeps the vehicle in place: hold, or land without a position estimate.
 fn hold_mode(input: &FailsafeInput) -> FlightMode {
     if input.estimate.position_valid { FlightMode::Hold } else { FlightMode::Land }
 }

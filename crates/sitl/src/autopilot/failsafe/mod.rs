@@ -119,7 +119,7 @@ impl Failsafe {
         }
     }
 
-    /// Returns true once per interval of the checks.
+    /// Returns true once per check interval.
     pub fn is_due(&mut self, now: SimTime) -> bool {
         let due = now >= self.due;
         if due {
@@ -128,12 +128,12 @@ impl Failsafe {
         due
     }
 
-    /// Warns of a low battery. Returns the battery failsafe request.
+    /// Warns about a low battery. Returns the battery failsafe request.
     pub fn check_battery(&mut self, input: &FailsafeInput) -> Option<FailsafeRequest> {
         self.battery.check(input, &mut self.events)
     }
 
-    /// Updates the state of the geofence.
+    /// Updates the geofence state.
     pub fn update_fence(&mut self, input: &FailsafeInput) {
         self.fence_monitor.update_set(&FenceCheck::new(&self.fence, input.tuning, input.flight.home_m));
     }

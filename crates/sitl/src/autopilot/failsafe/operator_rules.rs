@@ -34,7 +34,7 @@ pub struct LinkLossExceptions {
 }
 
 impl LinkLossExceptions {
-    /// Returns the exceptions for PX4's bit mask: 1 mission, 2 hold, 4 offboard.
+    /// Returns the exceptions for PX4's bit mask: 1 = mission, 2 = hold, 4 = offboard.
     #[must_use]
     pub fn from_bits(bits: i32) -> Self {
         Self { mission: bits & 1 != 0, hold: bits & 2 != 0, offboard: bits & 4 != 0, manual: false }
@@ -101,9 +101,9 @@ pub struct FailsafeResponses {
     pub battery_emergency_pct: f64,
     /// `BATT_LOW_VOLT`, `BATT_CRT_VOLT`: low and critical voltage, V; 0 disables the check.
     pub battery_low_v: [f64; 2],
-    /// `BATT_LOW_TIMER`: time below a voltage threshold before it takes effect, s.
+    /// `BATT_LOW_TIMER`: time the voltage must stay below a threshold before it counts, s.
     pub battery_low_s: f64,
-    /// `COM_POSCTL_NAVL`; `FS_EKF_ACTION`: on loss of position, land in manual position mode too.
+    /// `COM_POSCTL_NAVL`; `FS_EKF_ACTION`: on loss of position, also land in manual position mode.
     pub lands_without_position: bool,
     /// `FS_CRASH_CHECK`: stop the motors after a crash.
     pub crash_check: bool,
@@ -214,7 +214,7 @@ pub struct ReturnRules {
     pub loiter_height_m: Option<f64>,
     /// `RTL_LAND_DELAY`; `RTL_LOIT_TIME`: waiting time, s; negative to wait forever.
     pub wait_s: f64,
-    /// A rally point's height is the return height (ArduPilot).
+    /// Whether a rally point's height is the return height (ArduPilot).
     pub rally_height: bool,
     /// `WP_YAW_BEHAVIOR` 1, 3: turn to the takeoff heading at the destination.
     pub turns_to_takeoff_heading: bool,
@@ -358,10 +358,10 @@ pub struct OperatorRules {
     pub mission_requirement: MissionRequirement,
     /// `MIS_DIST_1WP`: maximum distance of the first waypoint from home, m; 0 or less: no limit.
     pub first_waypoint_m: f64,
-    /// `MIS_RESTART`: restart the mission whenever its mode is entered.
+    /// `MIS_RESTART`: restart the mission on every entry into mission mode.
     pub mission_restarts: bool,
-    /// Bit 1 of `AUTO_OPTIONS`: a mission takes off immediately after arming. Otherwise it waits for the throttle or a start
-    /// command.
+    /// Bit 1 of `AUTO_OPTIONS`: a mission takes off immediately after arming. Otherwise it waits for a raised throttle
+    /// or a start command.
     pub mission_takes_off_when_armed: bool,
     /// `FENCE_TYPE`, `FENCE_ALT_MIN`: parts of the geofence.
     pub fence: FenceParts,

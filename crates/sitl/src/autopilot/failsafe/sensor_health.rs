@@ -19,7 +19,7 @@ pub struct SensorStatus {
     pub compass: bool,
     /// Whether the barometer is used.
     pub barometer: bool,
-    /// Whether GNSS is used if it has a fix.
+    /// Whether GNSS is used when it has a fix.
     pub gnss: bool,
     /// Whether the vehicle tracks its attitude setpoint.
     pub tracks_attitude: bool,
@@ -101,7 +101,7 @@ impl<T: Copy + PartialEq> SensorMonitor<T> {
         Self { noisy, latest: None, received: None, changed: None, fault: None }
     }
 
-    /// Records a reading. Returns it if it is new, or `None` if the value is repeated.
+    /// Records a reading. Returns it if it is new, or `None` if it repeats the last one.
     fn accept(&mut self, reading: Option<T>, now: SimTime) -> Option<T> {
         let (received, changed) = (self.received.get_or_insert(now), self.changed.get_or_insert(now));
         let value = reading?;

@@ -13,7 +13,7 @@ use crate::autopilot::failsafe::operator_rules::HeadingRule;
 use crate::autopilot::flight_state::{FlightMode, LandedState};
 use spandrel_model::frames::{Ned, Vec3};
 
-/// Tolerance for reaching a height, m.
+/// Height error within which a height counts as reached, m.
 pub(super) const HEIGHT_REACHED_M: f64 = 0.4;
 /// Height above ground below which a takeoff uses the takeoff climb rate, m (PX4: MPC_LAND_ALT1).
 const TAKEOFF_SLOW_BELOW_M: f64 = 10.0;
@@ -52,7 +52,7 @@ impl Navigator {
         self.fly_within_limits(speed, up, down, input)
     }
 
-    /// Flies to the target within speed limits, m/s.
+    /// Flies to the target within the given speed limits (m/s).
     fn fly_within_limits(&mut self, speed: Option<f64>, up: f64, down: f64, input: &NavigatorInput) -> Setpoint {
         let l = &input.airframe.limits;
         let cruise =
@@ -157,7 +157,7 @@ impl Navigator {
         wanted.min(input.airframe.limits.descend_m_s)
     }
 
-    /// Descends without tilt and without horizontal position control, for flight without a position estimate.
+    /// Descends level, without horizontal position control, for flight without a position estimate.
     pub(super) fn descend_without_position(&mut self, input: &NavigatorInput) -> Setpoint {
         self.begin_descent(input);
         self.heading.turn_to(None, self.modes.active, input);

@@ -1,4 +1,4 @@
-//! Flying a circle around a point.
+//! Flies circles around a point.
 
 use super::Navigator;
 use super::input::NavigatorInput;
@@ -11,16 +11,17 @@ use crate::autopilot::request::RequestOutcome;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
-/// Rate at which the distance error to the circle is corrected, 1/s (estimate: much slower than the velocity loop).
+/// Gain on the distance error from the circle, 1/s (estimate: much slower than the velocity loop).
 const RADIAL_GAIN_PER_S: f64 = 0.6;
-/// Integral gain on the remaining distance error, 1/s² (estimate: damping ratio 0.8 with the rate above), and its limit, m/s.
+/// Integral gain on the remaining distance error, 1/s² (estimate: damping ratio 0.8 with the gain above), and its
+/// limit, m/s.
 const TRIM_PER_S2: f64 = 0.14;
 const TRIM_MAX_M_S: f64 = 2.0;
 /// Fraction of the available acceleration that a circle may use.
 const CIRCLE_ACCELERATION_FRACTION: f64 = 0.5;
-/// Allowed radii, m.
+/// Allowed orbit radii, m.
 const RADIUS_LIMITS_M: std::ops::RangeInclusive<f64> = 1.0..=1_000.0;
-/// Default speed, m/s.
+/// Default orbit speed, m/s.
 const DEFAULT_SPEED_M_S: f64 = 2.0;
 
 impl Navigator {
@@ -56,7 +57,7 @@ impl Navigator {
         let (n, e) = request.center_m.unwrap_or((here.north(), here.east()));
         let center_m = Vec3::new(n, e, request.up_m.map_or(here.down(), |up| -up));
         if self.fence_check(input).circle_leaves_fence(center_m, radius.abs()) {
-            return RequestOutcome::Denied("Circle leaves geofence".into());
+            return RequestOutcome::Denied("Orbit leaves geofence".into());
         }
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
         let left_rad = if request.arc_rad > 0.0 { request.arc_rad } else { f64::INFINITY };
@@ -68,7 +69,7 @@ impl Navigator {
         RequestOutcome::Accepted
     }
 
-    /// Starts a circle ahead of the nose. On the ground, changes only the mode.
+    /// Starts a circle ahead of the nose. On the ground, only changes the mode.
     pub(super) fn request_circle_ahead(&mut self, input: &NavigatorInput) -> RequestOutcome {
         if !input.is_flying() {
             (self.modes.intended, self.orbit) = (FlightMode::Orbit, None);

@@ -7,7 +7,7 @@ use spandrel_model::frames::{Ned, Vec3};
 const ACCURACY_M: f64 = 2.0;
 /// Maximum number of points (ArduCopter: SRTL_POINTS).
 const MAX_POINTS: usize = 300;
-/// Maximum deviation of the simplified path from the recorded one, m (ArduCopter: half the accuracy).
+/// Maximum deviation of the simplified path from the recorded one, m (ArduCopter: half of SRTL_ACCURACY).
 const SIMPLIFY_TOLERANCE_M: f64 = 0.5 * ACCURACY_M;
 /// Acceptance radius of recorded points, m.
 const REACHED_M: f64 = 1.0;
@@ -111,7 +111,7 @@ mod tests {
     fn exact_straight_legs_keep_endpoints_and_loops_are_removed() {
         let mut trail = FlownPath::default();
         trail.begin(at(0.0, 0.0, 0.0));
-        // North 40 m, east 40 m, and back to the middle of the first leg.
+        // North 40 m, east 40 m, then back to the middle of the first leg.
         (1..=20).for_each(|k| trail.record(at(2.0 * f64::from(k), 0.0, 0.0)));
         (1..=20).for_each(|k| trail.record(at(40.0, 2.0 * f64::from(k), 0.0)));
         trail.simplify(SIMPLIFY_TOLERANCE_M);

@@ -1,4 +1,4 @@
-//! Following a moving target: PX4's follow-me (FLW_TGT_*) and ArduCopter's FOLLOW (FOLL_*).
+//! Follows a moving target: PX4's follow-me (FLW_TGT_*) and ArduCopter's FOLLOW (FOLL_*).
 
 use crate::autopilot::control::shaper::heading_of;
 use spandrel_model::frames::{Ned, Vec3};
@@ -84,7 +84,7 @@ impl Follower {
         (self.course_rad, self.offset_m) = (None, None);
     }
 
-    /// Returns the velocity of a target that reports only positions, computed from its last two positions, m/s.
+    /// Returns the velocity, in m/s, of a target that reports only positions, computed from its last two positions.
     #[must_use]
     pub fn target_velocity(&self, position_m: Vec3<Ned>, now: SimTime) -> Vec3<Ned> {
         let recent = self.latest.map(|(before, at)| (before, (now - at).s())).filter(|(_, age_s)| *age_s <= TARGET_TIMEOUT_S);
@@ -118,7 +118,7 @@ impl Follower {
         (age_s <= TARGET_TIMEOUT_S * client_speed_factor && !far).then_some(FollowTarget { position_m, ..target })
     }
 
-    /// Returns the desired vehicle position for a target in meters.
+    /// Returns the desired vehicle position for a target, in meters.
     pub fn position_near(
         &mut self,
         target: &FollowTarget,

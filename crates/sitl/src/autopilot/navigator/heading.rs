@@ -1,4 +1,4 @@
-//! The heading setpoint, and turns by stick, by rate or to a heading.
+//! Heading setpoint, and turns commanded by stick, by rate or to a heading.
 
 use super::input::NavigatorInput;
 use crate::autopilot::flight_state::FlightMode;
@@ -19,7 +19,7 @@ const CAPTURE_RATE_RAD_S: f64 = 0.02;
 const AUTO_YAW_RATE_FRACTION: f64 = 0.7;
 const AUTO_YAW_GAIN: f64 = 1.5;
 /// Remaining turn below which the shorter direction is always used, rad (5 degrees; estimate: more than the heading
-/// overshoots).
+/// overshoot).
 const SHORTEST_TURN_RAD: f64 = 0.087;
 
 /// Heading setpoint and commanded turns.
@@ -120,7 +120,7 @@ impl Heading {
         self.turned_by_pilot
     }
 
-    /// Turns to a heading, rad; `None` stops the turn. In GUIDED the yaw stick has priority.
+    /// Turns to a heading, rad; `None` stops the turn. In GUIDED, the yaw stick has priority.
     pub fn turn_to(&mut self, yaw_rad: Option<f64>, mode: FlightMode, input: &NavigatorInput) {
         if self.turn_by_pilot(mode, input) {
             return;

@@ -25,7 +25,8 @@ pub struct Home {
 }
 
 impl Home {
-    /// Moves home and the rally points whose heights are relative to it. Returns the increase in home height, m.
+    /// Moves home and the rally points whose heights are relative to it. Returns the increase in home height, in
+    /// meters.
     pub fn move_to(&mut self, home_m: Vec3<Ned>) -> f64 {
         let rise_m = self.position_m.map_or(0.0, |h| h.down()) - home_m.down();
         for rally_point in self.rally_points.iter_mut().filter(|rally_point| rally_point.home_relative) {

@@ -37,7 +37,7 @@ pub struct NavigatorInput<'a> {
     pub now: SimTime,
     /// Time of the last tick.
     pub last_step: SimTime,
-    /// Time since the last tick, s; 0 in a request.
+    /// Time since the last tick, s; 0 for a request.
     pub dt_s: f64,
 }
 

@@ -15,7 +15,7 @@ use spandrel_model::math;
 const LOCK_MAX_SPEED_M_S: f64 = 0.15;
 /// Tilt limit in manual flight without a position estimate, as a fraction of the maximum tilt.
 const NO_POSITION_TILT_FRACTION: f64 = 0.6;
-/// Fraction of the slowdown time after which the plan has stopped. The rest is for the loop lag.
+/// Fraction of the slowdown time within which the plan stops. The rest is reserved for the loop lag.
 const SLOW_DOWN_FRACTION: f64 = 0.55;
 /// Maximum correction speed toward a locked position, m/s.
 const LOCK_SPEED_M_S: f64 = 2.0;

@@ -8,7 +8,7 @@ use spandrel_model::time::SimTime;
 
 /// Maximum number of consecutive non-flight items processed per tick. The rest follow in the next tick.
 const STEPS_PER_TICK_MAX: usize = 64;
-/// Planning horizon of a trajectory, m, and its maximum number of waypoints; longer than any stopping distance.
+/// Planning horizon of a trajectory, m (longer than any stopping distance), and its maximum number of waypoints.
 const PLANNING_HORIZON_M: f64 = 80.0;
 const PLANNING_MAX_WAYPOINTS: usize = 24;
 
@@ -58,13 +58,13 @@ pub struct Mission {
     pub current: usize,
     /// End time of the current item's wait.
     pub wait_until: Option<SimTime>,
-    /// Cruise speed set by the mission, m/s.
+    /// Cruise speed that the mission set, m/s.
     pub speed_m_s: Option<f64>,
     /// Items that were reached but not yet reported.
     pub reached: Vec<usize>,
     /// Whether the current item has started.
     pub item_started: bool,
-    /// Commands of passed items that have not been carried out yet.
+    /// Commands from passed items that have not been carried out yet.
     pub pending_commands: Vec<MissionStep>,
     /// Target of the initial climb of a mission without a takeoff item, m.
     pub initial_climb_m: Option<Vec3<Ned>>,
@@ -354,7 +354,8 @@ mod tests {
     #[test]
     fn exact_jump_loops_do_not_block_tick() {
         let mut mission = Mission::new(vec![MissionStep::Jump { to: 0, times: u32::MAX }]);
-        // The number of items per tick is limited; the endpoint rejects such a mission.
+        // A tick processes a limited number of items, so this endless loop does not block it. The endpoint rejects such
+        // a mission.
         assert!(mission.skip(SimTime::ZERO));
         assert_eq!(mission.reached.len(), STEPS_PER_TICK_MAX);
     }

@@ -1,4 +1,4 @@
-//! Execution of mission items.
+//! Executes mission items.
 
 use super::Navigator;
 use super::automatic::{HEIGHT_REACHED_M, TURN_MIN_DISTANCE_M};
@@ -158,8 +158,8 @@ impl Navigator {
         self.trajectory.as_ref().is_some_and(passed)
     }
 
-    /// Climb target for an item that moves away while the vehicle is still on the ground: straight up to the default
-    /// takeoff height.
+    /// Climb target, straight up to the default takeoff height, if the item leads elsewhere and the vehicle has not
+    /// taken off yet.
     fn needs_takeoff_first(&self, step: &MissionStep, input: &NavigatorInput) -> Option<Vec3<Ned>> {
         let away = matches!(step, MissionStep::Waypoint { .. } | MissionStep::Near(_) | MissionStep::Circle { .. });
         let here = input.here();
@@ -181,7 +181,7 @@ impl Navigator {
         if (target - here).norm() < input.tuning.accept_radius_m { target } else { here }
     }
 
-    /// Carries out the commands of passed items.
+    /// Carries out the commands from passed items.
     fn run_passed_commands(&mut self, input: &NavigatorInput) {
         for command in std::mem::take(&mut self.mission.pending_commands) {
             match command {
@@ -302,7 +302,8 @@ impl Navigator {
         }
     }
 
-    /// Resumes a suspended item: a takeoff above the same position, a landing in progress, a return in its saved phase.
+    /// Resumes a suspended item: a takeoff above the same position, a landing in progress, or a return in its saved
+    /// phase.
     fn resume_step(&mut self, step: &MissionStep, left: SuspendedStep) {
         let before = left.target_m;
         match *step {

@@ -2,7 +2,7 @@
 
 use spandrel_model::frames::{Ned, Vec3};
 
-/// One mission item as the autopilot flies it. The endpoint keeps the corresponding MAVLink items.
+/// One mission item as the autopilot flies it. The endpoint stores the corresponding MAVLink items.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MissionStep {
     /// Fly to a point.
@@ -103,7 +103,7 @@ impl TimeOfDay {
 }
 
 impl MissionStep {
-    /// Returns the position of the item for modification, if it has one.
+    /// Returns the item's position for modification, if it has one.
     pub fn position_mut(&mut self) -> Option<&mut Vec3<Ned>> {
         match self {
             Self::Waypoint { position_m, .. } | Self::Land { position_m: Some(position_m) } => Some(position_m),

@@ -48,7 +48,7 @@ pub struct ModeState {
     pub intended: FlightMode,
     /// Whether a failsafe overrides the requested mode.
     pub overridden: bool,
-    /// Stick input at the start of the active mode, the reference for stick takeover.
+    /// Stick input at the start of the active mode; the reference for detecting stick takeover.
     pub sticks_at_start: Sticks,
 }
 
@@ -144,7 +144,7 @@ pub struct Navigator {
     speed_m_s: Option<f64>,
     /// The pause, if the active mode is paused.
     paused: Option<PausedAt>,
-    /// Whether the airborne vehicle is descending to land.
+    /// Whether the vehicle is in the air and descending to land.
     descends_to_land: bool,
 }
 
@@ -291,7 +291,7 @@ impl Navigator {
         }
     }
 
-    /// Continues in the air after a respawn. A manual mode is kept; otherwise the mode is Hold.
+    /// Continues in the air after a respawn. Keeps a manual mode; otherwise switches to Hold.
     pub fn continue_in_air(&mut self, input: &NavigatorInput) {
         self.descends_to_land = false;
         self.flown_path.truncate_to(input.here());
@@ -306,7 +306,7 @@ impl Navigator {
         self.modes.active = self.modes.intended;
     }
 
-    /// Changes the requested mode, for a failsafe or a pilot taking over.
+    /// Changes the requested mode, for a failsafe or a stick takeover.
     pub fn change_mode(&mut self, mode: FlightMode, ends_override: bool, input: &NavigatorInput) {
         self.modes.intended = mode;
         self.modes.overridden &= !ends_override;

@@ -33,7 +33,7 @@ impl Navigator {
     fn suspend_mission(&mut self, next: FlightMode, input: &NavigatorInput) {
         let in_air = input.phase == FlightPhase::InAir;
         let flying = input.armed && in_air && input.estimate.position_valid;
-        // While the vehicle is returning to the route, the mission has not restarted the item.
+        // During the flight back to the route, the mission has not restarted the item yet.
         let begun = self.mission.item_started || self.mission.suspended_at_m.is_some();
         let under_way = self.modes.active == FlightMode::Mission && begun && self.mission.step().is_some();
         let left = flying && under_way && next != FlightMode::Mission;

@@ -26,7 +26,7 @@ impl Navigator {
         self.modes.intended = FlightMode::Hold;
         let paused = self.paused;
         self.enter(FlightMode::Hold, input);
-        // A setpoint can time out while it is paused.
+        // A setpoint can time out during a pause.
         self.paused = paused;
         if let Some((OffboardSetpoint { position_m: [Some(n), Some(e), Some(d)], yaw_rad, .. }, _)) = input.links.offboard {
             self.target_m = Vec3::new(n, e, d);
@@ -76,7 +76,7 @@ impl Navigator {
         Setpoint::Velocity(motion)
     }
 
-    /// Heading while approaching a position target that has no heading, rad.
+    /// Heading during the approach to a position target without a heading, rad.
     fn heading_toward(&self, setpoint: &OffboardSetpoint, input: &NavigatorInput) -> Option<f64> {
         let [Some(n), Some(e), Some(d)] = setpoint.position_m else { return None };
         let travels = input.tuning.setpoint_end_is_normal && setpoint.velocity_m_s == [None; 3];

@@ -1,4 +1,4 @@
-//! Pausing without leaving the mode (ArduCopter: DO_PAUSE_CONTINUE in AUTO and GUIDED).
+//! Pauses and resumes without a mode change (ArduCopter: DO_PAUSE_CONTINUE in AUTO and GUIDED).
 
 use super::input::NavigatorInput;
 use super::{Navigator, PausedAt};

@@ -10,7 +10,7 @@ use crate::autopilot::flight_state::FlightMode;
 use crate::autopilot::request::{AutopilotRequest, RequestOutcome, TurnCommand};
 use spandrel_model::frames::{Ned, Vec3};
 
-/// Limit beyond which heights and distances are rejected as errors, m.
+/// Largest height or distance that a request may contain, m.
 const MAX_DISTANCE_M: f64 = 20_000.0;
 /// Throttle stick position above which thrust exceeds half of the hover thrust (ArduPilot: get_non_takeoff_throttle).
 const HALF_HOVER_THROTTLE: f64 = -0.5;
@@ -102,7 +102,8 @@ impl Navigator {
         None
     }
 
-    /// Returns true on the ground if the throttle stick is so high that a mode with direct throttle would take off immediately.
+    /// Returns true on the ground if the throttle stick is so high that the vehicle would take off immediately in a
+    /// mode with direct throttle.
     fn throttle_too_high(&self, mode: FlightMode, input: &NavigatorInput) -> bool {
         let direct = |mode: FlightMode| matches!(mode, FlightMode::Stabilized | FlightMode::Acro);
         let high = input.links.sticks.up > HALF_HOVER_THROTTLE && input.sticks_fresh();
@@ -144,7 +145,7 @@ impl Navigator {
 
     fn request_takeoff(&mut self, height_m: Option<f64>, input: &NavigatorInput) -> RequestOutcome {
         if height_m.is_some_and(|h| !h.is_finite() || h.abs() > MAX_DISTANCE_M) {
-            return RequestOutcome::Denied("Takeoff height out of range".into());
+            return RequestOutcome::Denied("Takeoff altitude out of range".into());
         }
         let here = input.here();
         let home_up = self.home.up_m();
@@ -157,7 +158,7 @@ impl Navigator {
         }
         let before = self.commanded.takeoff_up_m.replace(wanted_up);
         if input.is_flying() && self.commanded.takeoff_up_m.is_some_and(|wanted| up >= wanted) {
-            self.events.push(Severity::Info, "Already higher than takeoff altitude");
+            self.events.push(Severity::Info, "Already above takeoff altitude");
             return self.set_mode(FlightMode::Hold, input);
         }
         let outcome = self.set_mode(FlightMode::Takeoff, input);

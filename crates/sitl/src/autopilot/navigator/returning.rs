@@ -44,7 +44,7 @@ impl Navigator {
         let landing = self.mission.landing().filter(|_| allowed.mission_landing);
         let places = allowed.home.then_some(home).into_iter().chain(rally).chain(landing);
         let away = |place: &Vec3<Ned>| (*place - here).horizontal_norm();
-        // If two destinations are equally near, the first one, home, is used.
+        // If two destinations are equally near, the first one in the list is used, which is home.
         places.reduce(|best, place| if away(&place) < away(&best) { place } else { best }).unwrap_or(home)
     }
 
@@ -58,7 +58,7 @@ impl Navigator {
         (away_m * rules.cone_slope).max(least_m).min(input.tuning.return_height_m)
     }
 
-    /// Flies to the destination of a return, waits there and lands.
+    /// Flies to a return's destination, waits there and lands.
     pub(super) fn go_home(&mut self, input: &NavigatorInput) -> Setpoint {
         let here = input.here();
         let home = self.returning.target_m.or(self.home.position_m).unwrap_or(here);
@@ -116,7 +116,7 @@ impl Navigator {
             self.returning.phase = ReturnPhase::Stay;
             let down = input.here().down().max(home.down() - rules.final_height_m);
             self.target_m = Vec3::new(home.north(), home.east(), down);
-            self.events.push(Severity::Info, "Holding at final height");
+            self.events.push(Severity::Info, "Holding at final altitude");
         } else {
             self.returning.phase = ReturnPhase::Land;
             self.events.push(Severity::Info, "Landing");

@@ -7,13 +7,13 @@
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
-/// Maximum acceleration in missions, m/s² (PX4: MPC_ACC_HOR 3; less here, because wind uses part of the tilt).
+/// Maximum acceleration in missions, m/s² (PX4: MPC_ACC_HOR 3; lower here to leave part of the tilt for wind).
 const HORIZONTAL_M_S2: f64 = 2.0;
 const VERTICAL_M_S2: f64 = 1.5;
 /// Maximum jerk along a leg and in a corner, m/s³ (PX4: MPC_JERK_AUTO 4).
 const JERK_M_S3: f64 = 4.0;
 const CORNER_JERK_M_S3: f64 = 2.5;
-/// Time constant of the speed relative to its limit, s.
+/// Time constant with which the speed approaches its limit, s.
 const APPROACH_S: f64 = 0.25;
 /// Maximum corner cut, as a fraction of the acceptance radius and as a distance, m.
 const CORNER_CUT_FRACTION: f64 = 0.5;
@@ -114,7 +114,7 @@ pub struct Trajectory {
     along_m: f64,
     speed_m_s: f64,
     acceleration_m_s2: f64,
-    /// Remaining offset from the state at which the trajectory was joined.
+    /// Remaining offset from the motion state at the time of joining.
     join_offset: TrajectoryPoint,
 }
 

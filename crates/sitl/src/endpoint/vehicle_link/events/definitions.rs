@@ -42,7 +42,7 @@ const CHECKS: [(&str, &str, u8); 13] = [
     ("Not level", "check_not_level", 16),
     ("Compass missing", "check_compass_missing", 27),
     ("Barometer missing", "check_barometer_missing", 1),
-    ("No battery measurement", "check_battery_not_measured", 11),
+    ("No battery readings", "check_battery_not_measured", 11),
     ("Battery too low", "check_battery_too_low", 11),
     ("Sticks not centered", "check_sticks_not_centered", 7),
     ("Outside the geofence", "check_outside_geofence", SYSTEM),
