@@ -257,8 +257,8 @@ fn wire_frames_are_forwarded_only_to_their_target() {
         std::iter::from_fn(|| s.sim.poll_transmit()).map(|t| t.link).collect::<Vec<_>>()
     };
     let sticks = |target| MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { target, z: 500, ..Default::default() });
-    assert_eq!(copies(&mut station, &sticks(9)), [], "system 9 is unknown on all links");
-    assert_eq!(copies(&mut station, &sticks(1)), [monitor], "system 1 is also reachable through the monitor's link");
+    assert_eq!(copies(&mut station, &sticks(9)), [], "system 9 must be unknown on all links");
+    assert_eq!(copies(&mut station, &sticks(1)), [monitor], "system 1 must also be reachable through the monitor's link");
     assert_eq!(copies(&mut station, &sticks(0)), [monitor, other], "broadcast sticks must reach all links");
 }
 

@@ -309,8 +309,8 @@ fn wire_repeated_picture_command_takes_one_picture_and_other_cameras_are_ignored
     for (camera, result) in [(0.0, OK), (100.0, OK), (2.0, DENIED), (101.0, DENIED)] {
         assert_eq!(station.command(1, shoot, p(&[camera, 0.0, 1.0])), result, "{camera}");
     }
-    assert_eq!(station.command(1, shoot, p(&[1.0, 0.0, 1.0])), DENIED, "the autopilot must not have a camera sensor");
-    assert_eq!(station.command(CAMERA, shoot, p(&[1.0, 0.0, 1.0])), OK, "the camera must have a first sensor");
+    assert_eq!(station.command(1, shoot, p(&[1.0, 0.0, 1.0])), DENIED, "the autopilot must not have an image sensor");
+    assert_eq!(station.command(CAMERA, shoot, p(&[1.0, 0.0, 1.0])), OK, "the camera must have an image sensor");
 }
 
 #[test]

@@ -119,7 +119,7 @@ fn regress_smart_rtl_retraces_its_path_and_lands_at_the_start() {
     let farthest_off = path_back.iter().map(off).fold(0.0, f32::max);
     assert!(nearest < PATH_M && farthest_off < PATH_M, "corner {nearest} m, path {farthest_off} m");
     let here = station.place();
-    assert!((here[0] - pad[0]).hypot(here[1] - pad[1]) < 1.0, "{here:?} not over {pad:?}");
+    assert!((here[0] - pad[0]).hypot(here[1] - pad[1]) < 1.0, "{here:?} is not above {pad:?}");
 }
 
 #[test]
@@ -290,7 +290,7 @@ fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
         item(6, MavCmd::MAV_CMD_NAV_WAYPOINT, 10.0, 6.0),
         item(7, MavCmd::MAV_CMD_NAV_LAND, 10.0, 0.0),
     ];
-    assert_eq!(station.command(1, SET_MODE, mode(27.0)), FAILED, "the mission does not contain a landing sequence yet");
+    assert_eq!(station.command(1, SET_MODE, mode(27.0)), FAILED, "the mission must not contain a landing sequence yet");
     assert_eq!(upload(&mut station, &plan), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
     let home = station.local_position_after(100)[0];

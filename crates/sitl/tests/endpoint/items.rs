@@ -129,7 +129,7 @@ fn flight_mission_can_set_home_and_switch_the_fence() {
     let request = [242.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, request);
     let home = station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();
-    assert!((f64::from(home) - north - 20.0).abs() < 3.0, "home must be at the drone's position: {home} of {north}");
+    assert!((f64::from(home) - north - 20.0).abs() < 3.0, "home must be at the drone's position: {home}, drone at {north}");
 }
 
 #[test]

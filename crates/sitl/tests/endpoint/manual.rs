@@ -208,7 +208,7 @@ fn wire_client_timeouts_scale_with_the_speed_without_lockstep() {
         let s = timeout_s(pace, lockstep);
         assert!(
             (expected_s..expected_s + 0.15).contains(&s),
-            "pace {pace}, lockstep {lockstep}: {s} s instead of {expected_s} s"
+            "speed {pace}, lockstep {lockstep}: {s} s instead of {expected_s} s"
         );
     }
     let mut station = Station::new("drill-hover", 7);

@@ -184,7 +184,7 @@ fn wire_superseded_mount_commands_follow_their_modes() {
     let (lat, lon, up) = (46.7052 + 100.0 / 111_180.0, 8.3814, 430.0 + 100.0);
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, up, lat, lon, 4.0])), OK);
     let seen = pitch_deg(&mut station);
-    assert!((seen - 45.0).abs() < 1.0, "{seen}: tolerance for height error and float rounding of degrees");
+    assert!((seen - 45.0).abs() < 1.0, "{seen} is not within the tolerance for height error and rounding");
     // Home is directly below.
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 6.0])), OK);
     assert!(pitch_deg(&mut station) < -10.0);

@@ -66,7 +66,7 @@ fn wire_timesync_responses_are_forwarded_from_a_lockstep_link() {
     };
     for (ts1, system, component) in [(token, 1, 195), (77, 42, 17), (78, 0, 0), (79, 1, 1)] {
         sim.handle_datagram(sidecar, &answer(ts1, system, component));
-        assert!(sim.waiting(), "{ts1} {system} {component} is not a response to the request");
+        assert!(sim.waiting(), "{ts1} {system} {component} must not count as a response to the request");
     }
     sim.handle_datagram(sidecar, &answer(token, 1, 1));
     assert!(!sim.waiting());
@@ -213,8 +213,8 @@ fn wire_radio_stays_within_its_capacity_with_prompt_responses() {
     assert!((36..=39).contains(&beats), "{beats} heartbeats");
     assert!(parameters >= total && total > 50, "{parameters} of {total} parameters");
     assert!(worst_ms < 500, "an acknowledgment took {worst_ms} ms");
-    assert!(attitudes > 30, "{attitudes}: streams must slow down, but not stop");
-    assert!(bytes as f64 > 0.6 * 30.0 * RADIO_BYTES_S, "{bytes}: the radio's capacity must be used");
+    assert!(attitudes > 30, "{attitudes} attitude messages: streams must slow down but not stop");
+    assert!(bytes as f64 > 0.6 * 30.0 * RADIO_BYTES_S, "{bytes} bytes: the radio's capacity must be used");
 }
 
 /// Encodes a frame in MAVLink 1.

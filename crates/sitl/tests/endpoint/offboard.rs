@@ -75,7 +75,7 @@ fn wire_offboard_position_flight_starts_from_the_ground() {
     fly(&mut station, &there, 20.0);
     let at = station.place();
     let off = (at[0] - n - 8.0).hypot(at[1] - e - 3.0).hypot(at[2] - d + 6.0);
-    assert!(off < 0.5, "{at:?}: {off} m off, according to the vehicle's estimate");
+    assert!(off < 0.5, "{at:?}: {off} m off in the vehicle's own estimate");
     assert_eq!(station.mode(), Some(OFFBOARD));
 }
 

@@ -59,7 +59,7 @@ fn regress_radio_calibration_is_accepted_and_other_calibrations_respond() {
     assert_eq!(
         station.command(1, CALIBRATE, one(1.0)),
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
-        "another calibration is running"
+        "the command must be rejected while another calibration is running"
     );
     station.run_ms(5_000);
     assert!(station.has_text("[cal] calibration done: level"), "{:?}", station.texts());

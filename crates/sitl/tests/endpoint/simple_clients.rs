@@ -225,14 +225,14 @@ fn regress_zero_position_in_a_copter_item_means_the_current_position() {
     let (north, up) = place(&mut station);
     assert!(
         (north - 12.0).abs() < POSITION_TOLERANCE_M && (up - pad_m - 9.0).abs() < POSITION_TOLERANCE_M,
-        "vertical takeoff: {north} m north, {} m up",
+        "vertical takeoff: {north} m north, height {} m",
         up - pad_m
     );
     assert!(station.run_until(120.0, |s| reached(s, 7)), "{:?}", station.texts());
     let (north, up) = place(&mut station);
     assert!(
         (north - 20.0).abs() < POSITION_TOLERANCE_M && (up - pad_m - 9.0).abs() < POSITION_TOLERANCE_M,
-        "at the current height: {north} m north, {} m up",
+        "level flight: {north} m north, height {} m",
         up - pad_m
     );
     let home =
@@ -251,7 +251,7 @@ fn regress_home_at_zero_means_the_current_position_only_for_copter() {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     let up = station
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None });
-    assert!(up.is_some_and(|up| up.abs() < POSITION_TOLERANCE_M), "home must be at the hover position: {up:?} m above it");
+    assert!(up.is_some_and(|up| up.abs() < POSITION_TOLERANCE_M), "home must be at the hover position, but is {up:?} m above it");
     assert_eq!(ready(7).command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
 

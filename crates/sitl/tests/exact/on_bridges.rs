@@ -109,7 +109,7 @@ fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
                 force += s.contact.normal_n;
                 worst = worst.max((s.rigid.position_m - start).norm());
             });
-            assert!(worst < DRIFT_M, "{} on {member}: {worst} m", vehicle.id);
+            assert!(worst < DRIFT_M, "{} on {member}: drifted {worst} m", vehicle.id);
             let share = force / 5000.0 / (vehicle.mass_kg * GRAVITY_M_S2);
             // On the sloping rib, friction carries part of the weight.
             let least = if member.contains("rib") { 0.9 } else { 1.0 - FORCE };
@@ -163,7 +163,7 @@ fn exact_tilted_aircraft_on_a_beam_edge_falls_outward() {
             fell |= height < -2.0;
         });
         assert!(touched && fell, "lean {lean}: the aircraft did not fall, {:?}", s.rigid.position_m);
-        assert!(most > 0.35 + 0.2, "lean {lean}: only {most} rad");
+        assert!(most > 0.35 + 0.2, "lean {lean}: the aircraft tilted only {most} rad");
         assert!((s.rigid.position_m.enu() - top).east() * side > 0.4, "lean {lean}: the aircraft fell back over the beam");
     }
 }
@@ -236,7 +236,7 @@ fn exact_members_stop_aircraft_at_30_m_s() {
                     let now = s.rigid.position_m.enu();
                     let step = now - before;
                     let way = site.geometry().ray(before, step.unit(), step.norm());
-                    assert!(step.norm() == 0.0 || way.is_none(), "{} went through {:?} at {member}", vehicle.id, way);
+                    assert!(step.norm() == 0.0 || way.is_none(), "{} passed through {:?} at {member}", vehicle.id, way);
                     assert!(is_free_of_obstacles(vehicle, &site, s), "{}: an arm penetrates an obstacle at {member}", vehicle.id);
                     before = now;
                     touched |= s.contact.touching();

@@ -53,7 +53,7 @@ fn flight_takeoff_hold_and_landing_at_the_same_position() {
         let status = bench.autopilot.status().clone();
         assert!(!status.armed && status.landed == LandedState::OnGround, "{name}: {status:?} {:?}", bench.position());
         // Gentler than stepping off a curb, m/s.
-        assert!(impact < 1.2, "{name}: touchdown at {impact} m/s");
+        assert!(impact < 1.2, "{name}: touched down at {impact} m/s");
     }
 }
 

@@ -226,7 +226,7 @@ fn prop_error_and_covariance_grow_and_recover_together_without_gnss() {
         }
     }
     let (low, high) = band(15);
-    assert!(nees > low && nees < high, "blind: {nees:.2}, band {low:.2}..{high:.2}");
+    assert!(nees > low && nees < high, "without GNSS: {nees:.2}, band {low:.2}..{high:.2}");
     // The growth must be clearly visible; half a minute after recovery, the covariance must be back within a fifth (as
     // fractions of the variance).
     assert!(blind[0] > 1.5 * before[0] && blind[1] > 1.5 * before[1], "{before:?} {blind:?}");

@@ -66,7 +66,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
         let speed = bench.state.rigid.velocity_m_s.north();
         assert!(
             (speed - wanted).abs() < SPEED_M_S && peak < wanted * (1.0 + OVERSHOOT),
-            "{name}: {speed}, peak {peak}, of {wanted}"
+            "{name}: speed {speed}, peak {peak}, target {wanted}"
         );
         bench.sticks = Some(Sticks::default());
         bench.run(aircraft.limits.slow_down_time_s, |_| ());
@@ -93,7 +93,7 @@ fn flight_full_stick_reaches_full_speed_on_every_axis() {
             bench.sticks = Some(sticks);
             bench.run(seconds, |_| ());
             let got = speed(&bench);
-            assert!((got - wanted).abs() < SPEED_TOLERANCE * wanted, "{name}: {got} of {wanted} for {sticks:?}");
+            assert!((got - wanted).abs() < SPEED_TOLERANCE * wanted, "{name}: {got} instead of {wanted} for {sticks:?}");
             bench.sticks = Some(Sticks::default());
             bench.run(4.0, |_| ());
         };
@@ -142,7 +142,7 @@ fn flight_recovers_from_a_gust() {
         let mut worst: f64 = 0.0;
         bench.run(15.0, |b| worst = worst.max((b.position() - start).norm()));
         let left = (bench.position() - start).norm();
-        assert!(worst < MAX_DEVIATION_M && left < MAX_REMAINING_M, "{name}: strayed {worst} m, left {left} m");
+        assert!(worst < MAX_DEVIATION_M && left < MAX_REMAINING_M, "{name}: strayed {worst} m, {left} m remain");
         let nose = bench.state.rigid.attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
         assert!(nose.down() < 0.0, "{name} must lean back against wind from behind: {nose:?}");
     }
@@ -230,7 +230,7 @@ fn regress_yaw_release_does_not_swing_back() {
                 let (swing, on) = release_yaw(&mut bench, yaw);
                 assert!(bench.position().down() < -1.0, "{name}, {mode:?}: on the ground");
                 assert!(swing < MAX_SWING_BACK_RAD, "{name}, {mode:?}, stick {yaw}: swings back {} deg", swing.to_degrees());
-                assert!(on < MAX_OVERSHOOT_RAD, "{name}, {mode:?}, stick {yaw}: continues for {} deg", on.to_degrees());
+                assert!(on < MAX_OVERSHOOT_RAD, "{name}, {mode:?}, stick {yaw}: keeps turning for {} deg", on.to_degrees());
             }
         }
     }

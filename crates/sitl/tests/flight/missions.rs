@@ -123,7 +123,7 @@ fn regress_takeoff_item_below_the_ground_still_takes_off() {
         let status = bench.autopilot.status();
         assert!(status.mission_finished && status.landed == LandedState::InAir, "{up_m}: {status:?} {:?}", bench.position());
         // The tilt limit of the aircraft.
-        assert!(tilt_deg < 35.0, "{up_m}: tilted to {tilt_deg} deg");
+        assert!(tilt_deg < 35.0, "height {up_m} m: tilted to {tilt_deg} deg");
     }
 }
 
@@ -174,7 +174,7 @@ fn regress_mission_without_takeoff_item_climbs_first() {
             worst = worst.max(b.position().horizontal_norm());
         }
     });
-    assert!(worst < DRIFT_M, "{worst} m of drift below a height of 1.5 m");
+    assert!(worst < DRIFT_M, "drifted {worst} m below a height of 1.5 m");
     let status = bench.autopilot.status();
     assert!(status.mission_finished && status.mode == FlightMode::Hold, "{status:?} {:?}", bench.position());
 }

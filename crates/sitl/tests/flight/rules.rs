@@ -120,7 +120,7 @@ fn flight_battery_actions_follow_their_settings() {
     let responses = &mut bench.autopilot.tuning.rules.responses;
     (responses.battery, responses.battery_low_v, responses.battery_low_s) = ([land, None, None], [100.0, 0.0], 5.0);
     bench.run(4.5, |_| ());
-    assert_eq!(mode(&bench), FlightMode::Hold, "the failsafe must not act yet");
+    assert_eq!(mode(&bench), FlightMode::Hold, "the failsafe must not trigger yet");
     bench.run(1.0, |_| ());
     assert_eq!(mode(&bench), FlightMode::Land);
 }

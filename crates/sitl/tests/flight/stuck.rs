@@ -168,7 +168,7 @@ fn regress_permanent_gnss_jump_resets_the_position() {
             let announced =
                 texts.iter().any(|text| text.starts_with("GNSS position jumped 3") && text.ends_with(" m: position reset"));
             assert_eq!((announced, bench.autopilot.status().position_resets), (dark, u32::from(dark)), "{name}: {texts:?}");
-            assert!(farthest < MAX_DRIFT_M, "{name}, dark {dark}: {farthest} m");
+            assert!(farthest < MAX_DRIFT_M, "{name}, dark {dark}: drifted {farthest} m");
         }
     }
 }

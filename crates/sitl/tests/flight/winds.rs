@@ -112,7 +112,7 @@ fn fly(flight: Flight) -> Result<Flown, String> {
             return Ok(flown);
         }
     }
-    Err(format!("not landed {LAND_S} s after the command"))
+    Err(format!("not on the ground {LAND_S} s after the landing command"))
 }
 
 /// Flies at all wind levels with forty seeds; no flight may be lost. Up to gentle wind, no landing may be a hard
@@ -135,7 +135,7 @@ fn assert_hold_in_every_wind(vehicle: &'static str) {
             }
         }
         let count = hard.iter().filter(|flight| flight.level == level).count();
-        println!("{vehicle}, {level}: farthest from the pad {farthest_m:.2} m, {count} of {SEEDS} landings were hard");
+        println!("{vehicle}, {level}: farthest from the pad {farthest_m:.2} m, {count} hard landings in {SEEDS} flights");
     }
     assert!(lost.is_empty(), "{} lost:\n{}", lost.len(), lost.join("\n"));
     assert!(hard.iter().all(|flight| flight.level == "medium"), "hard landings: {hard:?}");

@@ -107,7 +107,7 @@ fn prop_every_handled_message_has_a_valid_seed() {
         assert!(good.iter().all(|m| m.message_id() == *id));
     }
     let double = HANDLED.iter().enumerate().find(|(k, id)| HANDLED[..*k].contains(id));
-    assert_eq!(double, None, "message handled twice");
+    assert_eq!(double, None, "a message is handled twice");
 }
 
 #[test]

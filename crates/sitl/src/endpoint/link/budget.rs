@@ -121,7 +121,7 @@ mod tests {
                 }
             }
             let share = frames_s * bytes as f64 / budget.interval_factor() / RADIO;
-            assert!((share / STREAM_SHARE - 1.0).abs() < 0.1, "{share}: whole frames in one second's count");
+            assert!((share / STREAM_SHARE - 1.0).abs() < 0.1, "share {share}: only whole frames are counted each second");
         }
     }
 

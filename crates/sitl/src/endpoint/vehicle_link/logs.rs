@@ -338,7 +338,7 @@ mod tests {
         let at = 1_795_187_280;
         assert_eq!(entries, [(0, 3, 200, at), (1, 3, 7_000, at + 64_320), (2, 3, 0, at + 67_920)]);
         logs.list(LINK, 1, 1);
-        assert_eq!(run(&mut logs).len(), 1, "only the requested messages");
+        assert_eq!(run(&mut logs).len(), 1, "only the requested messages must be sent");
     }
 
     #[test]

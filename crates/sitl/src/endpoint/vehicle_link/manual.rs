@@ -148,7 +148,7 @@ impl ManualControl {
     fn report_ignored_sender(&mut self, from: StickSender, holder: StickSender, now: SimTime) {
         if self.last_report.is_none_or(|(known, at)| known != from || (now - at).s() >= REPORT_INTERVAL_S) {
             self.last_report = Some((from, now));
-            self.texts.push_back(format!("Sticks of {} ignored: {} in control", sender_name(from), sender_name(holder)));
+            self.texts.push_back(format!("{} sticks ignored: {} in control", sender_name(from), sender_name(holder)));
         }
     }
 

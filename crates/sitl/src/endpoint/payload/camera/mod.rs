@@ -378,11 +378,11 @@ mod tests {
             let _ = camera.take(CaptureRecord::numbered(taken), now, here);
             taken += 1;
         }
-        assert_eq!(taken, 4, "three single ones and the first of the series");
-        assert_eq!(camera.summary(now).interval_s, Some(1.0), "the series continues");
+        assert_eq!(taken, 4, "three single images and the first image of the series must be taken");
+        assert_eq!(camera.summary(now).interval_s, Some(1.0), "the series must continue");
         assert!(camera.start(0.0, 1.0, now).is_ok());
         camera.stop();
-        assert!(camera.due(now, here), "a picture that was promised before the stop");
+        assert!(camera.due(now, here), "an image accepted before the stop must still be taken");
         let _ = camera.take(CaptureRecord::numbered(taken), now, here);
         assert!(!camera.due(now + SimTime::from_s(2.0), here));
     }
@@ -419,7 +419,7 @@ mod tests {
             camera.step(SimTime::from_ms(*ms), 0.001, &mut changes);
             changes.take().0.contains(&CAMERA_CAPTURE_STATUS_DATA::ID)
         });
-        assert_eq!(told.count(), 8, "twice a second for four seconds");
+        assert_eq!(told.count(), 8, "the status must be sent twice per second for four seconds");
         // A repeated start command, such as after a lost acknowledgment, must continue the recording.
         assert_eq!(camera.start_recording(0.0, SimTime::from_ms(4_000)), Ok(()));
         assert_eq!(camera.summary(SimTime::from_ms(5_000)).recording, Some(SimTime::from_ms(5_000)));

@@ -140,7 +140,7 @@ mod tests {
         let mut zoom = ZoomLens::default();
         assert!(zoom.command(request, &CAMERA), "{request:?}");
         let ticks = (0..10_000).take_while(|_| !zoom.step(0.01)).count();
-        assert!(ticks < 10_000, "{request:?} never comes to rest");
+        assert!(ticks < 10_000, "{request:?}: the lens never stops");
         zoom
     }
 

@@ -52,7 +52,8 @@ pub(crate) fn refusal_text(c: &VehicleCommand, input: &PayloadInput, payload: &P
     }
     if row(c.number, lamp::ROWS).is_some() {
         let has_lamp = input.vehicle.lamp.flux_lm > 0.0;
-        return if has_lamp { "lamp is relay 0 or servo 9, on or off only" } else { "this aircraft has no lamp" }.into();
+        return if has_lamp { "the lamp is relay 0 or servo 9 and can only be on or off" } else { "this aircraft has no lamp" }
+            .into();
     }
-    "camera does not support these values or this mode".into()
+    "the camera does not support these values or this mode".into()
 }

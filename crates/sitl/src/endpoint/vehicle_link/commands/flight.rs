@@ -89,7 +89,7 @@ fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -
         n if n == M::MAV_CMD_DO_REPOSITION as u16 => Answer(go_to(c, v, a)),
         n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, a) {
             Some(orbit) => Request(AutopilotRequest::Orbit(orbit)),
-            None => Answer(v.deny("Orbit: center within 20 km, yaw behavior 0 to 5")),
+            None => Answer(v.deny("Orbit: center must be within 20 km, yaw mode 0-5")),
         },
         n if n == M::MAV_CMD_CONDITION_YAW as u16 => match condition_yaw(c, a) {
             Some(request) => Request(request),
@@ -125,7 +125,7 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         n if n == M::MAV_CMD_MISSION_START as u16 => {
             // ArduPilot always starts a mission from its first item.
             if v.flavor.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
-                return Some(Answer(v.deny("Mission start: an item range is not supported")));
+                return Some(Answer(v.deny("Mission start: item ranges are not supported")));
             }
             Request(AutopilotRequest::StartMission { first: c.finite_param(0).filter(|f| *f > 0.0).map(|f| index(f, v)) })
         }
@@ -142,19 +142,19 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
     Some(match c.number {
         // Climb and descent speeds have their own parameters.
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
-            Answer(v.deny("Speed: type must be 0 or 1; climb has parameters"))
+            Answer(v.deny("Speed: type must be 0 or 1 (not climb or descent)"))
         }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
             // -1 means no change, -2 restores the parameter's value (MAVLink common).
             Some(-1.0) => Answer(MavResult::MAV_RESULT_ACCEPTED),
             Some(-2.0) => Request(AutopilotRequest::SetSpeed(None)),
             Some(speed) if speed > 0.0 => Request(AutopilotRequest::SetSpeed(Some(speed))),
-            _ => Answer(v.deny("Speed: must be above 0, -1 (keep) or -2 (default)")),
+            _ => Answer(v.deny("Speed: must be > 0, -1 (keep) or -2 (default)")),
         },
         n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
             0.0 => Request(AutopilotRequest::EnableFence(false)),
             1.0 => Request(AutopilotRequest::EnableFence(true)),
-            _ => Answer(v.deny("Fence: must be 0 (disable) or 1 (enable)")),
+            _ => Answer(v.deny("Fence: parameter 1 must be 0 (off) or 1 (on)")),
         },
         _ => return None,
     })
@@ -296,7 +296,7 @@ fn go_to(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Mav
     if !(errands.is_none() || changes || v.is_guided(a.autopilot)) {
         return v.deny("Go-to: not allowed in this mode");
     }
-    let Some(request) = reposition(c, a) else { return v.deny("Go-to: beyond 20 km or unknown frame") };
+    let Some(request) = reposition(c, a) else { return v.deny("Go-to: target beyond 20 km or unknown frame") };
     let outcome = a.autopilot.request(request, a.now());
     if outcome == RequestOutcome::Accepted {
         v.requested_mode = errands.unwrap_or(v.requested_mode);

@@ -28,7 +28,7 @@ fn above_sea_level(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) 
     let Some(z) = c.finite_param(6) else { return Ok(None) };
     let height_m = if relative { z } else { z - a.aircraft.plane.origin().altitude_m - a.home_up_m() };
     if height_m > MAX_HEIGHT_M {
-        Err(v.deny("Takeoff height: at most 500 m above home"))
+        Err(v.deny("Takeoff height: must be at most 500 m above home"))
     } else {
         Ok(Some(height_m).filter(|height| *height >= MIN_HEIGHT_M))
     }
@@ -55,7 +55,7 @@ fn above_home_in_guided(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMess
     }
     let height = c.finite_param(6).filter(|height| *height > 0.0 && *height <= MAX_HEIGHT_M);
     if height.is_none() {
-        v.warn("Takeoff height: above 0, at most 500 m above home");
+        v.warn("Takeoff height: must be > 0 and <= 500 m");
     }
     height.map(Some).ok_or(FAILED)
 }

@@ -56,7 +56,7 @@ pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<ParamFileProblem>
 fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let fields: Vec<&str> = line.split('\t').map(str::trim).collect();
     let [_, _, name, value, kind] = fields[..] else {
-        return Err(format!("{} tab-separated fields (required: vehicle, component, name, value, type)", fields.len()));
+        return Err(format!("{} tab-separated fields, but 5 are required: vehicle, component, name, value, type", fields.len()));
     };
     // A parameter of another vehicle is skipped, regardless of its type.
     if params.range(name).is_none() {
@@ -67,7 +67,11 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let value_read = match kind {
         REAL32 => ParamValue::Real(value.parse().map_err(|_| no_number("a real number"))?),
         _ if kind == INT32 || narrow => ParamValue::Int(value.parse().map_err(|_| no_number("a whole number"))?),
-        _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real numbers)")),
+        _ => {
+            return Err(format!(
+                "{name}: type '{kind}' is not supported (allowed: {INT32} for whole numbers, {REAL32} for real numbers)"
+            ));
+        }
     };
     match params.set_value(name, value_read) {
         Ok(()) | Err(ParamRefusal::Unknown | ParamRefusal::ReadOnly) => Ok(()),
@@ -101,7 +105,7 @@ mod tests {
         copter.set_value("FENCE_ACTION", ParamValue::Int(2)).unwrap();
         copter.set_value("RTL_ALT", ParamValue::Int(2_500)).unwrap();
         let text = write(&copter, 3);
-        assert!(text.contains("3\t1\tFENCE_ACTION\t2\t2\n"), "as narrow as ArduPilot's");
+        assert!(text.contains("3\t1\tFENCE_ACTION\t2\t2\n"), "the type must be as narrow as ArduPilot's");
         let mut read_back = of(&param_view::COPTER);
         read(&mut read_back, &text).unwrap();
         assert_eq!(write(&read_back, 3), text);
