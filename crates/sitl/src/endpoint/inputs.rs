@@ -31,12 +31,12 @@ pub(super) fn payload_input<'v>(
     }
 }
 
-/// The state that messages are built from.
+/// State used to build messages.
 #[derive(Debug, Clone, Copy)]
 pub struct StreamInputs<'a> {
-    /// State of the vehicle.
+    /// Vehicle state.
     pub vehicle: VehicleSnapshot<'a>,
-    /// State of the equipment.
+    /// Equipment state.
     pub payload: PayloadSnapshot<'a>,
 }
 

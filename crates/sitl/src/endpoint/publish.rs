@@ -1,4 +1,4 @@
-//! Outgoing messages of a tick: changes, streams, texts and lists, each sent only on the links that need it.
+//! Messages sent in a tick: changes, streams, texts and lists, each only on the links that need it.
 
 use super::Endpoint;
 use super::component_ids::{AUTOPILOT, CAMERA};
@@ -71,7 +71,7 @@ impl Endpoint {
         self.vehicle.send_texts(&inputs.vehicle, &mut self.links);
     }
 
-    /// Broadcasts changes of the equipment and the autopilot once.
+    /// Broadcasts equipment and autopilot changes once.
     fn announce_changes(&mut self, inputs: &StreamInputs) {
         let (mut messages, warnings) = self.payload.equipment.changes.take();
         messages.append(&mut self.vehicle.take_announcements());

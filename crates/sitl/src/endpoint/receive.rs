@@ -36,7 +36,7 @@ const ALL_HANDLED: [u32; COMMANDS.len() + vehicle_link::HANDLED.len() + payload:
     all
 };
 
-/// IDs of all messages that the vehicle handles; the fuzz tests mutate each of them.
+/// IDs of all messages that the vehicle handles; the fuzz tests mutate every one.
 pub const HANDLED: &[u32] = &ALL_HANDLED;
 
 impl Endpoint {

@@ -8,10 +8,10 @@ use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::vehicle::Vehicle;
 
-/// State of physics, sensors and site at one instant.
+/// State of the physics, the sensors and the site at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct SimulatedAircraft<'a> {
-    /// The time.
+    /// The time on each clock.
     pub clock: VehicleClock,
     /// The aircraft.
     pub vehicle: &'a Vehicle,

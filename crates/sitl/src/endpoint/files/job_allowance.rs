@@ -1,4 +1,4 @@
-//! Limits the file work per tick. Jobs run between two ticks on the simulation thread, so every run answers the same
+//! Limits the file work per tick. Jobs run on the simulation thread between ticks, so that every run answers the same
 //! requests in the same tick. Client requests must therefore never delay a tick.
 
 use super::job::FileAction;
@@ -7,7 +7,7 @@ use spandrel_model::time::SimTime;
 /// Maximum number of jobs in a burst after an idle period.
 const MAX_SAVED_JOBS: u32 = 32;
 
-/// One small job per millisecond of simulation time, accumulated up to a maximum.
+/// Allows one small job per millisecond of simulation time. Unused jobs accumulate up to a maximum.
 #[derive(Debug, Clone)]
 pub struct JobAllowance {
     remaining: u32,

@@ -1,5 +1,5 @@
-//! Tests the server with a retrying client over a link that loses, duplicates and reorders packets, with in-memory
-//! files.
+//! Tests the server with in-memory files and a retrying client, over a link that loses, duplicates and reorders
+//! packets.
 
 use super::*;
 use spandrel_mavlink::ftp::{NAK, PAYLOAD};
@@ -209,8 +209,8 @@ fn regress_replies_contain_the_requested_session() {
     );
 }
 
-/// The last packet of a burst completes it: if it is lost, MAVSDK 4 would treat an additional NAK as its last failed
-/// attempt.
+/// The last packet of a burst must mark it complete: if that packet is lost, MAVSDK 4 would count an additional NAK as
+/// its final failed attempt.
 #[test]
 fn regress_burst_to_the_end_of_the_file_completes_without_a_nak() {
     let mut bench = FtpHarness::new();

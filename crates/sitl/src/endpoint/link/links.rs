@@ -1,4 +1,4 @@
-//! All links, the router between them, and the signing of their frames.
+//! All links, the router between them, and frame signing.
 
 use super::datagram::ReceivedDatagram;
 use super::link_id::{LinkId, LinkKind, Transmit};
@@ -10,7 +10,7 @@ use spandrel_mavlink::router::{self, Router};
 use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
 
-/// The links of a vehicle.
+/// A vehicle's links.
 #[derive(Debug, Clone)]
 pub struct Links {
     system_id: u8,
@@ -23,7 +23,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Creates the link table of a vehicle, without links.
+    /// Creates a vehicle's link table without any links.
     #[must_use]
     pub fn new(system_id: u8) -> Self {
         Self { system_id, peers: BTreeMap::new(), router: Router::new(), signing: None, bad_bytes: 0, dropped_by_closed: 0 }
@@ -47,7 +47,7 @@ impl Links {
         self.router.remove_link(id);
     }
 
-    /// Sends only responses on a link until a heartbeat is received: the sender's address may be forged, and streams
+    /// Sends only responses on a link until a heartbeat is received. The sender's address may be forged, and streams
     /// would amplify every datagram.
     pub fn await_heartbeat(&mut self, id: LinkId) {
         if let Some(link) = self.peers.get_mut(&id) {
@@ -55,7 +55,7 @@ impl Links {
         }
     }
 
-    /// Limits a link's capacity to `bytes_s`, bytes/s: streams slow down, lists wait, and scoring data is omitted.
+    /// Limits a link's capacity to `bytes_s` bytes/s: streams slow down, lists wait, and scoring data is omitted.
     pub fn limit(&mut self, id: LinkId, bytes_s: f64, now: SimTime) {
         if let Some(link) = self.peers.get_mut(&id) {
             link.limit(bytes_s, now);
@@ -134,26 +134,26 @@ impl Links {
         self.dropped_by_closed + self.peers.values().map(PeerLink::dropped).sum::<u64>()
     }
 
-    /// Returns the number of bytes outside of valid frames, for all links.
+    /// Returns the number of bytes outside valid frames on all links.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
     }
 
-    /// Returns the frames of a datagram, and counts the bytes outside of them.
+    /// Returns a datagram's frames and counts the bytes outside them.
     pub fn take_frames(&mut self, datagram: ReceivedDatagram) -> Vec<ReceivedFrame> {
         let (frames, bad_bytes) = datagram.into_frames();
         self.bad_bytes += bad_bytes;
         frames
     }
 
-    /// Returns the permitted handling of a frame received on a link.
+    /// Returns how a frame received on a link may be handled.
     pub fn admit(&mut self, id: LinkId, frame: &ReceivedFrame) -> FrameAdmission {
         let Some(link) = self.peers.get(&id) else { return FrameAdmission::Reject };
         self.signing.as_mut().map_or(FrameAdmission::Execute, |policy| policy.admit(frame, link.kind))
     }
 
-    /// Starts the streams of a link when a heartbeat arrives on it.
+    /// Starts a link's streams when a heartbeat arrives on it.
     pub fn wake(&mut self, id: LinkId, now: SimTime) {
         if let Some(link) = self.peers.get_mut(&id) {
             link.wake(now);

@@ -9,7 +9,7 @@ use spandrel_mavlink::dialect::MavMessage;
 pub(crate) struct PayloadMessage<'a, 'v> {
     /// The link it arrived on.
     pub link: LinkId,
-    /// System and component ID of the sender.
+    /// The sender's system and component ID.
     pub from: (u8, u8),
     /// The aircraft.
     pub input: &'a PayloadInput<'v>,
@@ -18,7 +18,7 @@ pub(crate) struct PayloadMessage<'a, 'v> {
 }
 
 impl PayloadMessage<'_, '_> {
-    /// Answers as the camera component.
+    /// Sends an answer as the camera component.
     pub fn answer(&mut self, message: &MavMessage) {
         self.links.answer(CAMERA, self.link, message);
     }

@@ -11,7 +11,7 @@ use spandrel_model::vehicle::Vehicle;
 /// The aircraft at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct PayloadInput<'a> {
-    /// The time.
+    /// The time on each clock.
     pub clock: VehicleClock,
     /// The aircraft.
     pub vehicle: &'a Vehicle,
@@ -23,7 +23,7 @@ pub struct PayloadInput<'a> {
     pub heading_rad: f64,
     /// Home position, site frame, m; `None` before it is set.
     pub home_m: Option<Vec3<Ned>>,
-    /// Whether the altitude of a region of interest command is above mean sea level, regardless of its frame.
+    /// Whether the altitude of a region-of-interest command is above mean sea level, regardless of its frame.
     pub roi_above_sea_level: bool,
     /// Stick positions as received: forward, right, up, yaw, -1 to 1; `None` after the timeout.
     pub sticks: Option<[f64; 4]>,

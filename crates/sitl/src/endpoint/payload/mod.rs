@@ -32,7 +32,7 @@ pub use snapshot::PayloadSnapshot;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// State of the equipment's interface.
+/// State of the equipment interface.
 #[derive(Debug, Clone)]
 pub struct PayloadLink {
     /// Camera, gimbal, lamp.
@@ -46,7 +46,7 @@ pub struct PayloadLink {
 }
 
 impl PayloadLink {
-    /// Creates the equipment's interface, with the camera's definition file.
+    /// Creates the equipment interface with the camera definition file.
     #[must_use]
     pub fn new() -> Self {
         let mut files = FileServer::default();

@@ -55,7 +55,7 @@ pub(super) struct ButtonContext {
     pub take_off_m: f64,
 }
 
-/// Gimbal pitch change for each press, degrees.
+/// Gimbal pitch change per press, degrees.
 const STEP_DEG: f64 = 10.0;
 /// MAV_FRAME_GLOBAL_RELATIVE_ALT: altitude relative to home.
 const RELATIVE_ALT_FRAME: u8 = 3;

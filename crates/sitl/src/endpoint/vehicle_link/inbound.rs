@@ -14,7 +14,7 @@ use spandrel_model::time::SimTime;
 pub(crate) struct InboundMessage<'a, 'v> {
     /// The link it arrived on.
     pub link: LinkId,
-    /// System and component ID of the sender.
+    /// The sender's system and component ID.
     pub from: (u8, u8),
     /// The aircraft.
     pub aircraft: &'a SimulatedAircraft<'v>,
@@ -39,7 +39,7 @@ impl InboundMessage<'_, '_> {
         self.autopilot.status().home_m.map_or(0.0, |home| -home.down())
     }
 
-    /// Answers as the autopilot.
+    /// Sends an answer as the autopilot.
     pub fn answer(&mut self, message: &impl Encodable) {
         self.links.answer(AUTOPILOT, self.link, message);
     }

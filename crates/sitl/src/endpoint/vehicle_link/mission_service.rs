@@ -1,4 +1,4 @@
-//! Requests of the mission protocol.
+//! Mission protocol requests.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::VehicleLink;

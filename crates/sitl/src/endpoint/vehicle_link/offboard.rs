@@ -12,7 +12,7 @@ use spandrel_mavlink::units;
 use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::math;
 
-/// Maximum value of a field, m, m/s and m/s²; larger values are rejected.
+/// Maximum value of a field in m, m/s or m/s²; larger values are rejected.
 const MAX_VALUE: f32 = 1e5;
 /// Maximum distance of a position from the origin, m.
 const MAX_DISTANCE_M: f64 = 20_000.0;
@@ -138,7 +138,7 @@ fn relative_to_vehicle(offset: AxisSetpoints, view: &VehicleSnapshot) -> AxisSet
     std::array::from_fn(|k| offset[k].map(|offset| here[k] + offset))
 }
 
-/// Converts forward, right, down to north, east, down. Forward and right must be given together.
+/// Converts forward, right, down to north, east, down. Forward and right must be set together.
 fn rotate_to_ned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static str> {
     let (s, c) = math::sin_cos(heading);
     match (frd[0], frd[1]) {

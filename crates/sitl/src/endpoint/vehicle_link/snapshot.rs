@@ -46,7 +46,7 @@ pub struct VehicleSnapshot<'a> {
     pub scoring: &'a ScoringTruth,
     /// Stick positions as received; `None` after the timeout.
     pub sticks: Option<Sticks>,
-    /// The same as transmitter channels 1 to 4, microseconds.
+    /// The same positions as transmitter channels 1 to 4, microseconds.
     pub pulses_us: Option<[u16; 4]>,
     /// Channels 5 to 16, microseconds.
     pub aux_us: [u16; AUX_COUNT],
@@ -60,7 +60,7 @@ pub struct VehicleSnapshot<'a> {
     pub plans: PlanSummary,
     /// Autopilot flavor.
     pub flavor: &'static Flavor,
-    /// The flavor's number of the last requested mode.
+    /// The flavor's number for the last requested mode.
     pub requested_mode: u32,
     /// Whether the geofence is enabled.
     pub fence_enabled: bool,

@@ -25,19 +25,20 @@ pub struct CaptureSeries {
 }
 
 impl CaptureSeries {
-    /// Returns the interval of a running time-lapse series in seconds.
+    /// Returns the interval, in seconds, of a time-lapse series in progress.
     #[must_use]
     pub fn interval_s(&self) -> Option<f64> {
         self.interval_s
     }
 
-    /// Checks whether a distance-triggered series is running.
+    /// Checks whether a distance-triggered series is in progress.
     #[must_use]
     pub fn is_by_distance(&self) -> bool {
         self.by_distance.is_some()
     }
 
-    /// Starts a series or takes one image. A `count` of 0 means until stopped. Returns false if a value is invalid.
+    /// Starts a series or takes one image. If `count` is 0, the series continues until it is stopped. Returns false if
+    /// a value is invalid.
     pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> bool {
         if !(0.0..=MAX_PICTURES).contains(&count) || !(0.0..=MAX_INTERVAL_S).contains(&interval_s) {
             return false;

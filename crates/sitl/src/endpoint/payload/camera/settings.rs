@@ -1,5 +1,5 @@
-//! Camera settings for ground stations: accessed by name or index over PARAM_EXT, described by a camera definition file
-//! (<https://mavlink.io/en/services/camera_def.html>).
+//! Camera settings for ground stations, accessed by name or index over PARAM_EXT and described by a camera definition
+//! file (<https://mavlink.io/en/services/camera_def.html>).
 
 use super::{CameraError, CameraSettings, CameraState};
 use std::fmt::Write;

@@ -20,7 +20,7 @@ impl StorageCard {
         &self.images
     }
 
-    /// Returns the storage used by images and finished recordings, MiB.
+    /// Returns the storage used by images and finished recordings in MiB.
     #[must_use]
     pub fn used_mib(&self) -> f64 {
         self.pictures_mib + self.videos_mib
@@ -42,7 +42,7 @@ impl StorageCard {
         self.images.clear();
     }
 
-    /// Deletes everything.
+    /// Deletes all images and recordings.
     pub fn format(&mut self) {
         *self = Self::default();
     }

@@ -19,7 +19,7 @@ pub struct VideoStream {
     pub bits_s: u32,
 }
 
-/// The last report of the stream's sender and the time at which it expires.
+/// The last report from the stream's sender, and the time at which it expires.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StreamReport(Option<(VideoStream, SimTime)>);
 

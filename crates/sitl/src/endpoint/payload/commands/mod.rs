@@ -40,7 +40,7 @@ pub(crate) fn handles(c: &VehicleCommand) -> bool {
     camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known as u16 == c.number)
 }
 
-/// Returns the rejection reason of a command, as text.
+/// Returns the reason for rejecting a command, as text.
 pub(crate) fn refusal_text(c: &VehicleCommand, input: &PayloadInput, payload: &Payload) -> String {
     if row(c.number, gimbal::ROWS).is_some() {
         let (gimbal, camera) = (&payload.gimbal, &input.vehicle.camera);

@@ -173,7 +173,7 @@ fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
     }))
 }
 
-/// Parameters 1 unit, 2 failure type, 3 instance. As in PX4, denied unless SYS_FAILURE_EN is set.
+/// Parameters: 1 unit, 2 failure type, 3 instance. As in PX4, the command is denied unless SYS_FAILURE_EN is set.
 fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     if v.params.whole("SYS_FAILURE_EN") != Some(1) {
         v.warn("Failure injection is off (SYS_FAILURE_EN)");
@@ -196,7 +196,7 @@ fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
     MavResult::MAV_RESULT_ACCEPTED
 }
 
-/// Parameter 1: 0 does nothing, 1 and 3 reboot the autopilot. A client cannot shut the simulated vehicle down.
+/// Parameter 1: 0 does nothing, 1 and 3 reboot the autopilot. Clients cannot shut down the simulated vehicle.
 fn reboot(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     match c.p[0] {
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
@@ -221,7 +221,7 @@ fn arm(c: &VehicleCommand, v: &VehicleLink) -> Option<AutopilotRequest> {
     }
 }
 
-/// Arms the motors. If the flavor reports them, each failed check is sent as a separate text. In the mode that accepts
+/// Arms the motors. If the flavor reports failed checks, each one is sent as a separate text. In the mode that accepts
 /// go-to commands (GUIDED), arming by a transmitter switch must be allowed (`GUID_OPTIONS`).
 fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let (flavor, now) = (v.flavor, a.now());
@@ -273,8 +273,8 @@ fn index(seq: f64, v: &VehicleLink) -> usize {
     (seq as usize).saturating_sub(usize::from(v.plans.summary().lead))
 }
 
-/// Parameter 1 is the item, -1 the current one (rejected by ArduPilot); 1 in parameter 2 resets the mission's progress.
-/// Broadcasts MISSION_CURRENT, as MISSION_SET_CURRENT does.
+/// Parameter 1 is the item (-1: the current one, which ArduPilot rejects); 1 in parameter 2 resets the mission's
+/// progress. Broadcasts MISSION_CURRENT, as MISSION_SET_CURRENT does.
 fn set_current(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> bool {
     let item = match c.finite_param(0) {
         Some(-1.0) if !v.flavor.home_item => a.autopilot.status().mission_current,
@@ -327,7 +327,7 @@ fn reposition(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest
     Some(AutopilotRequest::GoTo { north_east_m, up_m, yaw_rad: c.finite_param(3), speed_m_s })
 }
 
-/// Pauses or resumes. Flavors with this command can pause only missions and go-to commands.
+/// Pauses or resumes a flight. Flavors with this command can pause only missions and go-to commands.
 fn pause(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let pausable = v.is_guided(a.autopilot) || a.autopilot.status().mode == FlightMode::Mission;
     let pause = match c.p[0] {
@@ -340,10 +340,10 @@ fn pause(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Mav
     v.result_of(outcome)
 }
 
-/// ORBIT_YAW_BEHAVIOUR_UNCHANGED.
+/// The value of ORBIT_YAW_BEHAVIOUR_UNCHANGED.
 const YAW_UNCHANGED: i64 = 5;
 
-/// Parameters 1 radius, 2 speed, 3 yaw behavior, 4 arc in radians, 5 to 7 center.
+/// Parameters: 1 radius, 2 speed, 3 yaw behavior, 4 arc in radians, 5 to 7 center.
 fn orbit(c: &VehicleCommand, a: &InboundMessage) -> Option<OrbitRequest> {
     let AutopilotRequest::GoTo { north_east_m, up_m, .. } = reposition(c, a)? else { return None };
     let yaw = match c.finite_param(2).map(|number| number.round() as i64) {
@@ -354,7 +354,8 @@ fn orbit(c: &VehicleCommand, a: &InboundMessage) -> Option<OrbitRequest> {
     Some(OrbitRequest { center_m: north_east_m, up_m, radius_m: c.finite_param(0), speed_m_s: c.finite_param(1), yaw, arc_rad })
 }
 
-/// Parameters 1 angle in degrees, 2 rate in deg/s (0: default), 3 direction, 4 whether relative to the current heading.
+/// Parameters: 1 angle in degrees, 2 rate in deg/s (0: default), 3 direction, 4 whether the angle is relative to the
+/// current heading.
 fn condition_yaw(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest> {
     let angle = c.finite_param(0)?.to_radians();
     let relative = c.is_one(3);

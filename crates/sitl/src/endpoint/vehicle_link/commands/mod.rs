@@ -1,4 +1,4 @@
-//! Commands to the autopilot, one file for each group. Every command is answered immediately.
+//! Commands to the autopilot, one file per group. Every command is answered immediately.
 
 mod flight;
 mod storage;

@@ -1,4 +1,4 @@
-//! PREFLIGHT_STORAGE.
+//! The PREFLIGHT_STORAGE command, which loads, saves or resets the parameters.
 
 use super::super::VehicleLink;
 use super::super::host_requests::StorageRequest;

@@ -1,4 +1,4 @@
-//! NAV_TAKEOFF, interpreted by the flavor's rule.
+//! NAV_TAKEOFF, interpreted according to the flavor's rule.
 
 use super::super::VehicleLink;
 use super::super::flavor::TakeOffRule;
@@ -12,8 +12,8 @@ const MAX_HEIGHT_M: f64 = 500.0;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 
-/// Returns the height above home at which the takeoff ends, m (`None`: the parameter's value), or the result that
-/// rejects the command.
+/// Returns the height above home, in meters, at which the takeoff ends (`None`: the parameter's value), or the result
+/// that rejects the command.
 pub(super) fn height_m(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> Result<Option<f64>, MavResult> {
     match v.flavor.take_off {
         TakeOffRule::AboveSeaLevel => above_sea_level(c, v, a),

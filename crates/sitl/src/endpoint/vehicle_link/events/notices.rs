@@ -11,7 +11,7 @@ const INFO: u8 = 0x66;
 /// An event without arguments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Notice {
-    /// Beginning of the text.
+    /// Prefix of the text.
     pub text_prefix: &'static str,
     /// Name of the event.
     pub name: &'static str,

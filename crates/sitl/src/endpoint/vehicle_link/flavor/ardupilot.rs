@@ -49,7 +49,7 @@ impl ModeRow {
         self
     }
 
-    /// Makes the vehicle hold position while armed without stick input, still reporting this mode number.
+    /// Makes the vehicle hold position while it is armed without stick input, but still report this mode number.
     const fn hold_without_sticks(mut self) -> Self {
         self.mode_without_sticks = Some(FlightMode::Hold);
         self.also_showing(&[FlightMode::Hold])

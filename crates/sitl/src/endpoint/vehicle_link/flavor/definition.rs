@@ -107,7 +107,7 @@ pub struct Flavor {
     pub take_off: TakeOffRule,
     /// Values in COMPONENT_ARM_DISARM that force arming or disarming.
     pub force: &'static [f64],
-    /// Whether the altitude of a region of interest command is above mean sea level, regardless of its frame.
+    /// Whether the altitude of a region-of-interest command is above mean sea level, regardless of its frame.
     pub roi_altitude_above_sea_level: bool,
     /// Results for rejected requests.
     pub refusals: RefusalResults,

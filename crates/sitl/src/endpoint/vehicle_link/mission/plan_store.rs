@@ -20,7 +20,7 @@ use spandrel_model::time::SimTime;
 const MAX_ITEMS: u16 = 2_000;
 /// Timeout after which a stalled upload is canceled, s; longer than clients keep retrying.
 const STALL_S: f64 = 10.0;
-/// Every n-th retry of the first item request uses the other encoding (estimate: one second at the usual timeout).
+/// Every nth retry of the first item request uses the other encoding (estimate: one second at the usual timeout).
 const SWITCH_ENCODING_EVERY: u8 = 4;
 /// Timeout after which a mission item request is repeated, s, as in PX4.
 const RETRY_INTERVAL_S: f64 = 0.25;
@@ -319,7 +319,7 @@ impl PlanStore {
         self.plans[1].iter().any(fence_and_rally::is_return)
     }
 
-    /// Returns the number of items of a plan as transferred.
+    /// Returns the number of items in a plan as transferred.
     fn count(&self, kind: MavMissionType, slot: usize) -> u16 {
         let stored = self.plans[slot].len() as u16;
         if stored == 0 { 0 } else { stored + self.lead(kind) }
@@ -341,7 +341,7 @@ impl PlanStore {
         self.speed_factor = pace;
     }
 
-    /// Returns the numbers of mission items, fence items and rally points, for the parameters.
+    /// Returns the number of mission items, fence items and rally points, for the parameters.
     #[must_use]
     pub fn totals(&self) -> [u16; 3] {
         [self.count(MavMissionType::MAV_MISSION_TYPE_MISSION, 0), self.plans[1].len() as u16, self.plans[2].len() as u16]
@@ -635,7 +635,7 @@ impl PlanStore {
         Some(again)
     }
 
-    /// Returns the mission as autopilot steps. `home_m` is home's position relative to the origin, m.
+    /// Returns the mission as autopilot steps. `home_m` is home's position relative to the origin in meters.
     #[must_use]
     pub fn steps(&self, plane: &LocalPlane, home_m: Option<Vec3<Ned>>) -> Vec<MissionStep> {
         let all = &self.plans[0];
@@ -654,7 +654,7 @@ impl PlanStore {
     }
 }
 
-/// Shifts an item's sequence number, and the target of a jump, by `by`.
+/// Shifts an item's sequence number and a jump's target by `by`.
 fn shift_sequence(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA {
     item.seq = (i32::from(item.seq) + by).max(0) as u16;
     if item.command == MavCmd::MAV_CMD_DO_JUMP {

@@ -1,6 +1,6 @@
-//! PX4 parameters for behavior: failsafe actions, return, limits, missions. Unless stated otherwise, ranges and
-//! defaults are PX4's (PX4ParameterFactMetaData.xml of QGroundControl 5.0.1). `OperatorRules` of the autopilot
-//! documents the effects.
+//! PX4 behavior parameters: failsafe actions, returns, limits, and missions. Unless stated otherwise, ranges and
+//! defaults are PX4's (PX4ParameterFactMetaData.xml of QGroundControl 5.0.1). The autopilot's `OperatorRules` documents
+//! the effects.
 
 use super::param_value::ParamValue::{self, Int, Real};
 use super::row::{Row, row};
@@ -10,7 +10,7 @@ const CONTROL: &str = "Multicopter Position Control";
 const MISSION: &str = "Mission";
 const RETURN: &str = "Return Mode";
 
-/// Modes for a switch position, with PX4's numbers.
+/// Modes that a switch position can select, with PX4's numbers.
 const FLIGHT_MODES: &[(i32, &str)] = &[
     (-1, "Unassigned"),
     (0, "Manual"),

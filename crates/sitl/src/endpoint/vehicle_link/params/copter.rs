@@ -156,7 +156,7 @@ fn read_only_rows() -> Vec<Row> {
     ]
 }
 
-/// Modes for a switch position, with ArduCopter's numbers.
+/// Modes that a switch position can select, with ArduCopter's numbers.
 const FLIGHT_MODES: &[(i32, &str)] = &[
     (0, "Stabilize"),
     (1, "Acro"),

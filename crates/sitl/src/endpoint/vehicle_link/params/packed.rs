@@ -74,7 +74,7 @@ fn pack(selection: ParamSelection, params: &Params, defaults: &Params) -> Vec<u8
     out
 }
 
-/// Returns ArduPilot's number of a type.
+/// Returns ArduPilot's number for a type.
 fn kind(wire: MavParamType) -> u8 {
     match wire {
         MavParamType::MAV_PARAM_TYPE_INT8 => 1,

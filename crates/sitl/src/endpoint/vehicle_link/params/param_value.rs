@@ -1,6 +1,6 @@
-//! A parameter value with its type.
+//! A parameter value and its type.
 
-/// A parameter value with its type.
+/// A parameter value and its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ParamValue {
     /// INT32.

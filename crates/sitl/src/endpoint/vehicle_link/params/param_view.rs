@@ -8,7 +8,7 @@ use super::table;
 /// A flavor's view of the parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParamView {
-    /// Number of the flavor in SPAN_FLAVOUR.
+    /// The flavor's number in SPAN_FLAVOUR.
     pub number: i32,
     /// Whether values are cast to float; otherwise they are encoded bytewise.
     pub cast: bool,

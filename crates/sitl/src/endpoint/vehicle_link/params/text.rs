@@ -37,7 +37,7 @@ pub fn write(params: &Params, system_id: u8) -> String {
 /// file may come from another vehicle.
 ///
 /// # Errors
-/// Returns all invalid lines; no parameter is set in that case.
+/// Returns all invalid lines. No parameter is set in that case.
 pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<ParamFileProblem>> {
     let mut fresh = params.clone();
     let mut problems = Vec::new();

@@ -41,7 +41,7 @@ pub(crate) fn estimator(v: &VehicleSnapshot) -> Option<DialectMessage> {
     ]))
 }
 
-/// Sends the gyroscope drift: the correction that the estimator adds to its readings. The estimator does not track its
+/// Sends the gyroscope drift: the correction that the estimator adds to the readings. The estimator does not track its
 /// attitude error, so those fields are 0.
 pub(crate) fn ahrs(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let drift = v.readings.imu.map_or(Vec3::zero(), |imu| v.estimate.rates_rad_s - imu.rates_rad_s);

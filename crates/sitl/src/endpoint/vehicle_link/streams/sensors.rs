@@ -64,8 +64,8 @@ pub(crate) fn highres_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Returns the specific force, milli-g; angular rates, mrad/s; magnetic field, mgauss. RAW_IMU does not define units;
-/// ArduPilot uses these.
+/// Returns the specific force in milli-g, the angular rates in mrad/s, and the magnetic field in mgauss. RAW_IMU does
+/// not define units; ArduPilot uses these.
 fn milli(v: &VehicleSnapshot) -> Option<[[i16; 3]; 3]> {
     let imu = v.readings.imu.as_ref()?;
     let milli = |value: f64| (1000.0 * value).round() as i16;
@@ -189,7 +189,7 @@ fn range(v: &VehicleSnapshot, id: u8, distance_m: f64, orientation: MavSensorOri
     })
 }
 
-/// Returns the variance of a standard deviation, cm², limited to 255, which means "unknown".
+/// Returns the variance for a standard deviation in cm², limited to 255, which means "unknown".
 fn variance_cm2(noise_m: f64) -> u8 {
     (noise_m * 100.0 * noise_m * 100.0).round().min(f64::from(u8::MAX)) as u8
 }

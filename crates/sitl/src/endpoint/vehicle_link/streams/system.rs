@@ -127,7 +127,7 @@ pub(crate) fn extended_state(v: &VehicleSnapshot) -> Option<MavMessage> {
     let landed_state = match v.status.landed {
         LandedState::OnGround => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
         LandedState::TakingOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
-        // As in PX4 and ArduPilot: until the takeoff height is reached.
+        // As in PX4 and ArduPilot, the state lasts until the takeoff height is reached.
         LandedState::InAir if v.status.climbing_out => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
         LandedState::InAir => MavLandedState::MAV_LANDED_STATE_IN_AIR,
         LandedState::Landing => MavLandedState::MAV_LANDED_STATE_LANDING,
@@ -216,7 +216,7 @@ pub(crate) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
         seq: if v.plans.mission_items == 0 { 0 } else { v.plans.lead } + item,
         total: v.plans.mission_items,
         mission_state: state,
-        // 1: in mission mode; 2: not in mission mode.
+        // 1 means in mission mode, 2 not in mission mode.
         mission_mode: if flying { 1 } else { 2 },
         mission_id: v.plans.ids[0],
         fence_id: v.plans.ids[1],
@@ -282,7 +282,7 @@ pub(crate) fn metadata(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::COMPONENT_METADATA(COMPONENT_METADATA_DATA { time_boot_ms: v.clock.boot_ms(), file_crc: general.crc, uri }))
 }
 
-/// The same for older clients.
+/// The same location for older clients.
 pub(crate) fn information(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavor.params).general;
     Some(MavMessage::COMPONENT_INFORMATION(COMPONENT_INFORMATION_DATA {
