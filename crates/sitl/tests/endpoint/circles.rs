@@ -74,7 +74,7 @@ fn flight_mission_heading_follows_the_region_of_interest_until_cleared() {
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| home_north(s) > home + 25.0));
-    // Position of the region of interest, m; 1e-7 degrees of longitude are shorter than those of latitude.
+    // Position of the region of interest, m; a degree of longitude is shorter than a degree of latitude.
     let east = 3_000.0 * 1e-7 * 40_000_000.0 / 360.0 * 46.7f32.to_radians().cos();
     let p = station.place();
     let wanted = (east - p[1]).atan2(home as f32 + 20.0 - p[0]);

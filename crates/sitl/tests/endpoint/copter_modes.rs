@@ -10,7 +10,7 @@ use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
-/// Tolerance within which a position counts as reached, m (the autopilot's 0.4 m and the deceleration).
+/// Tolerance within which a position counts as reached, m (the autopilot's 0.4 m, plus deceleration).
 const NEAR_M: f32 = 0.7;
 /// Maximum deviation from the path on the way back, m (Smart RTL's accuracy of 2 m, at which it turns to the next
 /// point, and the deviations of both flights).
@@ -92,7 +92,7 @@ fn regress_smart_rtl_retraces_its_path_and_lands_at_the_start() {
     let pad = station.place();
     let corner = [pad[0] + 20.0, pad[1], pad[2] - 2.0];
     let end = [pad[0] + 20.0, pad[1] + 20.0, pad[2] - 2.0];
-    // The flown path, with rounded corners and overshoots.
+    // The actual flight path, with rounded corners and overshoots.
     let mut path = Vec::new();
     for place in [corner, end] {
         station.send(&local(MavFrame::MAV_FRAME_LOCAL_NED, 0x0DF8, place));
@@ -229,7 +229,7 @@ fn regress_condition_yaw_respects_rate_and_direction() {
         s.run_ms(8_000);
     };
     point(&mut station, 0.0);
-    // Counterclockwise to 90 degrees is 270 degrees the long way, at 30 deg/s.
+    // Turning counterclockwise to 90 degrees is a 270-degree turn at 30 deg/s.
     assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[90.0, 30.0, -1.0, 0.0])), ACCEPTED);
     station.run_ms(4_000);
     let on_the_way = yaw(&mut station).to_degrees();
@@ -266,7 +266,7 @@ fn regress_pause_holds_and_continue_resumes_in_guided() {
     assert_eq!(station.command(1, pause, one(0.0)), FAILED, "pause must be rejected in other modes");
 }
 
-/// The mission takes off, waits until a time of day, and lands; the drill starts on a whole minute.
+/// The mission takes off, waits until a given time of day, and lands. The drill starts on a whole minute.
 #[test]
 fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
     let mut station = copter_at(5.0);
@@ -357,8 +357,8 @@ fn regress_follow_mode_keeps_its_offset() {
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt - g.relative_alt) } else { None })
         .unwrap();
     assert_eq!(station.command(1, SET_MODE, mode(23.0)), ACCEPTED);
-    // A person on the ground walks east at 1.5 m/s, starting 10 m north of the pad. A degree of longitude is 0.6858 of
-    // a degree of latitude here.
+    // A person on the ground walks east at 1.5 m/s, starting 10 m north of the pad. Here, a degree of longitude is
+    // 0.6858 times as long as a degree of latitude.
     let east_m_per_e7 = M_PER_E7 * 0.6858;
     let mut east = 0.0;
     for k in 0..120 {
@@ -439,7 +439,7 @@ fn regress_copter_streams_ardupilot_messages_as_a_multicopter() {
     station.received.clear();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(193.0)), ACCEPTED);
     let report = station.received.iter().find(|frame| frame.message_id == 193).expect("EKF_STATUS_REPORT").payload(26);
-    // Flags of a healthy ArduCopter, recorded: 831.
+    // Flags recorded from a healthy ArduCopter: 831.
     assert_eq!(u16::from_le_bytes([report[20], report[21]]), 831);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(245.0)), ACCEPTED);
     let vtol = station.last_message(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.vtol_state) } else { None });

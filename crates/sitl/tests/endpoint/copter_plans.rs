@@ -1,5 +1,5 @@
-//! Missions and fences in the ArduCopter interface: item 0 is home, and the fence is active if its parameter enables
-//! it.
+//! Missions and fences in the ArduCopter interface: item 0 is home, and the fence is active only if its parameter
+//! enables it.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_heartbeat};
@@ -60,7 +60,7 @@ fn flight_fence_acts_only_if_enabled() {
     }
 }
 
-/// After a fence has stopped the vehicle, setpoints outside the fence must be ignored, although they keep arriving.
+/// After a fence has stopped the vehicle, setpoints outside the fence must be ignored even if they keep arriving.
 #[test]
 fn flight_fence_breach_ends_guided_flight() {
     let mut station = copter_at(5.0);

@@ -11,14 +11,14 @@ use spandrel_testkit::plans::{home_north, item};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Values from the issue: fraction of lost datagrams, delay range (which reorders datagrams), fraction of duplicated
-/// datagrams.
+/// Values from the issue: the fraction of lost datagrams, the delay range (which reorders datagrams), and the fraction
+/// of duplicated datagrams.
 const LOSS: f64 = 0.3;
 const DELAY_MS: (f64, f64) = (100.0, 300.0);
 const DUPLICATE_PROBABILITY: f64 = 0.1;
 /// Retry interval of the client, ms: one and a half round trips.
 pub(super) const TIMEOUT_MS: i64 = 900;
-/// Limit for each exchange, s of simulation time; only a hang takes longer.
+/// Time limit for each exchange, in seconds of simulation time; only a hang takes longer.
 pub(super) const LIMIT_S: f64 = 1_200.0;
 
 /// One direction of the link.
@@ -100,7 +100,7 @@ impl Client {
         self.ask_every(TIMEOUT_MS, message, like)
     }
 
-    /// Same as `ask` with another retry interval, ms.
+    /// Same as `ask`, but with another retry interval in ms.
     pub(super) fn ask_every<T>(
         &mut self,
         timeout_ms: i64,
@@ -129,7 +129,7 @@ fn wire_mission_transfers_survive_a_bad_link() {
     upload_and_download(&mut Client::new(1), 40);
 }
 
-/// The case of MAVLink's testing suite: 500 items with a quarter of all datagrams lost.
+/// The case from MAVLink's test suite: 500 items with a quarter of all datagrams lost.
 #[test]
 fn wire_500_items_are_transferred_despite_25_percent_loss() {
     upload_and_download(&mut Client::with_loss(5, 0.25), 500);

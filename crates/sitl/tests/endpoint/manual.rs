@@ -1,4 +1,4 @@
-//! Manual control through MANUAL_CONTROL and RC overrides: ownership of the sticks, and timeouts.
+//! Manual control through MANUAL_CONTROL and RC overrides: stick ownership and timeouts.
 
 use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::dialect::*;
@@ -55,7 +55,7 @@ fn echoed_channels(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(L
             }
         }
     }
-    // Keeps the last echo of each link.
+    // Keeps each link's last echo.
     out.into_iter().rev().take(3).collect()
 }
 
@@ -163,8 +163,8 @@ fn wire_released_channels_are_not_stick_input() {
     assert!(station.all(|m| matches!(m, MavMessage::RC_CHANNELS(_)).then_some(())).is_empty());
 }
 
-/// Returns the time from the client's last message to the failsafe of a manually flown vehicle, s, at the given
-/// simulation speed.
+/// Returns the time, in seconds, from the client's last message to the failsafe of a manually flown vehicle at the
+/// given simulation speed.
 fn timeout_s(pace: f64, lockstep: bool) -> f64 {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.set_speed_factor(pace);
@@ -280,7 +280,7 @@ fn texts(station: &Station) -> Vec<String> {
     station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
 }
 
-/// Sends sticks to the right from a second ground station with the same IDs on its own link.
+/// Sends right stick deflection from a second ground station that has the same IDs but its own link.
 fn send_from_other_link(station: &mut Station, y: i16) {
     let sticks = MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() };
     let frame = spandrel_mavlink::codec::Encoder::new(255, 190).encode(&MavMessage::MANUAL_CONTROL(sticks));

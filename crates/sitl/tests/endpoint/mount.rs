@@ -65,7 +65,7 @@ fn wire_region_of_interest_height_follows_the_flavor() {
             let steep = home.altitude as f32 / 1_000.0 + 50.0;
             let wanted = if over_sea || flavor.roi_altitude_above_sea_level { 45.0 } else { steep.atan2(50.0).to_degrees() };
             let pitch = pitch_deg(&mut station);
-            // The drone's estimate of its position is accurate to a meter.
+            // The drone's position estimate is accurate to about a meter.
             assert!((pitch - wanted).abs() < 1.5, "{} {frame:?}: {pitch} not {wanted}", flavor.name);
         }
     }

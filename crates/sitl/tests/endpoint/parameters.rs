@@ -28,7 +28,7 @@ fn params(face: &'static ParamView) -> Params {
     Params::new(1, AircraftValues::SMALL_AIRCRAFT, face)
 }
 
-/// Returns the names of a list, each with the fields of the autopilot's own description.
+/// Returns the names in a list, each with the fields of the autopilot's own description.
 fn names(list: &str) -> Vec<(&str, &str)> {
     list.lines().filter(|line| !line.starts_with('#')).filter_map(|line| line.split_once('\t')).collect()
 }
@@ -115,7 +115,7 @@ fn exact_default_parameters_give_the_default_tuning() {
     let mut tuning = Tuning::default();
     params(&PX4).apply(&mut tuning);
     let mut expected = OperatorRules::default();
-    // The parameter is transmitted with 32 bits.
+    // The parameter has 32 bits on the wire.
     expected.responses.battery_emergency_pct = 100.0 * f64::from(0.05f32);
     expected.responses.takeover_deflection = tuning.rules.responses.takeover_deflection;
     assert!((tuning.rules.responses.takeover_deflection - 0.3).abs() < 1e-6);

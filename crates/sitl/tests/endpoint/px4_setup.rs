@@ -5,7 +5,7 @@ use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const CALIBRATE: MavCmd = MavCmd::MAV_CMD_PREFLIGHT_CALIBRATION;
-/// Maximum gyroscope offset found by a calibration: bias of this class of aircraft plus noise of the mean, rad/s.
+/// Maximum gyroscope offset found by a calibration: this aircraft class's bias plus the noise of the mean, rad/s.
 const OFFSET_RAD_S: f32 = 0.05;
 
 fn ready() -> Station {

@@ -1,4 +1,4 @@
-//! Behavior that simple clients rely on: order of heartbeats, clocks that start with the autopilot, the older request
+//! Behavior that simple clients rely on: heartbeat order, clocks that start when the autopilot boots, the older request
 //! for mission items, and items without a position.
 #![allow(deprecated, reason = "simple clients support nothing newer")]
 
@@ -185,7 +185,7 @@ fn regress_upload_uses_the_request_form_that_the_client_answers() {
     assert_eq!(station.ask(&refusal, question), Some((0, false)));
 }
 
-/// Returns the vehicle's position, m north of the pad and above sea level, from GLOBAL_POSITION_INT.
+/// Returns the vehicle's position from GLOBAL_POSITION_INT, in meters north of the pad and meters above sea level.
 fn place(station: &mut Station) -> (f64, f64) {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     station

@@ -56,7 +56,7 @@ fn run_from(
     }
 }
 
-/// Returns a point on the upper side of a member, given in the bridge's axes.
+/// Returns a point on a member's upper side, specified in the bridge's axes.
 fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> Vec3<Enu> {
     let (name, _) = member.split_once('/').unwrap();
     let bridge = scenario.bridges.iter().find(|b| b.name == name).unwrap();
@@ -73,7 +73,7 @@ fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> V
     from + down * distance
 }
 
-/// Returns the distance of the lowest part of a level aircraft below its center in meters.
+/// Returns how far the lowest part of a level aircraft is below its center, in meters.
 fn lowest_m(vehicle: &Vehicle) -> f64 {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + FOOT_M;
     if vehicle.hull.caged { feet.max(0.5 * vehicle.hull.tip_to_tip_m) } else { feet }
@@ -83,7 +83,7 @@ fn lowest_m(vehicle: &Vehicle) -> f64 {
 fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
     // Maximum drift in 5 s, m, after one second of settling from a height of about a centimeter.
     const DRIFT_M: f64 = 1e-3;
-    // Relative tolerance of the mean force over 5 s.
+    // Relative tolerance for the mean force over 5 s.
     const FORCE: f64 = 1e-3;
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
@@ -120,7 +120,7 @@ fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
 
 #[test]
 fn exact_aircraft_on_the_pad_does_not_drift() {
-    // Maximum drift in 60 s, m, and relative tolerance of the mean normal force.
+    // Maximum drift in 60 s, m, and relative tolerance for the mean normal force.
     const DRIFT_M: f64 = 1e-6;
     const FORCE: f64 = 1e-6;
     let scenario = scenario();
@@ -181,7 +181,7 @@ fn exact_tilted_aircraft_on_the_deck_comes_to_rest_upright() {
     assert!(up < -0.999_9, "the aircraft does not stand upright: {up}");
 }
 
-/// Checks that the arms do not penetrate anything: there must be no obstacle between the center and the hubs.
+/// Checks that the arms do not penetrate anything: no obstacle may be between the center and the hubs.
 fn is_free_of_obstacles(vehicle: &Vehicle, site: &Site, s: &PhysicsState) -> bool {
     let center = s.rigid.position_m.enu();
     let mut all = vehicle.rotors.iter().map(|r| (s.rigid.attitude * r.position_m).enu());

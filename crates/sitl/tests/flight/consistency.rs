@@ -43,7 +43,7 @@ struct Shadow {
     ground_up_m: fn(SimTime) -> f64,
 }
 
-/// Height of ground that does not move.
+/// Ground height for ground that does not move.
 pub(super) fn flat(_: SimTime) -> f64 {
     0.0
 }
@@ -71,7 +71,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Creates a run under an open sky, without optical flow, with the ground always within the range finder's reach.
+    /// Creates a run under an open sky, without optical flow, with the ground always within the range finder's range.
     pub(super) fn under_open_sky(seed: u64, ground_up_m: fn(SimTime) -> f64) -> Self {
         let mut vehicle = vehicle("phantom2");
         vehicle.sensors.flow_velocity_m_s = 0.0;

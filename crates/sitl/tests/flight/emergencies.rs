@@ -70,7 +70,7 @@ fn flight_without_gnss_is_controllable_with_optical_flow() {
 
 #[test]
 fn flight_without_position_keeps_height_and_tilt_control() {
-    // Maximum change of height in two minutes, m: drift of the barometer.
+    // Maximum height change in two minutes, m: barometer drift.
     const HEIGHT_M: f64 = 1.0;
     for name in VEHICLES {
         let mut bench = Bench::in_position_mode(&vehicle(name), 8, 8.0);
@@ -160,7 +160,7 @@ fn flight_takeoff_with_low_battery_returns_once() {
 
 #[test]
 fn flight_recovers_from_an_upset() {
-    // Limits of the lost height, m, and recovery time, s, for a body that was turned upside down.
+    // Maximum height loss, m, and maximum recovery time, s, for a vehicle that was turned upside down.
     const MAX_HEIGHT_LOSS_M: f64 = 14.0;
     const RECOVERY_S: f64 = 5.0;
     for name in VEHICLES {

@@ -6,7 +6,7 @@ use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, Sticks};
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
-/// Dead band of the sticks (the default of the tuning).
+/// Stick dead band (the tuning's default).
 const DEADBAND: f64 = 0.03;
 
 /// Returns the stick deflection for a fraction of the full command.
@@ -41,14 +41,14 @@ fn flight_hover_is_steady() {
 
 #[test]
 fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
-    // Tolerance of the velocity estimate, m/s.
+    // Velocity estimate tolerance, m/s.
     const SPEED_M_S: f64 = 0.2;
     // Limits as fractions of the speed: overshoot, and remaining speed that counts as stopped.
     const OVERSHOOT: f64 = 0.08;
     const STOPPED: f64 = 0.1;
     // Maximum backward speed after the stop, m/s.
     const MAX_BACKWARD_M_S: f64 = 0.2;
-    // Maximum change of height during the maneuver, m.
+    // Maximum height change during the maneuver, m.
     const HEIGHT_M: f64 = 0.3;
     // The highest speed that inspection requires: 4.5 m/s, the job's speed limit.
     const INSPECTION_M_S: f64 = 4.5;
@@ -195,8 +195,8 @@ fn flight_stops_from_full_speed_in_time() {
     }
 }
 
-/// Releases a full yaw stick. Returns the angle by which the nose swings back and the angle by which it first turned
-/// further, rad.
+/// Releases a fully deflected yaw stick. Returns the angle by which the nose swings back and the angle by which it
+/// first keeps turning, in rad.
 fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
     const HELD_S: f64 = 3.0;
     const SETTLED_S: f64 = 5.0;
@@ -215,11 +215,11 @@ fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
 
 #[test]
 fn regress_yaw_release_does_not_swing_back() {
-    // Limit of issue 16, rad (1 deg); a real PX4 swings back by 0.4 deg.
+    // Limit from issue 16, rad (1 deg); a real PX4 swings back by 0.4 deg.
     const MAX_SWING_BACK_RAD: f64 = 0.017_453;
-    // Slowing from 100 deg/s to rest in 0.3 s takes 15 deg; half as much again for the lag, rad.
+    // Stopping from 100 deg/s in 0.3 s takes 15 deg; the limit adds half as much again for lag, rad.
     const MAX_OVERSHOOT_RAD: f64 = 0.393;
-    // Initial height, m; in Stabilized mode, the vehicle sinks with the throttle stick centered.
+    // Starting height, m; in Stabilized mode, the vehicle sinks with the throttle stick centered.
     const START_HEIGHT_M: f64 = 40.0;
     for name in VEHICLES {
         let aircraft = vehicle(name);

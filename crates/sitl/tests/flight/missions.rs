@@ -9,9 +9,9 @@ use spandrel_testkit::shipped::vehicle;
 
 const STEP_S: f64 = 0.0025;
 const SPEEDS: SpeedLimits = SpeedLimits { default_m_s: 5.0, max_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
-/// Combined acceleration along and across the leg, each limited to 2, m/s².
+/// Maximum acceleration, m/s²: along and across the leg combined, each limited to 2.
 const ACCELERATION_M_S2: f64 = 3.0;
-/// Jerk of the speed (4) and of the corner (2.5), plus the effect of speed changes within a corner, m/s³.
+/// Maximum jerk, m/s³: 4 for the speed and 2.5 for the corner, plus the effect of speed changes within a corner.
 const JERK_M_S3: f64 = 10.0;
 
 fn point(north: f64, east: f64, up: f64) -> MissionStep {
@@ -102,7 +102,7 @@ fn regress_straight_leg_keeps_its_speed_through_waypoints() {
             }
         });
         assert!(bench.autopilot.status().mission_finished, "{name}: {:?}", bench.position());
-        // Overshoot of the mission speed, m/s: the error of the estimate.
+        // Mission speed overshoot, m/s: the estimation error.
         assert!(slowest >= HELD_M_S && fastest < 5.5, "{name}: {slowest} to {fastest} m/s");
     }
 }

@@ -1,4 +1,4 @@
-//! Effects of operator settings on failsafes, returns, limits, missions and the geofence in flight.
+//! Effects of operator settings on failsafes, returns, limits, missions and the geofence.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
@@ -261,7 +261,7 @@ fn flight_manual_and_automatic_limits_are_respected() {
         let kept = speed < 2.0 * (1.0 + ACCELERATION_M_S2);
         assert_eq!(kept, limit.is_finite(), "limit {limit}: {speed} m/s after 2 s");
     }
-    // Speed, climb, descent and yaw rate with the sticks.
+    // Speed, climb rate, descent rate and yaw rate under stick control.
     let mut bench = Bench::in_position_mode(&vehicle("phantom2"), 5, 12.0);
     let set = &mut bench.autopilot.tuning.rules.envelope;
     (set.manual_m_s, set.manual_up_m_s, set.manual_down_m_s, set.manual_yaw_rad_s) = (2.0, 0.8, 0.5, 0.5);

@@ -22,8 +22,8 @@ fn take_texts(bench: &mut Bench) -> Vec<String> {
     bench.autopilot.drain_events().into_iter().map(|event| event.text).collect()
 }
 
-/// Flies a square with the fault from its first leg on, then lands; returns the largest horizontal and vertical
-/// deviation, m, and the texts.
+/// Flies a square with the fault present from the first leg on, then lands. Returns the largest horizontal and vertical
+/// deviations, in meters, and the texts.
 fn square(name: &str, unit: FailureUnit, kind: FailureType) -> (f64, f64, Vec<String>) {
     let mut bench = Bench::airborne(&vehicle(name), 21, 5.0);
     take_texts(&mut bench);

@@ -8,16 +8,16 @@ use spandrel_sitl::sim::SimEvent;
 use spandrel_testkit::shipped::text;
 use spandrel_testkit::station::{Station, p};
 
-/// Values of `wind.level`.
+/// Values of `wind.level` in a job.
 const LEVELS: [&str; 4] = ["calm", "light", "gentle", "medium"];
 /// Distance from the pad beyond which a vehicle counts as lost, m. In medium wind, gusts of 15 m/s push the lightest
 /// vehicle, which can tilt enough for 13 m/s, up to 15 m away; before the fix, the caged vehicle drifted 100 to 400 m.
 const MAX_DISTANCE_M: f64 = 20.0;
-/// Time within which the vehicle must be ready to arm, s: alignment waits for half a second without motion, the
-/// receiver for its first fix.
+/// Time within which the vehicle must be ready to arm, s: alignment requires half a second without motion, and the
+/// receiver requires its first fix.
 const READY_S: i64 = 30;
 const HOVER: SimTime = SimTime::from_ms(60_000);
-/// Time limit for landing, s: 4 s from 2.5 m at the slow landing speed, 2 s for disarming, and margin.
+/// Time limit for landing, s: 4 s from 2.5 m at the slow landing speed, 2 s for disarming, plus margin.
 const LAND_S: i64 = 40;
 
 /// Parameters of a flight.
