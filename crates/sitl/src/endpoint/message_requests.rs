@@ -74,7 +74,7 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavRe
     }
 }
 
-/// Returns the stream rows of a message sent by the addressed component.
+/// Returns the stream rows for a message from the addressed component.
 fn addressed(id: u32, component: u8) -> impl Iterator<Item = usize> {
     let mine =
         move |row: &usize| component == 0 || STREAMS[*row].component == component || !matches!(component, AUTOPILOT | CAMERA);

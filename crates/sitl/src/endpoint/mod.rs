@@ -35,7 +35,7 @@ pub use vehicle_link::{flavor, logs, params, snapshot};
 /// The vehicle's MAVLink endpoint.
 #[derive(Debug, Clone)]
 pub struct Endpoint {
-    /// The links.
+    /// The vehicle's links.
     pub links: Links,
     /// The autopilot interface.
     pub vehicle: VehicleLink,

@@ -10,7 +10,7 @@ use super::streams::{self, STREAMS};
 use crate::autopilot::{Autopilot, AutopilotEvent};
 use spandrel_mavlink::dialect::MavSeverity;
 
-/// Message ID of HEARTBEAT.
+/// HEARTBEAT's message ID.
 const HEARTBEAT: u32 = 0;
 
 /// Repeats the autopilot's heartbeat after the camera's heartbeat in the same datagram, for clients that use only the

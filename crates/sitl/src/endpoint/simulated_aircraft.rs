@@ -19,7 +19,7 @@ pub struct SimulatedAircraft<'a> {
     pub plane: &'a LocalPlane,
     /// Latest sensor readings.
     pub readings: &'a Readings,
-    /// True state.
+    /// True state of the aircraft.
     pub truth: &'a RigidState,
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,

@@ -16,7 +16,7 @@ const LISTING_COST: u32 = 8;
 pub struct FileJob {
     /// Identifies the job; returned with its result.
     pub ticket: u64,
-    /// The operation.
+    /// The file operation to run.
     pub action: FileAction,
 }
 
@@ -25,7 +25,7 @@ pub struct FileJob {
 pub enum FileAction {
     /// Lists the names and sizes in a directory in deterministic order.
     List(FilePath),
-    /// Returns the size of a file.
+    /// Returns a file's size.
     Size(FilePath),
     /// Creates an empty file, or truncates an existing one.
     Create(FilePath),
@@ -62,7 +62,7 @@ impl FileAction {
     }
 }
 
-/// An entry of a directory listing.
+/// An entry in a directory listing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DirectoryEntry {
     /// A directory.
@@ -71,7 +71,7 @@ pub enum DirectoryEntry {
     File(String, u64),
 }
 
-/// Result of a job.
+/// A job's result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FileJobResult {
     /// Result of [`FileAction::List`].
@@ -91,7 +91,7 @@ pub enum FileJobResult {
     Nothing,
 }
 
-/// Reason for which a job failed.
+/// The reason a job failed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileError {
     /// The path does not exist.

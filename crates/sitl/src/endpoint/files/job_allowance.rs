@@ -27,7 +27,7 @@ impl JobAllowance {
         self.remaining_at(now) >= action.cost()
     }
 
-    /// Deducts the cost of an action.
+    /// Deducts an action's cost.
     pub fn spend(&mut self, action: &FileAction, now: SimTime) {
         (self.remaining, self.updated_at) = (self.remaining_at(now).saturating_sub(action.cost()), now);
     }

@@ -68,7 +68,7 @@ impl FileServer {
         }
     }
 
-    /// Releases all state of a closed link.
+    /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.sessions.close_matching(|client| client.0 == link);
         self.answered.forget(link);
@@ -77,7 +77,7 @@ impl FileServer {
         self.waiting.retain(|_, waiting| waiting.client.0 != link);
     }
 
-    /// Returns the action of the next job.
+    /// Returns the next job's action.
     #[must_use]
     pub fn next_action(&self) -> Option<&FileAction> {
         self.jobs.front().map(|job| &job.action)
@@ -141,7 +141,7 @@ impl FileServer {
         }
     }
 
-    /// Handles the result of a job.
+    /// Handles a job's result.
     pub fn done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>, now: SimTime) {
         if self.queue_next_slice(ticket, &outcome) {
             return;

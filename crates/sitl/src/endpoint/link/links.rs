@@ -88,7 +88,7 @@ impl Links {
         self.peers.values_mut().filter(|link| !link.answers_only)
     }
 
-    /// Returns the kind of a link and whether it runs in lockstep.
+    /// Returns a link's kind and whether the link runs in lockstep.
     #[must_use]
     pub fn kind(&self, id: LinkId) -> Option<(LinkKind, bool)> {
         self.peers.get(&id).map(|link| (link.kind, link.lockstep))

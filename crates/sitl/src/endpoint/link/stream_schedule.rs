@@ -126,7 +126,7 @@ impl StreamSchedule {
         self.restart(now);
     }
 
-    /// Makes every stream due.
+    /// Marks every stream as due.
     pub fn restart(&mut self, now: SimTime) {
         self.streams.iter_mut().for_each(|stream| stream.next = now);
         self.next_due = now;

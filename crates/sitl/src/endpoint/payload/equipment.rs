@@ -11,11 +11,11 @@ use spandrel_model::vehicle::Camera;
 /// State of the payload, owned by the endpoint and read by the simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Payload {
-    /// Camera.
+    /// Camera state.
     pub camera: CameraState,
-    /// Gimbal.
+    /// Gimbal state.
     pub gimbal: GimbalState,
-    /// Lamp.
+    /// Lamp state.
     pub lamp: LampState,
     /// Changes to report.
     pub changes: PayloadChange,

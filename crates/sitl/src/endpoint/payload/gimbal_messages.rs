@@ -31,7 +31,7 @@ fn move_gimbal(gimbal: &mut GimbalState, flags: u32, (pitch_rad, rate_rad_s): (f
     }
 }
 
-/// Returns the pitch of a quaternion; NaN if it is not set.
+/// Returns a quaternion's pitch, or NaN if the quaternion is not set.
 fn pitch_of(q: [f32; 4]) -> f32 {
     Rotation::<Frd, Ned>::from_wxyz(q.map(f64::from)).map_or(f32::NAN, |attitude| attitude.euler().1 as f32)
 }

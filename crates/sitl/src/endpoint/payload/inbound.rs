@@ -18,7 +18,7 @@ pub(crate) struct PayloadMessage<'a, 'v> {
 }
 
 impl PayloadMessage<'_, '_> {
-    /// Sends an answer as the camera component.
+    /// Sends a response from the camera component.
     pub fn answer(&mut self, message: &MavMessage) {
         self.links.answer(CAMERA, self.link, message);
     }

@@ -27,7 +27,7 @@ pub struct PayloadInput<'a> {
     pub roi_above_sea_level: bool,
     /// Stick positions as received: forward, right, up, yaw, -1 to 1; `None` after the timeout.
     pub sticks: Option<[f64; 4]>,
-    /// True state.
+    /// True state of the aircraft.
     pub truth: &'a RigidState,
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,

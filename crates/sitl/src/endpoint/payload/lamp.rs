@@ -26,7 +26,7 @@ struct BlinkSequence {
 }
 
 impl LampState {
-    /// Lamp off.
+    /// The lamp is off.
     pub const OFF: Self = Self { on: false, blinking: None };
 
     /// Switches the lamp on or off; ends a blink sequence.

@@ -35,7 +35,7 @@ use std::ops::Range;
 /// State of the equipment interface.
 #[derive(Debug, Clone)]
 pub struct PayloadLink {
-    /// Camera, gimbal, lamp.
+    /// The camera, gimbal and lamp.
     pub equipment: Payload,
     /// Seconds of simulation time per second of client time.
     pub speed_factor: f64,
@@ -54,7 +54,7 @@ impl PayloadLink {
         Self { equipment: Payload::new(), speed_factor: 1.0, files, scoring: ScoringFeed::new(), image_requests: BTreeMap::new() }
     }
 
-    /// Releases all state of a closed link.
+    /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.files.forget(link);
         self.image_requests.remove(&link);

@@ -38,7 +38,7 @@ impl PayloadLink {
         }
     }
 
-    /// Sends the replies of the camera's file server.
+    /// Sends the camera file server's replies.
     pub(crate) fn send_files(&mut self, links: &mut Links) {
         files::send_replies(&mut self.files, CAMERA, links);
     }

@@ -22,7 +22,7 @@ pub(crate) struct InboundMessage<'a, 'v> {
     pub input: &'a PayloadInput<'v>,
     /// The autopilot.
     pub autopilot: &'a mut Autopilot,
-    /// Camera, gimbal, lamp.
+    /// The camera, gimbal and lamp.
     pub payload: &'a mut Payload,
     /// All links.
     pub links: &'a mut Links,
@@ -39,7 +39,7 @@ impl InboundMessage<'_, '_> {
         self.autopilot.status().home_m.map_or(0.0, |home| -home.down())
     }
 
-    /// Sends an answer as the autopilot.
+    /// Sends a response from the autopilot.
     pub fn answer(&mut self, message: &impl Encodable) {
         self.links.answer(AUTOPILOT, self.link, message);
     }

@@ -17,7 +17,7 @@ pub(super) fn timesync(_: &mut VehicleLink, sync: &TIMESYNC_DATA, a: &mut Inboun
     a.answer(&MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));
 }
 
-/// Answers a ping request. A ping without a target is a request, one with a target is a response.
+/// Answers a ping request. A ping without a target is a request; one with a target is a response.
 pub(super) fn ping(_: &mut VehicleLink, ping: &PING_DATA, a: &mut InboundMessage) {
     if ping.target_system == 0 {
         let (target_system, target_component) = a.from;

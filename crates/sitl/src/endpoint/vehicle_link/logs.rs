@@ -116,7 +116,7 @@ impl LogTransfers {
         self.downloads.remove(&link);
     }
 
-    /// Releases all state of a closed link.
+    /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.stop(link);
         self.entries.remove(&link);
@@ -124,7 +124,7 @@ impl LogTransfers {
         self.continue_listing();
     }
 
-    /// Returns the action of the next job.
+    /// Returns the next job's action.
     #[must_use]
     pub fn next_action(&self) -> Option<&FileAction> {
         self.jobs.front().map(|job| &job.action)
@@ -177,7 +177,7 @@ impl LogTransfers {
         }
     }
 
-    /// Handles the result of a job.
+    /// Handles a job's result.
     pub fn done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>) {
         if self.ticket == Some(ticket) {
             self.ticket = None;

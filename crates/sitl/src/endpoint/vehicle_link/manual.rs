@@ -28,7 +28,7 @@ const RELEASE_HIGH: u16 = 65_534;
 const MAX_FULL_RANGE_SENDERS: usize = 64;
 /// Minimum change of the gimbal axis that has an effect, as a fraction of full deflection.
 const GIMBAL_STEP: f64 = 0.01;
-/// Bits of `enabled_extensions`.
+/// Extension bits in `enabled_extensions`.
 const HAS_PITCH: u8 = 1;
 
 /// A sender: its link, system ID and component ID.

@@ -212,7 +212,7 @@ impl VehicleLink {
         self.params.instructor_settings()
     }
 
-    /// Returns true once after a client requested a reboot of the autopilot.
+    /// Returns true once after a client has requested an autopilot reboot.
     pub fn take_restart_request(&mut self) -> bool {
         std::mem::take(&mut self.restart_requested)
     }
@@ -236,7 +236,7 @@ impl VehicleLink {
         self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
     }
 
-    /// Releases all state of a closed link.
+    /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.param_lists.remove(&link);
         self.files.forget(link);

@@ -1,4 +1,4 @@
-//! PARAM_VALUE messages.
+//! Builds PARAM_VALUE messages.
 
 use super::VehicleLink;
 use super::params::{HASH, OutgoingParam};

@@ -1,4 +1,4 @@
-//! Requests for parameters.
+//! Handles parameter requests.
 
 use super::VehicleLink;
 use super::inbound::InboundMessage;

@@ -52,7 +52,7 @@ impl VehicleLink {
         }
     }
 
-    /// Reports that a mission item was reached, and executes the item if it is an equipment command.
+    /// Reports that a mission item was reached, and executes it if it is an equipment command.
     pub(crate) fn report_reached_item(&mut self, seq: usize, input: &PayloadInput, payload: &mut Payload, links: &mut Links) {
         let lead = self.plans.summary().lead;
         self.execute_equipment_item(seq, lead, input, payload);
@@ -82,7 +82,7 @@ impl VehicleLink {
         files::send_replies(&mut self.files, AUTOPILOT, links);
     }
 
-    /// Sends parts of the log downloads on links with capacity.
+    /// Sends the next parts of the log downloads on links with capacity.
     pub(crate) fn send_logs(&mut self, links: &mut Links) {
         for (link, message) in self.logs.poll(|link| links.has_capacity(*link)) {
             links.answer(AUTOPILOT, link, &message);

@@ -28,11 +28,11 @@ pub struct VehicleSnapshot<'a> {
     pub plane: &'a LocalPlane,
     /// State estimate.
     pub estimate: &'a Estimate,
-    /// Status of the autopilot.
+    /// Autopilot status.
     pub status: &'a AutopilotStatus,
     /// Latest sensor readings.
     pub readings: &'a Readings,
-    /// True state.
+    /// True state of the aircraft.
     pub truth: &'a RigidState,
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,
@@ -100,7 +100,7 @@ impl VehicleSnapshot<'_> {
     /// Converts a position from MAVLink's local frame to the site frame.
     #[must_use]
     pub fn site_from_local(&self, local_m: Vec3<LocalNed>) -> Vec3<Ned> {
-        // FRAME: as above.
+        // FRAME: the axes are the same, as above.
         self.estimate.local_origin_m + Vec3::assume(local_m.raw())
     }
 

@@ -9,7 +9,7 @@ pub struct CaptureRecord {
 }
 
 impl CaptureRecord {
-    /// Creates the record of an image.
+    /// Creates an image's record.
     #[must_use]
     pub fn new(message: CAMERA_IMAGE_CAPTURED_DATA) -> Self {
         Self { message }

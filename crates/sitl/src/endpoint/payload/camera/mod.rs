@@ -59,10 +59,10 @@ impl CameraSettings {
     }
 }
 
-/// Reason for which the camera rejects a command.
+/// The reason the camera rejected a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CameraError {
-    /// Invalid values.
+    /// The command contains invalid values.
     Invalid,
     /// The memory card is full.
     Full,
@@ -73,7 +73,7 @@ pub enum CameraError {
 }
 
 impl CameraError {
-    /// Returns the text to send; `None` if the command itself is invalid.
+    /// Returns the text to send; `None` if the command itself was invalid.
     #[must_use]
     pub fn text(self) -> Option<&'static str> {
         match self {
@@ -117,7 +117,7 @@ pub struct CameraState {
     pub mode: CaptureMode,
     /// Zoom lens.
     pub zoom: ZoomLens,
-    /// Other settings.
+    /// Settings other than mode and zoom.
     pub settings: CameraSettings,
     /// Live video stream.
     pub stream: stream::StreamReport,

@@ -15,7 +15,7 @@ pub const VERSION: u16 = 1;
 /// Values that a setting accepts.
 #[derive(Debug, Clone, Copy)]
 pub enum AllowedValues {
-    /// Named options.
+    /// A list of named options.
     Options(&'static [(&'static str, u32)]),
     /// Minimum, maximum and step.
     Range(u32, u32, u32),

@@ -14,7 +14,7 @@ pub struct StorageCard {
 }
 
 impl StorageCard {
-    /// Returns the images of the image log, in index order.
+    /// Returns the images in the image log, in index order.
     #[must_use]
     pub fn images(&self) -> &[CaptureRecord] {
         &self.images

@@ -6,7 +6,7 @@ use spandrel_model::time::SimTime;
 /// UDP port on which ground stations receive the video (docs/src/reference/wire.md, "Camera, gimbal and lamp"). It is
 /// fixed because VIDEO_STREAM_STATUS has no field for it.
 pub const PORT: u16 = 5600;
-/// A running video stream.
+/// An active video stream.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VideoStream {
     /// Width, px.

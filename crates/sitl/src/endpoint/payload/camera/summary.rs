@@ -26,7 +26,7 @@ pub struct CameraSummary {
     pub zoom: f64,
     /// Video bit rate, Mbit/s.
     pub video_mbit_s: u32,
-    /// The running video stream.
+    /// The active video stream.
     pub stream: Option<VideoStream>,
 }
 

@@ -35,7 +35,7 @@ enum ZoomDrive {
     Rate(f64),
 }
 
-/// State of the lens. Its position in the range is linear in the focal length.
+/// Lens state. The position in the range is linear in the focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ZoomLens {
     level: f64,

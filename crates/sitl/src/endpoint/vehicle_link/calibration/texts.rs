@@ -21,7 +21,7 @@ impl CalibratedSensor {
     }
 }
 
-/// Format of the calibration texts.
+/// Calibration text format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CalibrationTexts {
     /// PX4's texts, which begin with `[cal]` (QGroundControl: SensorsComponentController).

@@ -43,7 +43,7 @@ pub(super) fn handle(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMes
     Some(v.result_of(outcome))
 }
 
-/// Arming and modes.
+/// Handles arming and mode commands.
 fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
@@ -76,7 +76,7 @@ fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Opt
     })
 }
 
-/// Takeoff, landing and go-to commands.
+/// Handles takeoff, landing and go-to commands.
 fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
@@ -103,7 +103,7 @@ fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -
     })
 }
 
-/// Mission commands: start, pause, jump.
+/// Handles mission commands: start, pause, and jump.
 fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
@@ -136,7 +136,7 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
     })
 }
 
-/// Speed and geofence commands.
+/// Handles speed and geofence commands.
 fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
@@ -160,7 +160,7 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
     })
 }
 
-/// Commands that don't involve the autopilot: failure injection, calibration, storage, checks, reboot.
+/// Handles commands that don't involve the autopilot: failure injection, calibration, storage, checks, and reboot.
 fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(Answer(match c.number {

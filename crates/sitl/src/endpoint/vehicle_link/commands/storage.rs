@@ -15,7 +15,7 @@ pub(super) fn preflight_storage(c: &VehicleCommand, v: &mut VehicleLink) -> MavR
             v.params.reset(v.storage.defaults());
             return MavResult::MAV_RESULT_ACCEPTED;
         }
-        // -1 does nothing.
+        // A value of -1 does nothing.
         -1.0 => return MavResult::MAV_RESULT_ACCEPTED,
         _ => return MavResult::MAV_RESULT_DENIED,
     };

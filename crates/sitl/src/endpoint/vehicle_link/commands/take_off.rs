@@ -21,7 +21,7 @@ pub(super) fn height_m(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessa
     }
 }
 
-/// Without an altitude, or too close to the ground, the parameter's height is used.
+/// If the altitude is missing or too close to the ground, the parameter's height is used.
 fn above_sea_level(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> Result<Option<f64>, MavResult> {
     const MIN_HEIGHT_M: f64 = 0.5;
     let relative = c.is_home_relative().ok_or(DENIED)?;

@@ -3,7 +3,7 @@
 use super::notices;
 use serde_json::{Value as Json, json};
 
-/// Bits of `health_component_t` (PX4: enums.json).
+/// Component bits in `health_component_t` (PX4: enums.json).
 const COMPONENTS: [(u8, &str, &str); 10] = [
     (0, "none", "None"),
     (1, "absolute_pressure", "Absolute pressure"),

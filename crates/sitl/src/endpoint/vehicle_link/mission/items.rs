@@ -8,7 +8,7 @@ use crate::endpoint::payload::commands as payload;
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavFrame, MavMissionResult, MavMissionType};
 use spandrel_model::geodesy::LocalPlane;
 
-/// Maximum hold time of an item, s.
+/// Maximum hold time for an item, s.
 const MAX_HOLD_S: f32 = 86_400.0;
 /// Allowed circle radii, m.
 const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;

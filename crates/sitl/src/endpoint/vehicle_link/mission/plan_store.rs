@@ -57,21 +57,21 @@ pub struct PlanStore {
     speed_factor: f64,
     /// Number of items at the start of a transferred mission that are not flown (home).
     lead: u16,
-    /// Whether items specific to ArduPilot are accepted: splines, delays until a time of day.
+    /// Whether items specific to ArduPilot are accepted: such as splines and delays until a time of day.
     splines: bool,
     /// Whether zero coordinates in an item mean the vehicle's position at that time.
     zero_means_current_position: bool,
-    /// Encoding that is tried first when requesting items.
+    /// Encoding to try first when requesting items.
     encoding: ItemEncoding,
 }
 
 /// The two messages that request an item of an upload. Clients support one or both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ItemEncoding {
-    /// MISSION_REQUEST_INT.
+    /// Items are requested with MISSION_REQUEST_INT.
     #[default]
     Int,
-    /// MISSION_REQUEST.
+    /// Items are requested with MISSION_REQUEST.
     Float,
 }
 
@@ -182,13 +182,13 @@ impl PlanUpload {
         }
     }
 
-    /// Returns the timeout of a request in seconds.
+    /// Returns a request's timeout in seconds.
     fn retry_interval_s(&self, pace: f64) -> f64 {
         let usual_s = self.delay_s.map_or(RETRY_INTERVAL_S * pace, |delay_s| RETRY_DELAY_FACTOR * delay_s);
         usual_s.clamp(MIN_RETRY_INTERVAL_S * pace, RETRY_INTERVAL_S * pace)
     }
 
-    /// Records the arrival of the expected item.
+    /// Records that the expected item has arrived.
     fn answered(&mut self, now: SimTime) {
         (self.unanswered, self.set_back_to) = (0, None);
         if !std::mem::take(&mut self.is_retry) {
@@ -216,7 +216,7 @@ pub enum PlanReply {
     Reply(MavMessage),
     /// A plan was completed or cleared: send a reply and update the autopilot.
     Updated(MavMissionType, MavMessage),
-    /// No action.
+    /// Do nothing.
     Nothing,
 }
 
@@ -281,7 +281,7 @@ impl PlanStore {
         Self { zero_means_current_position, ..self }
     }
 
-    /// Sets the encoding that is tried first when requesting items.
+    /// Sets the encoding to try first when requesting items.
     #[must_use]
     pub fn with_encoding(self, encoding: ItemEncoding) -> Self {
         Self { encoding, ..self }

@@ -47,7 +47,7 @@ const fn slot(name: &'static str, short: &'static str) -> Row {
     row(name, Int(-1), (-1.0, 107.0), "", COMMANDER, short).values(FLIGHT_MODES).token()
 }
 
-/// Rows, in any order.
+/// The parameter rows, in any order.
 pub(super) const ROWS: &[Row] = &[
     row("BAT_EMERGEN_THR", Real(0.05), (0.0, 0.5), "norm", "Battery", "Emergency battery level"),
     row("COM_ACT_FAIL_ACT", Int(0), (0.0, 4.0), "", COMMANDER, "Motor failure action").values(&[

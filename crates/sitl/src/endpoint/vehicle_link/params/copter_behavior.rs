@@ -19,7 +19,7 @@ const BATTERY_ACTIONS: &[(i32, &str)] = &[
 ];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 
-/// Rows, in any order.
+/// The parameter rows, in any order.
 pub(super) fn rows() -> Vec<Row> {
     [failsafes(), return_rows(), limits(), missions()].concat()
 }

@@ -31,16 +31,16 @@ use std::collections::BTreeMap;
 pub const HASH: &str = "_HASH_CHECK";
 /// Name of the parameter that enables the geofence, for flavors that have one.
 pub const FENCE_SWITCH: &str = "FENCE_ENABLE";
-/// Reason for which a parameter was not set.
+/// The reason a parameter was not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ParamRefusal {
-    /// Unknown name.
+    /// No parameter has this name.
     Unknown,
-    /// Out of range or NaN.
+    /// The value is out of range or NaN.
     OutOfRange,
-    /// Type mismatch.
+    /// The value has the wrong type.
     Type,
-    /// Read-only.
+    /// The parameter is read-only.
     ReadOnly,
 }
 
@@ -181,7 +181,7 @@ impl Params {
         self.face
     }
 
-    /// Returns the allowed range of a parameter.
+    /// Returns a parameter's allowed range.
     #[must_use]
     pub fn range(&self, name: &str) -> Option<(f64, f64)> {
         self.row(name).map(|(_, row)| self.span(row))
@@ -319,7 +319,7 @@ impl Params {
         Ok(())
     }
 
-    /// Returns the value of an integer parameter.
+    /// Returns an integer parameter's value.
     #[must_use]
     pub fn whole(&self, name: &str) -> Option<i32> {
         self.values.get(name).and_then(|value| if let Int(whole) = value { Some(*whole) } else { None })

@@ -6,7 +6,7 @@ use crate::autopilot::operator_rules::{
     LinkLossExceptions, MissionRequirement, OffboardLoss, OperatorRules, ReturnRules, ReturnTargets, SCENARIO_BATTERY_ACTIONS,
 };
 
-/// Bits of ArduPilot's `FS_OPTIONS`.
+/// Bits in ArduPilot's `FS_OPTIONS`.
 const AUTO_WITHOUT_STICKS: i32 = 1;
 const AUTO_WITHOUT_STATION: i32 = 1 << 1;
 const GUIDED_WITHOUT_STICKS: i32 = 1 << 2;

@@ -2,10 +2,10 @@
 
 use super::{ParamRefusal, ParamValue, Params};
 
-/// MAV_PARAM_TYPE_INT32 and MAV_PARAM_TYPE_REAL32.
+/// Type codes of MAV_PARAM_TYPE_INT32 and MAV_PARAM_TYPE_REAL32.
 const INT32: &str = "6";
 const REAL32: &str = "9";
-/// MAV_PARAM_TYPE_INT8 and MAV_PARAM_TYPE_INT16, which ArduPilot also uses.
+/// Type codes of MAV_PARAM_TYPE_INT8 and MAV_PARAM_TYPE_INT16, which ArduPilot also uses.
 const NARROW_TYPES: [&str; 2] = ["2", "4"];
 
 /// An error in a line of a parameter file.

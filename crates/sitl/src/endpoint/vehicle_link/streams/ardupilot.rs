@@ -7,7 +7,7 @@ use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 
-/// Bits of EKF_STATUS_FLAGS (ardupilotmega.xml).
+/// Flag bits from EKF_STATUS_FLAGS (ardupilotmega.xml).
 const ATTITUDE: u16 = 1;
 const VERTICAL: u16 = 4 | 32;
 const HORIZONTAL: u16 = 2 | 8 | 16 | 256 | 512;

@@ -54,7 +54,7 @@ pub(crate) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavor.home_item {
         present |= S::MAV_SYS_STATUS_GEOFENCE;
     }
-    // Healthy even without a fence: MAVProxy would interpret its absence as a breach.
+    // Reported as healthy even without a fence, because MAVProxy would interpret a missing flag as a breach.
     let mut health = present | S::MAV_SYS_STATUS_GEOFENCE;
     health.set(S::MAV_SYS_STATUS_GEOFENCE, v.status.fence.breach.is_none());
     let fix = v.readings.gnss.is_some_and(|g| g.fix >= 3);
@@ -275,7 +275,7 @@ pub(crate) fn version(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Sends the location of the parameter metadata.
+/// Sends the parameter metadata's location.
 pub(crate) fn metadata(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavor.params).general;
     let uri = general.uri.as_str().into();
