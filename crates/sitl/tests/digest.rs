@@ -11,8 +11,8 @@ use spandrel_testkit::station::{GCS, Station};
 const SEED: u64 = 7;
 /// Interval between stick messages, ms.
 const PERIOD_MS: i64 = 40;
-/// Stick inputs (forward, right, up from 0 to 1000) and their durations, ms: climb, fly sideways into the girder of the
-/// suspension bridge, fly away from it. Then the motors are stopped and the vehicle falls into the lake; after three
+/// Stick inputs (forward, right, up from 0 to 1000) and their durations, ms: climb, fly sideways into the suspension
+/// bridge's girder, fly away from it. Then the motors are stopped and the vehicle falls into the lake; after three
 /// seconds there, the flight continues.
 const SCRIPT: [(i64, [i16; 3]); 5] =
     [(4_000, [0, 0, 800]), (15_000, [0, -1000, 500]), (4_000, [0, 1000, 500]), (9_000, [0, 0, 500]), (5_000, [500, 0, 600])];

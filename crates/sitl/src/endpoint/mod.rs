@@ -1,7 +1,7 @@
-//! The vehicle's MAVLink interface, in one of three flavors. It processes the incoming datagrams of all links and
-//! produces outgoing ones; it never reads a clock.
+//! The vehicle's MAVLink interface, in one of three flavors. It processes incoming datagrams from all links and
+//! produces outgoing ones. It never reads a clock.
 //!
-//! Two halves share the links: [`vehicle_link`] is the autopilot interface; [`payload`] is the interface of the
+//! Two halves share the links: [`vehicle_link`] is the autopilot interface; [`payload`] is the interface to the
 //! aircraft's equipment and includes the scoring feed. `payload` does not depend on `vehicle_link`.
 
 mod clock;

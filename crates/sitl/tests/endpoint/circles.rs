@@ -4,7 +4,7 @@ use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::{ACCEPTED, home_north, item, ready, upload};
 use spandrel_testkit::station::Station;
 
-/// Maximum radius error of an orbit in the vehicle's own estimate, m.
+/// Maximum orbit radius error in the vehicle's own estimate, m.
 const RADIUS_TOLERANCE_M: f64 = 0.6;
 /// Maximum heading error, rad.
 const YAW_TOLERANCE: f32 = 0.2;

@@ -198,12 +198,12 @@ fn wire_stuck_sensor_is_announced_and_prevents_arming() {
     }
 }
 
-/// Scenario from issue 16: go to a height of 12 m; the barometer gets stuck during the climb.
+/// Scenario from issue 16: the vehicle goes to a height of 12 m, and the barometer gets stuck during the climb.
 #[test]
 fn regress_stuck_barometer_is_announced_and_the_climb_succeeds() {
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
-    // Height tolerance, m: only the GNSS height remains.
+    // Height tolerance, m, when only the GNSS height remains.
     const HEIGHT_M: f64 = 2.5;
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m.enu();

@@ -1,4 +1,4 @@
-//! The vehicle as an emulation of three autopilots: identification, modes, parameters, files, streams.
+//! The vehicle emulating three autopilots: identification, modes, parameters, files, and streams.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_heartbeat};

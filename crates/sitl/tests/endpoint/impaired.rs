@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const LOSS: f64 = 0.3;
 const DELAY_MS: (f64, f64) = (100.0, 300.0);
 const DUPLICATE_PROBABILITY: f64 = 0.1;
-/// Retry interval of the client, ms: one and a half round trips.
+/// The client's retry interval, ms: one and a half round trips.
 pub(super) const TIMEOUT_MS: i64 = 900;
 /// Time limit for each exchange, in seconds of simulation time; only a hang takes longer.
 pub(super) const LIMIT_S: f64 = 1_200.0;
@@ -229,7 +229,7 @@ fn requests_or_ack(station: &mut Station) -> Vec<(i64, Option<u16>)> {
 }
 
 /// The vehicle repeats its request four times per second to a client whose items were lost, and repeats an
-/// acknowledgment that may have been lost. On a link without losses, there is only one acknowledgment, as from PX4.
+/// acknowledgment that may have been lost. On a lossless link, it sends only one acknowledgment, as PX4 does.
 #[test]
 fn regress_upload_requests_are_repeated_after_250_ms() {
     let mut station = Station::new("drill-hover", 7);
@@ -251,7 +251,7 @@ fn regress_upload_requests_are_repeated_after_250_ms() {
         assert_eq!(acknowledged, if loses { 5 } else { 1 }, "{heard:?}");
     }
     // The vehicle repeats its request sooner to a client that has responded within a few milliseconds: 120 ms after the
-    // control tick (2.5 ms) of the request, so more requests fit into the client's timeout.
+    // request's control tick (2.5 ms). More requests then fit into the client's timeout.
     station.sim.handle_datagram(GCS, &encoder.encode(&count(2)));
     station.run_ms(3);
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));

@@ -6,7 +6,7 @@ use spandrel_testkit::plans::{ACCEPTED, PLAN, home_north, item, ready, upload};
 use spandrel_testkit::station::Station;
 
 const NAN: f32 = f32::NAN;
-/// Maximum radius error of a circle, m (same as in the orbit test).
+/// Maximum circle radius error, m (same as in the orbit test).
 const RADIUS_TOLERANCE_M: f32 = 0.6;
 /// Maximum heading error at the end of a turn in a mission, degrees (3 in flight, plus the error of the estimate).
 const HEADING_TOLERANCE_DEG: f32 = 6.0;

@@ -180,8 +180,8 @@ fn horizontal_distance_m(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Maximum horizontal and vertical distance between the interruption point and the point where a step resumes, m (error
-/// of the estimate, and 0.8 m within which it counts as reached).
+/// Maximum horizontal and vertical distance between the interruption point and the point where a step resumes, m (the
+/// estimation error, plus the 0.8 m within which a point counts as reached).
 const RESUME_TOLERANCE_M: f32 = 1.5;
 
 #[test]

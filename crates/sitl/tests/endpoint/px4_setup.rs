@@ -162,8 +162,8 @@ fn regress_follow_me_keeps_its_distance() {
     assert_eq!(station.mode(), Some(8 << 24 | 4 << 16));
 }
 
-/// Events as libevents reads them: a summary of the checks, one event for each failed check, a summary of the health.
-/// The definitions served by FTP contain their texts.
+/// Events as libevents reads them: a summary of the checks, one event for each failed check, and a summary of the
+/// health. The definitions served by FTP contain their texts.
 #[test]
 fn regress_arming_checks_are_events_that_can_be_requested_again() {
     let events = |s: &Station| s.all(|m| if let MavMessage::EVENT(event) = m { Some(event.clone()) } else { None });

@@ -64,7 +64,7 @@ fn heading_deg(station: &Station) -> f32 {
     station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
 }
 
-/// Speed and region of interest of one flight must not affect the next.
+/// One flight's speed and region of interest must not affect the next flight.
 #[test]
 fn flight_speed_and_region_of_interest_end_with_the_flight() {
     let mut station = ready(7);

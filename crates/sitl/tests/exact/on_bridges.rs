@@ -271,7 +271,7 @@ fn exact_skipping_contact_queries_in_clear_space_changes_nothing() {
     let mut random = RandomStream::new(6, "steep");
     let mut touched = 0;
     for k in 0..60 {
-        // Flights along and into the embankments next to the arch's ends, the slopes of the valley, and the bridge.
+        // Flights along and into the embankments next to the arch ends, the valley slopes, and the bridge.
         let x = if k % 2 == 0 { -1.0 } else { 1.0 } * random.range(40.0, 90.0);
         let (y, up) = (random.range(-35.0, 35.0), random.range(0.3, 4.0));
         let from = Vec3::<Enu>::new(x, y, site.ground_up_m(x, y).max(0.0) + up);

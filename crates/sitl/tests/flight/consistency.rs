@@ -172,8 +172,8 @@ fn band(n: usize) -> (f64, f64) {
     (point(-1.96), point(1.96))
 }
 
-/// Checks that the means over the seeds at four times are within their bands, for all states and for position, velocity
-/// and attitude separately.
+/// Checks that the means over all seeds are within their bands at four times, both for all states together and for
+/// position, velocity and attitude separately.
 fn assert_consistent(what: &str, new: impl Fn(u64, Shadow) -> Run) {
     let times = [5, 20, 40, 60];
     let mut sums = [[0.0; 4]; 4];

@@ -17,7 +17,7 @@ fn error_at_m(now: SimTime) -> f64 {
     ERROR_M * ((now.s() - GROWTH_INTERVAL_S.0) / (GROWTH_INTERVAL_S.1 - GROWTH_INTERVAL_S.0)).clamp(0.0, 1.0)
 }
 
-/// A test case with a slow change, either in the readings or of the ground.
+/// A test case with a slow change in either the readings or the ground.
 struct Case {
     reference: HeightReference,
     change: fn(&mut Readings, SimTime),

@@ -83,7 +83,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
 
 #[test]
 fn flight_full_stick_reaches_full_speed_on_every_axis() {
-    // Tolerance as a fraction of the full speed.
+    // Speed tolerance as a fraction of full speed.
     const SPEED_TOLERANCE: f64 = 0.06;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -107,7 +107,7 @@ fn flight_full_stick_reaches_full_speed_on_every_axis() {
 
 #[test]
 fn flight_manually_flown_circle_is_round() {
-    // Tolerance as a fraction of the radius.
+    // Radius tolerance as a fraction of the radius.
     const RADIUS_TOLERANCE: f64 = 0.08;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -178,7 +178,7 @@ fn flight_saturated_motors_keep_the_vehicle_upright() {
 
 #[test]
 fn flight_stops_from_full_speed_in_time() {
-    // Fraction of the full speed that counts as stopped.
+    // Fraction of full speed that counts as stopped.
     const STOPPED: f64 = 0.1;
     for name in VEHICLES {
         let aircraft = vehicle(name);

@@ -145,9 +145,9 @@ fn regress_slow_altitude_drift_is_not_tracked() {
     }
 }
 
-/// When the sensors agree that the receiver has jumped permanently, the position must be reset to it and the reset
-/// announced; a vehicle that a pilot holds in position must stay there. With optical flow as a reference, there must be
-/// no reset.
+/// When the sensors agree that the receiver has jumped permanently, the position must be reset to it and the reset must
+/// be announced. A vehicle that a pilot holds in position must stay there. With optical flow as a reference, no reset
+/// may occur.
 #[test]
 fn regress_permanent_gnss_jump_resets_the_position() {
     // Maximum drift on inertial sensors while the receiver is rejected, m.

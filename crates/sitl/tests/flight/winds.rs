@@ -11,7 +11,7 @@ use spandrel_testkit::station::{Station, p};
 /// Values of `wind.level` in a job.
 const LEVELS: [&str; 4] = ["calm", "light", "gentle", "medium"];
 /// Distance from the pad beyond which a vehicle counts as lost, m. In medium wind, gusts of 15 m/s push the lightest
-/// vehicle, which can tilt enough for 13 m/s, up to 15 m away; before the fix, the caged vehicle drifted 100 to 400 m.
+/// vehicle, whose tilt can resist only 13 m/s, up to 15 m away. Before the fix, the caged vehicle drifted 100 to 400 m.
 const MAX_DISTANCE_M: f64 = 20.0;
 /// Time within which the vehicle must be ready to arm, s: alignment requires half a second without motion, and the
 /// receiver requires its first fix.

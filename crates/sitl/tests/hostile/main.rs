@@ -1,6 +1,6 @@
-//! Fuzzing of the vehicle's endpoint: every message that it handles, with changed fields and a correct checksum, and
-//! bytes that are not messages at all; on the ground, in manual flight, in a mission and with external setpoints, as
-//! PX4 and as ArduPilot.
+//! Fuzzes the vehicle's endpoint with every message that it handles, with changed fields and a correct checksum, and
+//! with bytes that are not messages at all. The vehicle is on the ground, in manual flight, in a mission, or following
+//! external setpoints, as PX4 or as ArduPilot.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod driver;

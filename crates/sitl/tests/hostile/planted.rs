@@ -7,7 +7,7 @@ use spandrel_mavlink::dialect::*;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The last sequence number causes an index out of bounds.
+    /// The last sequence number causes an out-of-bounds index.
     Index,
     /// A NaN in a setpoint gets into the state.
     NanState,

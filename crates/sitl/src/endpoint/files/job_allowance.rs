@@ -1,5 +1,5 @@
-//! Limits the file work per tick. Jobs run on the simulation thread between ticks, so that every run answers the same
-//! requests in the same tick. Client requests must therefore never delay a tick.
+//! Limits the file work per tick. Jobs run between ticks, on the simulation thread, so that the same requests are
+//! answered in the same tick in every run. Client requests must therefore never delay a tick.
 
 use super::job::FileAction;
 use spandrel_model::time::SimTime;

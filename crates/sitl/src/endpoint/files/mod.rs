@@ -270,9 +270,9 @@ impl FileServer {
         })
     }
 
-    /// Queues one burst. Its last packet marks it complete, even at the end of the file: if a NAK followed, a client
-    /// that lost the last packet would give up (MAVSDK 4). Only a request that starts at the end of the file is
-    /// rejected.
+    /// Queues one burst. Its last packet marks the burst as complete, even at the end of the file. If a NAK followed
+    /// instead, a client that lost that packet would give up (MAVSDK 4). Only a request that starts at the end of the
+    /// file is rejected.
     fn burst(&mut self, client: FileClient, request: &FtpPacket, bytes: &[u8]) {
         if bytes.is_empty() {
             return self.queue_reply(client, request, request.error_reply(FtpError::EndOfFile));

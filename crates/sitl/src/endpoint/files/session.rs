@@ -13,9 +13,9 @@ const MAX_SESSIONS: usize = 32;
 const MAX_SESSIONS_PER_CLIENT: usize = 8;
 /// Timeout after which an idle session is closed, so that clients that have disappeared do not tie up resources.
 const IDLE: SimTime = SimTime::from_ms(60_000);
-/// Time within which an identical open request counts as a repeat, regardless of what arrived in between: networks
-/// duplicate and reorder datagrams. A later one comes from a client that restarted its sequence numbers (estimate:
-/// longer than network delays).
+/// Time within which an identical open request counts as a repeat, regardless of what arrived in between, because
+/// networks duplicate and reorder datagrams. A later request comes from a client that has restarted its sequence
+/// numbers (estimate: longer than network delays).
 const REPEAT_WINDOW: SimTime = SimTime::from_ms(2_000);
 
 #[derive(Debug, Clone)]

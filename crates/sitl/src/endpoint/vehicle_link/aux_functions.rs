@@ -128,8 +128,8 @@ fn restart_mission(v: &mut VehicleLink, a: &mut InboundMessage) {
     v.announce(MISSION_CURRENT_DATA::ID);
 }
 
-/// Appends the vehicle's position to the mission: a landing if the throttle is down, a waypoint otherwise. A takeoff
-/// item is added before the first one. Does nothing in AUTO or while disarmed.
+/// Appends the vehicle's position to the mission, as a landing if the throttle is down and as a waypoint otherwise.
+/// Adds a takeoff item before the first item. Does nothing in AUTO or while disarmed.
 fn save_waypoint(v: &mut VehicleLink, a: &mut InboundMessage) {
     let status = a.autopilot.status();
     let Some(home) =

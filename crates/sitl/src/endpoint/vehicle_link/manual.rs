@@ -178,7 +178,7 @@ impl ManualControl {
     }
 
     /// Returns the gimbal axis of MANUAL_CONTROL (extension `s`), from -1 (down) to 1 (up), when the sender in control
-    /// moves it. Extension `t` (roll in MAVLink, yaw in QGroundControl) is ignored: the gimbal has neither axis.
+    /// moves it. Extension `t` (roll in MAVLink, yaw in QGroundControl) is ignored because the gimbal has neither axis.
     pub fn gimbal(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
         let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
         let before = self.gimbal.replace(pitch);

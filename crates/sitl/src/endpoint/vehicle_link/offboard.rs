@@ -188,9 +188,9 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -
     })
 }
 
-/// Converts SET_ATTITUDE_TARGET: an attitude with a yaw rate, or body rates if the attitude is ignored; thrust 0 to 1.
-/// If thrust is interpreted as climb rate (`GUID_OPTIONS`), 0.5 holds altitude, and 0 and 1 are the vertical speeds of
-/// automatic modes.
+/// Converts SET_ATTITUDE_TARGET: an attitude with a yaw rate, or body rates if the attitude is ignored, and a thrust
+/// from 0 to 1. If thrust is interpreted as climb rate (`GUID_OPTIONS`), 0.5 holds altitude, and 0 and 1 are the
+/// vertical speeds of automatic modes.
 pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult {
     use AttitudeTargetTypemask as A;
     let has = |flag: A| t.type_mask.contains(flag);

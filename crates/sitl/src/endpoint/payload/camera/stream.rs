@@ -1,5 +1,5 @@
-//! The live video stream. The vehicle does not render it: the process that renders and sends the video reports it with
-//! VIDEO_STREAM_STATUS, and the camera announces the stream for as long as the reports continue.
+//! The live video stream. The vehicle does not render it. Another process renders and sends the video, and reports the
+//! stream with VIDEO_STREAM_STATUS. The camera announces the stream as long as these reports continue.
 
 use spandrel_model::time::SimTime;
 

@@ -56,9 +56,9 @@ fn pitch_yaw(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) ->
     }
 }
 
-/// Sets who controls the gimbal. Parameters 1 and 2 are the system and component ID of the primary controller, 3 and 4
-/// those of the secondary controller: 0 means no one, -1 no change, -2 the sender, and -3 no one if the sender is in
-/// control (MAVLink common).
+/// Sets who controls the gimbal. Parameters 1 and 2 are the primary controller's system and component ID; 3 and 4 are
+/// the secondary controller's. 0 means no one, -1 no change, -2 the sender, and -3 no one if the sender is in control
+/// (MAVLink common).
 fn configure(c: &VehicleCommand, payload: &mut Payload) -> MavResult {
     let gimbal = &mut payload.gimbal;
     let id_of = |id: f64, now: u8, own: u8, is_own: bool| match id {

@@ -45,8 +45,8 @@ fn actuator(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> 
     }
 }
 
-/// Parameters: 1 mode (0 and 1 change nothing), 2 brightness in percent, 3 strobe period, 4 duty cycle. The lamp is
-/// either on or off: dimming and strobing are denied, because image exposure assumes full brightness.
+/// Parameters: 1 mode (0 and 1 change nothing), 2 brightness in percent, 3 strobe period, 4 duty cycle. Dimming and
+/// strobing are denied: the lamp is either on or off, because image exposure assumes full brightness.
 fn configure(c: &VehicleCommand) -> MavResult {
     let mode = matches!(c.finite_param(0), None | Some(0.0 | 1.0));
     let strobes = c.finite_param(2).is_some_and(|period| period != 0.0) || !matches!(c.finite_param(3), None | Some(0.0 | 100.0));

@@ -222,7 +222,7 @@ fn arm(c: &VehicleCommand, v: &VehicleLink) -> Option<AutopilotRequest> {
 }
 
 /// Arms the motors. If the flavor reports failed checks, each one is sent as a separate text. In the mode that accepts
-/// go-to commands (GUIDED), arming by a transmitter switch must be allowed (`GUID_OPTIONS`).
+/// go-to commands (GUIDED), a transmitter switch can arm only if `GUID_OPTIONS` allows it.
 fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let (flavor, now) = (v.flavor, a.now());
     if let Some(words) = flavor.arming_check_prefix

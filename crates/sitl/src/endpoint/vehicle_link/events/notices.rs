@@ -67,8 +67,8 @@ pub fn of(text: &str) -> Option<&'static Notice> {
     NOTICES.iter().find(|notice| text.starts_with(notice.text_prefix))
 }
 
-/// Checks whether the event conveys the whole text, so that a ground station that shows events does not have to show
-/// the text, too. PX4 marks such texts with a trailing tab, and QGroundControl hides them.
+/// Checks whether the event conveys the whole text. If so, a ground station that shows events does not have to show the
+/// text as well. PX4 marks such texts with a trailing tab, and QGroundControl hides them.
 #[must_use]
 pub fn covers_whole_text(text: &str) -> bool {
     of(text).is_some_and(|notice| notice.text_prefix == text)

@@ -62,8 +62,8 @@ impl ModeRow {
 }
 
 /// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h),
-/// without the modes not supported here. ArduCopter reports no standard modes and no properties. LOITER and POSHOLD
-/// behave the same.
+/// without the modes that this vehicle does not support. ArduCopter reports no standard modes and no properties. LOITER
+/// and POSHOLD behave the same.
 const MODES: &[ModeRow] = &[
     row(AUTO_RTL, FlightMode::Mission, "AUTO RTL", POSITION_CONTROLLED)
         .entered_by(AutopilotRequest::LandingSequence)

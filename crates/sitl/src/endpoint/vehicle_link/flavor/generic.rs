@@ -1,5 +1,5 @@
 //! A generic MAVLink interface without an autopilot's dialect. It offers MAVLink's standard modes where they exist. The
-//! standard does not define custom mode numbers; PX4's are used because many SDKs and recorders assume them.
+//! standard does not define custom mode numbers, so this interface uses PX4's, which many SDKs and recorders assume.
 
 use super::definition::{COMMON, Flavor, ModeRow, TakeOffRule, named_mode};
 use super::px4::{self, row};

@@ -24,14 +24,14 @@ const STALL_S: f64 = 10.0;
 const SWITCH_ENCODING_EVERY: u8 = 4;
 /// Timeout after which a mission item request is repeated, s, as in PX4.
 const RETRY_INTERVAL_S: f64 = 0.25;
-/// For an uploader that usually responds faster, the request is repeated sooner: after this multiple of its usual
-/// delay, but not before the minimum interval, s. MAVSDK gives up on an item after five half-seconds without a request;
-/// at 0.25 s only one retry fits into each.
+/// For an uploader that usually responds faster, the request is repeated after this multiple of its usual delay, but
+/// not before the minimum interval, s. MAVSDK gives up on an item after five half-second periods without a request; at
+/// 0.25 s, only one retry fits into each period.
 const RETRY_DELAY_FACTOR: f64 = 4.0;
 const MIN_RETRY_INTERVAL_S: f64 = 0.12;
-/// Number of unanswered requests after which earlier items are requested on a link that reorders datagrams, stepping
-/// further back each time: an uploader that a delayed request has set back ignores requests for later items (MAVSDK). A
-/// lower number would use up MAVSDK's five attempts where requests are merely lost.
+/// On a link that reorders datagrams, number of unanswered requests after which earlier items are requested, stepping
+/// further back each time. An uploader that a delayed request has set back ignores requests for later items (MAVSDK). A
+/// lower number would use up MAVSDK's five attempts when requests are merely lost.
 const STEP_BACK_AFTER: u8 = 4;
 /// Number of steps back, each twice as far as the previous one: up to 128 items, more than are transferred while a
 /// request is delayed.
@@ -157,9 +157,9 @@ impl PlanUpload {
         self.first + self.items.len() as u16
     }
 
-    /// Handles an item that was already received. If it was requested, requests the next one; otherwise, `poll_retries`
-    /// continues from it once the missing item is overdue. A request for every repeated item would double all
-    /// subsequent traffic, and clients that count repeats would give up.
+    /// Handles an item that was already received. If the item was requested, requests the next one. Otherwise,
+    /// `poll_retries` continues from it once the missing item is overdue. Requesting another item for every repeat
+    /// would double all subsequent traffic, and clients that count repeats would give up.
     fn repeated(&mut self, seq: u16, now: SimTime) -> Option<MavMessage> {
         if seq == self.requested {
             (self.requested, self.last_request, self.is_retry, self.unanswered) = (seq + 1, now, true, 0);
@@ -539,9 +539,9 @@ impl PlanStore {
         PlanReply::Updated(kind, done)
     }
 
-    /// Handles an item without an upload: an error, unless it repeats an item of the plan that this peer has just
-    /// finished. A repeat of the last item means that the acknowledgment was lost; a repeat of an earlier item was only
-    /// delayed, and an error would invalidate the acknowledgment in transit.
+    /// Handles an item without an upload in progress. This is an error unless it repeats an item from the plan that
+    /// this peer has just finished. A repeat of the last item means that the acknowledgment was lost. A repeat of an
+    /// earlier item was only delayed, and an error would invalidate the acknowledgment in transit.
     fn reply_without_upload(&self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA) -> PlanReply {
         let last = self.done.filter(|&(peer, kind, _)| (peer, kind) == (from, item.mission_type)).map(|(_, _, last)| last);
         match last.filter(|_| self.matches_stored(item)) {

@@ -1,6 +1,6 @@
 //! Parameter names that clients expect from ArduCopter (docs/src/reference/wire.md, "Parameters"; source code of
-//! QGroundControl and MAVProxy), with ArduPilot's units and values. Parameters that correspond to an internal one take
-//! effect; the rest describe the vehicle and are read-only.
+//! QGroundControl and MAVProxy), with ArduPilot's units and values. Parameters that correspond to an internal parameter
+//! take effect. The others describe the vehicle and are read-only.
 
 use super::derived_rows::{mapped, scaled};
 use super::param_value::ParamValue::{self, Int, Real};

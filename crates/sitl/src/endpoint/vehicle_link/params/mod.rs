@@ -1,5 +1,5 @@
 //! Parameters: names that ground stations expect, this software's own group, ranges, and each flavor's view. Values are
-//! stored under one set of names; the names of other flavors convert them to their own units.
+//! stored under one set of names; other flavors' names convert them to their own units.
 
 mod behavior;
 mod copter;

@@ -1,6 +1,6 @@
-//! Parameters that are stored, validated and described but have no effect: for hardware that this vehicle does not
-//! have, and gains that depend on the airframe. The tables are the files in `stored/`; a row in the code with the same
-//! name takes precedence.
+//! Parameters that are stored, validated and described but have no effect: parameters for hardware that this vehicle
+//! does not have, and gains that depend on the airframe. The tables are in the `stored/` folder; a row in the code with
+//! the same name takes precedence.
 
 use super::row::Row;
 

@@ -33,8 +33,8 @@ pub fn write(params: &Params, system_id: u8) -> String {
     out
 }
 
-/// Applies a parameter file. Names that this vehicle does not have, and read-only parameters, are skipped because the
-/// file may come from another vehicle.
+/// Applies a parameter file. Skips read-only parameters and names that this vehicle does not have, because the file may
+/// come from another vehicle.
 ///
 /// # Errors
 /// Returns all invalid lines. No parameter is set in that case.
