@@ -13,7 +13,7 @@ use spandrel_model::vehicle::Vehicle;
 pub struct SimulatedAircraft<'a> {
     /// The time on each clock.
     pub clock: VehicleClock,
-    /// The aircraft.
+    /// The aircraft's specification.
     pub vehicle: &'a Vehicle,
     /// Local tangent plane.
     pub plane: &'a LocalPlane,

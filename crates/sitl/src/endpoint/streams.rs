@@ -17,7 +17,7 @@ use spandrel_model::time::SimTime;
 /// A message that can be streamed or requested.
 #[derive(Clone, Copy)]
 pub struct StreamSpec {
-    /// Message ID.
+    /// ID of the message.
     pub id: u32,
     /// Rates for ground stations, SDKs and payload processes, Hz.
     rates_hz: [f64; 3],

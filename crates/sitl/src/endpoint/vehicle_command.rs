@@ -15,9 +15,9 @@ pub struct VehicleCommand {
     pub p: [f64; 7],
     /// MAV_FRAME number. COMMAND_LONG is treated as global with an altitude above mean sea level.
     pub frame: u8,
-    /// Target component.
+    /// Target component ID.
     pub component: u8,
-    /// Target system.
+    /// Target system ID.
     pub system: u8,
     /// The sender's system and component ID.
     pub from: (u8, u8),

@@ -51,7 +51,7 @@ fn exact_free_fall_is_half_g_t_squared() {
 
 #[test]
 fn exact_terminal_speed_follows_from_drag() {
-    // Relative tolerance.
+    // Relative speed tolerance.
     const TOLERANCE: f64 = 1e-6;
     let mut vehicle = bare();
     vehicle.drag.area_m2 = [0.05; 3];
@@ -185,7 +185,7 @@ fn exact_wind_pushes_a_free_body_downwind() {
 
 #[test]
 fn exact_drag_depends_on_airspeed() {
-    // Tolerance, m/s.
+    // Speed tolerance, m/s.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let drift = Vec3::<Ned>::new(4.0, -3.0, 1.0);
@@ -201,7 +201,7 @@ fn exact_drag_depends_on_airspeed() {
 
 #[test]
 fn exact_motion_does_not_depend_on_heading() {
-    // Tolerance, m.
+    // Position tolerance, m.
     const TOLERANCE: f64 = 1e-9;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let actuators = Actuators { motors: [0.62, 0.58, 0.60, 0.61, 0.0, 0.0, 0.0, 0.0], armed: true };

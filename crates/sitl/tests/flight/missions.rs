@@ -129,7 +129,7 @@ fn regress_takeoff_item_below_the_ground_still_takes_off() {
 
 #[test]
 fn regress_takeoff_uses_its_own_climb_rate() {
-    // Tolerance, m/s.
+    // Speed tolerance, m/s.
     const NEAR_M_S: f64 = 0.3;
     for (own_m_s, climb_m_s, at_climb_speed, expected_m_s) in
         [(1.0, 3.0, false, 1.0), (2.5, 3.0, false, 2.5), (1.0, 2.0, true, 2.0), (1.0, 4.0, true, 4.0)]

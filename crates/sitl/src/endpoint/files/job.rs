@@ -45,7 +45,7 @@ pub enum FileAction {
     Rename(FilePath, FilePath),
     /// Computes [`spandrel_mavlink::ftp::checksum`] over at most [`CHECKSUM_SLICE`] bytes of a file.
     Checksum {
-        /// The file.
+        /// Path of the file.
         path: FilePath,
         /// Offset of the slice in the file, in bytes.
         from: u32,

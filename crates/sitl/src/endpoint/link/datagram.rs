@@ -28,7 +28,7 @@ impl ReceivedDatagram {
         self.bytes.is_empty()
     }
 
-    /// Returns the frames.
+    /// Returns the datagram's frames.
     pub fn frames(&mut self) -> &[ReceivedFrame] {
         &self.decoded.get_or_insert_with(|| decode(&self.bytes)).0
     }

@@ -62,7 +62,7 @@ impl Links {
         }
     }
 
-    /// Returns a link.
+    /// Returns a link by its ID.
     #[must_use]
     pub fn get(&self, id: LinkId) -> Option<&PeerLink> {
         self.peers.get(&id)

@@ -114,7 +114,7 @@ impl PeerLink {
         self.lockstep && self.lockstep_state != LockstepState::Late
     }
 
-    /// Checks whether a token answers a lockstep request: the last one or, for a late peer, any earlier one.
+    /// Checks whether a token answers a lockstep request: either the last one or, for a late peer, any earlier one.
     #[must_use]
     pub fn is_answer(&self, token: i64) -> bool {
         match self.lockstep_state {

@@ -11,7 +11,7 @@ pub(crate) struct PayloadMessage<'a, 'v> {
     pub link: LinkId,
     /// The sender's system and component ID.
     pub from: (u8, u8),
-    /// The aircraft.
+    /// Aircraft state.
     pub input: &'a PayloadInput<'v>,
     /// All links.
     pub links: &'a mut Links,

@@ -15,7 +15,7 @@ use spandrel_model::vehicle::Camera;
 pub struct PayloadSnapshot<'a> {
     /// Time on the clocks of the link that receives the messages.
     pub clock: VehicleClock,
-    /// The aircraft.
+    /// Aircraft state.
     pub input: &'a PayloadInput<'a>,
     /// Gimbal state.
     pub gimbal: GimbalState,

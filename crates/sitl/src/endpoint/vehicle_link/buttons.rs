@@ -7,7 +7,7 @@ use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavStandardMode};
 
 /// Number of buttons that have a parameter; other buttons are ignored.
 pub const COUNT: usize = 16;
-/// Parameter names of the buttons.
+/// Names of the button parameters.
 pub const NAMES: [&str; COUNT] = [
     "BTN0_FUNCTION",
     "BTN1_FUNCTION",

@@ -3,7 +3,7 @@
 use crate::autopilot::{AutopilotStatus, LandedState};
 use spandrel_model::time::SimTime;
 
-/// Start and end of a flight, simulation time.
+/// Start and end of a flight in simulation time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FlightTimes {
     /// Flight number since startup, counting from 1; 0 before the first flight.

@@ -16,8 +16,8 @@ pub struct FailureInjection {
 /// A client's request for the parameter file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StorageRequest {
-    /// Load the file.
+    /// Load the parameter file.
     Load,
-    /// Save the file.
+    /// Save the parameter file.
     Save,
 }

@@ -16,7 +16,7 @@ pub(crate) struct InboundMessage<'a, 'v> {
     pub link: LinkId,
     /// The sender's system and component ID.
     pub from: (u8, u8),
-    /// The aircraft.
+    /// The simulated aircraft.
     pub aircraft: &'a SimulatedAircraft<'v>,
     /// Aircraft state available to the equipment.
     pub input: &'a PayloadInput<'v>,

@@ -35,7 +35,7 @@ struct LogEntry {
 /// What a listing is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ListingPurpose {
-    /// Sends entries first to last to a link.
+    /// Sends the entries from first to last on a link.
     Send(LinkId, u16, u16),
     /// Removes all logs.
     Erase,
@@ -73,7 +73,7 @@ pub struct LogTransfers {
 }
 
 impl LogTransfers {
-    /// Requests the entries `first` to `last` for a link.
+    /// Requests entries `first` to `last` for a link.
     pub fn list(&mut self, link: LinkId, first: u16, last: u16) {
         if !self.stored {
             self.entries.insert(link, [MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default())].into());
@@ -148,7 +148,7 @@ impl LogTransfers {
         ticket
     }
 
-    /// Continues the current listing with its next folder, or finishes it.
+    /// Continues the current listing with the next folder, or finishes the listing.
     fn continue_listing(&mut self) {
         while self.ticket.is_none() {
             let Some(listing) = self.listings.front_mut() else { return };

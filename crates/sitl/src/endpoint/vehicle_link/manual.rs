@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 
 /// Field value that means "not used".
 const UNUSED: i16 = i16::MAX;
-/// Interval at which an ignored sender is reported, s.
+/// Interval between reports about an ignored sender, s.
 const REPORT_INTERVAL_S: f64 = 5.0;
 /// Range of valid channel pulses, microseconds; other values are ignored (ArduPilot passes them on).
 pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
@@ -26,7 +26,7 @@ const AUX_US: [u16; AUX_COUNT] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500
 const RELEASE_HIGH: u16 = 65_534;
 /// Maximum number of remembered senders with a signed throttle, to limit memory use.
 const MAX_FULL_RANGE_SENDERS: usize = 64;
-/// Minimum change of the gimbal axis that has an effect, as a fraction of full deflection.
+/// Minimum gimbal axis change that has an effect, as a fraction of full deflection.
 const GIMBAL_STEP: f64 = 0.01;
 /// Extension bits in `enabled_extensions`.
 const HAS_PITCH: u8 = 1;
@@ -75,7 +75,7 @@ impl Default for ManualControl {
 }
 
 impl ManualControl {
-    /// Returns the stick positions; `None` after the timeout.
+    /// Returns the stick positions, or `None` after the timeout.
     #[must_use]
     pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
         self.has_holder(now).then_some(self.sticks)
@@ -93,7 +93,7 @@ impl ManualControl {
         self.aux_us
     }
 
-    /// Applies channels 5 to 16 of an override, if this sender may take control.
+    /// Applies channels 5 to 16 of an override if this sender may take control.
     pub fn take_aux(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
         if self.policy == StickPolicy::FirstSenderKeeps
             && self.holder.is_some_and(|holder| holder != from)
@@ -171,7 +171,7 @@ impl ManualControl {
         let known = self.full_range.contains(&from);
         if !known && z < 0.0 && self.full_range.len() < MAX_FULL_RANGE_SENDERS {
             self.full_range.push(from);
-            self.texts.push_back(format!("{}: throttle range -1000 to 1000", sender_name(from)));
+            self.texts.push_back(format!("{} uses throttle range -1000 to 1000", sender_name(from)));
             return true;
         }
         known

@@ -195,7 +195,7 @@ impl VehicleLink {
         }
     }
 
-    /// Returns the stick positions; `None` after the timeout.
+    /// Returns the stick positions, or `None` after the timeout.
     #[must_use]
     pub fn sticks(&self, now: SimTime) -> Option<Sticks> {
         self.manual.fresh(now)
@@ -206,7 +206,7 @@ impl VehicleLink {
         (0..self.params.count()).filter_map(|index| self.params.at(index))
     }
 
-    /// Returns the environment set by parameters: wind and radio.
+    /// Returns the environment settings that parameters control: wind, radio link, and traffic.
     #[must_use]
     pub fn instructor_settings(&self) -> InstructorSettings {
         self.params.instructor_settings()

@@ -1,4 +1,4 @@
-//! Parameters: sending the list to links, saving and loading it, and applying it to the autopilot.
+//! Sends the parameters to links, saves and loads them, and applies them to the autopilot.
 
 use super::VehicleLink;
 use super::host_requests::StorageRequest;

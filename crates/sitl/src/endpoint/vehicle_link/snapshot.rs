@@ -22,7 +22,7 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 pub struct VehicleSnapshot<'a> {
     /// Time on the clocks of the link that receives the messages.
     pub clock: VehicleClock,
-    /// The aircraft.
+    /// The aircraft's specification.
     pub vehicle: &'a Vehicle,
     /// Local tangent plane.
     pub plane: &'a LocalPlane,
@@ -104,7 +104,7 @@ impl VehicleSnapshot<'_> {
         self.estimate.local_origin_m + Vec3::assume(local_m.raw())
     }
 
-    /// Returns the origin of MAVLink's local frame; `None` before the first fix.
+    /// Returns the origin of MAVLink's local frame, or `None` before the first fix.
     #[must_use]
     pub fn local_origin(&self) -> Option<Geo> {
         self.estimate.local_origin_set.then(|| self.plane.geo_from_enu(self.estimate.local_origin_m.enu()))

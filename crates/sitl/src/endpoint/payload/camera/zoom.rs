@@ -6,7 +6,7 @@ pub use spandrel_model::vehicle::SENSOR_WIDTH_MM;
 
 /// Time to travel the whole zoom range, s (estimate: small motorized zooms take 2 to 4 s).
 const FULL_TRAVEL_S: f64 = 3.0;
-/// Number of zoom steps across the range (estimate).
+/// Number of zoom steps across the zoom range (estimate).
 const STEPS: f64 = 10.0;
 /// Relative tolerance within which an out-of-range focal length or field of view is clamped instead of rejected,
 /// because clients round.

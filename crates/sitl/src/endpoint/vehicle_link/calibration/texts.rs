@@ -1,6 +1,6 @@
 //! Calibration texts, which ground stations parse.
 
-/// The sensor or reference being calibrated.
+/// The sensor or reference that is being calibrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CalibratedSensor {
     Gyro,

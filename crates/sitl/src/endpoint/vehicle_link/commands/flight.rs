@@ -145,7 +145,7 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
             Answer(v.deny("Speed: type must be 0 or 1 (not climb or descent)"))
         }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
-            // -1 means no change, -2 restores the parameter's value (MAVLink common).
+            // -1 means no change, and -2 restores the parameter's value (MAVLink common).
             Some(-1.0) => Answer(MavResult::MAV_RESULT_ACCEPTED),
             Some(-2.0) => Request(AutopilotRequest::SetSpeed(None)),
             Some(speed) if speed > 0.0 => Request(AutopilotRequest::SetSpeed(Some(speed))),
@@ -176,7 +176,7 @@ fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
 /// Parameters: 1 unit, 2 failure type, 3 instance. As in PX4, the command is denied unless SYS_FAILURE_EN is set.
 fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     if v.params.whole("SYS_FAILURE_EN") != Some(1) {
-        v.warn("Failure injection is off (SYS_FAILURE_EN)");
+        v.warn("Failure injection is disabled (SYS_FAILURE_EN)");
         return MavResult::MAV_RESULT_DENIED;
     }
     let whole = |k: usize| c.finite_param(k).map(|value| value as i64);
@@ -196,12 +196,12 @@ fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
     MavResult::MAV_RESULT_ACCEPTED
 }
 
-/// Parameter 1: 0 does nothing, 1 and 3 reboot the autopilot. Clients cannot shut down the simulated vehicle.
+/// Parameter 1: 0 does nothing, and 1 or 3 reboots the autopilot. Clients cannot shut down the simulated vehicle.
 fn reboot(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     match c.p[0] {
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
         1.0 | 3.0 if a.autopilot.status().armed => {
-            v.warn("Reboot denied: armed");
+            v.warn("Reboot denied: vehicle is armed");
             v.flavor.refusals.temporarily
         }
         1.0 | 3.0 => {

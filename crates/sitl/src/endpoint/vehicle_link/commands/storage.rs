@@ -5,7 +5,7 @@ use super::super::host_requests::StorageRequest;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::dialect::MavResult;
 
-/// Handles PREFLIGHT_STORAGE: parameter 1 is 0 to load the file, 1 to save it, 2 to restore the defaults (MAVLink
+/// Handles PREFLIGHT_STORAGE. Parameter 1 is 0 to load the file, 1 to save it, and 2 to restore the defaults (MAVLink
 /// common).
 pub(super) fn preflight_storage(c: &VehicleCommand, v: &mut VehicleLink) -> MavResult {
     let request = match c.p[0] {

@@ -15,7 +15,7 @@ pub struct Notice {
     pub text_prefix: &'static str,
     /// Name of the event.
     pub name: &'static str,
-    /// Internal and external log level.
+    /// Internal and external log levels.
     pub levels: u8,
 }
 

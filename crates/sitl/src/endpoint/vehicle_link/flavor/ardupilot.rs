@@ -81,8 +81,8 @@ const MODES: &[ModeRow] = &[
     row(9, FlightMode::Land, "LAND", POSITION_CONTROLLED).without_arming(),
     row(6, FlightMode::Return, "RTL", POSITION_CONTROLLED).without_arming(),
     row(16, FlightMode::Position, "POSHOLD", POSITION_CONTROLLED).hold_without_sticks(),
-    // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and it is the
-    // final mode after a landing.
+    // Unlike in ArduPilot, the vehicle can be armed in this mode: without stick input, the other manual modes switch to
+    // it on arming, and it is the final mode after a landing.
     row(17, FlightMode::Hold, "BRAKE", POSITION_CONTROLLED),
     row(21, FlightMode::SmartReturn, "SMARTRTL", POSITION_CONTROLLED).without_arming(),
     row(23, FlightMode::Follow, "FOLLOW", POSITION_CONTROLLED).without_arming(),
@@ -154,7 +154,7 @@ pub static FLAVOR: Flavor = Flavor {
     },
 };
 
-/// Reports boot until the attitude is valid, critical during a failsafe, and active from takeoff to landing.
+/// Reports "boot" until the attitude is valid, "critical" during a failsafe, and "active" from takeoff to landing.
 fn state(estimate: &Estimate, status: &AutopilotStatus) -> MavState {
     if !estimate.attitude_valid {
         MavState::MAV_STATE_BOOT

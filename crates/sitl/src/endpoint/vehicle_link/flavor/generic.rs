@@ -63,7 +63,7 @@ pub static FLAVOR: Flavor = Flavor {
     tune: |_| {},
 };
 
-/// This software's version: major and minor.
+/// This software's major and minor version.
 const VERSION: u32 = digits(env!("CARGO_PKG_VERSION_MAJOR")) << 24 | digits(env!("CARGO_PKG_VERSION_MINOR")) << 16;
 
 const fn digits(text: &str) -> u32 {

@@ -1,5 +1,5 @@
-//! Autopilot flavors: one table for each autopilot interface, with everything that differs on the wire. All other
-//! behavior is shared.
+//! Autopilot flavors: one table per autopilot interface, with everything that differs on the wire. All other behavior
+//! is shared.
 
 pub mod ardupilot;
 mod definition;

@@ -57,8 +57,8 @@ const MODES: &[ModeRow] = &[
 /// Bits that encode the main and sub mode.
 pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
 
-/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"). Reports a development version, so that no
-/// ground station offers an update.
+/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"). Reports a development version so that ground
+/// stations do not offer an update.
 pub static FLAVOR: Flavor = Flavor {
     name: "px4",
     autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,

@@ -54,7 +54,7 @@ pub(super) fn with_placeholder(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane)
     item
 }
 
-/// Fills open fields with the position of the previous step, where the vehicle will be when the step starts.
+/// Fills open fields with the previous step's position, which is where the vehicle will be when the step starts.
 pub(super) fn fill_from_previous_steps(steps: &mut [MissionStep], open: &[DeferredFields], home_m: Option<Vec3<Ned>>) {
     let mut before = home_m;
     for (step, open) in steps.iter_mut().zip(open) {

@@ -37,7 +37,7 @@ pub(super) fn is_complete(items: &[MISSION_ITEM_INT_DATA]) -> Result<(), MavMiss
         let corners = corners(item);
         let run = items.iter().skip(at).take(corners);
         let alike = run.filter(|other| other.command == item.command && other.param1 == item.param1).count();
-        // Other items are complete on their own; their first parameter need not be finite.
+        // Other items are complete on their own; their first parameter does not have to be finite.
         if corners > 1 && alike < corners {
             return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
         }

@@ -14,7 +14,7 @@ const MAX_HOLD_S: f32 = 86_400.0;
 const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;
 /// Default circle radius, m.
 const DEFAULT_RADIUS_M: f64 = 5.0;
-/// Allowed speeds, m/s; -1 means no change, -2 restores the parameter's value (MAVLink common).
+/// Allowed speeds, m/s; -1 means no change, and -2 restores the parameter's value (MAVLink common).
 const SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
 /// Minimum number of repetitions at which a jump counts as endless.
 const ENDLESS_REPETITIONS: f32 = 64.0;
@@ -286,7 +286,7 @@ mod tests {
             (vec![fly(), jump(0.0, -1.0)], Ok(())),
             (vec![photo(), jump(0.0, 1e6)], refused),
             (vec![photo(), jump(0.0, 3.0)], Ok(())),
-            // A jump past the waypoint.
+            // A jump that skips the waypoint.
             (vec![jump(2.0, -1.0), fly(), jump(0.0, -1.0)], refused),
             (vec![jump(2.0, -1.0), fly(), photo()], Ok(())),
         ] {

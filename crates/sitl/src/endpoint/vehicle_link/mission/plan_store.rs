@@ -65,7 +65,7 @@ pub struct PlanStore {
     encoding: ItemEncoding,
 }
 
-/// The two messages that request an item of an upload. Clients support one or both.
+/// The two messages that request an item in an upload. Clients support one or both of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ItemEncoding {
     /// Items are requested with MISSION_REQUEST_INT.
@@ -115,13 +115,13 @@ struct PlanUpload {
     /// Whether a request had to be repeated, which means that the link loses datagrams.
     is_lossy: bool,
     encoding: ItemEncoding,
-    /// Whether the current item was requested again, which makes its delay meaningless.
+    /// Whether the current item was requested again, in which case its delay is meaningless.
     is_retry: bool,
     /// Number of unanswered requests since the last item.
     unanswered: u8,
     /// Usual delay between a request and its item, s.
     delay_s: Option<f64>,
-    /// Sequence number of the last requested item: the first missing one, or an earlier one that makes an uploader
+    /// Sequence number of the last requested item: the first missing item, or an earlier one that lets an uploader
     /// catch up.
     requested: u16,
     /// Sequence number after an item that was received again without a request: the uploader may continue from there.
@@ -199,8 +199,8 @@ impl PlanUpload {
     }
 }
 
-/// The repeated acknowledgment of an upload over a lossy link. Clients wait for it without sending anything (MAVSDK),
-/// so losing it would make a complete upload fail.
+/// A repeated acknowledgment for an upload over a lossy link. Clients wait for the acknowledgment without sending
+/// anything (MAVSDK), so losing it would make a complete upload fail.
 #[derive(Debug, Clone, PartialEq)]
 struct AckRepeat {
     to: PlanPeer,
@@ -415,8 +415,8 @@ impl PlanStore {
         }
     }
 
-    /// Stops repeating the acknowledgment to a peer that sends another plan message: it has received it or no longer
-    /// waits for it.
+    /// Stops repeating the acknowledgment to a peer that sends another plan message: the peer has received the
+    /// acknowledgment or no longer waits for it.
     fn stop_ack_repeats(&mut self, from: PlanPeer) {
         self.ack_repeat.take_if(|echo| echo.to == from);
     }
@@ -567,7 +567,7 @@ impl PlanStore {
         item.seq < lead || stored.is_some_and(same)
     }
 
-    /// Rejects an upload with an item that the dialect cannot represent (unknown command or frame).
+    /// Rejects an upload that contains an item the dialect cannot represent (unknown command or frame).
     pub fn receive_undefined_item(&mut self, from: PlanPeer) -> PlanReply {
         match self.upload.take_if(|u| u.from == from) {
             Some(upload) => PlanReply::Reply(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),

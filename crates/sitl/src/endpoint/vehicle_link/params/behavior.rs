@@ -113,7 +113,7 @@ pub(super) const ROWS: &[Row] = &[
         (500_000.0, 60_000_000.0),
         "us",
         "Estimator",
-        "Timeout without GNSS and optical flow before position loss",
+        "Time without GNSS and optical flow before position loss",
     ),
     row(
         "MIS_DIST_1WP",

@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 pub const DEFAULTS: &[(&str, ParamValue)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
 
 const LOSS_VALUES: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
-/// ArduPilot's link loss actions, and the corresponding internal ones.
+/// ArduPilot's link loss actions, and the corresponding internal actions.
 const LOSS_ACTIONS: &[(i32, i32)] = &[(0, 0), (1, 2), (5, 3), (7, 1)];
 const STICK_LOSS_VALUES: &[(i32, &str)] = &[(1, "Return"), (3, "Land"), (7, "Brake")];
 const STICK_LOSS_ACTIONS: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
@@ -80,7 +80,7 @@ fn active_rows() -> Vec<Row> {
         mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSS_ACTIONS, LOSS_VALUES, "FS"),
         scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
         mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSS_ACTIONS, STICK_LOSS_VALUES, "FS"),
-        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies to targets directly and
+        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies directly to targets and
         // never turns into the wind.
         row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "GUIDED mode options").wire(INT32).bits(&[
             (0, "Allow arming from the transmitter"),
@@ -200,7 +200,7 @@ fn mode_switch() -> Vec<Row> {
     out
 }
 
-/// Returns the parameters of CIRCLE and FOLLOW modes, with ArduCopter's defaults.
+/// Returns the parameters for the CIRCLE and FOLLOW modes, with ArduCopter's defaults.
 fn circle_and_follow_rows() -> Vec<Row> {
     let whole = |name, default, high, wire, short| {
         let mut out = row(name, Int(default), (0.0, high), "", "FOLL", short);

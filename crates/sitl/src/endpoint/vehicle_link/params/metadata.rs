@@ -75,9 +75,9 @@ fn make(face: &ParamView) -> MetadataFiles {
 /// Returns the long description, which states whether setting the parameter has an effect.
 fn long(row: &Row) -> String {
     if row.token && row.read_only {
-        format!("{}. It describes this vehicle and cannot be changed.", row.short)
+        format!("{}. This parameter describes the vehicle and cannot be changed.", row.short)
     } else if row.token {
-        format!("{}. No effect on this vehicle: the value is stored for clients that expect it.", row.short)
+        format!("{}. No effect on this vehicle; the value is stored only for clients that expect it.", row.short)
     } else {
         row.short.into()
     }

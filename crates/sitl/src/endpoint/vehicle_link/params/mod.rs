@@ -93,7 +93,7 @@ impl AircraftValues {
 pub struct OutgoingParam {
     /// Parameter name.
     pub name: &'static str,
-    /// Value of the float field.
+    /// Value of the message's float field.
     pub wire: f32,
     /// Type of the parameter.
     pub kind: MavParamType,
@@ -106,7 +106,7 @@ pub struct InstructorSettings {
     pub wind: Option<(f64, f64)>,
     /// Fraction of datagrams lost, each way.
     pub loss: f64,
-    /// Delay of the remaining datagrams, each way.
+    /// Delay of the datagrams that are not lost, each way.
     pub delay: SimTime,
     /// Whether the bridges are open to traffic.
     pub open: bool,
@@ -117,7 +117,7 @@ pub struct InstructorSettings {
 pub enum StickPolicy {
     /// The sender in control keeps it until it times out or releases the sticks.
     FirstSenderKeeps,
-    /// A sender that deflects a stick takes control.
+    /// Any sender that deflects a stick takes control.
     LastMoverTakes,
 }
 

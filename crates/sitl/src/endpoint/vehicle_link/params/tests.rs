@@ -68,7 +68,7 @@ fn regress_every_value_has_the_type_of_its_row() {
     }
 }
 
-/// Computes the checksum bit by bit: polynomial 0xEDB88320, register starts at zero, no inversion.
+/// Computes the checksum bit by bit: with polynomial 0xEDB88320, a register that starts at zero, and no inversion.
 #[test]
 fn exact_checksum_uses_the_plain_polynomial_and_depends_on_every_value() {
     let mut params = of(&param_view::PX4);

@@ -1,4 +1,4 @@
-//! Parameter files: the tab-separated text format of QGroundControl (`.params`).
+//! Parameter files in QGroundControl's tab-separated text format (`.params`).
 
 use super::{ParamRefusal, ParamValue, Params};
 
@@ -14,7 +14,7 @@ const NARROW_TYPES: [&str; 2] = ["2", "4"];
 pub struct ParamFileProblem {
     /// Line number, from 1.
     pub line: usize,
-    /// Description of the error, with the allowed range.
+    /// What is wrong, including the allowed range.
     pub what: String,
 }
 

@@ -1,4 +1,4 @@
-//! Short names for the wire types of parameters.
+//! Short names for parameter wire types.
 
 use spandrel_mavlink::dialect::MavParamType;
 

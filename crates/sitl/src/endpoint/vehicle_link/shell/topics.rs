@@ -1,4 +1,4 @@
-//! `listener TOPIC`: the latest values of a topic, under PX4's names.
+//! The shell command `listener TOPIC`, which prints a topic's latest values under PX4's names.
 
 use super::super::snapshot::VehicleSnapshot;
 use super::super::streams::position;

@@ -1,4 +1,4 @@
-//! Additional messages that ArduCopter streams.
+//! Builders for additional messages that ArduCopter streams.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::ardupilotmega::{AHRS, DialectMessage, EKF_STATUS_REPORT, MEMINFO, SIMSTATE, WIND};

@@ -1,4 +1,4 @@
-//! Messages with the overall vehicle state.
+//! Builders for messages with the overall vehicle state.
 #![allow(deprecated, reason = "clients still request PROTOCOL_VERSION")]
 
 use super::super::params::metadata;
@@ -216,7 +216,7 @@ pub(crate) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
         seq: if v.plans.mission_items == 0 { 0 } else { v.plans.lead } + item,
         total: v.plans.mission_items,
         mission_state: state,
-        // 1 means in mission mode, 2 not in mission mode.
+        // 1 means in mission mode, and 2 means not in mission mode.
         mission_mode: if flying { 1 } else { 2 },
         mission_id: v.plans.ids[0],
         fence_id: v.plans.ids[1],
