@@ -15,7 +15,7 @@ fn acknowledgements(sim: &mut Sim, encoder: &mut Encoder, id: u32, number: u16, 
     payload[28..30].copy_from_slice(&number.to_le_bytes());
     (payload[30], payload[31]) = target;
     sim.handle_datagram(GCS, &encoder.encode_payload(id, &payload[..if id == 76 { 33 } else { 35 }]));
-    // No tick in between: the response must come before anything else happens.
+    // No tick runs in between: the response must come before anything else happens.
     let now = sim.now();
     sim.handle_timeout(now);
     let mut out = Vec::new();

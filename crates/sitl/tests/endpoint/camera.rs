@@ -19,7 +19,7 @@ const VIDEO_MIB_S: f32 = 60e6 / 8.0 / 1_048_576.0;
 /// Tolerance for the ticks between a command and its effect, in seconds of recording.
 const TIMING_TOLERANCE_S: f32 = 0.01;
 
-/// The only shipped aircraft with a zoom lens.
+/// The only shipped aircraft that has a zoom lens.
 const ZOOMS: &str = "m30";
 
 fn on_the_pad(vehicle: &str) -> Station {
@@ -166,7 +166,7 @@ fn wire_continuous_zoom_stops_on_command_and_reset_zooms_out() {
     station.run_ms(1_200);
     assert_eq!(station.command(CAMERA, zoom, p(&[1.0, 0.0])), OK);
     let stopped = settings(&station).unwrap().1;
-    // Half speed for 1.2 s; the full range takes 3 s.
+    // The lens moves at half speed for 1.2 s; the full range takes 3 s at full speed.
     assert!((stopped - 20.0).abs() < 0.2, "{stopped}");
     station.run_ms(1_000);
     ask(&mut station, 260);

@@ -53,7 +53,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// QGroundControl's altitude slider: mode GUIDED, then one offset with only the position bits of the mask clear.
+/// QGroundControl's altitude slider: GUIDED mode, then one offset with only the mask's position bits clear.
 #[test]
 fn regress_qgroundcontrols_altitude_slider_climbs_a_copter() {
     for before in [GUIDED, BRAKE] {
@@ -168,7 +168,7 @@ fn regress_circle_mode_orbits_a_point_ahead() {
         assert!((radius - 6.0).abs() < NEAR_M, "{radius}");
     }
     let turned = (bearing(&station) - before).rem_euclid(std::f32::consts::TAU).to_degrees();
-    // CIRCLE_RATE is 20 deg/s, clockwise.
+    // CIRCLE_RATE is 20 deg/s clockwise.
     assert!((turned - 80.0).abs() < 15.0, "{turned} deg in 4 s");
     assert_eq!(next_heartbeat(&mut station).custom_mode, CIRCLE as u32);
 }
@@ -210,7 +210,8 @@ fn regress_attitude_thrust_sets_the_climb_rate() {
         })
     };
     set_param(&mut station, "WPNAV_SPEED_UP", 250.0, MavParamType::MAV_PARAM_TYPE_REAL32);
-    // 0.5 holds the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 is half of WPNAV_SPEED_DN (150 cm/s).
+    // A thrust of 0.5 holds the height, 0.7 climbs at 0.4 times WPNAV_SPEED_UP, and 0.25 descends at half of
+    // WPNAV_SPEED_DN (150 cm/s).
     for (thrust, climb) in [(0.5, 0.0), (0.7, 1.0), (0.25, -0.75)] {
         for _ in 0..60 {
             station.send(&level(thrust));

@@ -118,7 +118,7 @@ fn flight_switches_save_and_clear_waypoints() {
         station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
         station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.total) } else { None }).unwrap()
     };
-    // A takeoff precedes the first waypoint.
+    // A takeoff item precedes the first waypoint.
     for (chan8_raw, count) in [(1000, 0), (2000, 2), (1000, 2), (2000, 3)] {
         station.send(&switches(1500, 1500, chan8_raw, 1000));
         station.run_ms(100);

@@ -79,7 +79,7 @@ fn wire_targets_outside_the_fence_are_rejected() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
 }
 
-/// The path must be rejected although both of its ends are allowed.
+/// The path must be rejected even though both of its ends are allowed.
 #[test]
 fn wire_paths_through_exclusion_areas_or_above_the_limit_are_rejected() {
     let mut station = Station::airborne("drill-hover", 7);

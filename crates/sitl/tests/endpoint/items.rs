@@ -215,7 +215,7 @@ fn wire_partial_upload_replaces_only_its_items() {
     assert_eq!(station.ask(&higher(3), result), Some(ACCEPTED));
     assert_eq!(station.ask(&higher(3), result), Some(ACCEPTED), "a repeated final item must be acknowledged again");
     assert_eq!(heights(&mut station), [6.0, 6.0, 9.0, 9.0, 6.0]);
-    // A part that makes the mission endless must be rejected without effect.
+    // A partial upload that makes the mission endless must be rejected without effect.
     assert_eq!(station.ask(&part(0, 0), asked), Some(0));
     let jump = MavMessage::MISSION_ITEM_INT(order(0, MavCmd::MAV_CMD_DO_JUMP, [0.0, -1.0, 0.0, 0.0]));
     assert_eq!(station.ask(&jump, result), Some(MavMissionResult::MAV_MISSION_INVALID_PARAM1));

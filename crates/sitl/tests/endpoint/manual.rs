@@ -9,7 +9,7 @@ use spandrel_testkit::station::{GCS, Station};
 
 const HOLD: u32 = 4 << 16 | 3 << 24;
 const POSITION: u32 = 3 << 16;
-/// Maximum drift while holding a position, m (gusts, and drift of the estimate).
+/// Maximum drift while holding a position, m (gusts plus drift of the estimate).
 const DRIFT_M: f32 = 0.7;
 
 fn channels(station: &mut Station, pitch: u16, throttle: u16) {
@@ -27,7 +27,7 @@ fn channels(station: &mut Station, pitch: u16, throttle: u16) {
 #[test]
 fn wire_rc_override_acts_like_sticks_with_transmitter_pitch() {
     let mut station = Station::airborne("drill-hover", 7);
-    // The first sender controls the sticks until it has released them.
+    // The first sender keeps stick control until it releases the sticks.
     station.run_ms(600);
     for _ in 0..150 {
         channels(&mut station, 1200, 1500);
@@ -255,7 +255,7 @@ fn wire_stick_loss_holds_and_returning_sticks_resume() {
     assert!(station.has_text("Failsafe cleared"), "{:?}", station.texts());
 }
 
-/// The parameter selects land (3), return (2) or warn only (0).
+/// The parameter selects landing (3), returning (2) or a warning only (0).
 #[test]
 fn wire_stick_loss_failsafe_follows_its_parameter() {
     const LAND: u32 = 4 << 16 | 6 << 24;

@@ -15,7 +15,7 @@ const TOLERANCE_DEG: f32 = 0.5;
 
 fn on_the_pad() -> Station {
     let mut station = Station::new("drill-hover", 7);
-    // Waits until home is known.
+    // Waits until the home position is known.
     station.run_ms(2_500);
     station
 }

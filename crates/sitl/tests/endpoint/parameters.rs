@@ -96,7 +96,7 @@ fn regress_90_percent_of_setup_page_and_test_suite_parameters_exist() {
     }
 }
 
-/// Returns the tuning after a parameter was set.
+/// Returns the tuning after setting a parameter.
 fn tuning_after(face: &'static ParamView, name: &str, value: f64) -> Tuning {
     let mut own = params(face);
     let kind = own.find(name).unwrap_or_else(|| panic!("{name}")).2;

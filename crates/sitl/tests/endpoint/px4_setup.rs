@@ -79,7 +79,7 @@ fn console(station: &mut Station, line: &str) -> String {
         data[..chunk.len()].copy_from_slice(chunk);
         station.send(&MavMessage::SERIAL_CONTROL(SERIAL_CONTROL_DATA {
             device: SerialControlDev::SERIAL_CONTROL_DEV_SHELL,
-            // Flags as QGroundControl sends them: respond, exclusive, multi.
+            // Flags that QGroundControl sends: respond, exclusive, multi.
             flags: SerialControlFlag::from_bits_retain(2 | 4 | 16),
             count: chunk.len() as u8,
             data,
@@ -162,8 +162,8 @@ fn regress_follow_me_keeps_its_distance() {
     assert_eq!(station.mode(), Some(8 << 24 | 4 << 16));
 }
 
-/// Events as libevents reads them: a summary of the checks, one event for each failed check, and a summary of the
-/// health. The definitions served by FTP contain their texts.
+/// The events must have the order that libevents expects: a summary of the checks, one event for each failed check, and
+/// a summary of the health. The definitions served by FTP contain their texts.
 #[test]
 fn regress_arming_checks_are_events_that_can_be_requested_again() {
     let events = |s: &Station| s.all(|m| if let MavMessage::EVENT(event) = m { Some(event.clone()) } else { None });

@@ -17,7 +17,7 @@ const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 /// Links of a lockstep peer and of a sidecar.
 const PEER: LinkId = LinkId(9);
 const SIDECAR: LinkId = LinkId(10);
-/// Maximum position error, m: the mission's acceptance radius and the deceleration.
+/// Maximum position error, m: the mission's acceptance radius plus deceleration.
 const POSITION_TOLERANCE_M: f64 = 1.5;
 
 /// Returns the senders of heartbeats in the order of their arrival.
@@ -118,7 +118,7 @@ fn regress_gps_raw_reports_the_ellipsoid_height() {
     let (alt, ellipsoid) = station
         .last_message(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some((g.alt, g.alt_ellipsoid)) } else { None })
         .expect("GPS_RAW_INT must be streamed");
-    // The simulator's sea level equals the ellipsoid.
+    // In the simulator, sea level equals the ellipsoid.
     assert_eq!(alt, ellipsoid);
     assert!(alt > 400_000, "{alt} mm");
 }

@@ -217,7 +217,7 @@ fn exact_motion_does_not_depend_on_heading() {
 
 #[test]
 fn exact_rotor_torque_is_force_times_arm() {
-    // Tolerance for a few roundings, N and N m.
+    // Tolerance for a few rounding errors, N and N m.
     const TOLERANCE: f64 = 1e-14;
     let vehicle = quad();
     let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
@@ -231,7 +231,7 @@ fn exact_rotor_torque_is_force_times_arm() {
 
 #[test]
 fn exact_tasbid_battery_is_empty_after_its_endurance() {
-    // Tolerance for the rounding of 1.5 million subtractions, %.
+    // Tolerance for the rounding errors of 1.5 million subtractions, %.
     const TOLERANCE: f64 = 1e-7;
     let mut vehicle = bare();
     vehicle.battery.paper_endurance_s = 15.0;

@@ -52,7 +52,7 @@ fn flight_takeoff_hold_and_landing_at_the_same_position() {
         bench.run(20.0, |b| impact = impact.max(b.state.contact.impact_m_s));
         let status = bench.autopilot.status().clone();
         assert!(!status.armed && status.landed == LandedState::OnGround, "{name}: {status:?} {:?}", bench.position());
-        // Gentler than stepping off a curb, m/s.
+        // Maximum impact speed, m/s: gentler than stepping off a curb.
         assert!(impact < 1.2, "{name}: touched down at {impact} m/s");
     }
 }

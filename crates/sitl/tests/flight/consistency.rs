@@ -71,7 +71,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Creates a run under an open sky, without optical flow, with the ground always within the range finder's range.
+    /// Creates a run under an open sky, without optical flow, with the ground always in range of the range finder.
     pub(super) fn under_open_sky(seed: u64, ground_up_m: fn(SimTime) -> f64) -> Self {
         let mut vehicle = vehicle("phantom2");
         vehicle.sensors.flow_velocity_m_s = 0.0;
@@ -161,7 +161,7 @@ impl Run {
     }
 }
 
-/// Returns the 95% band of the mean over `SEEDS` of a chi-squared variable with `n` degrees of freedom
+/// Returns the 95% band for the mean, over `SEEDS` seeds, of a chi-squared variable with `n` degrees of freedom
 /// (Wilson-Hilferty).
 fn band(n: usize) -> (f64, f64) {
     let k = n as f64 * SEEDS as f64;

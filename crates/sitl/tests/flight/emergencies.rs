@@ -152,7 +152,7 @@ fn flight_takeoff_with_low_battery_returns_once() {
         returned |= bench.autopilot.status().mode == FlightMode::Return;
     }
     assert!(returned, "{:?}", bench.autopilot.status().mode);
-    // The pilot's command has priority.
+    // The pilot's command takes priority.
     bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.run(2.0, |_| ());
     assert_eq!(bench.autopilot.status().mode, FlightMode::Hold);

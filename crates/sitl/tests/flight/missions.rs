@@ -45,7 +45,7 @@ fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
             let velocity = (now.position_m - before.position_m) / STEP_S;
             assert!(now.acceleration_m_s2.norm() < ACCELERATION_M_S2, "case {case}: {now:?}");
             assert!(jerk.norm() < JERK_M_S3, "case {case}: jerk {}", jerk.norm());
-            // Tolerance of half a step's acceleration, m/s.
+            // Velocity tolerance, m/s: half a step's acceleration.
             assert!((velocity - now.velocity_m_s).norm() < 0.02, "case {case}: {velocity:?} {now:?}");
             for (least, waypoint) in nearest.iter_mut().zip(&waypoints) {
                 *least = least.min((now.position_m - waypoint.position_m).norm());
@@ -53,7 +53,7 @@ fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
             before = now;
         }
         assert!(nearest.iter().all(|m| *m < 0.5 * accept_m + 0.01), "case {case}: {nearest:?} with {accept_m}");
-        // Tolerances, m and m/s.
+        // Position and velocity tolerances, m and m/s.
         assert!(nearest.last().is_some_and(|m| *m < 0.02) && before.velocity_m_s.norm() < 0.02, "case {case}: {before:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! Takeoff, hover and landing of every shipped vehicle in the shipped job at every wind level with many seeds.
+//! Every shipped vehicle takes off, hovers and lands in the shipped job, at every wind level and with many seeds.
 
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavModeFlag, MavResult};
 use spandrel_model::frames::{Enu, Vec3};
@@ -67,7 +67,7 @@ fn run_for(station: &mut Station, pad_m: Vec3<Enu>, time: SimTime, flown: &mut F
     Ok(())
 }
 
-/// Returns the armed flag of the next heartbeat.
+/// Returns the armed flag from the next heartbeat.
 fn armed(station: &mut Station) -> bool {
     station.received.clear();
     station.run_ms(1_000);

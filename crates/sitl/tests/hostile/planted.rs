@@ -1,5 +1,5 @@
-//! Vehicles with planted faults, each triggered by one rare value of one field. If the fuzzer does not find these, it
-//! is useless.
+//! Vehicles with planted faults, each triggered by one rare value of one field. A fuzzer that does not find these
+//! faults is useless.
 
 use super::driver::{TestVehicle, Vehicle};
 use spandrel_mavlink::codec::{Decoder, Encoder};

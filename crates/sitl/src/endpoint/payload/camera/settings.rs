@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 /// Path of the definition file on the camera's file server.
 pub const FILE: &str = "camera.xml";
-/// URI of the definition file, sent to ground stations.
+/// Address of the definition file, sent to ground stations.
 pub const URI: &str = "mftp://camera.xml";
 /// Version of the definition, which ground stations use as a cache key. Increment it with every change to the table
 /// below.
