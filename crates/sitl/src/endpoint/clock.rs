@@ -8,7 +8,7 @@ use spandrel_model::time::SimTime;
 pub struct VehicleClock {
     /// Simulation time.
     pub now: SimTime,
-    /// Simulation time at which the autopilot booted.
+    /// Simulation time of the last autopilot boot.
     pub autopilot_booted: SimTime,
     /// UTC at simulation start, in seconds since the Unix epoch.
     pub start_unix_s: i64,

@@ -41,7 +41,7 @@ pub struct StreamInputs<'a> {
 }
 
 impl<'a> StreamInputs<'a> {
-    /// Returns the current state, for ground stations.
+    /// Returns the current state for ground stations.
     #[must_use]
     pub fn new(
         vehicle: &VehicleLink,

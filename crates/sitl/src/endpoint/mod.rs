@@ -103,7 +103,7 @@ impl Endpoint {
         self.vehicle.read_parameters(text, autopilot, &mut self.payload.equipment, &self.links)
     }
 
-    /// Returns the inputs recorded since the last call, for the digest.
+    /// Returns the inputs recorded for the digest since the last call.
     pub fn take_digest_input(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.digest_input)
     }

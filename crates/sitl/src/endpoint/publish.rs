@@ -54,7 +54,7 @@ impl Endpoint {
         self.vehicle.retry_plan_request(&inputs.vehicle, &mut self.links);
     }
 
-    /// Sends only heartbeats and texts, while simulation time is paused. The camera's heartbeat is sent only on links
+    /// Sends only heartbeats and texts while simulation time is paused. The camera's heartbeat is sent only on links
     /// that use the camera.
     pub fn send_heartbeats(&mut self, aircraft: &SimulatedAircraft, autopilot: &Autopilot) {
         let input = payload_input(&self.vehicle, aircraft, autopilot);

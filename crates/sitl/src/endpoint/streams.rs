@@ -19,7 +19,7 @@ use spandrel_model::time::SimTime;
 pub struct StreamSpec {
     /// ID of the message.
     pub id: u32,
-    /// Rates for ground stations, SDKs and payload processes, Hz.
+    /// Rates for ground stations, SDKs and payload processes, in Hz.
     rates_hz: [f64; 3],
     /// Component that sends it.
     pub component: u8,

@@ -379,7 +379,7 @@ impl FileServer {
     }
 }
 
-/// Next step of a request.
+/// Next step in handling a request.
 enum RequestStep {
     /// Acknowledge immediately with this data.
     Answer(Vec<u8>),

@@ -16,7 +16,7 @@ pub(super) struct ReplyCache {
 }
 
 impl ReplyCache {
-    /// Returns the reply to this exact request, if it was the session's last.
+    /// Returns the reply to this exact request if it was the session's last request.
     pub fn cached_reply(&self, client: FileClient, request: &FtpPacket) -> Option<&FtpPacket> {
         let (_, asked, answer) = self.last.get(&(client, request.session))?;
         (asked == request).then_some(answer)

@@ -19,7 +19,7 @@ const MAX_BACKLOG_S: f64 = 2.0;
 /// Interval between adjustments of the stream intervals.
 const ADJUST_INTERVAL: SimTime = SimTime::from_ms(1_000);
 
-/// Capacity of a link and its current use.
+/// A link's capacity and current use.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkBudget {
     bytes_s: f64,

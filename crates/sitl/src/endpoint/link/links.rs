@@ -18,7 +18,7 @@ pub struct Links {
     router: Router<LinkId>,
     pub(super) signing: Option<SigningPolicy>,
     bad_bytes: u64,
-    /// Number of frames dropped by links that have since closed.
+    /// Number of frames dropped by links that have been closed since.
     dropped_by_closed: u64,
 }
 
@@ -94,7 +94,7 @@ impl Links {
         self.peers.get(&id).map(|link| (link.kind, link.lockstep))
     }
 
-    /// Checks whether lists and files may be sent on a link: true unless it is saturated.
+    /// Checks whether lists and files may be sent on a link, which is the case unless the link is saturated.
     #[must_use]
     pub fn has_capacity(&self, id: LinkId) -> bool {
         self.peers.get(&id).is_none_or(|link| !link.is_busy())

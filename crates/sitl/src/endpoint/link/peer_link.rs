@@ -44,7 +44,7 @@ pub struct PeerLink {
     pub answers_only: bool,
     /// The peer's lockstep state.
     pub lockstep_state: LockstepState,
-    /// Whether anything was received.
+    /// Whether anything has been received from the peer.
     pub has_received: bool,
     /// Token of the last lockstep request.
     pub lockstep_token: Option<i64>,
@@ -135,7 +135,7 @@ impl PeerLink {
         self.budget.as_ref().is_some_and(|budget| budget.is_saturated(self.waiting))
     }
 
-    /// Returns the number of dropped frames.
+    /// Returns the number of frames dropped so far.
     #[must_use]
     pub fn dropped(&self) -> u64 {
         self.dropped

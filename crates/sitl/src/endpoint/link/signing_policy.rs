@@ -59,7 +59,7 @@ impl SigningPolicy {
         self.stamp = stamp;
     }
 
-    /// Returns the number of rejected frames.
+    /// Returns the number of frames rejected so far.
     #[must_use]
     pub fn rejected(&self) -> u64 {
         self.refused

@@ -41,7 +41,7 @@ pub struct PayloadLink {
     pub speed_factor: f64,
     files: FileServer,
     scoring: ScoringFeed,
-    /// Indices of the image records still to resend on each link.
+    /// For each link, indices of the image records that remain to be resent.
     image_requests: BTreeMap<LinkId, Range<usize>>,
 }
 

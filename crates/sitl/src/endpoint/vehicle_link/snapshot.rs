@@ -20,7 +20,7 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 /// Ground truth, estimate, setpoints and counters at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct VehicleSnapshot<'a> {
-    /// Time on the clocks of the link that receives the messages.
+    /// The time on the clocks of the receiving link.
     pub clock: VehicleClock,
     /// The aircraft's specification.
     pub vehicle: &'a Vehicle,

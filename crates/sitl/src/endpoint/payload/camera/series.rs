@@ -3,16 +3,16 @@
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Minimum distance between images of a series, m.
+/// Minimum distance between images in a series, m.
 const MIN_DISTANCE_M: f64 = 0.1;
-/// Minimum and maximum interval between images of a series, s.
+/// Minimum and maximum interval between images in a series, s.
 const MIN_INTERVAL_S: f64 = 0.2;
 const MAX_INTERVAL_S: f64 = 86_400.0;
 /// Maximum accepted count and distance.
 const MAX_PICTURES: f64 = 1e6;
 const MAX_DISTANCE_M: f64 = 1e5;
 
-/// Images still to be taken.
+/// Number of images still to be taken.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CaptureSeries {
     interval_s: Option<f64>,
@@ -20,7 +20,8 @@ pub struct CaptureSeries {
     left: Option<u32>,
     /// Distance between images, m, and the position of the last one.
     by_distance: Option<(f64, Vec3<Enu>)>,
-    /// Single images still to be taken. Commands may arrive faster than images are taken, and none may be lost.
+    /// Number of single images still to be taken. Commands may arrive faster than images are taken, and none may be
+    /// lost.
     singles: u32,
 }
 

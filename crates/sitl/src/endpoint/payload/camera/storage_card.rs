@@ -20,7 +20,7 @@ impl StorageCard {
         &self.images
     }
 
-    /// Returns the storage used by images and finished recordings in MiB.
+    /// Returns the storage, in MiB, used by images and finished recordings.
     #[must_use]
     pub fn used_mib(&self) -> f64 {
         self.pictures_mib + self.videos_mib

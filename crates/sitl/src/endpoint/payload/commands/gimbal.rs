@@ -10,7 +10,7 @@ use crate::endpoint::vehicle_command::VehicleCommand;
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{GIMBAL_MANAGER_STATUS_DATA, MavCmd, MavResult};
 
-/// GIMBAL_MANAGER_FLAGS_RETRACT and _NEUTRAL. This gimbal cannot retract.
+/// Values of GIMBAL_MANAGER_FLAGS_RETRACT and GIMBAL_MANAGER_FLAGS_NEUTRAL. This gimbal cannot retract.
 const RETRACT: u32 = 1;
 const NEUTRAL: u32 = 2;
 
