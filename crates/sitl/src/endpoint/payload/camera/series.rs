@@ -12,7 +12,7 @@ const MAX_INTERVAL_S: f64 = 86_400.0;
 const MAX_PICTURES: f64 = 1e6;
 const MAX_DISTANCE_M: f64 = 1e5;
 
-/// Number of images still to be taken.
+/// The images that remain to be taken: single images and the current series.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CaptureSeries {
     interval_s: Option<f64>,
