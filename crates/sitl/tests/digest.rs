@@ -1,5 +1,5 @@
-//! Bit-exact determinism: the same flight gives the same result in two runs and from a snapshot taken at any time.
-//! (`tests/clients/` compares debug and release builds through telemetry.)
+//! Bit-exact determinism: the same flight produces the same result in two runs and when resumed from a snapshot taken
+//! at any time. (`tests/clients/` compares debug and release builds through telemetry.)
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -11,13 +11,13 @@ use spandrel_testkit::station::{GCS, Station};
 const SEED: u64 = 7;
 /// Interval between stick messages, ms.
 const PERIOD_MS: i64 = 40;
-/// Stick inputs (forward, right, up from 0 to 1000) and their durations, ms: climb, fly sideways into the girder of the
-/// suspension bridge, fly away from it. Then the motors are stopped; after a fall into the lake and three seconds
-/// there, the flight continues.
+/// Stick inputs (forward, right, up from 0 to 1000) and their durations, ms: climb, fly sideways into the suspension
+/// bridge's girder, fly away from it. Then the motors are stopped and the vehicle falls into the lake; after three
+/// seconds there, the flight continues.
 const SCRIPT: [(i64, [i16; 3]); 5] =
     [(4_000, [0, 0, 800]), (15_000, [0, -1000, 500]), (4_000, [0, 1000, 500]), (9_000, [0, 0, 500]), (5_000, [500, 0, 600])];
 const STOP_BEFORE: usize = 3;
-/// Parameter that forces a disarm in the air.
+/// Command parameter that forces disarming in flight.
 const FORCE: f32 = 21_196.0;
 
 /// Minimum interval between snapshots.
@@ -43,7 +43,7 @@ fn inputs(mut at: SimTime) -> (Inputs, SimTime) {
     (inputs, at)
 }
 
-/// Continues a flight with these inputs, and calls `look` with each event and the vehicle right after it.
+/// Continues a flight with these inputs. After each event, calls `look` with the event and the vehicle.
 fn fly(sim: &mut Sim, inputs: &Inputs, end: SimTime, mut look: impl FnMut(&SimEvent, &Sim)) {
     let left = inputs.iter().filter(|(at, _)| *at >= sim.now()).cloned().collect::<Inputs>();
     let times = left.iter().skip(1).map(|(at, _)| *at).chain([end]);
@@ -61,8 +61,8 @@ fn hex(sim: &Sim) -> String {
     sim.digest().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A pause must not change the flight, and heartbeats must continue during it: one heartbeat per call on the link, a
-/// text at the beginning, and no ground truth.
+/// A pause must not change the flight, and heartbeats must continue during the pause: one heartbeat per call on the
+/// link, one text at the beginning, and no ground truth.
 #[test]
 fn flight_pause_does_not_change_the_flight_and_heartbeats_continue() {
     let start = Station::airborne("drill-hover", SEED).vehicle.sim;
@@ -106,7 +106,7 @@ fn flight_same_inputs_give_identical_results_despite_wind_collision_and_respawn(
     fly(&mut first, &inputs, end, |event, sim| {
         crashes += usize::from(matches!(event, SimEvent::Crash { .. }));
         respawns += usize::from(*event == SimEvent::Respawn);
-        // A snapshot taken right after an event reveals state that the snapshot omits.
+        // A snapshot taken right after an event reveals any state that it omits.
         if snapshots.last().is_none_or(|last| sim.now() >= last.now() + MIN_INTERVAL) {
             snapshots.push(sim.clone());
         }

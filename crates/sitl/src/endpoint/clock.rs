@@ -8,11 +8,11 @@ use spandrel_model::time::SimTime;
 pub struct VehicleClock {
     /// Simulation time.
     pub now: SimTime,
-    /// Simulation time at which the autopilot booted.
+    /// Simulation time of the last autopilot boot.
     pub autopilot_booted: SimTime,
-    /// UTC at simulation start, s since the Unix epoch.
+    /// UTC at simulation start, in seconds since the Unix epoch.
     pub start_unix_s: i64,
-    /// Kind of link that the times are for.
+    /// Kind of link that receives the times.
     pub link_kind: LinkKind,
 }
 
@@ -23,39 +23,39 @@ impl VehicleClock {
         Self { link_kind, ..self }
     }
 
-    /// Converts a time to the autopilot's clock, which restarts with the autopilot. Payload processes receive
-    /// simulation time, so scores use a single clock.
+    /// Converts a time to the autopilot's clock, which restarts when the autopilot boots. Payload processes receive
+    /// simulation time instead, so that scoring uses a single clock.
     #[must_use]
     pub fn since_boot(&self, at: SimTime) -> SimTime {
         if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_booted) }
     }
 
-    /// Returns the time since the autopilot booted, ms, modulo 2^32 as in MAVLink's field.
+    /// Returns the time since autopilot boot in ms, modulo 2^32 because MAVLink's field has 32 bits.
     #[must_use]
     pub fn boot_ms(&self) -> u32 {
         self.since_boot(self.now).ms() as u32
     }
 
-    /// Returns the time since the autopilot booted, microseconds.
+    /// Returns the time since autopilot boot in microseconds.
     #[must_use]
     pub fn boot_us(&self) -> u64 {
         self.since_boot(self.now).us().max(0).cast_unsigned()
     }
 
-    /// Returns the time since simulation start, ms, modulo 2^32: the clock of the camera and the scoring data,
-    /// unaffected by autopilot reboots.
+    /// Returns the time since simulation start in ms, modulo 2^32. The camera and the scoring data use this clock,
+    /// which does not restart when the autopilot reboots.
     #[must_use]
     pub fn sim_ms(&self) -> u32 {
         self.now.ms() as u32
     }
 
-    /// Returns the time since simulation start, microseconds.
+    /// Returns the time since simulation start in microseconds.
     #[must_use]
     pub fn sim_us(&self) -> u64 {
         self.now.us().max(0).cast_unsigned()
     }
 
-    /// Returns the time since the Unix epoch, microseconds.
+    /// Returns the time since the Unix epoch in microseconds.
     #[must_use]
     pub fn unix_us(&self) -> u64 {
         (self.start_unix_s * 1_000_000 + self.now.us()).max(0).cast_unsigned()

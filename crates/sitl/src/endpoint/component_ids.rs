@@ -1,6 +1,6 @@
-//! Component IDs of the vehicle.
+//! The vehicle's component IDs.
 
-/// Component ID of the autopilot.
+/// Autopilot component ID.
 pub const AUTOPILOT: u8 = 1;
-/// Component ID of the camera.
+/// Camera component ID.
 pub const CAMERA: u8 = 100;

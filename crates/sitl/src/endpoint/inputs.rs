@@ -31,17 +31,17 @@ pub(super) fn payload_input<'v>(
     }
 }
 
-/// The state that messages are built from.
+/// State used to build messages.
 #[derive(Debug, Clone, Copy)]
 pub struct StreamInputs<'a> {
-    /// State of the vehicle.
+    /// Vehicle state.
     pub vehicle: VehicleSnapshot<'a>,
-    /// State of the equipment.
+    /// Equipment state.
     pub payload: PayloadSnapshot<'a>,
 }
 
 impl<'a> StreamInputs<'a> {
-    /// Returns the current state, for ground stations.
+    /// Returns the current state for ground stations.
     #[must_use]
     pub fn new(
         vehicle: &VehicleLink,

@@ -1,4 +1,5 @@
-//! Requests for messages and message rates, by the current commands and by the superseded ones that clients still send.
+//! Requests for messages and message rates, made with the current commands or with the superseded ones that clients
+//! still send.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::component_ids::{AUTOPILOT, CAMERA};
@@ -26,7 +27,7 @@ const AVAILABLE_MODES: u32 = 435;
 const IMAGE_CAPTURED: u32 = 263;
 const STREAM_INFORMATION: u32 = 269;
 const STREAM_STATUS: u32 = 270;
-/// Messages sent once for each card or stream, requested by its number.
+/// Messages that exist once per memory card or video stream and are requested by its number.
 const INDEXED_MESSAGES: [u32; 3] = [261, STREAM_INFORMATION, STREAM_STATUS];
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const DENIED: MavResult = MavResult::MAV_RESULT_DENIED;
@@ -53,7 +54,7 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavRe
         _ => None,
     };
     if let Some(message) = legacy {
-        // If the message has an index, it is the command's first parameter.
+        // If the message has an index, the index is the command's first parameter.
         let index = if INDEXED_MESSAGES.contains(&message) || message == IMAGE_CAPTURED { c.p[0] } else { 0.0 };
         return Some(request(message, (index, 0.0), c.component, x));
     }
@@ -73,14 +74,14 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavRe
     }
 }
 
-/// Returns the stream rows of a message sent by the addressed component.
+/// Returns the stream rows for a message from the addressed component.
 fn addressed(id: u32, component: u8) -> impl Iterator<Item = usize> {
     let mine =
         move |row: &usize| component == 0 || STREAMS[*row].component == component || !matches!(component, AUTOPILOT | CAMERA);
     streams::rows_of(id).map(|(row, _)| row).filter(mine)
 }
 
-/// Sends a message. `index` and `last` are parameters 2 and 3 of the request; their meaning depends on the message.
+/// Sends a message. `index` and `last` are parameters 2 and 3 of the request, whose meaning depends on the message.
 fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut MessageRequest) -> MavResult {
     if id == AVAILABLE_MODES {
         return x.vehicle.send_modes(index, x.link, x.links);
@@ -88,7 +89,7 @@ fn request(id: u32, (index, last): (f64, f64), component: u8, x: &mut MessageReq
     if id == IMAGE_CAPTURED {
         return x.payload.resend_images((index, last), x.link, x.links);
     }
-    // There is one card and one stream; 0 means all.
+    // The vehicle has one card and one stream; 0 means all.
     if INDEXED_MESSAGES.contains(&id) && index.is_finite() && !matches!(index, 0.0 | 1.0) {
         return DENIED;
     }

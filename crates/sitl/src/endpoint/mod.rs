@@ -1,7 +1,7 @@
-//! The vehicle's MAVLink interface, in one of three flavors. It processes the incoming datagrams of all links and
-//! produces outgoing ones; it never reads a clock.
+//! The vehicle's MAVLink interface, in one of three flavors. It processes incoming datagrams from all links and
+//! produces outgoing ones. It never reads a clock.
 //!
-//! Two halves share the links: [`vehicle_link`] is the autopilot interface; [`payload`] is the interface of the
+//! Two halves share the links: [`vehicle_link`] is the autopilot interface; [`payload`] is the interface to the
 //! aircraft's equipment and includes the scoring feed. `payload` does not depend on `vehicle_link`.
 
 mod clock;
@@ -35,13 +35,13 @@ pub use vehicle_link::{flavor, logs, params, snapshot};
 /// The vehicle's MAVLink endpoint.
 #[derive(Debug, Clone)]
 pub struct Endpoint {
-    /// The links.
+    /// The vehicle's links.
     pub links: Links,
     /// The autopilot interface.
     pub vehicle: VehicleLink,
     /// The equipment interface and the scoring feed.
     pub payload: PayloadLink,
-    /// Inputs that affected the vehicle and are not yet in the digest.
+    /// Inputs that have affected the vehicle and are not yet in the digest.
     digest_input: Vec<u8>,
     row_buffer: Vec<usize>,
 }
@@ -88,8 +88,8 @@ impl Endpoint {
     }
 
     /// Sets the simulation speed, in seconds of simulation time per second of client time. It scales the timeouts of
-    /// clients that are not in lockstep. Logs record it as a text now and as NAMED_VALUE_FLOAT `speed_factor` with the
-    /// other slow values.
+    /// clients that are not in lockstep. Logs record it immediately as a text, and as NAMED_VALUE_FLOAT `speed_factor`
+    /// along with the other slow values.
     pub fn set_speed_factor(&mut self, factor: f64, autopilot: &mut Autopilot) {
         self.vehicle.set_speed_factor(factor, autopilot);
         self.payload.speed_factor = factor;
@@ -98,12 +98,12 @@ impl Endpoint {
     /// Applies a parameter file and broadcasts the parameters.
     ///
     /// # Errors
-    /// Returns all invalid lines; no parameter is set in that case.
+    /// Returns all invalid lines. No parameter is set in that case.
     pub fn read_parameters(&mut self, text: &str, autopilot: &mut Autopilot) -> Result<(), Vec<params::text::ParamFileProblem>> {
         self.vehicle.read_parameters(text, autopilot, &mut self.payload.equipment, &self.links)
     }
 
-    /// Returns the inputs recorded since the last call, for the digest.
+    /// Returns the inputs recorded for the digest since the last call.
     pub fn take_digest_input(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.digest_input)
     }

@@ -1,4 +1,4 @@
-//! Outgoing messages of a tick: changes, streams, texts and lists, each sent only on the links that need it.
+//! Messages sent in a tick: changes, streams, texts and lists, each only on the links that need it.
 
 use super::Endpoint;
 use super::component_ids::{AUTOPILOT, CAMERA};
@@ -10,7 +10,7 @@ use super::streams::{self, STREAMS};
 use crate::autopilot::{Autopilot, AutopilotEvent};
 use spandrel_mavlink::dialect::MavSeverity;
 
-/// Message ID of HEARTBEAT.
+/// HEARTBEAT's message ID.
 const HEARTBEAT: u32 = 0;
 
 /// Repeats the autopilot's heartbeat after the camera's heartbeat in the same datagram, for clients that use only the
@@ -54,7 +54,7 @@ impl Endpoint {
         self.vehicle.retry_plan_request(&inputs.vehicle, &mut self.links);
     }
 
-    /// Sends only heartbeats and texts, while simulation time is paused. The camera's heartbeat is sent only on links
+    /// Sends only heartbeats and texts while simulation time is paused. The camera's heartbeat is sent only on links
     /// that use the camera.
     pub fn send_heartbeats(&mut self, aircraft: &SimulatedAircraft, autopilot: &Autopilot) {
         let input = payload_input(&self.vehicle, aircraft, autopilot);
@@ -71,7 +71,7 @@ impl Endpoint {
         self.vehicle.send_texts(&inputs.vehicle, &mut self.links);
     }
 
-    /// Broadcasts changes of the equipment and the autopilot once.
+    /// Broadcasts equipment and autopilot changes once.
     fn announce_changes(&mut self, inputs: &StreamInputs) {
         let (mut messages, warnings) = self.payload.equipment.changes.take();
         messages.append(&mut self.vehicle.take_announcements());

@@ -36,7 +36,7 @@ const ALL_HANDLED: [u32; COMMANDS.len() + vehicle_link::HANDLED.len() + payload:
     all
 };
 
-/// IDs of all messages that the vehicle handles; the fuzz tests mutate each of them.
+/// IDs of all messages that the vehicle handles; the fuzz tests mutate every one.
 pub const HANDLED: &[u32] = &ALL_HANDLED;
 
 impl Endpoint {
@@ -64,7 +64,7 @@ impl Endpoint {
         }
     }
 
-    /// Records inputs that affect the vehicle, with their sender, for the digest. Sequence numbers, checksums and
+    /// Records inputs that affect the vehicle, along with their sender, for the digest. Sequence numbers, checksums and
     /// client clocks are excluded.
     fn record_for_digest(&mut self, frame: &ReceivedFrame) {
         let clock_len = match frame.message_id {
@@ -133,7 +133,7 @@ impl Endpoint {
         }
     }
 
-    /// Executes a received command. The camera component accepts camera commands and message requests only.
+    /// Executes a received command. The camera component accepts only camera commands and message requests.
     fn execute(
         &mut self,
         link: LinkId,

@@ -8,18 +8,18 @@ use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::vehicle::Vehicle;
 
-/// State of physics, sensors and site at one instant.
+/// State of the physics, the sensors and the site at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct SimulatedAircraft<'a> {
-    /// The time.
+    /// The time on each clock.
     pub clock: VehicleClock,
-    /// The aircraft.
+    /// The aircraft's specification.
     pub vehicle: &'a Vehicle,
     /// Local tangent plane.
     pub plane: &'a LocalPlane,
     /// Latest sensor readings.
     pub readings: &'a Readings,
-    /// True state.
+    /// True state of the aircraft.
     pub truth: &'a RigidState,
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,

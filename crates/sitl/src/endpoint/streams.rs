@@ -17,9 +17,9 @@ use spandrel_model::time::SimTime;
 /// A message that can be streamed or requested.
 #[derive(Clone, Copy)]
 pub struct StreamSpec {
-    /// Message ID.
+    /// ID of the message.
     pub id: u32,
-    /// Rates for ground stations, SDKs and payload processes, Hz.
+    /// Rates for ground stations, SDKs and payload processes, in Hz.
     rates_hz: [f64; 3],
     /// Component that sends it.
     pub component: u8,
@@ -42,9 +42,9 @@ enum MessageSource {
 #[derive(Debug, Clone, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "the value is short-lived; boxing would allocate for every message")]
 pub enum OutgoingMessage {
-    /// A message of the common dialect.
+    /// A message in the common dialect.
     Common(MavMessage),
-    /// A message of ArduPilot's dialect.
+    /// A message in ArduPilot's dialect.
     ArduPilot(ardupilotmega::DialectMessage),
 }
 
@@ -183,7 +183,7 @@ pub const STREAMS: &[StreamSpec] = &[
     ardupilot_row(193, MessageSource::ArduPilot(ardupilot::estimator)),
 ];
 
-/// Returns the rows of a message ID.
+/// Returns the stream rows for a message ID.
 pub fn rows_of(id: u32) -> impl Iterator<Item = (usize, &'static StreamSpec)> {
     STREAMS.iter().enumerate().filter(move |(_, s)| s.id == id)
 }

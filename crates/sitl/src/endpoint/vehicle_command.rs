@@ -13,17 +13,17 @@ pub struct VehicleCommand {
     pub number: u16,
     /// Parameters 1 to 7. Parameters 5 and 6 are in degrees or meters, regardless of the message.
     pub p: [f64; 7],
-    /// MAV_FRAME number. COMMAND_LONG counts as global with altitude above mean sea level.
+    /// MAV_FRAME number. COMMAND_LONG is treated as global with an altitude above mean sea level.
     pub frame: u8,
-    /// Target component.
+    /// Target component ID.
     pub component: u8,
-    /// Target system.
+    /// Target system ID.
     pub system: u8,
-    /// System and component ID of the sender.
+    /// The sender's system and component ID.
     pub from: (u8, u8),
     /// Whether parameters 5 and 6 were received as scaled integers.
     pub whole: bool,
-    /// Whether the vehicle issued the command itself (mission item): such commands always have gimbal control.
+    /// Whether the vehicle issued the command itself (mission item). Such commands always have gimbal control.
     pub own: bool,
 }
 
@@ -68,7 +68,7 @@ impl VehicleCommand {
         Self { number, p, frame, component, system, from, whole: true, own: true }
     }
 
-    /// Returns whether the altitude is relative to home; `None` for a frame without a global position.
+    /// Returns whether the altitude is relative to home, or `None` for a frame without a global position.
     #[must_use]
     pub fn is_home_relative(&self) -> Option<bool> {
         match self.frame {
@@ -90,15 +90,15 @@ impl VehicleCommand {
         Some(self.p[k]).filter(|v| v.is_finite())
     }
 
-    /// Checks for latitude 0, longitude 0, which clients send to clear the region of interest. A mission item may also
-    /// leave the coordinates unset.
+    /// Checks for latitude 0 and longitude 0, which clients send to clear the region of interest. A mission item may
+    /// also leave the coordinates unset.
     #[must_use]
     pub fn clears_region_of_interest(&self) -> bool {
         [4, 5].iter().all(|k| self.p[*k] == 0.0 || (self.own && self.p[*k].is_nan()))
     }
 
-    /// Returns a small integer parameter, if it is set. As parameter 5 or 6 of COMMAND_INT and of mission items it
-    /// should not be scaled, but some ground stations scale it anyway.
+    /// Returns a small integer parameter, if it is set. Parameters 5 and 6 of COMMAND_INT and mission items should not
+    /// be scaled in this case, but some ground stations scale them anyway.
     #[must_use]
     pub fn small_integer(&self, k: usize) -> Option<f64> {
         let value = self.finite_param(k)?;

@@ -5,7 +5,7 @@ use spandrel_model::scenario::AfterCrash;
 use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::{Station, one, p};
 
-/// Flies forward with the sticks until the vehicle has left the home circle.
+/// Flies the vehicle forward with the sticks until it has left the home circle.
 fn fly_away(station: &mut Station) {
     let pad = scenario("drill-hover").ground_team.pad_m;
     let away = |station: &Station| (station.sim.truth().rigid.position_m.enu() - pad).horizontal_norm();
@@ -45,7 +45,7 @@ fn regress_vehicle_takes_off_again_after_a_soft_landing_away_from_home() {
     assert!(risen_m < -1.5 && !station.has_text("Respawned at"), "{risen_m} {:?}", station.texts());
 }
 
-/// Falls from 5 m with the motors stopped and returns the number of respawns within 15 s.
+/// Lets the vehicle fall from 5 m with its motors stopped. Returns the number of respawns within 15 s.
 fn respawns_after_a_fall(rule: Option<AfterCrash>) -> usize {
     let mut station = Station::with_crash_rule("drill-hover", 7, rule);
     station.climb_manually();

@@ -8,14 +8,14 @@ use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::Sim;
 use spandrel_testkit::station::{GCS, Station};
 
-/// Returns the acknowledgments of a command with any number. The frame is encoded manually, because the dialect does
-/// not contain all commands.
+/// Returns the acknowledgments of a command, which may have any number. The frame is encoded manually, because not all
+/// commands are in the dialect.
 fn acknowledgements(sim: &mut Sim, encoder: &mut Encoder, id: u32, number: u16, target: (u8, u8)) -> Vec<(u16, u8)> {
     let mut payload = [0; 35];
     payload[28..30].copy_from_slice(&number.to_le_bytes());
     (payload[30], payload[31]) = target;
     sim.handle_datagram(GCS, &encoder.encode_payload(id, &payload[..if id == 76 { 33 } else { 35 }]));
-    // There is no tick in between: the response must come before anything else happens.
+    // No tick runs in between: the response must come before anything else happens.
     let now = sim.now();
     sim.handle_timeout(now);
     let mut out = Vec::new();
@@ -35,7 +35,7 @@ fn wire_every_command_gets_one_response_and_unaddressed_components_stay_silent()
     while station.sim.poll_transmit().is_some() {}
     let mut encoder = Encoder::new(255, 190);
     for number in 0..=u16::MAX {
-        // One tick each, because the work per link and tick is limited.
+        // One tick for each request, because the work per link per tick is limited.
         let next = station.sim.poll_timeout();
         station.sim.handle_timeout(next);
         while station.sim.poll_transmit().is_some() {}
@@ -257,8 +257,8 @@ fn wire_frames_are_forwarded_only_to_their_target() {
         std::iter::from_fn(|| s.sim.poll_transmit()).map(|t| t.link).collect::<Vec<_>>()
     };
     let sticks = |target| MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { target, z: 500, ..Default::default() });
-    assert_eq!(copies(&mut station, &sticks(9)), [], "system 9 is unknown on all links");
-    assert_eq!(copies(&mut station, &sticks(1)), [monitor], "system 1 is also reachable through the monitor's link");
+    assert_eq!(copies(&mut station, &sticks(9)), [], "system 9 must be unknown on all links");
+    assert_eq!(copies(&mut station, &sticks(1)), [monitor], "system 1 must also be reachable through the monitor's link");
     assert_eq!(copies(&mut station, &sticks(0)), [monitor, other], "broadcast sticks must reach all links");
 }
 

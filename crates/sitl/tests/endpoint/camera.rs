@@ -16,10 +16,10 @@ const NAN: f32 = f32::NAN;
 /// Size of one picture on the card and of one second of recording (60 Mbit/s), MiB.
 const PICTURE_MIB: f32 = 6.0;
 const VIDEO_MIB_S: f32 = 60e6 / 8.0 / 1_048_576.0;
-/// Tolerance for the ticks between a command and its effect, s of recording.
+/// Tolerance for the ticks between a command and its effect, in seconds of recording.
 const TIMING_TOLERANCE_S: f32 = 0.01;
 
-/// The only shipped aircraft with a zoom lens.
+/// The only shipped aircraft that has a zoom lens.
 const ZOOMS: &str = "m30";
 
 fn on_the_pad(vehicle: &str) -> Station {
@@ -107,7 +107,7 @@ fn wire_formatting_empties_the_card_and_is_rejected_while_recording() {
     assert_eq!(status(&mut station).image_count, 1);
 }
 
-/// Returns the field of view at a zoom level, deg.
+/// Returns the field of view at a zoom level in degrees.
 fn field_deg(level: f64) -> f64 {
     let (wide_deg, most) = (84.0_f64, 3.1);
     (2.0 * math::atan2(math::tan(0.5 * wide_deg.to_radians()), 1.0 + level * (most - 1.0))).to_degrees()
@@ -166,7 +166,7 @@ fn wire_continuous_zoom_stops_on_command_and_reset_zooms_out() {
     station.run_ms(1_200);
     assert_eq!(station.command(CAMERA, zoom, p(&[1.0, 0.0])), OK);
     let stopped = settings(&station).unwrap().1;
-    // Half speed for 1.2 s; the full range takes 3 s.
+    // The lens moves at half speed for 1.2 s; the full range takes 3 s at full speed.
     assert!((stopped - 20.0).abs() < 0.2, "{stopped}");
     station.run_ms(1_000);
     ask(&mut station, 260);
@@ -199,7 +199,7 @@ fn wire_field_of_view_precedes_every_picture() {
         };
         assert_eq!((field.time_boot_ms, field.q), (image.time_boot_ms, image.q));
         let level = f64::from(image.time_boot_ms - 100) / 3_000.0;
-        // The lens moves with the control ticks, which are 2.5 ms apart.
+        // The lens moves in control ticks, which are 2.5 ms apart.
         assert!((f64::from(field.hfov) - field_deg(level)).abs() < 0.2, "{} at {level}", field.hfov);
     }
 }
@@ -309,8 +309,8 @@ fn wire_repeated_picture_command_takes_one_picture_and_other_cameras_are_ignored
     for (camera, result) in [(0.0, OK), (100.0, OK), (2.0, DENIED), (101.0, DENIED)] {
         assert_eq!(station.command(1, shoot, p(&[camera, 0.0, 1.0])), result, "{camera}");
     }
-    assert_eq!(station.command(1, shoot, p(&[1.0, 0.0, 1.0])), DENIED, "the autopilot must not have a camera sensor");
-    assert_eq!(station.command(CAMERA, shoot, p(&[1.0, 0.0, 1.0])), OK, "the camera must have a first sensor");
+    assert_eq!(station.command(1, shoot, p(&[1.0, 0.0, 1.0])), DENIED, "the autopilot must not have an image sensor");
+    assert_eq!(station.command(CAMERA, shoot, p(&[1.0, 0.0, 1.0])), OK, "the camera must have an image sensor");
 }
 
 #[test]
@@ -337,7 +337,7 @@ fn wire_missed_pictures_can_be_requested_again() {
     }
 }
 
-/// Returns a mission item with a payload command: seven parameters, with 5 and 6 as transmitted.
+/// Returns a mission item with a payload command. It has seven parameters, with 5 and 6 as transmitted.
 fn act(seq: u16, command: MavCmd, p: [f32; 4], x: i32, z: f32) -> MISSION_ITEM_INT_DATA {
     let [param1, param2, param3, param4] = p;
     let frame = MavFrame::MAV_FRAME_MISSION;

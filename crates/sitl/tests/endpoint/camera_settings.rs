@@ -17,7 +17,7 @@ fn number(bytes: &[u8]) -> u32 {
     u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
 }
 
-/// Returns name, value, index and count of all reported settings.
+/// Returns the name, value, index and count of each reported setting.
 fn announced(station: &Station) -> Vec<(String, u32, u16, u16)> {
     station.all(|m| match m {
         MavMessage::PARAM_EXT_VALUE(v) => {
@@ -46,7 +46,7 @@ fn read(name: &str, param_index: i16) -> MavMessage {
     })
 }
 
-/// Returns the result and value of the acknowledgment.
+/// Returns the result and the value in the acknowledgment.
 fn set(station: &mut Station, name: &str, value: u32, param_type: MavParamExtType) -> (ParamAck, u32) {
     let mut data = [0; 128];
     data[..4].copy_from_slice(&value.to_le_bytes());
@@ -168,7 +168,7 @@ fn wire_camera_serves_only_its_definition_file() {
     for setting in ["CAM_PHOTOQUAL", "CAM_VIDRATE"] {
         assert!(xml.contains(&format!("<parameter name=\"{setting}\" type=\"uint32\"")), "{setting}");
     }
-    // Uses the path as parsed by QGroundControl.
+    // Uses the path as QGroundControl parses it.
     let rooted = transfer(&mut station, CAMERA, Opcode::OpenFileRo, (0, 0), b"/camera.xml", 11);
     assert_eq!((rooted.opcode, number(&rooted.data)), (ACK, size));
     for (component, path) in [(CAMERA, "/etc/extras/parameter.json.xz"), (CAMERA, "../camera"), (1, "camera.xml")] {

@@ -4,7 +4,7 @@ use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::{ACCEPTED, home_north, item, ready, upload};
 use spandrel_testkit::station::Station;
 
-/// Maximum radius error of an orbit in the vehicle's own estimate, m.
+/// Maximum orbit radius error in the vehicle's own estimate, m.
 const RADIUS_TOLERANCE_M: f64 = 0.6;
 /// Maximum heading error, rad.
 const YAW_TOLERANCE: f32 = 0.2;
@@ -44,7 +44,7 @@ fn flight_orbit_keeps_radius_and_speed_facing_the_center() {
             .map_or(0.0, |b| (bearing - b + 3.0 * std::f32::consts::PI).rem_euclid(std::f32::consts::TAU) - std::f32::consts::PI);
         before = Some(bearing);
     }
-    // Twelve seconds at 2 m/s with a radius of 8 m, counterclockwise.
+    // A counterclockwise arc: twelve seconds at 2 m/s, with a radius of 8 m.
     assert!((turned + 11.9 * 2.0 / 8.0).abs() < 0.3, "{turned} rad");
     let too_wide = [5_000.0, 2.0, 0.0, 0.0, NAN, NAN, NAN];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_ORBIT, too_wide), MavResult::MAV_RESULT_DENIED);
@@ -74,7 +74,7 @@ fn flight_mission_heading_follows_the_region_of_interest_until_cleared() {
     assert_eq!(upload(&mut station, &plan), ACCEPTED);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| home_north(s) > home + 25.0));
-    // Position of the region of interest, m; 1e-7 degrees of longitude are shorter than those of latitude.
+    // Position of the region of interest, m; a degree of longitude is shorter than a degree of latitude.
     let east = 3_000.0 * 1e-7 * 40_000_000.0 / 360.0 * 46.7f32.to_radians().cos();
     let p = station.place();
     let wanted = (east - p[1]).atan2(home as f32 + 20.0 - p[0]);
@@ -182,7 +182,7 @@ fn wire_home_accepts_relative_heights_and_rejects_other_frames() {
     assert_eq!(set(&mut station, MavFrame::MAV_FRAME_LOCAL_NED, 3.0), MavResult::MAV_RESULT_DENIED);
 }
 
-/// Returns the center of the current orbit as COMMAND_INT encodes it.
+/// Returns the current orbit's center as COMMAND_INT encodes it.
 fn orbit_center(station: &Station) -> (i32, i32, f32) {
     station.last_message(|m| if let MavMessage::ORBIT_EXECUTION_STATUS(o) = m { Some((o.x, o.y, o.z)) } else { None }).unwrap()
 }
@@ -199,7 +199,7 @@ fn regress_orbit_with_yaw_unchanged_keeps_the_current_yaw_behavior() {
     station.run_ms(15_000);
     let [n, e, _] = std::array::from_fn(|k| station.place()[k] - center[k]);
     assert!(angle_between(yaw(&station), (-e).atan2(-n)) < YAW_TOLERANCE, "{} at {n} {e}", yaw(&station));
-    // An orbit around the same center with the nose along the circle (3), then unchanged.
+    // An orbit around the same center with the nose along the circle (3), then with the yaw behavior unchanged.
     let (x, y, z) = orbit_center(&station);
     for behavior in [3.0, 5.0] {
         let orbit = COMMAND_INT_DATA {

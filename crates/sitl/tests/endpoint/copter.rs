@@ -19,7 +19,7 @@ pub(super) const LOITER: f32 = 5.0;
 const RTL: f32 = 6.0;
 const POSHOLD: f32 = 16.0;
 pub(super) const BRAKE: f32 = 17.0;
-/// Tolerance within which a height counts as reached, m (the autopilot's 0.4 m and the deceleration).
+/// Tolerance within which a height counts as reached, m (the autopilot's 0.4 m, plus deceleration).
 const HEIGHT_M: f32 = 0.6;
 /// Position of the drill's pad in 1e-7 degrees, and meters north per 1e-7 degree.
 pub(super) const PAD: (i32, i32) = (467_052_000, 83_814_000);
@@ -55,7 +55,7 @@ pub(super) fn copter() -> Station {
     station
 }
 
-/// Returns a Copter in GUIDED at a height above home in meters.
+/// Returns a Copter in GUIDED at a given height above home in meters.
 pub(super) fn copter_at(height_m: f32) -> Station {
     let mut station = copter();
     assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);

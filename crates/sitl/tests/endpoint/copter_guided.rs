@@ -203,7 +203,7 @@ fn regress_global_target_is_reported_only_for_positions() {
     assert_eq!(shown(&mut station), None, "a velocity target must not have a position");
 }
 
-/// ArduPilot's test case PAUSE_CONTINUE_GUIDED with a velocity.
+/// ArduPilot's test case PAUSE_CONTINUE_GUIDED, but with a velocity.
 #[test]
 fn regress_guided_velocity_can_be_paused_and_continued() {
     let mut station = copter_at(5.0);

@@ -10,7 +10,7 @@ use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
-/// Tolerance within which a position counts as reached, m (the autopilot's 0.4 m and the deceleration).
+/// Tolerance within which a position counts as reached, m (the autopilot's 0.4 m, plus deceleration).
 const NEAR_M: f32 = 0.7;
 /// Maximum deviation from the path on the way back, m (Smart RTL's accuracy of 2 m, at which it turns to the next
 /// point, and the deviations of both flights).
@@ -53,7 +53,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// QGroundControl's altitude slider: mode GUIDED, then one offset with only the position bits of the mask clear.
+/// QGroundControl's altitude slider: GUIDED mode, then one offset with only the mask's position bits clear.
 #[test]
 fn regress_qgroundcontrols_altitude_slider_climbs_a_copter() {
     for before in [GUIDED, BRAKE] {
@@ -92,7 +92,7 @@ fn regress_smart_rtl_retraces_its_path_and_lands_at_the_start() {
     let pad = station.place();
     let corner = [pad[0] + 20.0, pad[1], pad[2] - 2.0];
     let end = [pad[0] + 20.0, pad[1] + 20.0, pad[2] - 2.0];
-    // The flown path, with rounded corners and overshoots.
+    // The actual flight path, with rounded corners and overshoots.
     let mut path = Vec::new();
     for place in [corner, end] {
         station.send(&local(MavFrame::MAV_FRAME_LOCAL_NED, 0x0DF8, place));
@@ -119,7 +119,7 @@ fn regress_smart_rtl_retraces_its_path_and_lands_at_the_start() {
     let farthest_off = path_back.iter().map(off).fold(0.0, f32::max);
     assert!(nearest < PATH_M && farthest_off < PATH_M, "corner {nearest} m, path {farthest_off} m");
     let here = station.place();
-    assert!((here[0] - pad[0]).hypot(here[1] - pad[1]) < 1.0, "{here:?} not over {pad:?}");
+    assert!((here[0] - pad[0]).hypot(here[1] - pad[1]) < 1.0, "{here:?} is not above {pad:?}");
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn regress_circle_mode_orbits_a_point_ahead() {
         assert!((radius - 6.0).abs() < NEAR_M, "{radius}");
     }
     let turned = (bearing(&station) - before).rem_euclid(std::f32::consts::TAU).to_degrees();
-    // CIRCLE_RATE is 20 deg/s, clockwise.
+    // CIRCLE_RATE is 20 deg/s clockwise.
     assert!((turned - 80.0).abs() < 15.0, "{turned} deg in 4 s");
     assert_eq!(next_heartbeat(&mut station).custom_mode, CIRCLE as u32);
 }
@@ -210,7 +210,8 @@ fn regress_attitude_thrust_sets_the_climb_rate() {
         })
     };
     set_param(&mut station, "WPNAV_SPEED_UP", 250.0, MavParamType::MAV_PARAM_TYPE_REAL32);
-    // 0.5 holds the height; 0.7 is 0.4 of WPNAV_SPEED_UP; 0.25 is half of WPNAV_SPEED_DN (150 cm/s).
+    // A thrust of 0.5 holds the height, 0.7 climbs at 0.4 times WPNAV_SPEED_UP, and 0.25 descends at half of
+    // WPNAV_SPEED_DN (150 cm/s).
     for (thrust, climb) in [(0.5, 0.0), (0.7, 1.0), (0.25, -0.75)] {
         for _ in 0..60 {
             station.send(&level(thrust));
@@ -229,7 +230,7 @@ fn regress_condition_yaw_respects_rate_and_direction() {
         s.run_ms(8_000);
     };
     point(&mut station, 0.0);
-    // Counterclockwise to 90 degrees is 270 degrees the long way, at 30 deg/s.
+    // Turning counterclockwise to 90 degrees is a 270-degree turn at 30 deg/s.
     assert_eq!(station.command(1, MavCmd::MAV_CMD_CONDITION_YAW, p(&[90.0, 30.0, -1.0, 0.0])), ACCEPTED);
     station.run_ms(4_000);
     let on_the_way = yaw(&mut station).to_degrees();
@@ -266,7 +267,7 @@ fn regress_pause_holds_and_continue_resumes_in_guided() {
     assert_eq!(station.command(1, pause, one(0.0)), FAILED, "pause must be rejected in other modes");
 }
 
-/// The mission takes off, waits until a time of day, and lands; the drill starts on a whole minute.
+/// The mission takes off, waits until a given time of day, and lands. The drill starts on a whole minute.
 #[test]
 fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
     let mut station = copter_at(5.0);
@@ -290,7 +291,7 @@ fn regress_mission_supports_time_of_day_pause_and_landing_sequence() {
         item(6, MavCmd::MAV_CMD_NAV_WAYPOINT, 10.0, 6.0),
         item(7, MavCmd::MAV_CMD_NAV_LAND, 10.0, 0.0),
     ];
-    assert_eq!(station.command(1, SET_MODE, mode(27.0)), FAILED, "the mission does not contain a landing sequence yet");
+    assert_eq!(station.command(1, SET_MODE, mode(27.0)), FAILED, "the mission must not contain a landing sequence yet");
     assert_eq!(upload(&mut station, &plan), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(station.command(1, SET_MODE, mode(AUTO)), ACCEPTED);
     let home = station.local_position_after(100)[0];
@@ -357,8 +358,8 @@ fn regress_follow_mode_keeps_its_offset() {
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt - g.relative_alt) } else { None })
         .unwrap();
     assert_eq!(station.command(1, SET_MODE, mode(23.0)), ACCEPTED);
-    // A person on the ground walks east at 1.5 m/s, starting 10 m north of the pad. A degree of longitude is 0.6858 of
-    // a degree of latitude here.
+    // A person on the ground walks east at 1.5 m/s, starting 10 m north of the pad. Here, a degree of longitude is
+    // 0.6858 times as long as a degree of latitude.
     let east_m_per_e7 = M_PER_E7 * 0.6858;
     let mut east = 0.0;
     for k in 0..120 {
@@ -439,7 +440,7 @@ fn regress_copter_streams_ardupilot_messages_as_a_multicopter() {
     station.received.clear();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(193.0)), ACCEPTED);
     let report = station.received.iter().find(|frame| frame.message_id == 193).expect("EKF_STATUS_REPORT").payload(26);
-    // Flags of a healthy ArduCopter, recorded: 831.
+    // Flags recorded from a healthy ArduCopter: 831.
     assert_eq!(u16::from_le_bytes([report[20], report[21]]), 831);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(245.0)), ACCEPTED);
     let vtol = station.last_message(|m| if let MavMessage::EXTENDED_SYS_STATE(e) = m { Some(e.vtol_state) } else { None });

@@ -1,5 +1,5 @@
-//! Compatibility with pilots and scripts made for ArduCopter: channel switches, arming by mode, the end of a mission,
-//! and the order of responses (all used by ArduPilot's autotest).
+//! Compatibility with pilots and scripts written for ArduCopter: channel switches, arming by mode, the end of a
+//! mission, and the order of responses (all used by ArduPilot's autotest).
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, GUIDED, LOITER, SET_MODE, copter, copter_at, mode, next_heartbeat};
@@ -16,7 +16,7 @@ const STABILIZE: f32 = 0.0;
 const ALT_HOLD: f32 = 2.0;
 const RTL: f32 = 6.0;
 const LAND: u32 = 9;
-/// Commands that the common dialect does not contain.
+/// Commands that are not in the common dialect.
 const DO_AUX_FUNCTION: u16 = 218;
 const DO_JUMP_TAG: u16 = 601;
 const COMMAND_LONG: u32 = 76;
@@ -50,7 +50,7 @@ fn is_armed(station: &mut Station) -> bool {
     next_heartbeat(station).base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED)
 }
 
-/// Returns the result of a command that the dialect does not contain.
+/// Returns the result of a command that is not in the dialect.
 fn unknown_command(station: &mut Station, number: u16, values: [f32; 2]) -> u8 {
     let mut payload = [0u8; 33];
     payload[..4].copy_from_slice(&values[0].to_le_bytes());
@@ -118,7 +118,7 @@ fn flight_switches_save_and_clear_waypoints() {
         station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(42.0));
         station.last_message(|m| if let MavMessage::MISSION_CURRENT(c) = m { Some(c.total) } else { None }).unwrap()
     };
-    // A takeoff precedes the first waypoint.
+    // A takeoff item precedes the first waypoint.
     for (chan8_raw, count) in [(1000, 0), (2000, 2), (1000, 2), (2000, 3)] {
         station.send(&switches(1500, 1500, chan8_raw, 1000));
         station.run_ms(100);

@@ -1,5 +1,5 @@
-//! Missions and fences in the ArduCopter interface: item 0 is home, and the fence is active if its parameter enables
-//! it.
+//! Missions and fences in the ArduCopter interface: item 0 is home, and the fence is active only if its parameter
+//! enables it.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_heartbeat};
@@ -60,7 +60,7 @@ fn flight_fence_acts_only_if_enabled() {
     }
 }
 
-/// After a fence has stopped the vehicle, setpoints outside the fence must be ignored, although they keep arriving.
+/// After a fence has stopped the vehicle, setpoints outside the fence must be ignored even if they keep arriving.
 #[test]
 fn flight_fence_breach_ends_guided_flight() {
     let mut station = copter_at(5.0);
@@ -97,7 +97,7 @@ fn wire_mission_item_0_is_home() {
     let place = MavCmd::MAV_CMD_NAV_WAYPOINT;
     assert_eq!(counted(&mut station), 0);
     assert_eq!(current(&mut station), (0, 0));
-    // Any content of item 0 must be accepted, even an unreachable position.
+    // Item 0 must be accepted whatever it contains, even an unreachable position.
     let home = MISSION_ITEM_INT_DATA { x: 1_900_000_000, z: 1e9, ..item(0, place, 0.0, 0.0) };
     let jump = MISSION_ITEM_INT_DATA { param1: 1.0, param2: 1.0, ..item(3, MavCmd::MAV_CMD_DO_JUMP, 0.0, 0.0) };
     let items = [home.clone(), item(1, place, 10.0, 5.0), item(2, place, 20.0, 5.0), jump];

@@ -16,7 +16,7 @@ const BATTERY: f32 = 100.0;
 const MOTOR: f32 = 101.0;
 const STICKS: f32 = 104.0;
 const HOLD: u32 = 4 << 16 | 3 << 24;
-/// Tolerance between the wind that is set and the wind in telemetry, which includes turbulence, m/s.
+/// Tolerance for the difference between the configured wind and the wind in telemetry, which includes turbulence, m/s.
 const WIND_TOLERANCE_M_S: f64 = 2.5;
 
 fn set(station: &mut Station, name: &str, value: f32, kind: MavParamType) {
@@ -56,7 +56,7 @@ fn has_text(station: &Station, what: &str) -> bool {
         .is_empty()
 }
 
-/// Returns a vehicle that holds its position at some height, with failure injection enabled.
+/// Returns a vehicle that holds its position at a given height, with failure injection enabled.
 fn holding() -> Station {
     let mut station = Station::airborne("drill-hover", 7);
     set_whole(&mut station, "SYS_FAILURE_EN", 1);
@@ -99,7 +99,7 @@ fn flight_gnss_loss_and_recovery_are_reported() {
     assert!(station.run_until(30.0, |s| seen(s) == (Some(true), Some(3))), "{:?}", seen(&station));
 }
 
-/// The estimate may follow a jump of the fixes or reject it; either way, the vehicle must stay in the air without a
+/// The estimate may follow a jump in the fixes or reject it; either way, the vehicle must stay in the air without a
 /// collision.
 #[test]
 fn flight_gnss_jump_does_not_cause_a_crash() {
@@ -113,7 +113,7 @@ fn flight_gnss_jump_does_not_cause_a_crash() {
     assert!(now.velocity_m_s.norm() < 8.0, "{:?}", now.velocity_m_s);
 }
 
-/// Returns the health bits of one SYS_STATUS.
+/// Returns the health bits from one SYS_STATUS message.
 fn health(station: &Station) -> Option<MavSysStatusSensor> {
     station.last_message(|m| if let MavMessage::SYS_STATUS(s) = m { Some(s.onboard_control_sensors_health) } else { None })
 }
@@ -169,7 +169,7 @@ fn wire_stuck_sensor_is_announced_and_prevents_arming() {
     use MavSysStatusSensor as S;
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
-    // Time limit, s: two seconds with the same value, SYS_STATUS twice per second, and margin.
+    // Time limit, s: two seconds with the same value, SYS_STATUS twice per second, plus margin.
     const WITHIN_S: f64 = 4.0;
     let arm = p(&[1.0]);
     for (flavor, unit, bit, words) in [
@@ -198,12 +198,12 @@ fn wire_stuck_sensor_is_announced_and_prevents_arming() {
     }
 }
 
-/// Scenario of issue 16: go to a height of 12 m; the barometer gets stuck during the climb.
+/// Scenario from issue 16: the vehicle goes to a height of 12 m, and the barometer gets stuck during the climb.
 #[test]
 fn regress_stuck_barometer_is_announced_and_the_climb_succeeds() {
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
-    // Height tolerance, m: only the GNSS height remains.
+    // Height tolerance, m, when only the GNSS height remains.
     const HEIGHT_M: f64 = 2.5;
     let mut station = holding();
     let before = station.sim.truth().rigid.position_m.enu();
@@ -224,7 +224,7 @@ fn regress_stuck_barometer_is_announced_and_the_climb_succeeds() {
     assert!((climbed - 7.0).abs() < HEIGHT_M, "{climbed} m instead of 7 m");
 }
 
-/// With one motor stopped, the vehicle tilts and spins; it must report that before it has fallen.
+/// With one motor stopped, the vehicle tilts and spins; it must report this before it has fallen.
 #[test]
 fn flight_motor_failure_changes_attitude_and_is_reported() {
     let mut station = holding();
@@ -282,7 +282,7 @@ fn wire_battery_failure_is_reported() {
     assert!(left.unwrap() <= 5, "{left:?}");
 }
 
-/// A failed cell must be reported, reduce the pack's voltage, and recover.
+/// A failed cell must be reported, must reduce the pack voltage, and must be able to recover.
 #[test]
 fn wire_failed_cell_is_reported_and_reduces_the_voltage() {
     let mut station = holding();
@@ -337,7 +337,7 @@ fn wire_telemetry_reproduces_traffic_on_closed_bridges() {
         station.run_ms(wait_ms);
         let heard = BridgeClosures::from_codes(codes(&station));
         assert_eq!(station.sim.site().traffic().closures(), &heard);
-        // A program that has the scenario, the seed and the telemetry must compute the same cars.
+        // A program that has the scenario, the seed and the telemetry must be able to compute the same cars.
         let theirs = Site::build(&scenario("two-bridges"), 7).with_closures(heard);
         let now = station.sim.now();
         let (here, there) = (station.sim.site().traffic().solids(now), theirs.traffic().solids(now));

@@ -25,7 +25,7 @@ fn set(station: &mut Station, name: &str, value: i32) {
     assert!(station.set(name, bits, MavParamType::MAV_PARAM_TYPE_INT32).is_some());
 }
 
-/// Sends stick inputs for a while at the rate of a ground station.
+/// Sends stick input for a while at a ground station's rate.
 fn fly(station: &mut Station, forward: i16, right: i16, z: i16, ms: i64) {
     for _ in 0..ms / 40 {
         station.sticks(forward, right, z, 0);
@@ -79,7 +79,7 @@ fn wire_targets_outside_the_fence_are_rejected() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
 }
 
-/// The path must be rejected although both of its ends are allowed.
+/// The path must be rejected even though both of its ends are allowed.
 #[test]
 fn wire_paths_through_exclusion_areas_or_above_the_limit_are_rejected() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -154,8 +154,8 @@ fn wire_return_uses_the_nearest_rally_point() {
     assert!((home_north(&station) - home - 30.0).abs() < 1.5, "{:?}", station.place());
 }
 
-/// The mission must continue at the point where the pilot took over, not at the start of the item and not directly to
-/// its end.
+/// The mission must continue from the point where the pilot took over. It must not start at the beginning of the item
+/// or go directly to its end.
 #[test]
 fn wire_interrupted_mission_resumes_at_the_interruption_point() {
     let mut station = Station::airborne("drill-hover", 7);
@@ -166,7 +166,7 @@ fn wire_interrupted_mission_resumes_at_the_interruption_point() {
     assert!(station.run_until(60.0, |s| home_north(s) > home + 30.0), "{:?}", station.place());
     fly(&mut station, 0, 0, 500, 80);
     assert_eq!(station.mode(), Some(MISSION), "centered sticks must not interrupt the mission");
-    // Position according to the vehicle's estimate at that time.
+    // The vehicle's estimated position at that time.
     let left = station.place();
     fly(&mut station, 0, 1000, 500, 3_000);
     fly(&mut station, 0, 0, 500, 2_000);

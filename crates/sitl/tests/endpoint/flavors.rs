@@ -1,4 +1,4 @@
-//! The vehicle as an emulation of three autopilots: identification, modes, parameters, files, streams.
+//! The vehicle emulating three autopilots: identification, modes, parameters, files, and streams.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::copter::{SET_MODE, beat, copter, copter_at, mode, next_heartbeat};
@@ -245,7 +245,7 @@ fn wire_copter_sends_only_heartbeats_until_requested_except_to_the_sidecar() {
     station.received.clear();
     station.run_ms(2_000);
     for id in [1, 24, 27, 30, 33, 62, 65, 74, 147] {
-        // Sticks are streamed only while a client controls them.
+        // Stick positions are streamed only while a client controls the sticks.
         assert!(id == 65 || count(&station, id) == 8, "message {id}: {}", count(&station, id));
     }
     station.send(&groups(MavDataStream::MAV_DATA_STREAM_ALL, 4, 0));

@@ -11,14 +11,14 @@ use spandrel_testkit::plans::{home_north, item};
 use spandrel_testkit::station::{GCS, Station};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Values from the issue: fraction of lost datagrams, delay range (which reorders datagrams), fraction of duplicated
-/// datagrams.
+/// Values from the issue: the fraction of lost datagrams, the delay range (which reorders datagrams), and the fraction
+/// of duplicated datagrams.
 const LOSS: f64 = 0.3;
 const DELAY_MS: (f64, f64) = (100.0, 300.0);
 const DUPLICATE_PROBABILITY: f64 = 0.1;
-/// Retry interval of the client, ms: one and a half round trips.
+/// The client's retry interval, ms: one and a half round trips.
 pub(super) const TIMEOUT_MS: i64 = 900;
-/// Limit for each exchange, s of simulation time; only a hang takes longer.
+/// Time limit for each exchange, in seconds of simulation time; only a hang takes longer.
 pub(super) const LIMIT_S: f64 = 1_200.0;
 
 /// One direction of the link.
@@ -100,7 +100,7 @@ impl Client {
         self.ask_every(TIMEOUT_MS, message, like)
     }
 
-    /// Same as `ask` with another retry interval, ms.
+    /// Same as `ask`, but with another retry interval in ms.
     pub(super) fn ask_every<T>(
         &mut self,
         timeout_ms: i64,
@@ -129,7 +129,7 @@ fn wire_mission_transfers_survive_a_bad_link() {
     upload_and_download(&mut Client::new(1), 40);
 }
 
-/// The case of MAVLink's testing suite: 500 items with a quarter of all datagrams lost.
+/// The case from MAVLink's test suite: 500 items with a quarter of all datagrams lost.
 #[test]
 fn wire_500_items_are_transferred_despite_25_percent_loss() {
     upload_and_download(&mut Client::with_loss(5, 0.25), 500);
@@ -139,7 +139,7 @@ fn upload_and_download(client: &mut Client, number: u16) {
     let home = home_north(&client.station);
     let waypoint = |k| item(k, MavCmd::MAV_CMD_NAV_WAYPOINT, home + 2.0 * f64::from(k), 6.0);
     let items: Vec<_> = (0..number).map(waypoint).collect();
-    // The vehicle requests the items one by one; the client sends the latest one requested.
+    // The vehicle requests the items one by one; the client sends the item requested last.
     let next = |m: &MavMessage| match m {
         MavMessage::MISSION_REQUEST_INT(r) => Some(Some(r.seq)),
         MavMessage::MISSION_ACK(a) if a.mavtype == MavMissionResult::MAV_MISSION_ACCEPTED => Some(None),
@@ -229,7 +229,7 @@ fn requests_or_ack(station: &mut Station) -> Vec<(i64, Option<u16>)> {
 }
 
 /// The vehicle repeats its request four times per second to a client whose items were lost, and repeats an
-/// acknowledgment that may have been lost. On a link without losses, there is only one acknowledgment, as from PX4.
+/// acknowledgment that may have been lost. On a lossless link, it sends only one acknowledgment, as PX4 does.
 #[test]
 fn regress_upload_requests_are_repeated_after_250_ms() {
     let mut station = Station::new("drill-hover", 7);
@@ -251,7 +251,7 @@ fn regress_upload_requests_are_repeated_after_250_ms() {
         assert_eq!(acknowledged, if loses { 5 } else { 1 }, "{heard:?}");
     }
     // The vehicle repeats its request sooner to a client that has responded within a few milliseconds: 120 ms after the
-    // control tick (2.5 ms) of the request, so more requests fit into the client's timeout.
+    // request's control tick (2.5 ms). More requests then fit into the client's timeout.
     station.sim.handle_datagram(GCS, &encoder.encode(&count(2)));
     station.run_ms(3);
     station.sim.handle_datagram(GCS, &encoder.encode(&waypoint(0)));

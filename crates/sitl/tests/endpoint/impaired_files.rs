@@ -119,7 +119,7 @@ impl Ftp {
         (parts.into_values().flatten().collect(), bursts)
     }
 
-    /// Requests one burst and stores the received parts.
+    /// Requests one burst and stores the parts received.
     fn burst(&mut self, session: u8, from: usize, parts: &mut BTreeMap<usize, Vec<u8>>) {
         let (_, message) = self.request(Opcode::BurstReadFile, session, from as u32, &[]);
         self.client.send(&message);
@@ -183,7 +183,7 @@ fn wire_burst_download_survives_a_bad_link() {
     assert!(shipped == metadata::files(&param_view::PX4).parameter.bytes.to_vec());
 }
 
-/// Includes a client that repeats its requests before they can have been answered.
+/// Includes a client that repeats its requests before responses can arrive.
 #[test]
 fn wire_file_upload_survives_a_bad_link() {
     for (seed, timeout_ms) in [(6, TIMEOUT_MS), (7, SHORT_TIMEOUT_MS), (8, SHORT_TIMEOUT_MS), (9, SHORT_TIMEOUT_MS)] {
@@ -201,8 +201,8 @@ fn long_file() -> Vec<u8> {
     content(200 * CHECKSUM_SLICE as usize + 5)
 }
 
-/// Returns the FTP responses of one second if the host advances time in steps of this size, and the maximum number of
-/// jobs between two ticks.
+/// Returns the FTP responses sent within one second if the host advances time in steps of this size, and the maximum
+/// number of jobs between two ticks.
 fn responses_in_one_second(at_once_ms: i64) -> (Vec<FtpPacket>, usize) {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);

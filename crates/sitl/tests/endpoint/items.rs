@@ -6,7 +6,7 @@ use spandrel_testkit::plans::{ACCEPTED, PLAN, home_north, item, ready, upload};
 use spandrel_testkit::station::Station;
 
 const NAN: f32 = f32::NAN;
-/// Maximum radius error of a circle, m (same as in the orbit test).
+/// Maximum circle radius error, m (same as in the orbit test).
 const RADIUS_TOLERANCE_M: f32 = 0.6;
 /// Maximum heading error at the end of a turn in a mission, degrees (3 in flight, plus the error of the estimate).
 const HEADING_TOLERANCE_DEG: f32 = 6.0;
@@ -129,7 +129,7 @@ fn flight_mission_can_set_home_and_switch_the_fence() {
     let request = [242.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, request);
     let home = station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();
-    assert!((f64::from(home) - north - 20.0).abs() < 3.0, "home must be at the drone's position: {home} of {north}");
+    assert!((f64::from(home) - north - 20.0).abs() < 3.0, "home must be at the drone's position: {home}, drone at {north}");
 }
 
 #[test]
@@ -215,7 +215,7 @@ fn wire_partial_upload_replaces_only_its_items() {
     assert_eq!(station.ask(&higher(3), result), Some(ACCEPTED));
     assert_eq!(station.ask(&higher(3), result), Some(ACCEPTED), "a repeated final item must be acknowledged again");
     assert_eq!(heights(&mut station), [6.0, 6.0, 9.0, 9.0, 6.0]);
-    // A part that makes the mission endless must be rejected without effect.
+    // A partial upload that makes the mission endless must be rejected without effect.
     assert_eq!(station.ask(&part(0, 0), asked), Some(0));
     let jump = MavMessage::MISSION_ITEM_INT(order(0, MavCmd::MAV_CMD_DO_JUMP, [0.0, -1.0, 0.0, 0.0]));
     assert_eq!(station.ask(&jump, result), Some(MavMissionResult::MAV_MISSION_INVALID_PARAM1));

@@ -40,7 +40,7 @@ fn assert_take_off_states(seen: &[(MavLandedState, f64)]) {
     let order: Vec<L> = seen.iter().map(|(state, _)| *state).filter(|state| *state != L::MAV_LANDED_STATE_ON_GROUND).collect();
     assert_eq!(order, [L::MAV_LANDED_STATE_TAKEOFF, L::MAV_LANDED_STATE_IN_AIR], "{seen:?}");
     let up = seen.last().map_or(0.0, |(_, up)| *up);
-    assert!(up > CLEAR_M && up > f64::from(HEIGHT_M) - HEIGHT_TOLERANCE_M, "IN_AIR first reported at {up} m: {seen:?}");
+    assert!(up > CLEAR_M && up > f64::from(HEIGHT_M) - HEIGHT_TOLERANCE_M, "IN_AIR was first reported at {up} m: {seen:?}");
 }
 
 #[test]

@@ -8,10 +8,10 @@ use spandrel_sitl::endpoint::flavor;
 use spandrel_testkit::shipped::scenario;
 use spandrel_testkit::station::{Station, p};
 
-/// Maximum drift of an estimate at rest after the origin was set, m: three sigma of the white noise of GNSS heights
-/// (0.48 m), averaged over the first eight fixes.
+/// Maximum drift of an estimate at rest after the origin was set, m: three sigma of the GNSS height's white noise (0.48
+/// m), averaged over the first eight fixes.
 const SETTLED_TOLERANCE_M: f32 = 0.5;
-/// Maximum difference between degrees E7, millimeters and single-precision meters, m.
+/// Maximum rounding difference between degrees E7, millimeters and single-precision meters, m.
 const ROUNDING_M: f64 = 0.03;
 /// Maximum height error in the vehicle's own estimate, m.
 const HOLD_TOLERANCE_M: f32 = 0.5;

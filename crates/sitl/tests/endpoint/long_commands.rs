@@ -77,7 +77,7 @@ fn wire_fence_disabled_in_flight_is_enabled_after_landing() {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_FENCE_ENABLE, one(0.0)), OK);
     assert!(!has_fence(&mut station));
     set(&mut station, "MIS_TAKEOFF_ALT", 3.0);
-    assert!(!has_fence(&mut station), "the other parameter must have no effect");
+    assert!(!has_fence(&mut station), "the wrong parameter must have no effect");
     assert_eq!(station.command(1, ARM, FORCED), OK);
     assert!(has_fence(&mut station));
 }
@@ -180,8 +180,8 @@ fn horizontal_distance_m(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Maximum horizontal and vertical distance between the interruption point and the point where a step resumes, m (error
-/// of the estimate, and 0.8 m within which it counts as reached).
+/// Maximum horizontal and vertical distance between the interruption point and the point where a step resumes, m (the
+/// estimation error, plus the 0.8 m within which a point counts as reached).
 const RESUME_TOLERANCE_M: f32 = 1.5;
 
 #[test]
@@ -203,10 +203,10 @@ fn flight_interrupted_takeoff_resumes_at_its_position() {
         up = up.min(s.place()[2]);
         has_text(s, "Mission resumed from interruption point")
     }));
-    assert!(horizontal_distance_m(station.place(), over) < RESUME_TOLERANCE_M, "{:?} not over {over:?}", station.place());
+    assert!(horizontal_distance_m(station.place(), over) < RESUME_TOLERANCE_M, "{:?} is not above {over:?}", station.place());
     assert!(up > -14.0, "the vehicle must return before it climbs: {up}");
     assert!(station.run_until(60.0, |s| s.place()[2] < -27.0));
-    assert!(horizontal_distance_m(station.place(), over) < RESUME_TOLERANCE_M, "{:?} not over {over:?}", station.place());
+    assert!(horizontal_distance_m(station.place(), over) < RESUME_TOLERANCE_M, "{:?} is not above {over:?}", station.place());
     assert!(station.run_until(60.0, |s| has_text(s, "Mission finished")));
 }
 

@@ -1,4 +1,4 @@
-//! Manual control through MANUAL_CONTROL and RC overrides: ownership of the sticks, and timeouts.
+//! Manual control through MANUAL_CONTROL and RC overrides: stick ownership and timeouts.
 
 use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::dialect::*;
@@ -9,7 +9,7 @@ use spandrel_testkit::station::{GCS, Station};
 
 const HOLD: u32 = 4 << 16 | 3 << 24;
 const POSITION: u32 = 3 << 16;
-/// Maximum drift while holding a position, m (gusts, and drift of the estimate).
+/// Maximum drift while holding a position, m (gusts plus drift of the estimate).
 const DRIFT_M: f32 = 0.7;
 
 fn channels(station: &mut Station, pitch: u16, throttle: u16) {
@@ -27,7 +27,7 @@ fn channels(station: &mut Station, pitch: u16, throttle: u16) {
 #[test]
 fn wire_rc_override_acts_like_sticks_with_transmitter_pitch() {
     let mut station = Station::airborne("drill-hover", 7);
-    // The first sender controls the sticks until it has released them.
+    // The first sender keeps stick control until it releases the sticks.
     station.run_ms(600);
     for _ in 0..150 {
         channels(&mut station, 1200, 1500);
@@ -55,7 +55,7 @@ fn echoed_channels(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(L
             }
         }
     }
-    // Keeps the last echo of each link.
+    // Keeps each link's last echo.
     out.into_iter().rev().take(3).collect()
 }
 
@@ -163,8 +163,8 @@ fn wire_released_channels_are_not_stick_input() {
     assert!(station.all(|m| matches!(m, MavMessage::RC_CHANNELS(_)).then_some(())).is_empty());
 }
 
-/// Returns the time from the client's last message to the failsafe of a manually flown vehicle, s, at the given
-/// simulation speed.
+/// Returns the time, in seconds, from the client's last message to the failsafe of a manually flown vehicle at the
+/// given simulation speed.
 fn timeout_s(pace: f64, lockstep: bool) -> f64 {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.set_speed_factor(pace);
@@ -208,7 +208,7 @@ fn wire_client_timeouts_scale_with_the_speed_without_lockstep() {
         let s = timeout_s(pace, lockstep);
         assert!(
             (expected_s..expected_s + 0.15).contains(&s),
-            "pace {pace}, lockstep {lockstep}: {s} s instead of {expected_s} s"
+            "speed {pace}, lockstep {lockstep}: {s} s instead of {expected_s} s"
         );
     }
     let mut station = Station::new("drill-hover", 7);
@@ -255,7 +255,7 @@ fn wire_stick_loss_holds_and_returning_sticks_resume() {
     assert!(station.has_text("Failsafe cleared"), "{:?}", station.texts());
 }
 
-/// The parameter selects land (3), return (2) or warn only (0).
+/// The parameter selects landing (3), returning (2) or a warning only (0).
 #[test]
 fn wire_stick_loss_failsafe_follows_its_parameter() {
     const LAND: u32 = 4 << 16 | 6 << 24;
@@ -280,7 +280,7 @@ fn texts(station: &Station) -> Vec<String> {
     station.all(|m| if let MavMessage::STATUSTEXT(t) = m { t.text.to_str().ok().map(str::to_owned) } else { None })
 }
 
-/// Sends sticks to the right from a second ground station with the same IDs on its own link.
+/// Sends right stick deflection from a second ground station that has the same IDs but its own link.
 fn send_from_other_link(station: &mut Station, y: i16) {
     let sticks = MANUAL_CONTROL_DATA { y, z: 500, target: 1, ..Default::default() };
     let frame = spandrel_mavlink::codec::Encoder::new(255, 190).encode(&MavMessage::MANUAL_CONTROL(sticks));

@@ -15,7 +15,7 @@ const TOLERANCE_DEG: f32 = 0.5;
 
 fn on_the_pad() -> Station {
     let mut station = Station::new("drill-hover", 7);
-    // Waits until home is known.
+    // Waits until the home position is known.
     station.run_ms(2_500);
     station
 }
@@ -65,7 +65,7 @@ fn wire_region_of_interest_height_follows_the_flavor() {
             let steep = home.altitude as f32 / 1_000.0 + 50.0;
             let wanted = if over_sea || flavor.roi_altitude_above_sea_level { 45.0 } else { steep.atan2(50.0).to_degrees() };
             let pitch = pitch_deg(&mut station);
-            // The drone's estimate of its position is accurate to a meter.
+            // The drone's position estimate is accurate to about a meter.
             assert!((pitch - wanted).abs() < 1.5, "{} {frame:?}: {pitch} not {wanted}", flavor.name);
         }
     }
@@ -184,7 +184,7 @@ fn wire_superseded_mount_commands_follow_their_modes() {
     let (lat, lon, up) = (46.7052 + 100.0 / 111_180.0, 8.3814, 430.0 + 100.0);
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, up, lat, lon, 4.0])), OK);
     let seen = pitch_deg(&mut station);
-    assert!((seen - 45.0).abs() < 1.0, "{seen}: tolerance for height error and float rounding of degrees");
+    assert!((seen - 45.0).abs() < 1.0, "{seen} is not within the tolerance for height error and rounding");
     // Home is directly below.
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 6.0])), OK);
     assert!(pitch_deg(&mut station) < -10.0);

@@ -1,4 +1,4 @@
-//! Many peers, a flood, a slow radio, an old client: the load on one link must not affect the other links.
+//! Many peers, a flood, a slow radio, and an old client: the load on one link must not affect the other links.
 
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;
@@ -66,7 +66,7 @@ fn wire_timesync_responses_are_forwarded_from_a_lockstep_link() {
     };
     for (ts1, system, component) in [(token, 1, 195), (77, 42, 17), (78, 0, 0), (79, 1, 1)] {
         sim.handle_datagram(sidecar, &answer(ts1, system, component));
-        assert!(sim.waiting(), "{ts1} {system} {component} is not a response to the request");
+        assert!(sim.waiting(), "{ts1} {system} {component} must not count as a response to the request");
     }
     sim.handle_datagram(sidecar, &answer(token, 1, 1));
     assert!(!sim.waiting());
@@ -90,7 +90,7 @@ fn own(frames: &[ReceivedFrame]) -> Vec<(u32, u8)> {
     frames.iter().filter(|f| f.system_id == 1).map(|f| (f.message_id, f.component_id)).collect()
 }
 
-/// Returns the maximum number of responses and forwarded frames of one link in a tick.
+/// Returns the maximum number of responses and forwarded frames per tick on one link.
 fn max_frames_per_tick(first: bool) -> usize {
     // The first call processes datagrams at its beginning and at its end.
     if first { 2 * MAX_DATAGRAMS_PER_TICK } else { MAX_DATAGRAMS_PER_TICK }
@@ -213,8 +213,8 @@ fn wire_radio_stays_within_its_capacity_with_prompt_responses() {
     assert!((36..=39).contains(&beats), "{beats} heartbeats");
     assert!(parameters >= total && total > 50, "{parameters} of {total} parameters");
     assert!(worst_ms < 500, "an acknowledgment took {worst_ms} ms");
-    assert!(attitudes > 30, "{attitudes}: streams must slow down, but not stop");
-    assert!(bytes as f64 > 0.6 * 30.0 * RADIO_BYTES_S, "{bytes}: the radio's capacity must be used");
+    assert!(attitudes > 30, "{attitudes} attitude messages: streams must slow down but not stop");
+    assert!(bytes as f64 > 0.6 * 30.0 * RADIO_BYTES_S, "{bytes} bytes: the radio's capacity must be used");
 }
 
 /// Encodes a frame in MAVLink 1.
@@ -262,8 +262,8 @@ fn wire_oversized_datagram_is_dropped() {
     assert_eq!((answered, sim.dropped()), (0, 1));
 }
 
-/// A peer that is known only by its source address must get responses, but streams only after a heartbeat from there;
-/// otherwise one byte would trigger 266 kB.
+/// A peer known only by its source address must get responses, but no streams until a heartbeat arrives from that
+/// address; otherwise, one byte would trigger 266 kB.
 #[test]
 fn regress_unknown_peer_gets_no_streams_before_its_heartbeat() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;

@@ -10,7 +10,7 @@ type Local = SET_POSITION_TARGET_LOCAL_NED_DATA;
 /// Offboard and Hold modes in HEARTBEAT.
 const OFFBOARD: u32 = 6 << 16;
 const HOLD: u32 = 4 << 16 | 3 << 24;
-/// Type masks that use only position, velocity or acceleration, and ignore heading and its rate.
+/// Type masks that use only position, velocity or acceleration, and ignore the heading and its rate.
 const POSITION: u16 = 0b1101_1111_1000;
 const VELOCITY: u16 = 0b1101_1100_0111;
 const ACCELERATION: u16 = 0b1100_0011_1111;
@@ -44,7 +44,7 @@ fn offboard(station: &mut Station, setpoint: &MavMessage) {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, mode), MavResult::MAV_RESULT_ACCEPTED);
 }
 
-/// Returns the velocity that the vehicle reports in m/s.
+/// Returns the velocity that the vehicle reports, in m/s.
 fn velocity(station: &Station) -> [f32; 3] {
     station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy, p.vz]) } else { None }).unwrap()
 }
@@ -75,7 +75,7 @@ fn wire_offboard_position_flight_starts_from_the_ground() {
     fly(&mut station, &there, 20.0);
     let at = station.place();
     let off = (at[0] - n - 8.0).hypot(at[1] - e - 3.0).hypot(at[2] - d + 6.0);
-    assert!(off < 0.5, "{at:?}: {off} m off, according to the vehicle's estimate");
+    assert!(off < 0.5, "{at:?}: {off} m off in the vehicle's own estimate");
     assert_eq!(station.mode(), Some(OFFBOARD));
 }
 
@@ -101,7 +101,7 @@ fn wire_acceleration_setpoint_increases_the_speed() {
     offboard(&mut station, &push);
     fly(&mut station, &push, 3.0);
     let [vn, ve, vd] = velocity(&station);
-    // Less than 1.5 m/s, because the attitude takes some tenths of a second to tilt.
+    // Less than 1.5 m/s, because the vehicle takes a few tenths of a second to tilt.
     assert!((0.8..1.8).contains(&vn) && ve.abs() < 0.4 && vd.abs() < 0.4, "{vn} {ve} {vd}");
 }
 
@@ -171,7 +171,7 @@ fn wire_lost_setpoints_lead_to_hold_and_are_reported() {
     offboard(&mut station, &ahead);
     fly(&mut station, &ahead, 2.0);
     station.received.clear();
-    // COM_OF_LOSS_T is one second as in PX4; there must be no failsafe before that.
+    // COM_OF_LOSS_T is one second, as in PX4; no failsafe may trigger earlier.
     station.run_ms(900);
     assert!(!station.texts().iter().any(|t| t.contains("setpoints lost")), "{:?}", station.texts());
     station.run_ms(1_300);

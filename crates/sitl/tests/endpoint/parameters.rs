@@ -28,7 +28,7 @@ fn params(face: &'static ParamView) -> Params {
     Params::new(1, AircraftValues::SMALL_AIRCRAFT, face)
 }
 
-/// Returns the names of a list, each with the fields of the autopilot's own description.
+/// Returns the names in a list, each with the fields of the autopilot's own description.
 fn names(list: &str) -> Vec<(&str, &str)> {
     list.lines().filter(|line| !line.starts_with('#')).filter_map(|line| line.split_once('\t')).collect()
 }
@@ -96,7 +96,7 @@ fn regress_90_percent_of_setup_page_and_test_suite_parameters_exist() {
     }
 }
 
-/// Returns the tuning after a parameter was set.
+/// Returns the tuning after setting a parameter.
 fn tuning_after(face: &'static ParamView, name: &str, value: f64) -> Tuning {
     let mut own = params(face);
     let kind = own.find(name).unwrap_or_else(|| panic!("{name}")).2;
@@ -115,7 +115,7 @@ fn exact_default_parameters_give_the_default_tuning() {
     let mut tuning = Tuning::default();
     params(&PX4).apply(&mut tuning);
     let mut expected = OperatorRules::default();
-    // The parameter is transmitted with 32 bits.
+    // The parameter has 32 bits on the wire.
     expected.responses.battery_emergency_pct = 100.0 * f64::from(0.05f32);
     expected.responses.takeover_deflection = tuning.rules.responses.takeover_deflection;
     assert!((tuning.rules.responses.takeover_deflection - 0.3).abs() < 1e-6);

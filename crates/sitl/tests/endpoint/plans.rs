@@ -51,7 +51,7 @@ fn wire_mission_is_uploaded_downloaded_and_flown() {
     assert!(ended, "no automatic landing and disarm, position {:?}", station.place());
     let reached = station.all(|m| if let MavMessage::MISSION_ITEM_REACHED(r) = m { Some(r.seq) } else { None });
     assert_eq!(reached, [0, 1, 2, 3, 4, 5]);
-    assert!((furthest - north - 12.0).abs() < 2.5, "the waypoint is 12 m north; distance flown: {}", furthest - north);
+    assert!((furthest - north - 12.0).abs() < 2.5, "the waypoint is 12 m to the north; distance flown: {}", furthest - north);
     assert!((home_north(&station) - north).abs() < 1.0, "the landing position must match the plan");
     let status = MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         command: MavCmd::MAV_CMD_REQUEST_MESSAGE,
@@ -109,7 +109,7 @@ fn wire_stalled_upload_is_aborted_and_a_second_station_waits() {
     station.received.clear();
     station.run_ms(11_000);
     assert_eq!(station.last_message(result), Some(MavMissionResult::MAV_MISSION_OPERATION_CANCELLED));
-    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0), "the second station must now be served");
+    assert_eq!(station.ask(&count(1, PLAN), asked), Some(0), "the second station must be able to upload now");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const CALIBRATE: MavCmd = MavCmd::MAV_CMD_PREFLIGHT_CALIBRATION;
-/// Maximum gyroscope offset found by a calibration: bias of this class of aircraft plus noise of the mean, rad/s.
+/// Maximum gyroscope offset found by a calibration: this aircraft class's bias plus the noise of the mean, rad/s.
 const OFFSET_RAD_S: f32 = 0.05;
 
 fn ready() -> Station {
@@ -59,7 +59,7 @@ fn regress_radio_calibration_is_accepted_and_other_calibrations_respond() {
     assert_eq!(
         station.command(1, CALIBRATE, one(1.0)),
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
-        "another calibration is running"
+        "the command must be rejected while another calibration is running"
     );
     station.run_ms(5_000);
     assert!(station.has_text("[cal] calibration done: level"), "{:?}", station.texts());
@@ -79,7 +79,7 @@ fn console(station: &mut Station, line: &str) -> String {
         data[..chunk.len()].copy_from_slice(chunk);
         station.send(&MavMessage::SERIAL_CONTROL(SERIAL_CONTROL_DATA {
             device: SerialControlDev::SERIAL_CONTROL_DEV_SHELL,
-            // Flags as QGroundControl sends them: respond, exclusive, multi.
+            // Flags that QGroundControl sends: respond, exclusive, multi.
             flags: SerialControlFlag::from_bits_retain(2 | 4 | 16),
             count: chunk.len() as u8,
             data,
@@ -162,8 +162,8 @@ fn regress_follow_me_keeps_its_distance() {
     assert_eq!(station.mode(), Some(8 << 24 | 4 << 16));
 }
 
-/// Events as libevents reads them: a summary of the checks, one event for each failed check, a summary of the health.
-/// The definitions served by FTP contain their texts.
+/// The events must have the order that libevents expects: a summary of the checks, one event for each failed check, and
+/// a summary of the health. The definitions served by FTP contain their texts.
 #[test]
 fn regress_arming_checks_are_events_that_can_be_requested_again() {
     let events = |s: &Station| s.all(|m| if let MavMessage::EVENT(event) = m { Some(event.clone()) } else { None });

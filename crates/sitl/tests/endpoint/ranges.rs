@@ -40,7 +40,7 @@ fn finders() -> Vec<(MavSensorOrientation, Vec3<Frd>)> {
     vertical.into_iter().chain(beside).collect()
 }
 
-/// Returns the job with its pad at a position and the drone at a heading, without traffic.
+/// Returns the job without traffic, with its pad at the given position and the drone at the given heading.
 fn placed_at(base: &Scenario, position_m: Vec3<Enu>, heading_deg: f64) -> Scenario {
     let mut job = base.clone();
     (job.traffic.cars, job.traffic.trucks, job.traffic.pedestrians) = (0, 0, 0);
@@ -64,7 +64,7 @@ fn positions_near_objects(job: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     job.tasks.iter().filter_map(|task| task.path_m.iter().copied().max_by_key(hits)).collect()
 }
 
-/// Returns the distances in DISTANCE_SENSOR and OBSTACLE_DISTANCE, m, with their maximum range.
+/// Returns the distances in DISTANCE_SENSOR and OBSTACLE_DISTANCE and their maximum range, in meters.
 fn reported_range(station: &Station, orientation: MavSensorOrientation) -> (f64, f64) {
     let found = station.last_message(|m| match m {
         MavMessage::DISTANCE_SENSOR(d) if d.orientation == orientation => {

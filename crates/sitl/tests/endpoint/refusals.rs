@@ -248,7 +248,11 @@ fn wire_battery_state_follows_its_parameters() {
     }));
     station.run_ms(5);
     assert_eq!(station.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, p(&[100.0, 1.0])), OK);
-    assert_eq!(state(&mut station), MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW, "5% is above the critical level of 3%");
+    assert_eq!(
+        state(&mut station),
+        MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
+        "5% must be above the critical level of 3%"
+    );
 }
 
 #[test]
@@ -300,7 +304,7 @@ fn wire_rejections_include_a_reason() {
         (M::MAV_CMD_CONDITION_YAW, p(&[NAN]), DENIED, "Yaw: "),
         (M::MAV_CMD_DO_SET_STANDARD_MODE, p(&[99.0]), DENIED, "No such standard mode 99"),
         (M::MAV_CMD_DO_SET_HOME, p(&[0.0, 0.0, 0.0, 0.0, NAN, NAN, NAN]), DENIED, "Home: "),
-        (M::MAV_CMD_DO_REPOSITION, p(&[0.0, 1.0, 0.0, NAN, 10.0, 10.0, 500.0]), DENIED, "Go-to: beyond 20 km"),
+        (M::MAV_CMD_DO_REPOSITION, p(&[0.0, 1.0, 0.0, NAN, 10.0, 10.0, 500.0]), DENIED, "Go-to: target beyond 20 km"),
         (M::MAV_CMD_DO_ORBIT, p(&[5.0, 1.0, 17.0]), DENIED, "Orbit: "),
         (M::MAV_CMD_DO_FENCE_ENABLE, p(&[2.0]), DENIED, "Fence: "),
         (M::MAV_CMD_DO_CHANGE_SPEED, p(&[2.0, 3.0]), DENIED, "Speed: type"),

@@ -11,7 +11,7 @@ const ARM: MavCmd = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM;
 /// Distance within which a Copter's waypoint counts as reached, m (WPNAV_RADIUS, and deceleration).
 const NEAR_M: f64 = 2.5;
 
-/// Takes off, flies some distance at the usual speed, and lands; returns the maximum speed, m/s.
+/// Takes off, flies some distance at the usual speed, and lands; returns the maximum speed in m/s.
 fn fastest_of_a_flight(station: &mut Station, slow: Option<f32>) -> f32 {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 4.0, 2.0])), OK);
     assert_eq!(station.command(1, ARM, one(1.0)), OK);
@@ -64,7 +64,7 @@ fn heading_deg(station: &Station) -> f32 {
     station.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.yaw.to_degrees()) } else { None }).unwrap()
 }
 
-/// Speed and region of interest of one flight must not affect the next.
+/// One flight's speed and region of interest must not affect the next flight.
 #[test]
 fn flight_speed_and_region_of_interest_end_with_the_flight() {
     let mut station = ready(7);

@@ -1,4 +1,4 @@
-//! Behavior that simple clients rely on: order of heartbeats, clocks that start with the autopilot, the older request
+//! Behavior that simple clients rely on: heartbeat order, clocks that start when the autopilot boots, the older request
 //! for mission items, and items without a position.
 #![allow(deprecated, reason = "simple clients support nothing newer")]
 
@@ -17,7 +17,7 @@ const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 /// Links of a lockstep peer and of a sidecar.
 const PEER: LinkId = LinkId(9);
 const SIDECAR: LinkId = LinkId(10);
-/// Maximum position error, m: the mission's acceptance radius and the deceleration.
+/// Maximum position error, m: the mission's acceptance radius plus deceleration.
 const POSITION_TOLERANCE_M: f64 = 1.5;
 
 /// Returns the senders of heartbeats in the order of their arrival.
@@ -118,7 +118,7 @@ fn regress_gps_raw_reports_the_ellipsoid_height() {
     let (alt, ellipsoid) = station
         .last_message(|m| if let MavMessage::GPS_RAW_INT(g) = m { Some((g.alt, g.alt_ellipsoid)) } else { None })
         .expect("GPS_RAW_INT must be streamed");
-    // The simulator's sea level equals the ellipsoid.
+    // In the simulator, sea level equals the ellipsoid.
     assert_eq!(alt, ellipsoid);
     assert!(alt > 400_000, "{alt} mm");
 }
@@ -185,7 +185,7 @@ fn regress_upload_uses_the_request_form_that_the_client_answers() {
     assert_eq!(station.ask(&refusal, question), Some((0, false)));
 }
 
-/// Returns the vehicle's position, m north of the pad and above sea level, from GLOBAL_POSITION_INT.
+/// Returns the vehicle's position from GLOBAL_POSITION_INT, in meters north of the pad and meters above sea level.
 fn place(station: &mut Station) -> (f64, f64) {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     station
@@ -225,14 +225,14 @@ fn regress_zero_position_in_a_copter_item_means_the_current_position() {
     let (north, up) = place(&mut station);
     assert!(
         (north - 12.0).abs() < POSITION_TOLERANCE_M && (up - pad_m - 9.0).abs() < POSITION_TOLERANCE_M,
-        "vertical takeoff: {north} m north, {} m up",
+        "vertical takeoff: {north} m north, height {} m",
         up - pad_m
     );
     assert!(station.run_until(120.0, |s| reached(s, 7)), "{:?}", station.texts());
     let (north, up) = place(&mut station);
     assert!(
         (north - 20.0).abs() < POSITION_TOLERANCE_M && (up - pad_m - 9.0).abs() < POSITION_TOLERANCE_M,
-        "at the current height: {north} m north, {} m up",
+        "level flight: {north} m north, height {} m",
         up - pad_m
     );
     let home =
@@ -251,7 +251,7 @@ fn regress_home_at_zero_means_the_current_position_only_for_copter() {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     let up = station
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(f64::from(g.relative_alt) * 1e-3) } else { None });
-    assert!(up.is_some_and(|up| up.abs() < POSITION_TOLERANCE_M), "home must be at the hover position: {up:?} m above it");
+    assert!(up.is_some_and(|up| up.abs() < POSITION_TOLERANCE_M), "home must be at the hover position, but is {up:?} m above it");
     assert_eq!(ready(7).command(1, MavCmd::MAV_CMD_DO_SET_HOME, [0.0; 7]), MavResult::MAV_RESULT_DENIED);
 }
 

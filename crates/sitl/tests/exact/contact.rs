@@ -72,7 +72,7 @@ fn run(plate: &Plate, state: &mut PhysicsState, steps: i64, mut each: impl FnMut
 
 #[test]
 fn exact_aircraft_at_rest_does_not_drift() {
-    // Drift in 60 s, m, and relative tolerance of the force.
+    // Maximum drift in 60 s, m, and relative force tolerance.
     const DRIFT_M: f64 = 1e-6;
     const FORCE: f64 = 1e-6;
     let mut state = at(STANDING_M);
@@ -92,7 +92,7 @@ fn exact_aircraft_at_rest_does_not_drift() {
 
 #[test]
 fn exact_dropped_aircraft_comes_to_rest_on_its_feet() {
-    // Tolerance of the height, m.
+    // Height tolerance, m.
     const TOLERANCE: f64 = 1e-3;
     let mut state = at(0.8);
     run(&GROUND, &mut state, 5000, |_| ());

@@ -38,7 +38,7 @@ fn coasting() -> Actuators {
 
 #[test]
 fn exact_free_fall_is_half_g_t_squared() {
-    // Relative tolerance: rounding of 2 000 additions.
+    // Relative tolerance: rounding of 2,000 additions.
     const TOLERANCE: f64 = 1e-12;
     let mut state = PhysicsState::at_rest(Vec3::zero(), 0.0);
     run(&AirframeModel::new(&bare(), BatteryModel::Paper), &mut state, &coasting(), &AirState::STILL, DT, 2000);
@@ -51,7 +51,7 @@ fn exact_free_fall_is_half_g_t_squared() {
 
 #[test]
 fn exact_terminal_speed_follows_from_drag() {
-    // Relative tolerance.
+    // Relative speed tolerance.
     const TOLERANCE: f64 = 1e-6;
     let mut vehicle = bare();
     vehicle.drag.area_m2 = [0.05; 3];
@@ -76,7 +76,7 @@ fn exact_fall_with_drag_follows_the_hyperbolic_tangent() {
 
 #[test]
 fn exact_hover_thrust_balances_weight() {
-    // Tolerance as a fraction of the weight, and of the velocities after one second, m/s and rad/s.
+    // Force tolerance as a fraction of the weight, and velocity tolerance after one second, m/s and rad/s.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let mut state = start();
@@ -116,7 +116,7 @@ fn brick() -> (AirframeModel, PhysicsState) {
 
 #[test]
 fn val_tumbling_brick_matches_nesc_case_02() {
-    // Tolerance compared with simulator 04 of the check case, deg/s.
+    // Tolerance relative to the check case's simulator 04, deg/s.
     const TOLERANCE: f64 = 1e-8;
     let (model, mut state) = brick();
     let published = [
@@ -166,7 +166,7 @@ fn exact_integrator_is_fourth_order() {
         run(&model, &mut state, &Actuators { motors, armed: true }, &air, dt, 2 * per_second);
         state.rigid.position_m
     };
-    // Rates whose periods are whole nanoseconds.
+    // Rates whose periods are whole numbers of nanoseconds.
     let reference = end(3200);
     let (coarse, fine) = ((end(100) - reference).norm(), (end(200) - reference).norm());
     let order = math::ln(coarse / fine) / math::ln(2.0);
@@ -185,7 +185,7 @@ fn exact_wind_pushes_a_free_body_downwind() {
 
 #[test]
 fn exact_drag_depends_on_airspeed() {
-    // Tolerance, m/s.
+    // Speed tolerance, m/s.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let drift = Vec3::<Ned>::new(4.0, -3.0, 1.0);
@@ -201,7 +201,7 @@ fn exact_drag_depends_on_airspeed() {
 
 #[test]
 fn exact_motion_does_not_depend_on_heading() {
-    // Tolerance, m.
+    // Position tolerance, m.
     const TOLERANCE: f64 = 1e-9;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let actuators = Actuators { motors: [0.62, 0.58, 0.60, 0.61, 0.0, 0.0, 0.0, 0.0], armed: true };
@@ -217,7 +217,7 @@ fn exact_motion_does_not_depend_on_heading() {
 
 #[test]
 fn exact_rotor_torque_is_force_times_arm() {
-    // Tolerance for a few roundings, N and N m.
+    // Tolerance for a few rounding errors, N and N m.
     const TOLERANCE: f64 = 1e-14;
     let vehicle = quad();
     let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
@@ -231,7 +231,7 @@ fn exact_rotor_torque_is_force_times_arm() {
 
 #[test]
 fn exact_tasbid_battery_is_empty_after_its_endurance() {
-    // Tolerance for the rounding of 1.5 million subtractions, %.
+    // Tolerance for the rounding errors of 1.5 million subtractions, %.
     const TOLERANCE: f64 = 1e-7;
     let mut vehicle = bare();
     vehicle.battery.paper_endurance_s = 15.0;
@@ -246,8 +246,8 @@ fn exact_tasbid_battery_is_empty_after_its_endurance() {
 
 #[test]
 fn exact_physical_battery_follows_ohms_law_and_integrates_charge() {
-    // Rounding tolerance, V and A; and relative tolerance of the charge, because the current changes slightly during
-    // the second.
+    // Rounding tolerance, V and A, and relative charge tolerance, because the current changes slightly during the
+    // second.
     const ROUNDING: f64 = 1e-9;
     let vehicle = quad();
     let model = AirframeModel::new(&vehicle, BatteryModel::Physical);

@@ -29,6 +29,6 @@ fn prop_traffic_stays_below_the_maximum_object_speed() {
             fastest = plan.placement(mover, at).map_or(0.0, |placed| placed.velocity_m_s.norm()).max(fastest);
         }
     }
-    assert!(fastest > scenario.traffic.car_speed_m_s, "{fastest} m/s: some lane must be faster than the mean");
+    assert!(fastest > scenario.traffic.car_speed_m_s, "{fastest} m/s: at least one lane must be faster than the mean");
     assert!(fastest <= MAX_OBJECT_SPEED_M_S, "{fastest} m/s exceeds the bound of {MAX_OBJECT_SPEED_M_S} m/s");
 }

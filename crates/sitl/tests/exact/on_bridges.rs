@@ -56,7 +56,7 @@ fn run_from(
     }
 }
 
-/// Returns a point on the upper side of a member, given in the bridge's axes.
+/// Returns a point on a member's upper side, specified in the bridge's axes.
 fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> Vec3<Enu> {
     let (name, _) = member.split_once('/').unwrap();
     let bridge = scenario.bridges.iter().find(|b| b.name == name).unwrap();
@@ -73,7 +73,7 @@ fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> V
     from + down * distance
 }
 
-/// Returns the distance of the lowest part of a level aircraft below its center in meters.
+/// Returns how far the lowest part of a level aircraft is below its center, in meters.
 fn lowest_m(vehicle: &Vehicle) -> f64 {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + FOOT_M;
     if vehicle.hull.caged { feet.max(0.5 * vehicle.hull.tip_to_tip_m) } else { feet }
@@ -83,7 +83,7 @@ fn lowest_m(vehicle: &Vehicle) -> f64 {
 fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
     // Maximum drift in 5 s, m, after one second of settling from a height of about a centimeter.
     const DRIFT_M: f64 = 1e-3;
-    // Relative tolerance of the mean force over 5 s.
+    // Relative tolerance for the mean force over 5 s.
     const FORCE: f64 = 1e-3;
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
@@ -109,7 +109,7 @@ fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
                 force += s.contact.normal_n;
                 worst = worst.max((s.rigid.position_m - start).norm());
             });
-            assert!(worst < DRIFT_M, "{} on {member}: {worst} m", vehicle.id);
+            assert!(worst < DRIFT_M, "{} on {member}: drifted {worst} m", vehicle.id);
             let share = force / 5000.0 / (vehicle.mass_kg * GRAVITY_M_S2);
             // On the sloping rib, friction carries part of the weight.
             let least = if member.contains("rib") { 0.9 } else { 1.0 - FORCE };
@@ -120,7 +120,7 @@ fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
 
 #[test]
 fn exact_aircraft_on_the_pad_does_not_drift() {
-    // Maximum drift in 60 s, m, and relative tolerance of the mean normal force.
+    // Maximum drift in 60 s, m, and relative tolerance for the mean normal force.
     const DRIFT_M: f64 = 1e-6;
     const FORCE: f64 = 1e-6;
     let scenario = scenario();
@@ -163,7 +163,7 @@ fn exact_tilted_aircraft_on_a_beam_edge_falls_outward() {
             fell |= height < -2.0;
         });
         assert!(touched && fell, "lean {lean}: the aircraft did not fall, {:?}", s.rigid.position_m);
-        assert!(most > 0.35 + 0.2, "lean {lean}: only {most} rad");
+        assert!(most > 0.35 + 0.2, "lean {lean}: the aircraft tilted only {most} rad");
         assert!((s.rigid.position_m.enu() - top).east() * side > 0.4, "lean {lean}: the aircraft fell back over the beam");
     }
 }
@@ -181,7 +181,7 @@ fn exact_tilted_aircraft_on_the_deck_comes_to_rest_upright() {
     assert!(up < -0.999_9, "the aircraft does not stand upright: {up}");
 }
 
-/// Checks that the arms do not penetrate anything: there must be no obstacle between the center and the hubs.
+/// Checks that the arms do not penetrate anything: no obstacle may be between the center and the hubs.
 fn is_free_of_obstacles(vehicle: &Vehicle, site: &Site, s: &PhysicsState) -> bool {
     let center = s.rigid.position_m.enu();
     let mut all = vehicle.rotors.iter().map(|r| (s.rigid.attitude * r.position_m).enu());
@@ -236,7 +236,7 @@ fn exact_members_stop_aircraft_at_30_m_s() {
                     let now = s.rigid.position_m.enu();
                     let step = now - before;
                     let way = site.geometry().ray(before, step.unit(), step.norm());
-                    assert!(step.norm() == 0.0 || way.is_none(), "{} went through {:?} at {member}", vehicle.id, way);
+                    assert!(step.norm() == 0.0 || way.is_none(), "{} passed through {:?} at {member}", vehicle.id, way);
                     assert!(is_free_of_obstacles(vehicle, &site, s), "{}: an arm penetrates an obstacle at {member}", vehicle.id);
                     before = now;
                     touched |= s.contact.touching();
@@ -271,7 +271,7 @@ fn exact_skipping_contact_queries_in_clear_space_changes_nothing() {
     let mut random = RandomStream::new(6, "steep");
     let mut touched = 0;
     for k in 0..60 {
-        // Flights along and into the embankments next to the arch's ends, the slopes of the valley, and the bridge.
+        // Flights along and into the embankments next to the arch ends, the valley slopes, and the bridge.
         let x = if k % 2 == 0 { -1.0 } else { 1.0 } * random.range(40.0, 90.0);
         let (y, up) = (random.range(-35.0, 35.0), random.range(0.3, 4.0));
         let from = Vec3::<Enu>::new(x, y, site.ground_up_m(x, y).max(0.0) + up);

@@ -8,7 +8,7 @@ use spandrel_sitl::autopilot::{
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
-/// Position tolerance, m: errors of the receiver and of the control.
+/// Position tolerance, m: receiver and control errors.
 const NEAR_M: f64 = 1.5;
 
 #[test]
@@ -39,7 +39,7 @@ fn flight_arming_rejection_lists_all_reasons() {
 
 #[test]
 fn flight_takeoff_hold_and_landing_at_the_same_position() {
-    // Height tolerance, m: offset of the barometer and the receiver's part of the height error.
+    // Height tolerance, m: barometer offset, plus the receiver's contribution to the height error.
     const HEIGHT_M: f64 = 0.8;
     for name in VEHICLES {
         let mut bench = Bench::airborne(&vehicle(name), 1, 5.0);
@@ -52,8 +52,8 @@ fn flight_takeoff_hold_and_landing_at_the_same_position() {
         bench.run(20.0, |b| impact = impact.max(b.state.contact.impact_m_s));
         let status = bench.autopilot.status().clone();
         assert!(!status.armed && status.landed == LandedState::OnGround, "{name}: {status:?} {:?}", bench.position());
-        // Gentler than stepping off a curb, m/s.
-        assert!(impact < 1.2, "{name}: touchdown at {impact} m/s");
+        // Maximum impact speed, m/s: gentler than stepping off a curb.
+        assert!(impact < 1.2, "{name}: touched down at {impact} m/s");
     }
 }
 

@@ -43,7 +43,7 @@ struct Shadow {
     ground_up_m: fn(SimTime) -> f64,
 }
 
-/// Height of ground that does not move.
+/// Ground height for ground that does not move.
 pub(super) fn flat(_: SimTime) -> f64 {
     0.0
 }
@@ -71,7 +71,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Creates a run under an open sky, without optical flow, with the ground always within the range finder's reach.
+    /// Creates a run under an open sky, without optical flow, with the ground always in range of the range finder.
     pub(super) fn under_open_sky(seed: u64, ground_up_m: fn(SimTime) -> f64) -> Self {
         let mut vehicle = vehicle("phantom2");
         vehicle.sensors.flow_velocity_m_s = 0.0;
@@ -161,7 +161,7 @@ impl Run {
     }
 }
 
-/// Returns the 95% band of the mean over `SEEDS` of a chi-squared variable with `n` degrees of freedom
+/// Returns the 95% band for the mean, over `SEEDS` seeds, of a chi-squared variable with `n` degrees of freedom
 /// (Wilson-Hilferty).
 fn band(n: usize) -> (f64, f64) {
     let k = n as f64 * SEEDS as f64;
@@ -172,8 +172,8 @@ fn band(n: usize) -> (f64, f64) {
     (point(-1.96), point(1.96))
 }
 
-/// Checks that the means over the seeds at four times are within their bands, for all states and for position, velocity
-/// and attitude separately.
+/// Checks that the means over all seeds are within their bands at four times, both for all states together and for
+/// position, velocity and attitude separately.
 fn assert_consistent(what: &str, new: impl Fn(u64, Shadow) -> Run) {
     let times = [5, 20, 40, 60];
     let mut sums = [[0.0; 4]; 4];
@@ -226,7 +226,7 @@ fn prop_error_and_covariance_grow_and_recover_together_without_gnss() {
         }
     }
     let (low, high) = band(15);
-    assert!(nees > low && nees < high, "blind: {nees:.2}, band {low:.2}..{high:.2}");
+    assert!(nees > low && nees < high, "without GNSS: {nees:.2}, band {low:.2}..{high:.2}");
     // The growth must be clearly visible; half a minute after recovery, the covariance must be back within a fifth (as
     // fractions of the variance).
     assert!(blind[0] > 1.5 * before[0] && blind[1] > 1.5 * before[1], "{before:?} {blind:?}");

@@ -13,7 +13,7 @@ fn flight_stick_loss_holds_and_recovery_restores_the_mode() {
     bench.run(2.0, |_| ());
     bench.sticks = None;
     bench.run(0.4, |_| ());
-    assert_eq!(bench.autopilot.status().mode, FlightMode::Position, "the timeout of half a second has not expired yet");
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Position, "the half-second timeout must not have expired yet");
     bench.run(4.0, |_| ());
     let status = bench.autopilot.status().clone();
     assert_eq!((status.mode, status.failsafe.as_deref()), (FlightMode::Hold, Some("manual control lost")));
@@ -70,7 +70,7 @@ fn flight_without_gnss_is_controllable_with_optical_flow() {
 
 #[test]
 fn flight_without_position_keeps_height_and_tilt_control() {
-    // Maximum change of height in two minutes, m: drift of the barometer.
+    // Maximum height change in two minutes, m: barometer drift.
     const HEIGHT_M: f64 = 1.0;
     for name in VEHICLES {
         let mut bench = Bench::in_position_mode(&vehicle(name), 8, 8.0);
@@ -85,7 +85,7 @@ fn flight_without_position_keeps_height_and_tilt_control() {
         bench.sticks = Some(Sticks { forward: 0.3, ..Sticks::default() });
         bench.run(1.5, |_| ());
         let (_, pitch, _) = bench.state.rigid.attitude.euler();
-        assert!(pitch < -0.05, "{name}: the stick has no effect on tilt: {pitch}");
+        assert!(pitch < -0.05, "{name}: the stick had no effect on tilt: {pitch}");
         bench.sticks = Some(Sticks::default());
         (bench.gnss_lost, bench.flow_lost) = (false, false);
         bench.run(20.0, |_| ());
@@ -152,7 +152,7 @@ fn flight_takeoff_with_low_battery_returns_once() {
         returned |= bench.autopilot.status().mode == FlightMode::Return;
     }
     assert!(returned, "{:?}", bench.autopilot.status().mode);
-    // The pilot's command has priority.
+    // The pilot's command takes priority.
     bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.run(2.0, |_| ());
     assert_eq!(bench.autopilot.status().mode, FlightMode::Hold);
@@ -160,7 +160,7 @@ fn flight_takeoff_with_low_battery_returns_once() {
 
 #[test]
 fn flight_recovers_from_an_upset() {
-    // Limits of the lost height, m, and recovery time, s, for a body that was turned upside down.
+    // Maximum height loss, m, and maximum recovery time, s, for a vehicle that was turned upside down.
     const MAX_HEIGHT_LOSS_M: f64 = 14.0;
     const RECOVERY_S: f64 = 5.0;
     for name in VEHICLES {
@@ -216,7 +216,7 @@ fn flight_stick_movement_interrupts_automatic_modes() {
     bench.run(0.2, |_| ());
     bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.run(1.0, |_| ());
-    assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "an idle throttle stick at its stop must not take over");
+    assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "an idle throttle stick at its end stop must not take over");
     bench.sticks = Some(Sticks { forward: 0.6, up: -1.0, ..Sticks::default() });
     bench.run(0.2, |_| ());
     assert_eq!(bench.autopilot.status().mode, FlightMode::Position);

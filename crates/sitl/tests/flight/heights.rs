@@ -1,4 +1,4 @@
-//! Sensors that the estimated height follows, depending on EKF2_HGT_REF.
+//! The sensors that the estimated height follows, depending on EKF2_HGT_REF.
 
 use super::consistency::{Run, flat};
 use spandrel_model::frames::Vec3;
@@ -6,18 +6,18 @@ use spandrel_model::time::SimTime;
 use spandrel_sitl::autopilot::operator_rules::HeightReference;
 use spandrel_sitl::sensors::Readings;
 
-/// Final value of a sensor's slow error, m, and start and end of its growth, s.
+/// Final value of a sensor's slowly growing error, m, and the times at which the growth starts and ends, s.
 const ERROR_M: f64 = 6.0;
 const GROWTH_INTERVAL_S: (f64, f64) = (20.0, 80.0);
-/// The height counts as following a sensor if it is within this distance of it, m, and as not following if it contains
-/// less than this part of its error, m (the receiver alone: 0.64 m, 1 sigma).
+/// The height counts as following a sensor if it is within this distance of the sensor's height, m, and as not
+/// following it if it includes less than this much of the sensor's error, m (the receiver alone: 0.64 m, 1 sigma).
 const NEAR_M: f64 = 1.5;
 
 fn error_at_m(now: SimTime) -> f64 {
     ERROR_M * ((now.s() - GROWTH_INTERVAL_S.0) / (GROWTH_INTERVAL_S.1 - GROWTH_INTERVAL_S.0)).clamp(0.0, 1.0)
 }
 
-/// A test case with a slow change, either in the readings or of the ground.
+/// A test case with a slow change in either the readings or the ground.
 struct Case {
     reference: HeightReference,
     change: fn(&mut Readings, SimTime),

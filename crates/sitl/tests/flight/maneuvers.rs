@@ -6,7 +6,7 @@ use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, Sticks};
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
-/// Dead band of the sticks (the default of the tuning).
+/// Stick dead band (the tuning's default).
 const DEADBAND: f64 = 0.03;
 
 /// Returns the stick deflection for a fraction of the full command.
@@ -41,14 +41,14 @@ fn flight_hover_is_steady() {
 
 #[test]
 fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
-    // Tolerance of the velocity estimate, m/s.
+    // Velocity estimate tolerance, m/s.
     const SPEED_M_S: f64 = 0.2;
     // Limits as fractions of the speed: overshoot, and remaining speed that counts as stopped.
     const OVERSHOOT: f64 = 0.08;
     const STOPPED: f64 = 0.1;
     // Maximum backward speed after the stop, m/s.
     const MAX_BACKWARD_M_S: f64 = 0.2;
-    // Maximum change of height during the maneuver, m.
+    // Maximum height change during the maneuver, m.
     const HEIGHT_M: f64 = 0.3;
     // The highest speed that inspection requires: 4.5 m/s, the job's speed limit.
     const INSPECTION_M_S: f64 = 4.5;
@@ -66,7 +66,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
         let speed = bench.state.rigid.velocity_m_s.north();
         assert!(
             (speed - wanted).abs() < SPEED_M_S && peak < wanted * (1.0 + OVERSHOOT),
-            "{name}: {speed}, peak {peak}, of {wanted}"
+            "{name}: speed {speed}, peak {peak}, target {wanted}"
         );
         bench.sticks = Some(Sticks::default());
         bench.run(aircraft.limits.slow_down_time_s, |_| ());
@@ -83,7 +83,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
 
 #[test]
 fn flight_full_stick_reaches_full_speed_on_every_axis() {
-    // Tolerance as a fraction of the full speed.
+    // Speed tolerance as a fraction of full speed.
     const SPEED_TOLERANCE: f64 = 0.06;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -93,7 +93,7 @@ fn flight_full_stick_reaches_full_speed_on_every_axis() {
             bench.sticks = Some(sticks);
             bench.run(seconds, |_| ());
             let got = speed(&bench);
-            assert!((got - wanted).abs() < SPEED_TOLERANCE * wanted, "{name}: {got} of {wanted} for {sticks:?}");
+            assert!((got - wanted).abs() < SPEED_TOLERANCE * wanted, "{name}: {got} instead of {wanted} for {sticks:?}");
             bench.sticks = Some(Sticks::default());
             bench.run(4.0, |_| ());
         };
@@ -107,7 +107,7 @@ fn flight_full_stick_reaches_full_speed_on_every_axis() {
 
 #[test]
 fn flight_manually_flown_circle_is_round() {
-    // Tolerance as a fraction of the radius.
+    // Radius tolerance as a fraction of the radius.
     const RADIUS_TOLERANCE: f64 = 0.08;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -142,7 +142,7 @@ fn flight_recovers_from_a_gust() {
         let mut worst: f64 = 0.0;
         bench.run(15.0, |b| worst = worst.max((b.position() - start).norm()));
         let left = (bench.position() - start).norm();
-        assert!(worst < MAX_DEVIATION_M && left < MAX_REMAINING_M, "{name}: strayed {worst} m, left {left} m");
+        assert!(worst < MAX_DEVIATION_M && left < MAX_REMAINING_M, "{name}: strayed {worst} m, {left} m remain");
         let nose = bench.state.rigid.attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
         assert!(nose.down() < 0.0, "{name} must lean back against wind from behind: {nose:?}");
     }
@@ -178,7 +178,7 @@ fn flight_saturated_motors_keep_the_vehicle_upright() {
 
 #[test]
 fn flight_stops_from_full_speed_in_time() {
-    // Fraction of the full speed that counts as stopped.
+    // Fraction of full speed that counts as stopped.
     const STOPPED: f64 = 0.1;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -195,8 +195,8 @@ fn flight_stops_from_full_speed_in_time() {
     }
 }
 
-/// Releases a full yaw stick. Returns the angle by which the nose swings back and the angle by which it first turned
-/// further, rad.
+/// Releases a fully deflected yaw stick. Returns the angle by which the nose swings back and the angle by which it
+/// first keeps turning, in rad.
 fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
     const HELD_S: f64 = 3.0;
     const SETTLED_S: f64 = 5.0;
@@ -215,11 +215,11 @@ fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
 
 #[test]
 fn regress_yaw_release_does_not_swing_back() {
-    // Limit of issue 16, rad (1 deg); a real PX4 swings back by 0.4 deg.
+    // Limit from issue 16, rad (1 deg); a real PX4 swings back by 0.4 deg.
     const MAX_SWING_BACK_RAD: f64 = 0.017_453;
-    // Slowing from 100 deg/s to rest in 0.3 s takes 15 deg; half as much again for the lag, rad.
+    // Stopping from 100 deg/s in 0.3 s takes 15 deg; the limit adds half as much again for lag, rad.
     const MAX_OVERSHOOT_RAD: f64 = 0.393;
-    // Initial height, m; in Stabilized mode, the vehicle sinks with the throttle stick centered.
+    // Starting height, m; in Stabilized mode, the vehicle sinks with the throttle stick centered.
     const START_HEIGHT_M: f64 = 40.0;
     for name in VEHICLES {
         let aircraft = vehicle(name);
@@ -230,7 +230,7 @@ fn regress_yaw_release_does_not_swing_back() {
                 let (swing, on) = release_yaw(&mut bench, yaw);
                 assert!(bench.position().down() < -1.0, "{name}, {mode:?}: on the ground");
                 assert!(swing < MAX_SWING_BACK_RAD, "{name}, {mode:?}, stick {yaw}: swings back {} deg", swing.to_degrees());
-                assert!(on < MAX_OVERSHOOT_RAD, "{name}, {mode:?}, stick {yaw}: continues for {} deg", on.to_degrees());
+                assert!(on < MAX_OVERSHOOT_RAD, "{name}, {mode:?}, stick {yaw}: keeps turning for {} deg", on.to_degrees());
             }
         }
     }

@@ -9,9 +9,9 @@ use spandrel_testkit::shipped::vehicle;
 
 const STEP_S: f64 = 0.0025;
 const SPEEDS: SpeedLimits = SpeedLimits { default_m_s: 5.0, max_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
-/// Combined acceleration along and across the leg, each limited to 2, m/s².
+/// Maximum acceleration, m/s²: along and across the leg combined, each limited to 2.
 const ACCELERATION_M_S2: f64 = 3.0;
-/// Jerk of the speed (4) and of the corner (2.5), plus the effect of speed changes within a corner, m/s³.
+/// Maximum jerk, m/s³: 4 for the speed and 2.5 for the corner, plus the effect of speed changes within a corner.
 const JERK_M_S3: f64 = 10.0;
 
 fn point(north: f64, east: f64, up: f64) -> MissionStep {
@@ -45,7 +45,7 @@ fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
             let velocity = (now.position_m - before.position_m) / STEP_S;
             assert!(now.acceleration_m_s2.norm() < ACCELERATION_M_S2, "case {case}: {now:?}");
             assert!(jerk.norm() < JERK_M_S3, "case {case}: jerk {}", jerk.norm());
-            // Tolerance of half a step's acceleration, m/s.
+            // Velocity tolerance, m/s: half a step's acceleration.
             assert!((velocity - now.velocity_m_s).norm() < 0.02, "case {case}: {velocity:?} {now:?}");
             for (least, waypoint) in nearest.iter_mut().zip(&waypoints) {
                 *least = least.min((now.position_m - waypoint.position_m).norm());
@@ -53,7 +53,7 @@ fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
             before = now;
         }
         assert!(nearest.iter().all(|m| *m < 0.5 * accept_m + 0.01), "case {case}: {nearest:?} with {accept_m}");
-        // Tolerances, m and m/s.
+        // Position and velocity tolerances, m and m/s.
         assert!(nearest.last().is_some_and(|m| *m < 0.02) && before.velocity_m_s.norm() < 0.02, "case {case}: {before:?}");
     }
 }
@@ -102,7 +102,7 @@ fn regress_straight_leg_keeps_its_speed_through_waypoints() {
             }
         });
         assert!(bench.autopilot.status().mission_finished, "{name}: {:?}", bench.position());
-        // Overshoot of the mission speed, m/s: the error of the estimate.
+        // Mission speed overshoot, m/s: the estimation error.
         assert!(slowest >= HELD_M_S && fastest < 5.5, "{name}: {slowest} to {fastest} m/s");
     }
 }
@@ -123,13 +123,13 @@ fn regress_takeoff_item_below_the_ground_still_takes_off() {
         let status = bench.autopilot.status();
         assert!(status.mission_finished && status.landed == LandedState::InAir, "{up_m}: {status:?} {:?}", bench.position());
         // The tilt limit of the aircraft.
-        assert!(tilt_deg < 35.0, "{up_m}: tilted to {tilt_deg} deg");
+        assert!(tilt_deg < 35.0, "height {up_m} m: tilted to {tilt_deg} deg");
     }
 }
 
 #[test]
 fn regress_takeoff_uses_its_own_climb_rate() {
-    // Tolerance, m/s.
+    // Speed tolerance, m/s.
     const NEAR_M_S: f64 = 0.3;
     for (own_m_s, climb_m_s, at_climb_speed, expected_m_s) in
         [(1.0, 3.0, false, 1.0), (2.5, 3.0, false, 2.5), (1.0, 2.0, true, 2.0), (1.0, 4.0, true, 4.0)]
@@ -174,7 +174,7 @@ fn regress_mission_without_takeoff_item_climbs_first() {
             worst = worst.max(b.position().horizontal_norm());
         }
     });
-    assert!(worst < DRIFT_M, "{worst} m of drift below a height of 1.5 m");
+    assert!(worst < DRIFT_M, "drifted {worst} m below a height of 1.5 m");
     let status = bench.autopilot.status();
     assert!(status.mission_finished && status.mode == FlightMode::Hold, "{status:?} {:?}", bench.position());
 }

@@ -1,4 +1,4 @@
-//! Effects of operator settings on failsafes, returns, limits, missions and the geofence in flight.
+//! Effects of operator settings on failsafes, returns, limits, missions and the geofence.
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
@@ -120,7 +120,7 @@ fn flight_battery_actions_follow_their_settings() {
     let responses = &mut bench.autopilot.tuning.rules.responses;
     (responses.battery, responses.battery_low_v, responses.battery_low_s) = ([land, None, None], [100.0, 0.0], 5.0);
     bench.run(4.5, |_| ());
-    assert_eq!(mode(&bench), FlightMode::Hold, "the failsafe must not act yet");
+    assert_eq!(mode(&bench), FlightMode::Hold, "the failsafe must not trigger yet");
     bench.run(1.0, |_| ());
     assert_eq!(mode(&bench), FlightMode::Land);
 }
@@ -252,7 +252,7 @@ fn flight_heading_follows_its_setting() {
 
 #[test]
 fn flight_manual_and_automatic_limits_are_respected() {
-    // Acceleration of a go-to command.
+    // Check the acceleration of a go-to command.
     for limit in [1.0, f64::INFINITY] {
         let mut bench = airborne(|tuning| tuning.rules.envelope.acceleration_m_s2 = limit);
         bench.ask(AutopilotRequest::GoTo { north_east_m: Some((40.0, 0.0)), up_m: None, yaw_rad: None, speed_m_s: Some(5.0) });
@@ -261,7 +261,7 @@ fn flight_manual_and_automatic_limits_are_respected() {
         let kept = speed < 2.0 * (1.0 + ACCELERATION_M_S2);
         assert_eq!(kept, limit.is_finite(), "limit {limit}: {speed} m/s after 2 s");
     }
-    // Speed, climb, descent and yaw rate with the sticks.
+    // Check speed, climb rate, descent rate and yaw rate under stick control.
     let mut bench = Bench::in_position_mode(&vehicle("phantom2"), 5, 12.0);
     let set = &mut bench.autopilot.tuning.rules.envelope;
     (set.manual_m_s, set.manual_up_m_s, set.manual_down_m_s, set.manual_yaw_rad_s) = (2.0, 0.8, 0.5, 0.5);
@@ -281,7 +281,7 @@ fn flight_manual_and_automatic_limits_are_respected() {
         let seen = [v.horizontal_norm(), -v.down(), v.down(), rate][k];
         assert!(seen < limit * SPEED_OVERSHOOT && seen > 0.7 * limit, "stick {k}: {seen}, limit {limit}");
     }
-    // Tilt limit.
+    // Check the tilt limit.
     bench.sticks = Some(centered);
     bench.run(3.0, |_| ());
     bench.autopilot.tuning.rules.envelope.manual_tilt_rad = 0.15;

@@ -22,8 +22,8 @@ fn take_texts(bench: &mut Bench) -> Vec<String> {
     bench.autopilot.drain_events().into_iter().map(|event| event.text).collect()
 }
 
-/// Flies a square with the fault from its first leg on, then lands; returns the largest horizontal and vertical
-/// deviation, m, and the texts.
+/// Flies a square with the fault present from the first leg on, then lands. Returns the largest horizontal and vertical
+/// deviations, in meters, and the texts.
 fn square(name: &str, unit: FailureUnit, kind: FailureType) -> (f64, f64, Vec<String>) {
     let mut bench = Bench::airborne(&vehicle(name), 21, 5.0);
     take_texts(&mut bench);
@@ -145,9 +145,9 @@ fn regress_slow_altitude_drift_is_not_tracked() {
     }
 }
 
-/// When the sensors agree that the receiver has jumped permanently, the position must be reset to it and the reset
-/// announced; a vehicle that a pilot holds in position must stay there. With optical flow as a reference, there must be
-/// no reset.
+/// When the sensors agree that the receiver has jumped permanently, the position must be reset to it and the reset must
+/// be announced. A vehicle that a pilot holds in position must stay there. With optical flow as a reference, no reset
+/// may occur.
 #[test]
 fn regress_permanent_gnss_jump_resets_the_position() {
     // Maximum drift on inertial sensors while the receiver is rejected, m.
@@ -168,7 +168,7 @@ fn regress_permanent_gnss_jump_resets_the_position() {
             let announced =
                 texts.iter().any(|text| text.starts_with("GNSS position jumped 3") && text.ends_with(" m: position reset"));
             assert_eq!((announced, bench.autopilot.status().position_resets), (dark, u32::from(dark)), "{name}: {texts:?}");
-            assert!(farthest < MAX_DRIFT_M, "{name}, dark {dark}: {farthest} m");
+            assert!(farthest < MAX_DRIFT_M, "{name}, dark {dark}: drifted {farthest} m");
         }
     }
 }

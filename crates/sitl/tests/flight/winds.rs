@@ -1,4 +1,4 @@
-//! Takeoff, hover and landing of every shipped vehicle in the shipped job at every wind level with many seeds.
+//! Every shipped vehicle takes off, hovers and lands in the shipped job, at every wind level and with many seeds.
 
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavModeFlag, MavResult};
 use spandrel_model::frames::{Enu, Vec3};
@@ -8,16 +8,16 @@ use spandrel_sitl::sim::SimEvent;
 use spandrel_testkit::shipped::text;
 use spandrel_testkit::station::{Station, p};
 
-/// Values of `wind.level`.
+/// Values of `wind.level` in a job.
 const LEVELS: [&str; 4] = ["calm", "light", "gentle", "medium"];
 /// Distance from the pad beyond which a vehicle counts as lost, m. In medium wind, gusts of 15 m/s push the lightest
-/// vehicle, which can tilt enough for 13 m/s, up to 15 m away; before the fix, the caged vehicle drifted 100 to 400 m.
+/// vehicle, whose tilt can resist only 13 m/s, up to 15 m away. Before the fix, the caged vehicle drifted 100 to 400 m.
 const MAX_DISTANCE_M: f64 = 20.0;
-/// Time within which the vehicle must be ready to arm, s: alignment waits for half a second without motion, the
-/// receiver for its first fix.
+/// Time within which the vehicle must be ready to arm, s: alignment requires half a second without motion, and the
+/// receiver requires its first fix.
 const READY_S: i64 = 30;
 const HOVER: SimTime = SimTime::from_ms(60_000);
-/// Time limit for landing, s: 4 s from 2.5 m at the slow landing speed, 2 s for disarming, and margin.
+/// Time limit for landing, s: 4 s from 2.5 m at the slow landing speed, 2 s for disarming, plus margin.
 const LAND_S: i64 = 40;
 
 /// Parameters of a flight.
@@ -67,7 +67,7 @@ fn run_for(station: &mut Station, pad_m: Vec3<Enu>, time: SimTime, flown: &mut F
     Ok(())
 }
 
-/// Returns the armed flag of the next heartbeat.
+/// Returns the armed flag from the next heartbeat.
 fn armed(station: &mut Station) -> bool {
     station.received.clear();
     station.run_ms(1_000);
@@ -112,7 +112,7 @@ fn fly(flight: Flight) -> Result<Flown, String> {
             return Ok(flown);
         }
     }
-    Err(format!("not landed {LAND_S} s after the command"))
+    Err(format!("not on the ground {LAND_S} s after the landing command"))
 }
 
 /// Flies at all wind levels with forty seeds; no flight may be lost. Up to gentle wind, no landing may be a hard
@@ -135,7 +135,7 @@ fn assert_hold_in_every_wind(vehicle: &'static str) {
             }
         }
         let count = hard.iter().filter(|flight| flight.level == level).count();
-        println!("{vehicle}, {level}: farthest from the pad {farthest_m:.2} m, {count} of {SEEDS} landings were hard");
+        println!("{vehicle}, {level}: farthest from the pad {farthest_m:.2} m, {count} hard landings in {SEEDS} flights");
     }
     assert!(lost.is_empty(), "{} lost:\n{}", lost.len(), lost.join("\n"));
     assert!(hard.iter().all(|flight| flight.level == "medium"), "hard landings: {hard:?}");

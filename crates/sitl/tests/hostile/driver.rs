@@ -111,7 +111,7 @@ pub struct Coverage {
 
 pub struct Driver<'a> {
     pub stream: RandomStream,
-    /// Numbers of the commands that are handled.
+    /// Numbers of the handled commands.
     pub numbers: &'a [u16],
     pub coverage: Coverage,
 }
@@ -222,7 +222,7 @@ impl Driver<'_> {
     }
 }
 
-/// Returns the number of modes of the flavor with the most modes; AVAILABLE_MODES can request all of them at once.
+/// Returns the maximum number of modes in any flavor; AVAILABLE_MODES can request all of a flavor's modes at once.
 fn max_mode_count() -> usize {
     px4::FLAVOR.modes.len().max(ardupilot::FLAVOR.modes.len())
 }

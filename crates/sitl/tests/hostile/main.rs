@@ -1,6 +1,6 @@
-//! Fuzzing of the vehicle's endpoint: every message that it handles, with changed fields and a correct checksum, and
-//! bytes that are not messages at all; on the ground, in manual flight, in a mission and with external setpoints, as
-//! PX4 and as ArduPilot.
+//! Fuzzes the vehicle's endpoint with every message that it handles, with changed fields and a correct checksum, and
+//! with bytes that are not messages at all. The vehicle is on the ground, in manual flight, in a mission, or following
+//! external setpoints, as PX4 or as ArduPilot.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod driver;
@@ -34,7 +34,7 @@ fn known_commands(sim: &Sim) -> Vec<u16> {
         payload[28..30].copy_from_slice(&number.to_le_bytes());
         (payload[30], payload[31]) = (1, u8::from(number % 2 == 0));
         sim.handle_datagram(STATION, &mutate::frame(76, &payload, (255, 190), &mut stream));
-        // One tick each, because the work per link and tick is limited.
+        // One tick for each request, because the work per link per tick is limited.
         let next = sim.poll_timeout();
         sim.handle_timeout(next);
         while let Some(transmit) = sim.poll_transmit() {
@@ -107,7 +107,7 @@ fn prop_every_handled_message_has_a_valid_seed() {
         assert!(good.iter().all(|m| m.message_id() == *id));
     }
     let double = HANDLED.iter().enumerate().find(|(k, id)| HANDLED[..*k].contains(id));
-    assert_eq!(double, None, "message handled twice");
+    assert_eq!(double, None, "a message is handled twice");
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn prop_no_datagram_violates_the_invariants() {
     let coverage =
         run(seed, |vehicle| Box::new(vehicle)).unwrap_or_else(|found| panic!("{}: {:02x?}", found.what, found.datagram));
     assert!(coverage.datagrams >= 20_000);
-    // The test is pointless if the datagrams have no effect.
+    // The test would be pointless if the datagrams had no effect.
     assert!(coverage.commands_accepted.len() > 35, "{:?}", coverage.commands_accepted);
     assert!(coverage.plans_accepted > 500, "{}", coverage.plans_accepted);
     assert!(

@@ -51,7 +51,7 @@ pub fn frame(id: u32, payload: &[u8], sender: (u8, u8), stream: &mut RandomStrea
     out
 }
 
-/// Returns the payload of a message with all its fields, including extensions.
+/// Returns a message's payload with all fields, including extensions.
 pub fn payload(message: &MavMessage) -> Vec<u8> {
     let mut bytes = [0; 255];
     let base = message.ser(MavlinkVersion::V1, &mut bytes);

@@ -1,5 +1,5 @@
-//! Vehicles with planted faults, each triggered by one rare value of one field. If the fuzzer does not find these, it
-//! is useless.
+//! Vehicles with planted faults, each triggered by one rare value of one field. A fuzzer that does not find these
+//! faults is useless.
 
 use super::driver::{TestVehicle, Vehicle};
 use spandrel_mavlink::codec::{Decoder, Encoder};
@@ -7,7 +7,7 @@ use spandrel_mavlink::dialect::*;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
-    /// The last sequence number causes an index out of bounds.
+    /// The last sequence number causes an out-of-bounds index.
     Index,
     /// A NaN in a setpoint gets into the state.
     NanState,

@@ -6,7 +6,7 @@ use spandrel_mavlink::dialect::*;
 use spandrel_model::random::RandomStream;
 
 const NAN: f32 = f32::NAN;
-/// Origin of the practice lake, 1e-7 degrees, the site of the job that these tests fly.
+/// Origin of the practice lake, the site of the job that these tests fly, in 1e-7 degrees.
 pub const ORIGIN_E7: (i32, i32) = (467_052_000, 83_814_000);
 
 pub fn all(number: u32) -> Vec<MavMessage> {
@@ -83,7 +83,7 @@ fn connection() -> Vec<MavMessage> {
     ]
 }
 
-/// Returns a request for each operation of the file service, and an unknown one.
+/// Returns a request for each file service operation, and one for an unknown operation.
 fn files() -> Vec<MavMessage> {
     let request = |opcode| {
         let mut payload = [0; 251];
@@ -236,7 +236,7 @@ fn parameters() -> Vec<MavMessage> {
     ]
 }
 
-/// Returns an item of a small flight around the origin.
+/// Returns a mission item for a short flight around the origin.
 pub fn item(seq: u16) -> MISSION_ITEM_INT_DATA {
     let command = match seq {
         0 => MavCmd::MAV_CMD_NAV_TAKEOFF,

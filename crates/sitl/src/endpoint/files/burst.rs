@@ -5,8 +5,8 @@ use crate::endpoint::link::LinkId;
 use spandrel_mavlink::ftp::FtpPacket;
 use std::collections::VecDeque;
 
-/// Burst packets per tick, for all clients together: about 240 kB/s at 1000 ticks/s, below the capacity of a local
-/// link.
+/// Burst packets per tick for all clients combined: about 240 kB/s at 1000 ticks/s, which is below the capacity of a
+/// local link.
 const PACKETS_PER_TICK: usize = 1;
 
 #[derive(Debug, Clone)]
@@ -21,18 +21,18 @@ struct BurstRead {
 pub(super) struct BurstReads(VecDeque<BurstRead>);
 
 impl BurstReads {
-    /// Starts a burst read and replaces the rest of the session's previous one.
+    /// Starts a burst read. It replaces what remains of the session's previous burst.
     pub fn begin(&mut self, client: FileClient, request: &FtpPacket, packets: VecDeque<FtpPacket>) {
         self.end(client, request.session);
         self.0.push_back(BurstRead { client, request: request.clone(), packets });
     }
 
-    /// Checks whether this exact request is still being answered, which means that the network duplicated it.
+    /// Checks whether this exact request is still being answered. If so, the network has duplicated it.
     pub fn is_active(&self, client: FileClient, request: &FtpPacket) -> bool {
         self.0.iter().any(|burst| burst.client == client && burst.request == *request)
     }
 
-    /// Ends the burst read of a session.
+    /// Ends a session's burst read.
     pub fn end(&mut self, client: FileClient, session: u8) {
         self.0.retain(|burst| burst.client != client || burst.request.session != session);
     }
@@ -56,7 +56,7 @@ impl BurstReads {
         out
     }
 
-    /// Checks whether no burst read is active.
+    /// Returns true if no burst read is active.
     #[cfg(test)]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -1,41 +1,41 @@
-//! File jobs and their results. The server itself performs no file access: its host executes the jobs.
+//! File jobs and their results. The server never accesses files itself; its host runs the jobs.
 
 use super::path::FilePath;
 use spandrel_mavlink::ftp::FtpError;
 
-/// Bytes of a file that one checksum job covers. A job takes less than a tenth of a millisecond of CPU time (estimate,
-/// `crc32fast`), so a long file does not delay a tick.
+/// Number of file bytes that one checksum job covers. A job takes less than 0.1 ms of CPU time (estimate, `crc32fast`),
+/// so even a long file does not delay a tick.
 pub const CHECKSUM_SLICE: u32 = 131_072;
-/// Maximum size of a file to checksum, bytes: 8,192 slices, about 8 s of simulation time.
+/// Maximum size of a file to checksum, in bytes: 8,192 slices, or about 8 s of simulation time.
 pub const MAX_CHECKSUM_BYTES: u32 = 8_192 * CHECKSUM_SLICE;
 /// Cost of a directory listing, in jobs; a listing reads every name in the directory.
 const LISTING_COST: u32 = 8;
 
-/// A file operation for the host to execute.
+/// A file operation for the host to run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileJob {
     /// Identifies the job; returned with its result.
     pub ticket: u64,
-    /// The operation.
+    /// The file operation to run.
     pub action: FileAction,
 }
 
 /// A file operation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FileAction {
-    /// Lists names and sizes in a directory, in a deterministic order.
+    /// Lists the names and sizes in a directory in deterministic order.
     List(FilePath),
-    /// Returns the size of a file.
+    /// Returns a file's size.
     Size(FilePath),
     /// Creates an empty file, or truncates an existing one.
     Create(FilePath),
-    /// Reads from an offset up to a maximum number of bytes; returns none at the end of the file.
+    /// Reads up to a maximum number of bytes from an offset; returns no bytes at the end of the file.
     Read(FilePath, u32, u32),
     /// Writes bytes at an offset.
     Write(FilePath, u32, Vec<u8>),
     /// Removes a file.
     Remove(FilePath),
-    /// Makes a directory.
+    /// Creates a directory.
     MakeDirectory(FilePath),
     /// Removes an empty directory.
     RemoveDirectory(FilePath),
@@ -45,9 +45,9 @@ pub enum FileAction {
     Rename(FilePath, FilePath),
     /// Computes [`spandrel_mavlink::ftp::checksum`] over at most [`CHECKSUM_SLICE`] bytes of a file.
     Checksum {
-        /// The file.
+        /// Path of the file.
         path: FilePath,
-        /// Start of the slice, bytes.
+        /// Offset of the slice in the file, in bytes.
         from: u32,
         /// Checksum of all preceding bytes.
         sum: u32,
@@ -55,28 +55,28 @@ pub enum FileAction {
 }
 
 impl FileAction {
-    /// Returns the cost that is deducted from [`super::job_allowance::JobAllowance`].
+    /// Returns the cost to deduct from [`super::job_allowance::JobAllowance`].
     #[must_use]
     pub fn cost(&self) -> u32 {
         if matches!(self, Self::List(_)) { LISTING_COST } else { 1 }
     }
 }
 
-/// An entry of a directory listing.
+/// An entry in a directory listing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DirectoryEntry {
     /// A directory.
     Directory(String),
-    /// A file with its size, bytes.
+    /// A file and its size in bytes.
     File(String, u64),
 }
 
-/// Result of a job.
+/// A job's result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FileJobResult {
     /// Result of [`FileAction::List`].
     Entries(Vec<DirectoryEntry>),
-    /// Result of [`FileAction::Size`], bytes.
+    /// Result of [`FileAction::Size`], in bytes.
     Size(u32),
     /// Result of [`FileAction::Read`].
     Bytes(Vec<u8>),
@@ -84,21 +84,21 @@ pub enum FileJobResult {
     Checksum {
         /// Checksum up to the end of the slice.
         sum: u32,
-        /// Bytes in the slice; fewer than a full slice at the end of the file.
+        /// Number of bytes in the slice; less than a full slice at the end of the file.
         bytes: u32,
     },
     /// Success of any other action.
     Nothing,
 }
 
-/// Reason why a job failed.
+/// The reason a job failed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileError {
     /// The path does not exist.
     NotFound,
     /// The path already exists.
     Exists,
-    /// The file may not be read or written.
+    /// Permission to read or write the file is denied.
     Protected,
     /// Any other failure.
     Other,

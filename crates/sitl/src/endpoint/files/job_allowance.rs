@@ -1,5 +1,5 @@
-//! Limits the file work per tick. Jobs run between two ticks on the simulation thread, so every run answers the same
-//! requests in the same tick. Client requests must therefore never delay a tick.
+//! Limits the file work per tick. Jobs run between ticks, on the simulation thread, so that the same requests are
+//! answered in the same tick in every run. Client requests must therefore never delay a tick.
 
 use super::job::FileAction;
 use spandrel_model::time::SimTime;
@@ -7,7 +7,7 @@ use spandrel_model::time::SimTime;
 /// Maximum number of jobs in a burst after an idle period.
 const MAX_SAVED_JOBS: u32 = 32;
 
-/// One small job per millisecond of simulation time, accumulated up to a maximum.
+/// Allows one small job per millisecond of simulation time. Unused jobs accumulate up to a maximum.
 #[derive(Debug, Clone)]
 pub struct JobAllowance {
     remaining: u32,
@@ -27,7 +27,7 @@ impl JobAllowance {
         self.remaining_at(now) >= action.cost()
     }
 
-    /// Deducts the cost of an action.
+    /// Deducts an action's cost.
     pub fn spend(&mut self, action: &FileAction, now: SimTime) {
         (self.remaining, self.updated_at) = (self.remaining_at(now).saturating_sub(action.cost()), now);
     }

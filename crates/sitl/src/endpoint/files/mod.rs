@@ -26,14 +26,14 @@ use std::sync::Arc;
 /// retries.
 const MAX_JOBS: usize = 64;
 const MAX_JOBS_PER_CLIENT: usize = 32;
-/// Maximum number of packets per burst; the client then requests the next one.
+/// Maximum number of packets per burst; the client then requests the next burst.
 const BURST_PACKETS: u32 = 128;
 
 /// The MAVLink FTP server.
 #[derive(Debug, Clone, Default)]
 pub struct FileServer {
     sessions: FileSessions,
-    /// Whether a host executes file jobs.
+    /// Whether a host runs file jobs.
     stored: bool,
     /// Generated, read-only files by path; they are not stored on disk.
     generated: BTreeMap<FilePath, Arc<[u8]>>,
@@ -51,12 +51,12 @@ struct PendingRequest {
     client: FileClient,
     request: FtpPacket,
     opens: Option<(FilePath, bool)>,
-    /// Bytes included in the checksum so far.
+    /// Number of bytes included in the checksum so far.
     checksummed_bytes: u32,
 }
 
 impl FileServer {
-    /// Declares that a host executes file jobs. Until then, only generated files exist.
+    /// Enables file jobs, which the host must run. Without them, the server has only generated files.
     pub fn stored(&mut self) {
         self.stored = true;
     }
@@ -68,7 +68,7 @@ impl FileServer {
         }
     }
 
-    /// Releases all state of a closed link.
+    /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.sessions.close_matching(|client| client.0 == link);
         self.answered.forget(link);
@@ -77,7 +77,7 @@ impl FileServer {
         self.waiting.retain(|_, waiting| waiting.client.0 != link);
     }
 
-    /// Returns the action of the next job.
+    /// Returns the next job's action.
     #[must_use]
     pub fn next_action(&self) -> Option<&FileAction> {
         self.jobs.front().map(|job| &job.action)
@@ -96,7 +96,7 @@ impl FileServer {
         out
     }
 
-    /// Checks for a repeated request. If its reply is available, it is sent again, without executing the request twice.
+    /// Checks for a repeated request. A repeat is not executed again; if its reply is available, the reply is resent.
     fn is_duplicate(&mut self, client: FileClient, request: &FtpPacket, now: SimTime) -> bool {
         if let Some(answer) = self.answered.cached_reply(client, request) {
             self.answers.push_back((client, answer.clone()));
@@ -107,7 +107,7 @@ impl FileServer {
             || self.waiting.values().any(|waiting| waiting.client == client && waiting.request == *request)
     }
 
-    /// Opens a file with content generated for this session; later changes do not affect it.
+    /// Opens a file whose content was generated for this session; later changes do not affect it.
     pub fn open_generated(&mut self, client: FileClient, request: &FtpPacket, content: Vec<u8>, now: SimTime) {
         if self.is_duplicate(client, request, now) {
             return;
@@ -141,7 +141,7 @@ impl FileServer {
         }
     }
 
-    /// Handles the result of a job.
+    /// Handles a job's result.
     pub fn done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>, now: SimTime) {
         if self.queue_next_slice(ticket, &outcome) {
             return;
@@ -157,7 +157,7 @@ impl FileServer {
             }
             Ok(FileJobResult::Bytes(bytes)) if bytes.is_empty() => request.error_reply(FtpError::EndOfFile),
             Ok(FileJobResult::Bytes(bytes)) => request.acknowledge(&bytes),
-            // The file is longer than the limit, and the checksum of only its first part would be wrong.
+            // The file exceeds the limit, and a checksum of its first part alone would be wrong.
             Ok(FileJobResult::Checksum { bytes, .. }) if bytes >= CHECKSUM_SLICE => request.error_reply(FtpError::Fail),
             Ok(FileJobResult::Checksum { sum, .. }) => request.acknowledge(&sum.to_le_bytes()),
             Ok(FileJobResult::Size(_) | FileJobResult::Nothing) if opens.is_some() => {
@@ -270,9 +270,9 @@ impl FileServer {
         })
     }
 
-    /// Queues one burst. The last packet completes it, even at the end of the file: after an additional NAK, a client
-    /// that lost the last packet would give up (MAVSDK 4). Only a request that starts at the end of the file is
-    /// rejected.
+    /// Queues one burst. Its last packet marks the burst as complete, even at the end of the file. If a NAK followed
+    /// instead, a client that lost that packet would give up (MAVSDK 4). Only a request that starts at the end of the
+    /// file is rejected.
     fn burst(&mut self, client: FileClient, request: &FtpPacket, bytes: &[u8]) {
         if bytes.is_empty() {
             return self.queue_reply(client, request, request.error_reply(FtpError::EndOfFile));
@@ -311,8 +311,8 @@ impl FileServer {
         self.jobs.push_back(FileJob { ticket, action });
     }
 
-    /// Returns the result for generated files, which need no job. Generated entries are added to a listing when its job
-    /// completes.
+    /// Returns the result for generated files, which do not require a job. Generated entries are added to a listing
+    /// when its job completes.
     fn is_generated(&self, action: &FileAction) -> Option<Result<FileJobResult, FileError>> {
         match action {
             FileAction::Size(path) => self.generated.get(path).map(|content| Ok(FileJobResult::Size(content.len() as u32))),
@@ -379,7 +379,7 @@ impl FileServer {
     }
 }
 
-/// Next step of a request.
+/// Next step in handling a request.
 enum RequestStep {
     /// Acknowledge immediately with this data.
     Answer(Vec<u8>),
@@ -396,7 +396,7 @@ fn slice_at(content: &[u8], offset: u32, most: u32) -> Vec<u8> {
     content[from..to].to_vec()
 }
 
-/// Returns the requested bytes per packet; 0 means the maximum.
+/// Returns the requested number of bytes per packet; a request for 0 means the maximum.
 fn chunk(request: &FtpPacket) -> u32 {
     match usize::from(request.size) {
         0 => DATA_MAX as u32,
@@ -404,7 +404,7 @@ fn chunk(request: &FtpPacket) -> u32 {
     }
 }
 
-/// Returns as many entries as fit into a packet, starting at the entry number in the offset.
+/// Returns as many entries as fit into a packet, starting with the entry whose number is given by the offset.
 fn list(request: &FtpPacket, entries: Vec<DirectoryEntry>) -> FtpPacket {
     let mut data = Vec::new();
     for entry in entries.iter().skip(request.offset as usize) {
@@ -412,7 +412,7 @@ fn list(request: &FtpPacket, entries: Vec<DirectoryEntry>) -> FtpPacket {
             DirectoryEntry::Directory(name) => format!("D{name}\0"),
             DirectoryEntry::File(name, size) => format!("F{name}\t{size}\0"),
         };
-        // Skip a name too long for any packet, so that the entries after it remain reachable.
+        // Skip a name that is too long for a packet, so that the entries after it remain accessible.
         let text = if text.len() > DATA_MAX { "S\0".to_owned() } else { text };
         if data.len() + text.len() > DATA_MAX {
             break;

@@ -26,7 +26,7 @@ impl FilePath {
         &self.0
     }
 
-    /// Returns the part of this path below `directory`; `None` if the path is not in it.
+    /// Returns this path relative to `directory`, or `None` if it is not inside `directory`.
     #[must_use]
     pub fn below<'a>(&'a self, directory: &Self) -> Option<&'a str> {
         if directory.is_root() {

@@ -5,10 +5,10 @@ use crate::endpoint::link::LinkId;
 use spandrel_mavlink::ftp::{FtpError, FtpPacket, NAK};
 use std::collections::BTreeMap;
 
-/// Number of sessions for which the last reply is kept.
+/// Number of sessions whose last reply is kept.
 const MAX_REPLIES: usize = 64;
 
-/// The last request and reply of each session.
+/// Each session's last request and reply.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ReplyCache {
     last: BTreeMap<(FileClient, u8), (u64, FtpPacket, FtpPacket)>,
@@ -16,7 +16,7 @@ pub(super) struct ReplyCache {
 }
 
 impl ReplyCache {
-    /// Returns the reply to this exact request, if it was the session's last.
+    /// Returns the reply to this exact request if it was the session's last request.
     pub fn cached_reply(&self, client: FileClient, request: &FtpPacket) -> Option<&FtpPacket> {
         let (_, asked, answer) = self.last.get(&(client, request.session))?;
         (asked == request).then_some(answer)
@@ -38,7 +38,7 @@ impl ReplyCache {
         }
     }
 
-    /// Removes the replies of a closed link.
+    /// Removes the cached replies for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.last.retain(|((from, _), _), _| *from != link);
     }

@@ -1,4 +1,4 @@
-//! Open files of the clients. Session numbers are per client.
+//! The clients' open files. Session numbers are per client.
 
 use super::client::FileClient;
 use super::path::FilePath;
@@ -7,15 +7,15 @@ use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Maximum number of open files of all clients.
+/// Maximum number of open files for all clients combined.
 const MAX_SESSIONS: usize = 32;
 /// Maximum number of open files per client; MAVProxy transfers up to five in parallel.
 const MAX_SESSIONS_PER_CLIENT: usize = 8;
-/// Timeout after which an idle session is closed, so that a client that disappeared does not tie up resources.
+/// Timeout after which an idle session is closed, so that clients that have disappeared do not tie up resources.
 const IDLE: SimTime = SimTime::from_ms(60_000);
-/// Time within which an identical open request counts as a repeat, regardless of what arrived in between: networks
-/// duplicate and reorder datagrams. After that, it comes from a client that restarted its sequence numbers (estimate:
-/// longer than network delays).
+/// Time within which an identical open request counts as a repeat, regardless of what arrived in between, because
+/// networks duplicate and reorder datagrams. A later request comes from a client that has restarted its sequence
+/// numbers (estimate: longer than network delays).
 const REPEAT_WINDOW: SimTime = SimTime::from_ms(2_000);
 
 #[derive(Debug, Clone)]
@@ -71,13 +71,13 @@ impl FileSessions {
         }
     }
 
-    /// Returns the content generated for a session of this client.
+    /// Returns the content generated for one of this client's sessions.
     pub fn content(&self, client: FileClient, number: u8) -> Option<Arc<[u8]>> {
         self.0.get(&(client, number))?.content.clone()
     }
 
-    /// Returns the path of a session of this client; the session must be open for writing if `writable` is set, for
-    /// reading otherwise.
+    /// Returns the path of one of this client's sessions. The session must be open for writing if `writable` is set,
+    /// and for reading otherwise.
     pub fn path(&self, client: FileClient, number: u8, writable: bool) -> Result<FilePath, FtpError> {
         match self.0.get(&(client, number)) {
             Some(session) if session.writable == writable => Ok(session.path.clone()),
@@ -85,7 +85,7 @@ impl FileSessions {
         }
     }
 
-    /// Closes a session of this client.
+    /// Closes one of this client's sessions.
     pub fn end(&mut self, client: FileClient, number: u8) -> Option<()> {
         self.0.remove(&(client, number)).map(|_| ())
     }
@@ -95,7 +95,7 @@ impl FileSessions {
         self.0.retain(|(owner, _), _| !fits(*owner));
     }
 
-    /// Resets the idle timer of a session.
+    /// Resets a session's idle timer.
     pub fn touch(&mut self, client: FileClient, number: u8, now: SimTime) {
         if let Some(session) = self.0.get_mut(&(client, number)) {
             session.last_used = now;

@@ -1,5 +1,5 @@
-//! Tests the server with a retrying client over a link that loses, duplicates and reorders packets, with in-memory
-//! files.
+//! Tests the server with in-memory files and a retrying client, over a link that loses, duplicates and reorders
+//! packets.
 
 use super::*;
 use spandrel_mavlink::ftp::{NAK, PAYLOAD};
@@ -177,7 +177,7 @@ fn exact_sessions_are_private_and_limited_per_client() {
     assert_eq!(result_of(&bench.ask(Opcode::OpenFileRo, 8, 0, b"a")), Err(FtpError::NoSessionsAvailable as u8));
     assert!(
         result_of(&bench.ask(Opcode::OpenFileRo, 7, 0, b"a")).is_ok(),
-        "a new session must replace the one with the same number"
+        "a new session must replace the old one with the same number"
     );
     bench.now += SimTime::from_ms(60_001);
     assert!(result_of(&bench.ask(Opcode::OpenFileRo, 0, 0, b"a")).is_ok(), "idle sessions must expire");
@@ -209,8 +209,8 @@ fn regress_replies_contain_the_requested_session() {
     );
 }
 
-/// The last packet of a burst completes it: if it is lost, MAVSDK 4 would treat an additional NAK as its last failed
-/// attempt.
+/// The last packet of a burst must mark it complete: if that packet is lost, MAVSDK 4 would count an additional NAK as
+/// its final failed attempt.
 #[test]
 fn regress_burst_to_the_end_of_the_file_completes_without_a_nak() {
     let mut bench = FtpHarness::new();
@@ -358,7 +358,7 @@ fn prop_burst_download_survives_loss_duplication_and_reordering() {
         let mut rounds = 0;
         loop {
             rounds += 1;
-            assert!(rounds < 2_000, "seed {seed}: the transfer never completed");
+            assert!(rounds < 2_000, "seed {seed}: the transfer did not complete");
             let held = got.iter().fold(0, |end, (from, bytes)| if *from == end { from + bytes.len() as u32 } else { end });
             if held as usize == file.len() {
                 break;

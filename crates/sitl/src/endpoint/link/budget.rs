@@ -1,24 +1,25 @@
-//! Bandwidth budget of a slow link: its capacity, the stream interval scaling, and when data waits or is dropped.
+//! Bandwidth budget of a slow link: tracks its capacity, scales the stream intervals, and decides when data waits or is
+//! dropped.
 
 use spandrel_model::time::SimTime;
 
 /// Fraction of the link capacity available to streams; the rest is for responses, lists and files.
 const STREAM_SHARE: f64 = 0.75;
-/// Assumed stream frame size before any is measured, bytes (estimate: mean of the shipped streams).
+/// Assumed stream frame size until one is measured, in bytes (estimate: mean of the shipped streams).
 const FRAME_BYTES: f64 = 50.0;
 /// Maximum factor by which stream intervals are stretched.
 const MAX_STRETCH: f64 = 200.0;
-/// Maximum burst after an idle period, s of link capacity, and its minimum (one datagram), bytes.
+/// Maximum burst after an idle period, in seconds of link capacity, and its lower limit (one datagram), in bytes.
 const BURST_S: f64 = 0.05;
 const BURST_BYTES: f64 = 300.0;
-/// Backlog above which lists and files wait and streams and forwarded frames are skipped, s of link capacity.
+/// Backlog above which lists and files wait, and streams and forwarded frames are skipped, in seconds of link capacity.
 const SATURATED_BACKLOG_S: f64 = 0.25;
-/// Backlog above which data is dropped, s of link capacity.
+/// Backlog above which data is dropped, in seconds of link capacity.
 const MAX_BACKLOG_S: f64 = 2.0;
 /// Interval between adjustments of the stream intervals.
 const ADJUST_INTERVAL: SimTime = SimTime::from_ms(1_000);
 
-/// Capacity of a link and its current use.
+/// A link's capacity and current use.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkBudget {
     bytes_s: f64,
@@ -30,8 +31,7 @@ pub struct LinkBudget {
 }
 
 impl LinkBudget {
-    /// Creates the budget of a link with a capacity of `bytes_s`, bytes/s, and streams that request `frames_s`,
-    /// frames/s.
+    /// Creates the budget for a link with a capacity of `bytes_s` bytes/s and streams that request `frames_s` frames/s.
     #[must_use]
     pub fn new(bytes_s: f64, frames_s: f64, now: SimTime) -> Self {
         let stretch = (frames_s * FRAME_BYTES / (bytes_s * STREAM_SHARE)).clamp(1.0, MAX_STRETCH);
@@ -45,7 +45,7 @@ impl LinkBudget {
         let window_s = (now - self.last_adjusted).s();
         if now - self.last_adjusted >= ADJUST_INTERVAL {
             let used = self.streamed / (window_s * self.bytes_s * STREAM_SHARE);
-            // Move halfway each time, so that a second with few slow streams does not make the intervals jump.
+            // Move only halfway each time, so that a second with few slow streams does not make the intervals jump.
             self.stretch = (self.stretch * f64::midpoint(1.0, used)).clamp(1.0, MAX_STRETCH);
             self.streamed = 0.0;
             self.last_adjusted = now;
@@ -72,7 +72,7 @@ impl LinkBudget {
         self.stretch
     }
 
-    /// Checks whether the backlog is large enough to hold back more data. `waiting` is in bytes.
+    /// Checks whether a backlog of `waiting` bytes is large enough to hold back more data.
     #[must_use]
     pub fn is_saturated(&self, waiting: usize) -> bool {
         waiting as f64 > self.bytes_s * SATURATED_BACKLOG_S
@@ -89,9 +89,9 @@ impl LinkBudget {
 mod tests {
     use super::*;
 
-    /// Capacity of a telemetry radio at 57,600 baud, 8N1, bytes/s.
+    /// Capacity of a telemetry radio at 57,600 baud (8N1), bytes/s.
     const RADIO: f64 = 5_760.0;
-    /// Relative tolerance of the mean over ten seconds; datagrams are indivisible.
+    /// Relative tolerance for the ten-second mean; datagrams are indivisible.
     const TOLERANCE: f64 = 0.02;
 
     #[test]
@@ -121,7 +121,7 @@ mod tests {
                 }
             }
             let share = frames_s * bytes as f64 / budget.interval_factor() / RADIO;
-            assert!((share / STREAM_SHARE - 1.0).abs() < 0.1, "{share}: whole frames in one second's count");
+            assert!((share / STREAM_SHARE - 1.0).abs() < 0.1, "share {share}: only whole frames are counted each second");
         }
     }
 

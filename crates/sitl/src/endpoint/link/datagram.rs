@@ -1,4 +1,4 @@
-//! A received datagram, which is decoded once: when it is processed, or earlier to look for a lockstep response.
+//! A received datagram. It is decoded only once: when it is processed, or earlier to look for a lockstep response.
 
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 
@@ -28,12 +28,12 @@ impl ReceivedDatagram {
         self.bytes.is_empty()
     }
 
-    /// Returns the frames.
+    /// Returns the datagram's frames.
     pub fn frames(&mut self) -> &[ReceivedFrame] {
         &self.decoded.get_or_insert_with(|| decode(&self.bytes)).0
     }
 
-    /// Returns the frames and the number of bytes outside of them.
+    /// Returns the frames and the number of bytes outside them.
     #[must_use]
     pub fn into_frames(self) -> (Vec<ReceivedFrame>, u64) {
         self.decoded.unwrap_or_else(|| decode(&self.bytes))

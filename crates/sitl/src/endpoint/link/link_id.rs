@@ -24,6 +24,6 @@ pub enum LinkKind {
 pub struct Transmit {
     /// The link to send it on.
     pub link: LinkId,
-    /// Complete frames.
+    /// One or more complete frames.
     pub bytes: Vec<u8>,
 }

@@ -1,4 +1,4 @@
-//! All links, the router between them, and the signing of their frames.
+//! All links, the router between them, and frame signing.
 
 use super::datagram::ReceivedDatagram;
 use super::link_id::{LinkId, LinkKind, Transmit};
@@ -10,7 +10,7 @@ use spandrel_mavlink::router::{self, Router};
 use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
 
-/// The links of a vehicle.
+/// A vehicle's links.
 #[derive(Debug, Clone)]
 pub struct Links {
     system_id: u8,
@@ -18,12 +18,12 @@ pub struct Links {
     router: Router<LinkId>,
     pub(super) signing: Option<SigningPolicy>,
     bad_bytes: u64,
-    /// Number of frames dropped by links that have since closed.
+    /// Number of frames dropped by links that have been closed since.
     dropped_by_closed: u64,
 }
 
 impl Links {
-    /// Creates the link table of a vehicle, without links.
+    /// Creates a vehicle's link table without any links.
     #[must_use]
     pub fn new(system_id: u8) -> Self {
         Self { system_id, peers: BTreeMap::new(), router: Router::new(), signing: None, bad_bytes: 0, dropped_by_closed: 0 }
@@ -47,7 +47,7 @@ impl Links {
         self.router.remove_link(id);
     }
 
-    /// Sends only responses on a link until a heartbeat is received: the sender's address may be forged, and streams
+    /// Sends only responses on a link until a heartbeat is received. The sender's address may be forged, and streams
     /// would amplify every datagram.
     pub fn await_heartbeat(&mut self, id: LinkId) {
         if let Some(link) = self.peers.get_mut(&id) {
@@ -55,14 +55,14 @@ impl Links {
         }
     }
 
-    /// Limits a link's capacity to `bytes_s`, bytes/s: streams slow down, lists wait, and scoring data is omitted.
+    /// Limits a link's capacity to `bytes_s` bytes/s: streams slow down, lists wait, and scoring data is omitted.
     pub fn limit(&mut self, id: LinkId, bytes_s: f64, now: SimTime) {
         if let Some(link) = self.peers.get_mut(&id) {
             link.limit(bytes_s, now);
         }
     }
 
-    /// Returns a link.
+    /// Returns a link by its ID.
     #[must_use]
     pub fn get(&self, id: LinkId) -> Option<&PeerLink> {
         self.peers.get(&id)
@@ -88,13 +88,13 @@ impl Links {
         self.peers.values_mut().filter(|link| !link.answers_only)
     }
 
-    /// Returns the kind of a link and whether it runs in lockstep.
+    /// Returns a link's kind and whether the link runs in lockstep.
     #[must_use]
     pub fn kind(&self, id: LinkId) -> Option<(LinkKind, bool)> {
         self.peers.get(&id).map(|link| (link.kind, link.lockstep))
     }
 
-    /// Checks whether lists and files may be sent on a link: true unless it is saturated.
+    /// Checks whether lists and files may be sent on a link, which is the case unless the link is saturated.
     #[must_use]
     pub fn has_capacity(&self, id: LinkId) -> bool {
         self.peers.get(&id).is_none_or(|link| !link.is_busy())
@@ -134,26 +134,26 @@ impl Links {
         self.dropped_by_closed + self.peers.values().map(PeerLink::dropped).sum::<u64>()
     }
 
-    /// Returns the number of bytes outside of valid frames, for all links.
+    /// Returns the number of bytes outside valid frames on all links.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
         self.bad_bytes
     }
 
-    /// Returns the frames of a datagram, and counts the bytes outside of them.
+    /// Returns a datagram's frames and counts the bytes outside them.
     pub fn take_frames(&mut self, datagram: ReceivedDatagram) -> Vec<ReceivedFrame> {
         let (frames, bad_bytes) = datagram.into_frames();
         self.bad_bytes += bad_bytes;
         frames
     }
 
-    /// Returns the permitted handling of a frame received on a link.
+    /// Returns how a frame received on a link may be handled.
     pub fn admit(&mut self, id: LinkId, frame: &ReceivedFrame) -> FrameAdmission {
         let Some(link) = self.peers.get(&id) else { return FrameAdmission::Reject };
         self.signing.as_mut().map_or(FrameAdmission::Execute, |policy| policy.admit(frame, link.kind))
     }
 
-    /// Starts the streams of a link when a heartbeat arrives on it.
+    /// Starts a link's streams when a heartbeat arrives on it.
     pub fn wake(&mut self, id: LinkId, now: SimTime) {
         if let Some(link) = self.peers.get_mut(&id) {
             link.wake(now);

@@ -17,7 +17,8 @@ impl Links {
         self.peers.iter().filter(|(_, link)| link.blocks_lockstep()).map(|(id, _)| *id)
     }
 
-    /// Returns the links in lockstep or about to join: their state, and whether anything was received from them.
+    /// Returns the links that are in lockstep or about to join, with their state and whether anything has been received
+    /// from them.
     pub fn lockstep_states(&self) -> impl Iterator<Item = (LinkId, LockstepState, bool)> {
         self.peers.iter().filter(|(_, link)| link.lockstep).map(|(id, link)| (*id, link.lockstep_state, link.has_received))
     }

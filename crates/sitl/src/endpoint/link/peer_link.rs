@@ -11,18 +11,18 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// Maximum size of a datagram that packs several frames, bytes (below the usual path MTU).
 const DATAGRAM: usize = 1_200;
-/// Datagram size on a rate-limited link, bytes: small, to keep the latency low.
+/// Datagram size on a rate-limited link, bytes: small, to keep latency low.
 const SMALL_DATAGRAM: usize = 280;
 /// Maximum backlog of an unlimited link, bytes; the host empties it in every iteration.
 const MAX_BACKLOG: usize = 4_194_304;
-/// Maximum number of frames per tick that are forwarded from one link to other links.
+/// Maximum number of frames per tick forwarded from one link to other links.
 const FORWARDED_PER_TICK: usize = 16;
-/// Interval between heartbeats of a component (MAVLink: 1 Hz).
+/// Interval between a component's heartbeats (MAVLink: 1 Hz).
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
-/// HIL_STATE_QUATERNION.
+/// Message ID of HIL_STATE_QUATERNION, the ground truth.
 const TRUTH: u32 = 115;
 
-/// Lockstep state of a peer.
+/// A peer's lockstep state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LockstepState {
     /// Simulation time waits for its first response.
@@ -40,17 +40,17 @@ pub struct PeerLink {
     pub kind: LinkKind,
     /// Whether the peer runs in lockstep.
     pub lockstep: bool,
-    /// Whether only responses are sent, because no heartbeat was received yet.
+    /// Whether only responses are sent because no heartbeat has been received yet.
     pub answers_only: bool,
-    /// Lockstep progress.
+    /// The peer's lockstep state.
     pub lockstep_state: LockstepState,
-    /// Whether anything was received.
+    /// Whether anything has been received from the peer.
     pub has_received: bool,
     /// Token of the last lockstep request.
     pub lockstep_token: Option<i64>,
     system_id: u8,
     encoders: BTreeMap<u8, Encoder>,
-    /// Intervals of the streams.
+    /// Stream intervals.
     pub streams: StreamSchedule,
     out: VecDeque<Vec<u8>>,
     waiting: usize,
@@ -60,7 +60,7 @@ pub struct PeerLink {
     signing: Option<Signing>,
     /// Current signing timestamp.
     pub stamp: u64,
-    /// Stream rows requested by REQUEST_MESSAGE, sent after the acknowledgment.
+    /// Stream rows requested with REQUEST_MESSAGE, to be sent after the acknowledgment.
     pub after_acknowledgment: Vec<usize>,
     /// Whether the peer must request its streams.
     must_request_streams: bool,
@@ -69,8 +69,8 @@ pub struct PeerLink {
 }
 
 impl PeerLink {
-    /// Creates a link with its streams. With `must_request_streams`, the peer receives the scoring data only if it requests the
-    /// ground truth.
+    /// Creates a link and its streams. If `must_request_streams` is set, the peer receives the scoring data only if it
+    /// requests the ground truth.
     #[must_use]
     pub fn new(
         kind: LinkKind,
@@ -103,7 +103,7 @@ impl PeerLink {
         }
     }
 
-    /// Limits the link's capacity to `bytes_s`, bytes/s.
+    /// Limits the link's capacity to `bytes_s` bytes/s.
     pub fn limit(&mut self, bytes_s: f64, now: SimTime) {
         self.budget = Some(LinkBudget::new(bytes_s, self.streams.total_hz(), now));
     }
@@ -114,7 +114,7 @@ impl PeerLink {
         self.lockstep && self.lockstep_state != LockstepState::Late
     }
 
-    /// Checks whether a token answers a lockstep request: the last one, or any earlier one for a late peer.
+    /// Checks whether a token answers a lockstep request: either the last one or, for a late peer, any earlier one.
     #[must_use]
     pub fn is_answer(&self, token: i64) -> bool {
         match self.lockstep_state {
@@ -129,20 +129,19 @@ impl PeerLink {
         self.budget.is_some()
     }
 
-    /// Checks whether the backlog is saturated: lists and files then wait, and streams and forwarded frames are
-    /// skipped.
+    /// Checks whether the link is saturated. Lists and files then wait, and streams and forwarded frames are skipped.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.budget.as_ref().is_some_and(|budget| budget.is_saturated(self.waiting))
     }
 
-    /// Returns the number of dropped frames.
+    /// Returns the number of frames dropped so far.
     #[must_use]
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
 
-    /// Returns the due rows of the stream table, each once, and schedules them again, with longer intervals if they
+    /// Returns each due row of the stream table once and schedules it again, with longer intervals if the streams
     /// exceed the link's capacity.
     pub fn due(&mut self, now: SimTime, out: &mut Vec<usize>) {
         out.clear();
@@ -163,7 +162,7 @@ impl PeerLink {
         !self.must_request_streams || self.streams.is_on(TRUTH)
     }
 
-    /// Restores the default rates of all streams.
+    /// Restores the default rate of every stream.
     pub fn reset_rates(&mut self, now: SimTime) {
         self.streams.reset(now);
         if std::mem::take(&mut self.uses_camera) {
@@ -171,8 +170,8 @@ impl PeerLink {
         }
     }
 
-    /// Records that the peer addresses the camera: it then receives the camera's heartbeats at MAVLink's rate for
-    /// components, aligned with the autopilot's heartbeats.
+    /// Records that the peer has addressed the camera. It then receives the camera's heartbeats at MAVLink's component
+    /// rate, aligned with the autopilot's heartbeats.
     pub fn use_camera(&mut self) {
         if !std::mem::replace(&mut self.uses_camera, true) {
             self.streams.align_heartbeat(CAMERA, AUTOPILOT, HEARTBEAT_INTERVAL);
@@ -192,7 +191,7 @@ impl PeerLink {
         }
     }
 
-    /// Sets or removes the signing of outgoing messages.
+    /// Enables or disables signing of outgoing messages.
     pub fn sign_with(&mut self, signing: Option<Signing>) {
         self.signing = signing;
     }
@@ -206,7 +205,7 @@ impl PeerLink {
         }
     }
 
-    /// Counts a frame to be forwarded to other links. Returns false if this link exceeded its limit in this tick.
+    /// Counts a frame to be forwarded to other links. Returns false if this link has exceeded its limit for this tick.
     pub fn may_forward(&mut self, now: SimTime) -> bool {
         if self.forwarded.0 != now {
             self.forwarded = (now, 0);

@@ -26,10 +26,10 @@ impl Links {
         self.signing.as_ref().map(SigningPolicy::memory)
     }
 
-    /// Restores the signing state of the last run.
+    /// Restores the signing state of the previous run.
     ///
     /// # Errors
-    /// Returns the number of the first invalid line, from 1.
+    /// Returns the number of the first invalid line, counting from 1.
     pub fn restore_signing(&mut self, memory: &str) -> Result<(), usize> {
         let done = self.signing.as_mut().map_or(Ok(()), |policy| policy.restore(memory));
         self.sign_links();

@@ -1,4 +1,4 @@
-//! Admission of frames when signing is required.
+//! Frame admission when signing is required.
 
 use super::link_id::LinkKind;
 use spandrel_mavlink::codec::ReceivedFrame;
@@ -15,7 +15,7 @@ pub struct SigningPolicy {
     trusted: Vec<LinkKind>,
 }
 
-/// Permitted handling of a frame.
+/// How a frame may be handled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrameAdmission {
     /// Execute and forward it.
@@ -46,10 +46,10 @@ impl SigningPolicy {
         self.signing.save()
     }
 
-    /// Restores the signing state of the last run.
+    /// Restores the signing state of the previous run.
     ///
     /// # Errors
-    /// Returns the number of the first invalid line, from 1.
+    /// Returns the number of the first invalid line, counting from 1.
     pub fn restore(&mut self, memory: &str) -> Result<(), usize> {
         self.signing.restore(memory)
     }
@@ -59,13 +59,13 @@ impl SigningPolicy {
         self.stamp = stamp;
     }
 
-    /// Returns the number of rejected frames.
+    /// Returns the number of frames rejected so far.
     #[must_use]
     pub fn rejected(&self) -> u64 {
         self.refused
     }
 
-    /// Returns the permitted handling of a frame. A payload process without a key may broadcast but not send commands.
+    /// Returns how a frame may be handled. A payload process without a key may broadcast but not send commands.
     pub fn admit(&mut self, frame: &ReceivedFrame, kind: LinkKind) -> FrameAdmission {
         let verdict = self.signing.verify(frame, self.stamp);
         if is_accepted(frame, verdict) || (verdict == SignatureVerdict::Unsigned && self.trusted.contains(&kind)) {

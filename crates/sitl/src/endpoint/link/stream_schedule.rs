@@ -1,13 +1,13 @@
-//! The streams of a link: their intervals and when each is due.
+//! A link's streams: their intervals and when each one is due.
 
 use spandrel_model::time::SimTime;
 
-/// Maximum stream rate that can be requested, Hz: the rate of the control loop.
+/// Maximum stream rate that clients can request, Hz: the control loop rate.
 const MAX_RATE_HZ: f64 = 400.0;
-/// Message ID of the heartbeat, which is never slowed down because clients detect the vehicle by it.
+/// Message ID of the heartbeat, which is never slowed down because clients use it to detect the vehicle.
 const HEARTBEAT: u32 = 0;
 
-/// A stream of a link, in the order of the stream table.
+/// One of a link's streams, in the order of the stream table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScheduledStream {
     message: u32,
@@ -18,7 +18,8 @@ pub struct ScheduledStream {
 }
 
 impl ScheduledStream {
-    /// Creates a stream of a message from a component with its default rate, Hz; 0 is off. It is due immediately.
+    /// Creates a stream that sends a component's message at a default rate in Hz (0: off). The stream is due
+    /// immediately.
     #[must_use]
     pub fn new(message: u32, component: u8, rate_hz: f64, now: SimTime) -> Self {
         let interval = period(rate_hz);
@@ -35,7 +36,7 @@ impl ScheduledStream {
     }
 }
 
-/// The streams of a link.
+/// A link's streams.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StreamSchedule {
     streams: Vec<ScheduledStream>,
@@ -61,8 +62,8 @@ impl StreamSchedule {
         now >= self.next_due
     }
 
-    /// Adds the due rows to `out`, each once, and schedules them again. `stretch` lengthens the intervals; on a
-    /// saturated link, only heartbeats are returned.
+    /// Adds each due row to `out` once and schedules it again. `stretch` lengthens the intervals; on a saturated link,
+    /// only heartbeats are added.
     pub fn take_due(&mut self, now: SimTime, stretch: f64, is_saturated: bool, out: &mut Vec<usize>) {
         let mut soonest = SimTime::NEVER;
         for (row, stream) in self.streams.iter_mut().enumerate() {
@@ -83,15 +84,15 @@ impl StreamSchedule {
         self.next_due = soonest;
     }
 
-    /// Returns the interval of a row, microseconds; -1 if it is off.
+    /// Returns a row's interval in microseconds, or -1 if the row is off.
     #[must_use]
     pub fn interval_us(&self, row: usize) -> i32 {
         let interval = self.streams.get(row).and_then(|stream| stream.interval);
         interval.map_or(-1, |interval| i32::try_from(interval.us()).unwrap_or(i32::MAX))
     }
 
-    /// Sets the interval of a row, microseconds: 0 restores the default, negative values turn it off. Returns false if
-    /// the value is invalid.
+    /// Sets a row's interval in microseconds: 0 restores the default, and negative values turn the row off. Returns
+    /// false if the value is invalid.
     pub fn set_interval(&mut self, row: usize, us: f64, now: SimTime) -> bool {
         let Some(stream) = self.streams.get_mut(row).filter(|_| us.is_finite()) else { return false };
         stream.interval = match us {
@@ -104,7 +105,7 @@ impl StreamSchedule {
         true
     }
 
-    /// Sets the interval of all rows of a message, as [`StreamSchedule::set_interval`] does.
+    /// Sets the interval for all rows of a message; see [`StreamSchedule::set_interval`].
     pub fn set_message_interval(&mut self, message: u32, us: f64, now: SimTime) {
         for row in 0..self.streams.len() {
             if self.streams[row].message == message {
@@ -125,14 +126,14 @@ impl StreamSchedule {
         self.restart(now);
     }
 
-    /// Makes every stream due.
+    /// Marks every stream as due.
     pub fn restart(&mut self, now: SimTime) {
         self.streams.iter_mut().for_each(|stream| stream.next = now);
         self.next_due = now;
     }
 
-    /// Shortens the heartbeat interval of a component to `interval` if it is longer, aligned with the heartbeats of
-    /// another component.
+    /// Shortens a component's heartbeat interval to `interval` if it is longer, and aligns it with another component's
+    /// heartbeats.
     pub fn align_heartbeat(&mut self, component: u8, with: u8, interval: SimTime) {
         let row_of =
             |component| self.streams.iter().position(|stream| stream.message == HEARTBEAT && stream.component == component);

@@ -7,7 +7,7 @@ use crate::endpoint::component_ids::CAMERA;
 use mavlink::types::CharArray;
 use spandrel_mavlink::dialect::*;
 
-/// Type of all settings.
+/// The type of every setting.
 const TYPE: MavParamExtType = MavParamExtType::MAV_PARAM_EXT_TYPE_UINT32;
 
 /// Checks whether the message targets the camera or all components; the autopilot has no extended parameters.
@@ -64,7 +64,7 @@ pub(super) fn read(p: &mut PayloadLink, m: &PARAM_EXT_REQUEST_READ_DATA, a: &mut
     a.answer(&message);
 }
 
-/// Changes a setting. The acknowledgment contains the resulting value; a change is broadcast to every link.
+/// Changes a setting. The acknowledgment contains the resulting value; a change is broadcast on every link.
 pub(super) fn set(p: &mut PayloadLink, m: &PARAM_EXT_SET_DATA, a: &mut PayloadMessage) {
     if !is_for_camera(m.target_component) {
         return;

@@ -11,11 +11,11 @@ use spandrel_model::vehicle::Camera;
 /// State of the payload, owned by the endpoint and read by the simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Payload {
-    /// Camera.
+    /// Camera state.
     pub camera: CameraState,
-    /// Gimbal.
+    /// Gimbal state.
     pub gimbal: GimbalState,
-    /// Lamp.
+    /// Lamp state.
     pub lamp: LampState,
     /// Changes to report.
     pub changes: PayloadChange,
@@ -33,7 +33,7 @@ impl Payload {
         }
     }
 
-    /// Advances gimbal, camera and lamp by `dt_s`, s.
+    /// Advances the gimbal, camera and lamp by `dt_s` seconds.
     pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, now: SimTime, dt_s: f64) {
         self.gimbal.step(camera, position_m, dt_s);
         self.camera.step(now, dt_s, &mut self.changes);

@@ -7,11 +7,11 @@ use spandrel_model::vehicle::Camera;
 
 /// ID of the non-MAVLink gimbal device (docs/src/reference/wire.md, "Camera, gimbal and lamp").
 pub const DEVICE: u8 = 1;
-/// Tolerance within which an angle beyond the limit is accepted and clamped, rad (about one degree, because clients
-/// round).
+/// Tolerance within which an angle beyond the limit is clamped instead of rejected, rad (about one degree, because
+/// clients round).
 const TOLERANCE_RAD: f64 = 0.02;
 
-/// Target of the gimbal.
+/// Gimbal target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GimbalTarget {
     /// A pitch angle, rad.
@@ -27,7 +27,7 @@ pub enum GimbalTarget {
 }
 
 impl GimbalTarget {
-    /// Returns the target of a message with these fields: an angle, an angle with a rate, or a rate alone.
+    /// Returns the target for a message with these fields: an angle, an angle with a rate, or a rate alone.
     #[must_use]
     pub fn of(angle_rad: Option<f64>, rate_rad_s: Option<f64>) -> Option<Self> {
         match (angle_rad, rate_rad_s) {
@@ -39,7 +39,7 @@ impl GimbalTarget {
     }
 }
 
-/// State of the gimbal.
+/// Gimbal state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GimbalState {
     /// Pitch relative to the horizon, rad; negative points down.
@@ -72,7 +72,7 @@ impl GimbalState {
         }
     }
 
-    /// Returns true if this sender may move the gimbal. Without a component in control, any sender may.
+    /// Returns true if this sender may move the gimbal. If no component is in control, any sender may.
     #[must_use]
     pub fn accepts_control_from(&self, from: (u8, u8)) -> bool {
         self.control == (0, 0) || self.control == from || self.secondary == from
@@ -84,7 +84,7 @@ impl GimbalState {
         self.aim == GimbalTarget::Neutral
     }
 
-    /// Converts a stick deflection in [-1, 1], up positive, to an angle; full deflection corresponds to the limit on
+    /// Converts a stick deflection in [-1, 1] (positive: up) to an angle. Full deflection corresponds to the limit on
     /// that side.
     #[must_use]
     pub fn angle_for_stick(camera: &Camera, deflection: f64) -> GimbalTarget {
@@ -108,7 +108,7 @@ impl GimbalState {
         is_valid
     }
 
-    /// Moves the gimbal for `dt_s`, s.
+    /// Moves the gimbal for `dt_s` seconds.
     pub fn step(&mut self, camera: &Camera, position_m: Vec3<Enu>, dt_s: f64) {
         let fastest = if let GimbalTarget::AngleAtRate(_, rate) = self.aim {
             rate.min(camera.gimbal_rate_rad_s)

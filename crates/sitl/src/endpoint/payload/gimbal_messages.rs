@@ -15,12 +15,12 @@ fn gimbal<'p>(p: &'p mut PayloadLink, device: u8, a: &PayloadMessage) -> Option<
     (matches!(device, 0 | DEVICE) && gimbal.accepts_control_from(a.from)).then_some(gimbal)
 }
 
-/// Flags with the same values for manager and device: RETRACT and NEUTRAL (MAVLink common).
+/// Flags that have the same values for the manager and the device: RETRACT and NEUTRAL (MAVLink common).
 const RETRACT: u32 = 1;
 const NEUTRAL: u32 = 2;
 
-/// Applies a pitch angle with an optional rate, or a rate alone, radians. Angles out of range are clamped, as for a
-/// stick. This gimbal cannot retract.
+/// Applies a pitch angle with an optional rate, or a rate alone, in radians. Out-of-range angles are clamped, as for
+/// stick input. This gimbal cannot retract.
 fn move_gimbal(gimbal: &mut GimbalState, flags: u32, (pitch_rad, rate_rad_s): (f32, f32), a: &PayloadMessage) {
     let camera = &a.input.vehicle.camera;
     let number = |value: f32| Some(f64::from(value)).filter(|value| value.is_finite());
@@ -31,7 +31,7 @@ fn move_gimbal(gimbal: &mut GimbalState, flags: u32, (pitch_rad, rate_rad_s): (f
     }
 }
 
-/// Returns the pitch of a quaternion; NaN if it is not set.
+/// Returns a quaternion's pitch, or NaN if the quaternion is not set.
 fn pitch_of(q: [f32; 4]) -> f32 {
     Rotation::<Frd, Ned>::from_wxyz(q.map(f64::from)).map_or(f32::NAN, |attitude| attitude.euler().1 as f32)
 }
@@ -42,7 +42,7 @@ pub(super) fn attitude(p: &mut PayloadLink, m: &GIMBAL_MANAGER_SET_ATTITUDE_DATA
     }
 }
 
-/// Handles the gimbal device message, from senders that have gimbal control.
+/// Handles the gimbal device message from senders that control the gimbal.
 pub(super) fn device_attitude(p: &mut PayloadLink, m: &GIMBAL_DEVICE_SET_ATTITUDE_DATA, a: &mut PayloadMessage) {
     if let Some(gimbal) = gimbal(p, DEVICE, a) {
         move_gimbal(gimbal, u32::from(m.flags.bits()), (pitch_of(m.q), m.angular_velocity_y), a);

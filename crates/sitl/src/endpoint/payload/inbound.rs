@@ -9,16 +9,16 @@ use spandrel_mavlink::dialect::MavMessage;
 pub(crate) struct PayloadMessage<'a, 'v> {
     /// The link it arrived on.
     pub link: LinkId,
-    /// System and component ID of the sender.
+    /// The sender's system and component ID.
     pub from: (u8, u8),
-    /// The aircraft.
+    /// Aircraft state.
     pub input: &'a PayloadInput<'v>,
     /// All links.
     pub links: &'a mut Links,
 }
 
 impl PayloadMessage<'_, '_> {
-    /// Answers as the camera component.
+    /// Sends a response from the camera component.
     pub fn answer(&mut self, message: &MavMessage) {
         self.links.answer(CAMERA, self.link, message);
     }

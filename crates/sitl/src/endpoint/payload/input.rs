@@ -11,9 +11,9 @@ use spandrel_model::vehicle::Vehicle;
 /// The aircraft at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct PayloadInput<'a> {
-    /// The time.
+    /// The time on each clock.
     pub clock: VehicleClock,
-    /// The aircraft.
+    /// The aircraft's specification.
     pub vehicle: &'a Vehicle,
     /// Local tangent plane.
     pub plane: &'a LocalPlane,
@@ -23,11 +23,11 @@ pub struct PayloadInput<'a> {
     pub heading_rad: f64,
     /// Home position, site frame, m; `None` before it is set.
     pub home_m: Option<Vec3<Ned>>,
-    /// Whether the altitude of a region of interest command is above mean sea level, regardless of its frame.
+    /// Whether the altitude of a region-of-interest command is above mean sea level, regardless of its frame.
     pub roi_above_sea_level: bool,
     /// Stick positions as received: forward, right, up, yaw, -1 to 1; `None` after the timeout.
     pub sticks: Option<[f64; 4]>,
-    /// True state.
+    /// True state of the aircraft.
     pub truth: &'a RigidState,
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,

@@ -1,4 +1,4 @@
-//! The drone's lamp: on, off, or blinking for a relay repeat command.
+//! The drone's lamp: on, off, or blinking in response to a relay repeat command.
 
 use super::changes::PayloadChange;
 use mavlink::MessageData;
@@ -9,7 +9,7 @@ use spandrel_model::time::SimTime;
 const ALLOWED_CYCLES: std::ops::RangeInclusive<f64> = 1.0..=10_000.0;
 const ALLOWED_CYCLE_S: std::ops::RangeInclusive<f64> = 0.04..=3_600.0;
 
-/// State of the lamp.
+/// Lamp state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LampState {
     /// Whether the lamp is on.
@@ -26,7 +26,7 @@ struct BlinkSequence {
 }
 
 impl LampState {
-    /// Lamp off.
+    /// The lamp is off.
     pub const OFF: Self = Self { on: false, blinking: None };
 
     /// Switches the lamp on or off; ends a blink sequence.
@@ -34,8 +34,8 @@ impl LampState {
         *self = Self { on, blinking: None };
     }
 
-    /// Toggles the lamp and restores it `cycles` times, each cycle `cycle_s` long, starting now. Returns false if a
-    /// value is out of range.
+    /// Starting now, toggles the lamp and restores it `cycles` times, with a cycle time of `cycle_s` seconds. Returns
+    /// false if a value is out of range.
     pub fn repeat(&mut self, cycles: f64, cycle_s: f64, now: SimTime) -> bool {
         let is_valid = ALLOWED_CYCLES.contains(&cycles) && ALLOWED_CYCLE_S.contains(&cycle_s);
         if is_valid {

@@ -32,21 +32,21 @@ pub use snapshot::PayloadSnapshot;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// State of the equipment's interface.
+/// State of the equipment interface.
 #[derive(Debug, Clone)]
 pub struct PayloadLink {
-    /// Camera, gimbal, lamp.
+    /// The camera, gimbal and lamp.
     pub equipment: Payload,
     /// Seconds of simulation time per second of client time.
     pub speed_factor: f64,
     files: FileServer,
     scoring: ScoringFeed,
-    /// Indices of the image records still to resend on each link.
+    /// For each link, indices of the image records that remain to be resent.
     image_requests: BTreeMap<LinkId, Range<usize>>,
 }
 
 impl PayloadLink {
-    /// Creates the equipment's interface, with the camera's definition file.
+    /// Creates the equipment interface with the camera definition file.
     #[must_use]
     pub fn new() -> Self {
         let mut files = FileServer::default();
@@ -54,7 +54,7 @@ impl PayloadLink {
         Self { equipment: Payload::new(), speed_factor: 1.0, files, scoring: ScoringFeed::new(), image_requests: BTreeMap::new() }
     }
 
-    /// Releases all state of a closed link.
+    /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.files.forget(link);
         self.image_requests.remove(&link);

@@ -1,4 +1,4 @@
-//! Outgoing messages of the equipment and the scoring feed in a tick.
+//! Messages that the equipment and the scoring feed send in a tick.
 
 use super::PayloadLink;
 use super::input::PayloadInput;
@@ -28,7 +28,7 @@ impl PayloadLink {
         }
     }
 
-    /// Sends the named values for scoring that are due.
+    /// Sends the named scoring values that are due.
     pub(crate) fn send_scoring(&mut self, input: &PayloadInput, links: &mut Links) {
         let clock = input.clock;
         let due = self.scoring.take_due(input.scoring, self.speed_factor, clock.now);
@@ -38,7 +38,7 @@ impl PayloadLink {
         }
     }
 
-    /// Sends the replies of the camera's file server.
+    /// Sends the camera file server's replies.
     pub(crate) fn send_files(&mut self, links: &mut Links) {
         files::send_replies(&mut self.files, CAMERA, links);
     }

@@ -5,7 +5,7 @@ use super::scoring_truth::ScoringTruth;
 use spandrel_mavlink::contract::named_values::Named;
 use spandrel_model::time::{Schedule, SimTime};
 
-/// Schedules of the named values, and the values sent last.
+/// Schedules of the named values, and the values most recently sent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScoringFeed {
     contact: Schedule,

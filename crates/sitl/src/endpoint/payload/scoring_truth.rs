@@ -11,7 +11,7 @@ pub struct ScoringTruth {
     pub hits: i32,
     /// Number of respawns.
     pub respawns: i32,
-    /// The last two traffic changes, encoded as on the wire; 0 for never.
+    /// The last two traffic changes, encoded as on the wire; 0 if there was no change.
     pub traffic: [i32; 2],
     /// The session's seed.
     pub seed: i32,

@@ -13,9 +13,9 @@ use spandrel_model::vehicle::Camera;
 /// State of the equipment and its aircraft.
 #[derive(Debug, Clone, Copy)]
 pub struct PayloadSnapshot<'a> {
-    /// Time on the clocks of the link that receives the messages.
+    /// The time on the clocks of the receiving link.
     pub clock: VehicleClock,
-    /// The aircraft.
+    /// Aircraft state.
     pub input: &'a PayloadInput<'a>,
     /// Gimbal state.
     pub gimbal: GimbalState,
@@ -26,7 +26,7 @@ pub struct PayloadSnapshot<'a> {
 }
 
 impl<'a> PayloadSnapshot<'a> {
-    /// Creates the snapshot, for ground stations.
+    /// Creates a snapshot for ground stations.
     #[must_use]
     pub fn new(input: &'a PayloadInput<'a>, payload: &Payload) -> Self {
         let clock = input.clock;

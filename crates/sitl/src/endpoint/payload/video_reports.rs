@@ -8,7 +8,7 @@ use mavlink::MessageData;
 use spandrel_mavlink::dialect::{VIDEO_STREAM_INFORMATION_DATA, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
 use spandrel_model::time::SimTime;
 
-/// Timeout of a stream's reports, s of the sender's time; reports arrive every second.
+/// Timeout for a stream's reports, in seconds of the sender's time; reports arrive every second.
 const REPORT_TIMEOUT_S: f64 = 3.5;
 /// Maximum accepted frame rate, Hz.
 const MAX_FRAME_RATE_HZ: f32 = 240.0;

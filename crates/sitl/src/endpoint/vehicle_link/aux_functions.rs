@@ -15,7 +15,7 @@ use spandrel_mavlink::units::deg_e7;
 
 /// Command number in ArduPilot's dialect. Not supported as a mission item.
 const DO_AUX_FUNCTION: u16 = 218;
-/// Maximum throttle pulse that counts as throttle down, microseconds (ArduPilot: RC3_MIN and RC3_DZ).
+/// Maximum throttle pulse width that counts as throttle down, microseconds (ArduPilot: RC3_MIN and RC3_DZ).
 const THROTTLE_DOWN_US: u16 = 1_030;
 /// Minimum height of the takeoff item added before the first saved waypoint, m (ArduPilot: SAVE_WP).
 const MIN_TAKEOFF_M: f32 = 1.0;
@@ -128,8 +128,8 @@ fn restart_mission(v: &mut VehicleLink, a: &mut InboundMessage) {
     v.announce(MISSION_CURRENT_DATA::ID);
 }
 
-/// Appends the vehicle's position to the mission: a landing if the throttle is down, a waypoint otherwise. A takeoff
-/// item is added before the first one. Does nothing in AUTO or while disarmed.
+/// Appends the vehicle's position to the mission, as a landing if the throttle is down and as a waypoint otherwise.
+/// Adds a takeoff item before the first item. Does nothing in AUTO or while disarmed.
 fn save_waypoint(v: &mut VehicleLink, a: &mut InboundMessage) {
     let status = a.autopilot.status();
     let Some(home) =

@@ -1,4 +1,4 @@
-//! AVAILABLE_MODES.
+//! The AVAILABLE_MODES message, which describes the flight modes.
 
 use super::VehicleLink;
 use crate::endpoint::component_ids::AUTOPILOT;

@@ -7,7 +7,7 @@ use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavStandardMode};
 
 /// Number of buttons that have a parameter; other buttons are ignored.
 pub const COUNT: usize = 16;
-/// Parameter names of the buttons.
+/// Names of the button parameters.
 pub const NAMES: [&str; COUNT] = [
     "BTN0_FUNCTION",
     "BTN1_FUNCTION",
@@ -55,7 +55,7 @@ pub(super) struct ButtonContext {
     pub take_off_m: f64,
 }
 
-/// Gimbal pitch change for each press, degrees.
+/// Gimbal pitch change per press, degrees.
 const STEP_DEG: f64 = 10.0;
 /// MAV_FRAME_GLOBAL_RELATIVE_ALT: altitude relative to home.
 const RELATIVE_ALT_FRAME: u8 = 3;

@@ -3,10 +3,10 @@
 use crate::autopilot::{AutopilotStatus, LandedState};
 use spandrel_model::time::SimTime;
 
-/// Start and end of a flight, simulation time.
+/// Start and end of a flight in simulation time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FlightTimes {
-    /// Number of the flight since startup, from 1; 0 before the first flight.
+    /// Flight number since startup, counting from 1; 0 before the first flight.
     pub number: u64,
     /// Time of arming.
     pub armed: Option<SimTime>,

@@ -7,7 +7,7 @@ use spandrel_mavlink::dialect::{FOLLOW_TARGET_DATA, GLOBAL_POSITION_INT_DATA};
 use spandrel_mavlink::units;
 use spandrel_model::frames::{Ned, Vec3};
 
-/// Handles the position of a follow-me target (PX4, ArduPilot).
+/// Handles a follow-me target's position (PX4, ArduPilot).
 pub(super) fn follow_target(_: &mut VehicleLink, t: &FOLLOW_TARGET_DATA, a: &mut InboundMessage) {
     // Like PX4, accepts a velocity regardless of the capability bits (MAVSDK sets only the position bit), but ignores a
     // zero velocity without its bit.
@@ -18,7 +18,7 @@ pub(super) fn follow_target(_: &mut VehicleLink, t: &FOLLOW_TARGET_DATA, a: &mut
     }
 }
 
-/// Bits of FOLLOW_TARGET.est_capabilities.
+/// Capability bits in FOLLOW_TARGET.est_capabilities.
 const FOLLOW_POSITION: u8 = 1;
 const FOLLOW_VELOCITY: u8 = 2;
 

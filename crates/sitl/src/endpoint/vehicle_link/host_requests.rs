@@ -5,7 +5,7 @@ use crate::faults::{FailureType, FailureUnit};
 /// A failure to inject, or to clear if `kind` is `None`. Instances count from 1; 0 means all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FailureInjection {
-    /// Affected unit.
+    /// The unit to which the failure applies.
     pub unit: FailureUnit,
     /// Failure type; `None` clears the failure.
     pub kind: Option<FailureType>,
@@ -16,8 +16,8 @@ pub struct FailureInjection {
 /// A client's request for the parameter file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StorageRequest {
-    /// Load the file.
+    /// Load the parameter file.
     Load,
-    /// Save the file.
+    /// Save the parameter file.
     Save,
 }

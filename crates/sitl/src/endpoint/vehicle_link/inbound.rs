@@ -14,15 +14,15 @@ use spandrel_model::time::SimTime;
 pub(crate) struct InboundMessage<'a, 'v> {
     /// The link it arrived on.
     pub link: LinkId,
-    /// System and component ID of the sender.
+    /// The sender's system and component ID.
     pub from: (u8, u8),
-    /// The aircraft.
+    /// The simulated aircraft.
     pub aircraft: &'a SimulatedAircraft<'v>,
     /// Aircraft state available to the equipment.
     pub input: &'a PayloadInput<'v>,
     /// The autopilot.
     pub autopilot: &'a mut Autopilot,
-    /// Camera, gimbal, lamp.
+    /// The camera, gimbal and lamp.
     pub payload: &'a mut Payload,
     /// All links.
     pub links: &'a mut Links,
@@ -39,7 +39,7 @@ impl InboundMessage<'_, '_> {
         self.autopilot.status().home_m.map_or(0.0, |home| -home.down())
     }
 
-    /// Answers as the autopilot.
+    /// Sends a response from the autopilot.
     pub fn answer(&mut self, message: &impl Encodable) {
         self.links.answer(AUTOPILOT, self.link, message);
     }

@@ -12,12 +12,12 @@ pub(super) fn timesync(_: &mut VehicleLink, sync: &TIMESYNC_DATA, a: &mut Inboun
     }
     let (target_system, target_component) = a.from;
     let Some(link) = a.links.get(a.link) else { return };
-    // Uses the same clock as the message timestamps, so that clients can convert them.
+    // Uses the same clock as the message timestamps so that clients can convert them.
     let tc1 = a.aircraft.clock.for_link(link.kind).since_boot(a.now()).ns().max(1);
     a.answer(&MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));
 }
 
-/// Answers a ping request. A ping without a target is a request, one with a target is a response.
+/// Answers a ping request. A ping without a target is a request; one with a target is a response.
 pub(super) fn ping(_: &mut VehicleLink, ping: &PING_DATA, a: &mut InboundMessage) {
     if ping.target_system == 0 {
         let (target_system, target_component) = a.from;

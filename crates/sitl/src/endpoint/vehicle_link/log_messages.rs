@@ -18,7 +18,7 @@ pub(super) fn end(v: &mut VehicleLink, _: &LOG_REQUEST_END_DATA, a: &mut Inbound
     v.logs.stop(a.link);
 }
 
-/// Erases the logs; rejected while armed because the current log is among them.
+/// Erases the logs. Rejected while armed, because the current log would be erased as well.
 pub(super) fn erase(v: &mut VehicleLink, _: &LOG_ERASE_DATA, a: &mut InboundMessage) {
     if a.autopilot.status().armed {
         v.push_text(MavSeverity::MAV_SEVERITY_WARNING, "Cannot erase logs while armed");

@@ -1,5 +1,5 @@
-//! Flight logs over MAVLink's log protocol: list, download and erase. Like the file server, it performs no file access;
-//! the same host executes its jobs.
+//! Flight logs over MAVLink's log protocol: list, download and erase. Like the file server, it never accesses files
+//! itself; the same host runs its jobs.
 
 use crate::endpoint::files::job::{DirectoryEntry, FileAction, FileError, FileJob, FileJobResult};
 use crate::endpoint::files::path::FilePath;
@@ -9,16 +9,16 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// First ticket number of log jobs, chosen to avoid collisions with the file server's.
 const FIRST_TICKET: u64 = 1 << 63;
-/// Folder of the logs, with a subfolder for each day.
+/// Log folder, with a subfolder for each day.
 const FOLDER: &str = "log";
 const SUFFIX: &str = ".ulg";
-/// Extension of the recordings stored with the logs and erased together with them.
+/// File extension of the recordings that are stored with the logs and erased along with them.
 const RECORDING_SUFFIX: &str = ".mcap";
 /// Data bytes in one LOG_DATA message.
 const DATA_BYTES: usize = 90;
 /// Bytes per file read.
 const CHUNK: u32 = 64 * DATA_BYTES as u32;
-/// Messages per tick for each download: about 180 kB/s at 1000 ticks a second.
+/// Messages per tick for each download: about 180 kB/s at 1000 ticks/s.
 const MESSAGES_PER_TICK: usize = 2;
 /// Entries per tick for each listing.
 const ENTRIES_PER_TICK: usize = 4;
@@ -32,10 +32,10 @@ struct LogEntry {
     size: u64,
 }
 
-/// Purpose of a listing.
+/// What a listing is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ListingPurpose {
-    /// Sends entries first to last to a link.
+    /// Sends the entries from first to last on a link.
     Send(LinkId, u16, u16),
     /// Removes all logs.
     Erase,
@@ -61,7 +61,7 @@ struct LogDownload {
 /// Listings and downloads in progress.
 #[derive(Debug, Clone, Default)]
 pub struct LogTransfers {
-    /// Whether a host executes file jobs.
+    /// Whether a host runs file jobs.
     pub stored: bool,
     known: Vec<LogEntry>,
     listings: VecDeque<LogListing>,
@@ -73,7 +73,7 @@ pub struct LogTransfers {
 }
 
 impl LogTransfers {
-    /// Requests the entries `first` to `last` for a link.
+    /// Requests entries `first` to `last` for a link.
     pub fn list(&mut self, link: LinkId, first: u16, last: u16) {
         if !self.stored {
             self.entries.insert(link, [MavMessage::LOG_ENTRY(LOG_ENTRY_DATA::default())].into());
@@ -98,7 +98,7 @@ impl LogTransfers {
         }
     }
 
-    /// Requests `count` bytes of a log from offset `at` for a link.
+    /// Requests `count` bytes of a log for a link, starting at offset `at`.
     pub fn read(&mut self, link: LinkId, id: u16, at: u32, count: u32) {
         let Some(log) = self.known.get(usize::from(id)) else {
             // An empty message for an unknown log makes the client stop waiting.
@@ -111,12 +111,12 @@ impl LogTransfers {
         self.downloads.insert(link, download);
     }
 
-    /// Stops the download of a link.
+    /// Stops a link's download.
     pub fn stop(&mut self, link: LinkId) {
         self.downloads.remove(&link);
     }
 
-    /// Releases all state of a closed link.
+    /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.stop(link);
         self.entries.remove(&link);
@@ -124,7 +124,7 @@ impl LogTransfers {
         self.continue_listing();
     }
 
-    /// Returns the action of the next job.
+    /// Returns the next job's action.
     #[must_use]
     pub fn next_action(&self) -> Option<&FileAction> {
         self.jobs.front().map(|job| &job.action)
@@ -148,7 +148,7 @@ impl LogTransfers {
         ticket
     }
 
-    /// Continues the current listing with its next folder, or finishes it.
+    /// Continues the current listing with the next folder, or finishes the listing.
     fn continue_listing(&mut self) {
         while self.ticket.is_none() {
             let Some(listing) = self.listings.front_mut() else { return };
@@ -177,7 +177,7 @@ impl LogTransfers {
         }
     }
 
-    /// Handles the result of a job.
+    /// Handles a job's result.
     pub fn done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>) {
         if self.ticket == Some(ticket) {
             self.ticket = None;
@@ -274,7 +274,8 @@ fn entries(logs: &[LogEntry], first: u16, last: u16) -> VecDeque<MavMessage> {
         .collect()
 }
 
-/// Parses the start time of a log from its path, `log/<date>/<hours>_<minutes>_<seconds>...`, s since the Unix epoch.
+/// Parses a log's start time, in seconds since the Unix epoch, from its path
+/// `log/<date>/<hours>_<minutes>_<seconds>...`.
 fn utc_s(path: &str) -> Option<u32> {
     let mut parts = path.rsplit('/');
     let (time, date) = (parts.next()?, parts.next()?);
@@ -295,7 +296,7 @@ mod tests {
         LogTransfers { stored: true, ..LogTransfers::default() }
     }
 
-    /// Executes jobs on a simulated folder with two days and three logs.
+    /// Runs jobs on a simulated folder with two days and three logs.
     fn execute_jobs(logs: &mut LogTransfers, removed: &mut Vec<String>) {
         while let Some(job) = logs.poll_job() {
             let outcome = match &job.action {
@@ -338,7 +339,7 @@ mod tests {
         let at = 1_795_187_280;
         assert_eq!(entries, [(0, 3, 200, at), (1, 3, 7_000, at + 64_320), (2, 3, 0, at + 67_920)]);
         logs.list(LINK, 1, 1);
-        assert_eq!(run(&mut logs).len(), 1, "only the requested messages");
+        assert_eq!(run(&mut logs).len(), 1, "only the requested messages must be sent");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 
 /// Field value that means "not used".
 const UNUSED: i16 = i16::MAX;
-/// Interval at which an ignored sender is reported, s.
+/// Interval between reports about an ignored sender, s.
 const REPORT_INTERVAL_S: f64 = 5.0;
 /// Range of valid channel pulses, microseconds; other values are ignored (ArduPilot passes them on).
 pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
@@ -26,9 +26,9 @@ const AUX_US: [u16; AUX_COUNT] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500
 const RELEASE_HIGH: u16 = 65_534;
 /// Maximum number of remembered senders with a signed throttle, to limit memory use.
 const MAX_FULL_RANGE_SENDERS: usize = 64;
-/// Minimum change of the gimbal axis that has an effect, as a fraction of full deflection.
+/// Minimum gimbal axis change that has an effect, as a fraction of full deflection.
 const GIMBAL_STEP: f64 = 0.01;
-/// Bits of `enabled_extensions`.
+/// Extension bits in `enabled_extensions`.
 const HAS_PITCH: u8 = 1;
 
 /// A sender: its link, system ID and component ID.
@@ -39,7 +39,7 @@ type StickSender = (LinkId, (u8, u8));
 pub struct ManualControl {
     /// Timeout after which a silent sender loses control, s.
     pub release_timeout_s: f64,
-    /// Arbitration policy for several senders.
+    /// Arbitration policy for multiple senders.
     pub policy: StickPolicy,
     holder: Option<StickSender>,
     last_input: SimTime,
@@ -75,25 +75,25 @@ impl Default for ManualControl {
 }
 
 impl ManualControl {
-    /// Returns the stick positions; `None` after the timeout.
+    /// Returns the stick positions, or `None` after the timeout.
     #[must_use]
     pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
         self.has_holder(now).then_some(self.sticks)
     }
 
-    /// Returns the sticks as transmitter pulses, microseconds; `None` after the timeout.
+    /// Returns the stick positions as transmitter pulse widths in microseconds, or `None` after the timeout.
     #[must_use]
     pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
         self.has_holder(now).then_some(self.pulses_us)
     }
 
-    /// Returns channels 5 to 16, microseconds.
+    /// Returns channels 5 to 16 in microseconds.
     #[must_use]
     pub fn aux_us(&self) -> [u16; AUX_COUNT] {
         self.aux_us
     }
 
-    /// Applies channels 5 to 16 of an override, if this sender may take control.
+    /// Applies channels 5 to 16 of an override if this sender may take control.
     pub fn take_aux(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
         if self.policy == StickPolicy::FirstSenderKeeps
             && self.holder.is_some_and(|holder| holder != from)
@@ -148,13 +148,13 @@ impl ManualControl {
     fn report_ignored_sender(&mut self, from: StickSender, holder: StickSender, now: SimTime) {
         if self.last_report.is_none_or(|(known, at)| known != from || (now - at).s() >= REPORT_INTERVAL_S) {
             self.last_report = Some((from, now));
-            self.texts.push_back(format!("Sticks of {} ignored: {} in control", sender_name(from), sender_name(holder)));
+            self.texts.push_back(format!("{} sticks ignored: {} in control", sender_name(from), sender_name(holder)));
         }
     }
 
-    /// Applies MANUAL_CONTROL: x forward, y right, r clockwise in -1000..1000; z is throttle in 0..1000 with 500 as its
-    /// center, or in -1000..1000 for a sender that has ever sent a negative value. Out-of-range and unused values count
-    /// as centered.
+    /// Applies MANUAL_CONTROL: x (forward), y (right) and r (clockwise) range from -1000 to 1000. z (throttle) ranges
+    /// from 0 to 1000 with its center at 500, or from -1000 to 1000 for a sender that has ever sent a negative value.
+    /// Out-of-range and unused values count as centered.
     pub fn manual_control(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA, now: SimTime) -> Option<Sticks> {
         let zero = |value: Option<f64>| value.unwrap_or(0.0);
         let up = match axis(m.z) {
@@ -171,14 +171,14 @@ impl ManualControl {
         let known = self.full_range.contains(&from);
         if !known && z < 0.0 && self.full_range.len() < MAX_FULL_RANGE_SENDERS {
             self.full_range.push(from);
-            self.texts.push_back(format!("{}: throttle range -1000 to 1000", sender_name(from)));
+            self.texts.push_back(format!("{} uses throttle range -1000 to 1000", sender_name(from)));
             return true;
         }
         known
     }
 
-    /// Returns the gimbal axis of MANUAL_CONTROL (extension `s`), -1 down to 1 up, when the sender in control moves it.
-    /// Extension `t` (roll in MAVLink, yaw in QGroundControl) is ignored: the gimbal has neither axis.
+    /// Returns the gimbal axis of MANUAL_CONTROL (extension `s`), from -1 (down) to 1 (up), when the sender in control
+    /// moves it. Extension `t` (roll in MAVLink, yaw in QGroundControl) is ignored because the gimbal has neither axis.
     pub fn gimbal(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
         let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
         let before = self.gimbal.replace(pitch);
@@ -192,9 +192,9 @@ impl ManualControl {
         self.holder == Some(from)
     }
 
-    /// Applies RC_CHANNELS_OVERRIDE: channels 1 to 4 are roll, pitch, throttle and yaw, microseconds. 65535 and values
-    /// outside the valid range leave a channel unchanged, 0 centers it; all four at 0 release control. Pitch is
-    /// reversed as on a transmitter: stick forward is below center.
+    /// Applies RC_CHANNELS_OVERRIDE: channels 1 to 4 are roll, pitch, throttle and yaw in microseconds. 65535 and
+    /// values outside the valid range leave a channel unchanged, and 0 centers it; zeros in all four release control.
+    /// Pitch is reversed as on a transmitter: stick forward is below center.
     pub fn channels(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
         let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
         if all.iter().all(|us| *us == 0) {
@@ -203,7 +203,7 @@ impl ManualControl {
             }
             return None;
         }
-        // Without any valid pulse, the message does not take control.
+        // A message without a valid pulse does not take control.
         if !all.iter().any(|us| PULSES_US.contains(us)) {
             return None;
         }
@@ -229,7 +229,7 @@ impl ManualControl {
     }
 }
 
-/// Returns channels 5 to 16 of an override, microseconds.
+/// Returns channels 5 to 16 of an override in microseconds.
 pub fn aux_channels(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX_COUNT] {
     [
         c.chan5_raw,
@@ -247,7 +247,8 @@ pub fn aux_channels(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX_COUNT] {
     ]
 }
 
-/// Converts sticks to transmitter pulses, microseconds: roll, pitch, throttle, yaw, with stick forward below center.
+/// Converts stick positions to transmitter pulse widths in microseconds: roll, pitch, throttle and yaw, with stick
+/// forward below center.
 fn pulses_of(s: &Sticks) -> [u16; 4] {
     [s.right, -s.forward, s.up, s.yaw].map(|axis| (1500.0 + 500.0 * axis).round() as u16)
 }
@@ -256,7 +257,7 @@ fn axis(value: i16) -> Option<f64> {
     (value != UNUSED && (-1000..=1000).contains(&value)).then(|| f64::from(value) / 1000.0)
 }
 
-/// Returns system/component@link, short enough for a text of 50 bytes.
+/// Returns `system/component@link`, which is short enough for a 50-byte text.
 fn sender_name((link, (system, component)): StickSender) -> String {
     format!("{system}/{component}@{}", link.0)
 }

@@ -1,4 +1,4 @@
-//! Requests of the mission protocol.
+//! Mission protocol requests.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::VehicleLink;
@@ -146,7 +146,7 @@ fn apply_plan_reply(v: &mut VehicleLink, reply: PlanReply, a: &mut InboundMessag
             if kind == MavMissionType::MAV_MISSION_TYPE_FENCE && v.plans.has_fence_return() {
                 v.push_text(
                     MavSeverity::MAV_SEVERITY_INFO,
-                    "Fence return point not used: a breach returns home or to a rally point",
+                    "Fence return point not used: after a breach, the vehicle returns to home or a rally point",
                 );
             }
         }

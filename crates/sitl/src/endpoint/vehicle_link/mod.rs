@@ -65,12 +65,12 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use switch_position::SwitchPosition;
 use text_queue::TextQueue;
 
-/// State of the autopilot's interface.
+/// State of the autopilot interface.
 #[derive(Debug, Clone)]
 pub struct VehicleLink {
     system_id: u8,
     flavor: &'static Flavor,
-    /// The flavor's number of the last requested mode; several may map to the same internal mode.
+    /// The flavor's number for the last requested mode; several numbers may map to the same internal mode.
     requested_mode: u32,
     /// The file server.
     pub files: FileServer,
@@ -79,8 +79,8 @@ pub struct VehicleLink {
     params: Params,
     storage: ParamStorage,
     param_lists: BTreeMap<LinkId, VecDeque<usize>>,
-    /// Parameter revision, plan item counts and fence switch already shown by the parameters, cached because looking
-    /// parameters up by name is too slow for every tick.
+    /// Parameter revision, plan item counts and fence switch that the parameters already show, cached because looking
+    /// up parameters by name in every tick is too slow.
     shown_by_params: Option<(u64, [u16; 3], bool)>,
     restart_requested: bool,
     injections: VecDeque<FailureInjection>,
@@ -100,9 +100,9 @@ pub struct VehicleLink {
     last_stream_warning: SimTime,
     flight: FlightTimes,
     was_armed: bool,
-    /// Number of actions that the geofence had taken at the last tick.
+    /// Number of geofence actions as of the last tick.
     fence_actions: u16,
-    /// The running calibration.
+    /// The calibration in progress.
     calibration: Option<Calibration>,
     /// Events sent to ground stations.
     events: EventReports,
@@ -114,7 +114,7 @@ pub struct VehicleLink {
 const STREAM_WARNING_INTERVAL: SimTime = SimTime::from_ms(1_000);
 
 impl VehicleLink {
-    /// Creates the interface of an autopilot with the flavor's default parameters.
+    /// Creates an autopilot interface with the flavor's default parameters.
     #[must_use]
     pub fn new(system_id: u8, aircraft: AircraftValues, flavor: &'static Flavor) -> Self {
         let params = Params::new(system_id, aircraft, flavor.params);
@@ -195,7 +195,7 @@ impl VehicleLink {
         }
     }
 
-    /// Returns the stick positions; `None` after the timeout.
+    /// Returns the stick positions, or `None` after the timeout.
     #[must_use]
     pub fn sticks(&self, now: SimTime) -> Option<Sticks> {
         self.manual.fresh(now)
@@ -206,13 +206,13 @@ impl VehicleLink {
         (0..self.params.count()).filter_map(|index| self.params.at(index))
     }
 
-    /// Returns the environment set by parameters: wind and radio.
+    /// Returns the environment settings that parameters control: wind, radio link, and traffic.
     #[must_use]
     pub fn instructor_settings(&self) -> InstructorSettings {
         self.params.instructor_settings()
     }
 
-    /// Returns true once after a client requested a reboot of the autopilot.
+    /// Returns true once after a client has requested an autopilot reboot.
     pub fn take_restart_request(&mut self) -> bool {
         std::mem::take(&mut self.restart_requested)
     }
@@ -236,7 +236,7 @@ impl VehicleLink {
         self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
     }
 
-    /// Releases all state of a closed link.
+    /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.param_lists.remove(&link);
         self.files.forget(link);
@@ -255,7 +255,7 @@ impl VehicleLink {
         self.announcements.insert(message);
     }
 
-    /// Broadcasts a warning at the severity that PX4 uses for rejections.
+    /// Broadcasts a warning with the severity that PX4 uses for rejections.
     fn warn(&mut self, text: &str) {
         self.texts.push(MavSeverity::MAV_SEVERITY_CRITICAL, text);
     }

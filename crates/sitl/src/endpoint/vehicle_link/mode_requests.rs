@@ -12,7 +12,7 @@ use spandrel_mavlink::dialect::{MavModeFlag, MavSeverity, RC_CHANNELS_OVERRIDE_D
 const POSITION_LIMITS_US: [u16; 5] = [1230, 1360, 1490, 1620, 1749];
 const MODE_PARAMS: [&str; 6] = ["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", "FLTMODE5", "FLTMODE6"];
 
-/// Enters the mode assigned to a new position of the mode switch (FLTMODE_CH).
+/// Enters the mode assigned to the mode switch's new position (FLTMODE_CH).
 pub(super) fn apply_mode_switch(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
     let pulses = manual::aux_channels(c);
     let channel = v.params.whole("FLTMODE_CH").and_then(|channel| usize::try_from(channel - 5).ok());
@@ -26,7 +26,7 @@ pub(super) fn apply_mode_switch(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DA
     }
 }
 
-/// Returns the mode assigned to a position of the mode switch.
+/// Returns the mode assigned to a mode switch position.
 pub(super) fn mode_for_switch(v: &VehicleLink, position: usize) -> Option<u32> {
     v.params.whole(MODE_PARAMS.get(position)?).map(i32::unsigned_abs)
 }

@@ -12,7 +12,7 @@ use spandrel_mavlink::units;
 use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::math;
 
-/// Maximum value of a field, m, m/s and m/s²; larger values are rejected.
+/// Maximum value of a field in m, m/s or m/s²; larger values are rejected.
 const MAX_VALUE: f32 = 1e5;
 /// Maximum distance of a position from the origin, m.
 const MAX_DISTANCE_M: f64 = 20_000.0;
@@ -138,7 +138,7 @@ fn relative_to_vehicle(offset: AxisSetpoints, view: &VehicleSnapshot) -> AxisSet
     std::array::from_fn(|k| offset[k].map(|offset| here[k] + offset))
 }
 
-/// Converts forward, right, down to north, east, down. Forward and right must be given together.
+/// Converts forward, right, down to north, east, down. Forward and right must be set together.
 fn rotate_to_ned(frd: AxisSetpoints, heading: f64) -> Result<AxisSetpoints, &'static str> {
     let (s, c) = math::sin_cos(heading);
     match (frd[0], frd[1]) {
@@ -188,9 +188,9 @@ pub fn global(t: &SET_POSITION_TARGET_GLOBAL_INT_DATA, view: &VehicleSnapshot) -
     })
 }
 
-/// Converts SET_ATTITUDE_TARGET: an attitude with a yaw rate, or body rates if the attitude is ignored; thrust 0 to 1.
-/// If thrust is interpreted as climb rate (`GUID_OPTIONS`), 0.5 holds altitude, and 0 and 1 are the vertical speeds of
-/// automatic modes.
+/// Converts SET_ATTITUDE_TARGET: an attitude with a yaw rate, or body rates if the attitude is ignored, and a thrust
+/// from 0 to 1. If thrust is interpreted as climb rate (`GUID_OPTIONS`), 0.5 holds altitude, and 0 and 1 are the
+/// vertical speeds of automatic modes.
 pub fn attitude(t: &SET_ATTITUDE_TARGET_DATA, tuning: &Tuning) -> SetpointResult {
     use AttitudeTargetTypemask as A;
     let has = |flag: A| t.type_mask.contains(flag);

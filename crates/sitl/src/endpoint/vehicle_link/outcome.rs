@@ -1,4 +1,4 @@
-//! Results and texts of rejected requests.
+//! Results and texts for rejected requests.
 
 use super::VehicleLink;
 use crate::autopilot::RequestOutcome;

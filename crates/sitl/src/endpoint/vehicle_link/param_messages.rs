@@ -1,10 +1,10 @@
-//! PARAM_VALUE messages.
+//! Builds PARAM_VALUE messages.
 
 use super::VehicleLink;
 use super::params::{HASH, OutgoingParam};
 use spandrel_mavlink::dialect::{MavMessage, MavParamType, PARAM_VALUE_DATA};
 
-/// Creates the PARAM_VALUE message of a parameter.
+/// Creates the PARAM_VALUE message for a parameter.
 pub(super) fn param_value(param: OutgoingParam, index: usize, count: u16) -> MavMessage {
     MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
         param_value: param.wire,

@@ -1,4 +1,4 @@
-//! Parameters: sending the list to links, saving and loading it, and applying it to the autopilot.
+//! Sends the parameters to links, saves and loads them, and applies them to the autopilot.
 
 use super::VehicleLink;
 use super::host_requests::StorageRequest;
@@ -29,7 +29,7 @@ impl VehicleLink {
     /// Applies a parameter file and broadcasts the parameters.
     ///
     /// # Errors
-    /// Returns all invalid lines; no parameter is set in that case.
+    /// Returns all invalid lines. No parameter is set in that case.
     pub fn read_parameters(
         &mut self,
         text: &str,
@@ -42,7 +42,7 @@ impl VehicleLink {
         Ok(())
     }
 
-    /// Declares that the host stores the parameters.
+    /// Enables parameter storage by the host.
     pub fn enable_parameter_storage(&mut self) {
         self.storage.has_file = true;
     }
@@ -52,7 +52,7 @@ impl VehicleLink {
         self.storage.request.take()
     }
 
-    /// Updates and broadcasts the geofence parameter after a command or mission switched the geofence.
+    /// Updates and broadcasts the geofence parameter after a command or mission has turned the geofence on or off.
     pub(super) fn sync_fence_parameter(&mut self, enabled: bool, links: &mut Links) {
         if self.params.fence_enabled().is_some_and(|shown| shown != enabled)
             && self.params.set_value(FENCE_SWITCH, ParamValue::Int(i32::from(enabled))).is_ok()

@@ -1,4 +1,4 @@
-//! Requests for parameters.
+//! Handles parameter requests.
 
 use super::VehicleLink;
 use super::inbound::InboundMessage;
@@ -8,8 +8,8 @@ use spandrel_mavlink::dialect::{
     MavMessage, MavParamError, PARAM_ERROR_DATA, PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA,
 };
 
-/// Queues the whole list, sent in parts over several ticks. The checksum is sent first, so a station with up-to-date
-/// values can stop the list; flavors with a banner also send it.
+/// Queues the whole list, which is sent in parts over several ticks. The checksum is sent first, so that a station with
+/// up-to-date values can stop the list. Flavors with a banner also send the banner.
 pub(super) fn list(v: &mut VehicleLink, _: &PARAM_REQUEST_LIST_DATA, a: &mut InboundMessage) {
     if v.flavor.params.hash {
         let hash = param_hash(v);

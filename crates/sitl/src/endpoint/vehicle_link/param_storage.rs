@@ -3,12 +3,12 @@
 use super::host_requests::StorageRequest;
 use super::params::Params;
 
-/// State of parameter storage, and the default values.
+/// Parameter storage state, and the default values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParamStorage {
     /// Whether the host has a parameter file.
     pub has_file: bool,
-    /// The pending request.
+    /// The client request that the host has not handled yet.
     pub request: Option<StorageRequest>,
     defaults: Params,
 }

@@ -1,4 +1,4 @@
-//! Outgoing messages of the autopilot in a tick.
+//! Messages that the autopilot sends in a tick.
 
 use super::VehicleLink;
 use super::mission::items;
@@ -26,8 +26,8 @@ impl VehicleLink {
         }
     }
 
-    /// Returns the flavor's number of the active mode. If the fence or a failsafe changed the mode, returns its default
-    /// number: the mode for go-to commands must be selected again.
+    /// Returns the flavor's number for the active mode. If the fence or a failsafe changed the mode, returns its
+    /// default number: the mode for go-to commands must be selected again.
     fn reported_mode(&mut self, view: &VehicleSnapshot) -> u32 {
         let actions = view.status.fence.taken;
         let changed = std::mem::replace(&mut self.fence_actions, actions) != actions;
@@ -35,7 +35,7 @@ impl VehicleLink {
         if changed || forced { self.flavor.default_mode(view.status.mode).number } else { view.mode_row().number }
     }
 
-    /// Queues the texts of the autopilot's events.
+    /// Queues the autopilot's event texts.
     pub(crate) fn queue_event_texts(&mut self, events: Vec<AutopilotEvent>) {
         if self.speed_factor != self.reported_speed_factor {
             self.reported_speed_factor = self.speed_factor;
@@ -52,7 +52,7 @@ impl VehicleLink {
         }
     }
 
-    /// Reports a reached mission item, and executes it if it is an equipment command.
+    /// Reports that a mission item was reached, and executes it if it is an equipment command.
     pub(crate) fn report_reached_item(&mut self, seq: usize, input: &PayloadInput, payload: &mut Payload, links: &mut Links) {
         let lead = self.plans.summary().lead;
         self.execute_equipment_item(seq, lead, input, payload);
@@ -82,7 +82,7 @@ impl VehicleLink {
         files::send_replies(&mut self.files, AUTOPILOT, links);
     }
 
-    /// Sends parts of the log downloads on links with capacity.
+    /// Sends the next parts of the log downloads on links with capacity.
     pub(crate) fn send_logs(&mut self, links: &mut Links) {
         for (link, message) in self.logs.poll(|link| links.has_capacity(*link)) {
             links.answer(AUTOPILOT, link, &message);

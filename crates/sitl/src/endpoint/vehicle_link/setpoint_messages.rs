@@ -1,4 +1,4 @@
-//! Offboard setpoints.
+//! Handles offboard setpoint messages.
 
 use super::VehicleLink;
 use super::inbound::InboundMessage;

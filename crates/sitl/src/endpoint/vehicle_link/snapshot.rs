@@ -20,19 +20,19 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 /// Ground truth, estimate, setpoints and counters at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct VehicleSnapshot<'a> {
-    /// Time on the clocks of the link that receives the messages.
+    /// The time on the clocks of the receiving link.
     pub clock: VehicleClock,
-    /// The aircraft.
+    /// The aircraft's specification.
     pub vehicle: &'a Vehicle,
     /// Local tangent plane.
     pub plane: &'a LocalPlane,
     /// State estimate.
     pub estimate: &'a Estimate,
-    /// Status of the autopilot.
+    /// Autopilot status.
     pub status: &'a AutopilotStatus,
     /// Latest sensor readings.
     pub readings: &'a Readings,
-    /// True state.
+    /// True state of the aircraft.
     pub truth: &'a RigidState,
     /// Specific force, m/s², body axes.
     pub specific_force_m_s2: Vec3<Frd>,
@@ -46,7 +46,7 @@ pub struct VehicleSnapshot<'a> {
     pub scoring: &'a ScoringTruth,
     /// Stick positions as received; `None` after the timeout.
     pub sticks: Option<Sticks>,
-    /// The same as transmitter channels 1 to 4, microseconds.
+    /// The same positions as transmitter channels 1 to 4, microseconds.
     pub pulses_us: Option<[u16; 4]>,
     /// Channels 5 to 16, microseconds.
     pub aux_us: [u16; AUX_COUNT],
@@ -60,7 +60,7 @@ pub struct VehicleSnapshot<'a> {
     pub plans: PlanSummary,
     /// Autopilot flavor.
     pub flavor: &'static Flavor,
-    /// The flavor's number of the last requested mode.
+    /// The flavor's number for the last requested mode.
     pub requested_mode: u32,
     /// Whether the geofence is enabled.
     pub fence_enabled: bool,
@@ -100,11 +100,11 @@ impl VehicleSnapshot<'_> {
     /// Converts a position from MAVLink's local frame to the site frame.
     #[must_use]
     pub fn site_from_local(&self, local_m: Vec3<LocalNed>) -> Vec3<Ned> {
-        // FRAME: as above.
+        // FRAME: the axes are the same, as above.
         self.estimate.local_origin_m + Vec3::assume(local_m.raw())
     }
 
-    /// Returns the origin of MAVLink's local frame; `None` before the first fix.
+    /// Returns the origin of MAVLink's local frame, or `None` before the first fix.
     #[must_use]
     pub fn local_origin(&self) -> Option<Geo> {
         self.estimate.local_origin_set.then(|| self.plane.geo_from_enu(self.estimate.local_origin_m.enu()))

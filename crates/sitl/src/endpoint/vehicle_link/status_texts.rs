@@ -8,8 +8,8 @@ use crate::endpoint::link::{LinkKind, Links};
 use spandrel_mavlink::dialect::{MavMessage, STATUSTEXT_DATA};
 
 impl VehicleLink {
-    /// Broadcasts the queued texts. Texts above 50 bytes are split into chunks, which clients reassemble by ID. Like
-    /// PX4, appends a tab for ground stations if an event conveys the whole text.
+    /// Broadcasts the queued texts. Texts longer than 50 bytes are split into chunks, which clients reassemble by ID.
+    /// Like PX4, appends a tab for ground stations if an event conveys the whole text.
     pub(crate) fn send_texts(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         for (severity, text) in self.texts.take() {
             self.send_notice(&text, view.clock.boot_ms(), links);
@@ -42,7 +42,7 @@ fn chunks(text: &str) -> Vec<String> {
         let last = out.len() - 1;
         out[last].push(character);
     }
-    // A full chunk means that more follows, so the last of several must not be full.
+    // A full chunk means that another one follows, so the last of several chunks must not be full.
     if out.len() > 1 && out.last().is_some_and(|last| last.len() == MAX_CHUNK_BYTES) {
         out.push(String::new());
     }

@@ -1,4 +1,4 @@
-//! Position of a switch on a transmitter.
+//! Position of a transmitter switch.
 
 /// Pulse thresholds of the low and high switch positions, microseconds (ArduPilot: AUX_SWITCH_PWM_TRIGGER_LOW and
 /// _HIGH).
@@ -17,7 +17,7 @@ pub enum SwitchPosition {
 }
 
 impl SwitchPosition {
-    /// Returns the position for a pulse width, microseconds.
+    /// Returns the position for a pulse width in microseconds.
     pub(super) fn from_pulse(us: u16) -> Self {
         match us {
             us if us < LOW_BELOW_US => Self::Low,

@@ -13,7 +13,7 @@ pub struct TextQueue {
 }
 
 impl TextQueue {
-    /// Adds a text, unless the queue is full.
+    /// Adds a text unless the queue is full.
     pub fn push(&mut self, severity: MavSeverity, text: &str) {
         if self.texts.len() < MAX_TEXTS {
             self.texts.push((severity, text.to_string()));

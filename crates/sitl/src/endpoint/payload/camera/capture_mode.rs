@@ -3,9 +3,9 @@
 /// Capture mode. Images can be taken in either mode; recording requires video mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CaptureMode {
-    /// Photo mode.
+    /// Takes photos only.
     #[default]
     Photo,
-    /// Video mode.
+    /// Takes photos and records video.
     Video,
 }

@@ -2,14 +2,14 @@
 
 use spandrel_mavlink::dialect::{CAMERA_IMAGE_CAPTURED_DATA, MavMessage};
 
-/// One captured image, with all the fields of its message so that it can be sent again.
+/// A captured image, with all fields of its message so that the message can be resent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaptureRecord {
     message: CAMERA_IMAGE_CAPTURED_DATA,
 }
 
 impl CaptureRecord {
-    /// Creates the record of an image.
+    /// Creates an image's record.
     #[must_use]
     pub fn new(message: CAMERA_IMAGE_CAPTURED_DATA) -> Self {
         Self { message }

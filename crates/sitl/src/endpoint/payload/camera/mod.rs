@@ -1,4 +1,4 @@
-//! The camera component: modes, geotagged images, capture series, recording, zoom, memory card.
+//! The camera component: modes, geotagged images, capture series, recording, zoom, and memory card.
 
 mod capture_mode;
 mod capture_record;
@@ -33,7 +33,7 @@ const MIB: f64 = 1_048_576.0;
 /// Camera settings other than mode and zoom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CameraSettings {
-    /// Whether images are saved at high quality, which takes more storage.
+    /// Whether images are saved at high quality, which requires more storage.
     pub high_quality: bool,
     /// Video bit rate, Mbit/s.
     pub video_mbit_s: u32,
@@ -59,10 +59,10 @@ impl CameraSettings {
     }
 }
 
-/// Reason why the camera rejects a command.
+/// The reason the camera rejected a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CameraError {
-    /// Invalid values.
+    /// The command contains invalid values.
     Invalid,
     /// The memory card is full.
     Full,
@@ -73,7 +73,7 @@ pub enum CameraError {
 }
 
 impl CameraError {
-    /// Returns the text to send; `None` if the command itself is invalid.
+    /// Returns the text to send; `None` if the command itself was invalid.
     #[must_use]
     pub fn text(self) -> Option<&'static str> {
         match self {
@@ -88,7 +88,7 @@ impl CameraError {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct VideoRecording {
     since: SimTime,
-    /// Interval between status messages, and the time of the next one.
+    /// Interval between status messages, and the time at which the next one is due.
     status: Option<(SimTime, SimTime)>,
 }
 
@@ -100,7 +100,7 @@ type CaptureCommand = ((u8, u8), u32, SimTime);
 pub struct CameraAnnouncement {
     /// Enabled by the parameter.
     pub parameter: bool,
-    /// Disabled when the program was started.
+    /// Disabled at program startup.
     pub disabled_at_start: bool,
 }
 
@@ -110,14 +110,14 @@ impl Default for CameraAnnouncement {
     }
 }
 
-/// State of the camera.
+/// Camera state.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CameraState {
     /// Capture mode.
     pub mode: CaptureMode,
     /// Zoom lens.
     pub zoom: ZoomLens,
-    /// Other settings.
+    /// Settings other than mode and zoom.
     pub settings: CameraSettings,
     /// Live video stream.
     pub stream: stream::StreamReport,
@@ -153,19 +153,19 @@ impl CameraState {
         self.card.images().len()
     }
 
-    /// Returns the used storage, MiB, including the current recording.
+    /// Returns the used storage in MiB, including the current recording.
     fn used_mib(&self, now: SimTime) -> f64 {
         let running = self.recording.map_or(0.0, |recording| (now - recording.since).s() * self.settings.video_mib_s());
         (self.card.used_mib() + running).min(CARD_MIB)
     }
 
-    /// Checks whether the card has no space for another image.
+    /// Checks whether the card is too full for another image.
     #[must_use]
     pub fn is_full(&self, now: SimTime) -> bool {
         self.used_mib(now) + self.settings.picture_mib() > CARD_MIB
     }
 
-    /// Starts a series or takes one image. A `count` of 0 means until stopped.
+    /// Starts a series or takes one image. If `count` is 0, the series continues until it is stopped.
     ///
     /// # Errors
     /// Returns an error if the card is full or a value is invalid.
@@ -217,7 +217,7 @@ impl CameraState {
         Ok(())
     }
 
-    /// Starts recording and sends the status `status_hz` times a second (0: only on request). A running recording
+    /// Starts recording and sends the status at `status_hz` Hz (0: only on request). If a recording is in progress, it
     /// continues.
     ///
     /// # Errors
@@ -330,7 +330,7 @@ impl CameraState {
         message
     }
 
-    /// Returns the message of a stored image again.
+    /// Returns a stored image's message for resending.
     #[must_use]
     pub fn recorded_capture(&self, index: usize) -> Option<MavMessage> {
         self.card.images().get(index).map(CaptureRecord::message)
@@ -378,11 +378,11 @@ mod tests {
             let _ = camera.take(CaptureRecord::numbered(taken), now, here);
             taken += 1;
         }
-        assert_eq!(taken, 4, "three single ones and the first of the series");
-        assert_eq!(camera.summary(now).interval_s, Some(1.0), "the series continues");
+        assert_eq!(taken, 4, "three single images and the first image of the series must be taken");
+        assert_eq!(camera.summary(now).interval_s, Some(1.0), "the series must continue");
         assert!(camera.start(0.0, 1.0, now).is_ok());
         camera.stop();
-        assert!(camera.due(now, here), "a picture that was promised before the stop");
+        assert!(camera.due(now, here), "an image accepted before the stop must still be taken");
         let _ = camera.take(CaptureRecord::numbered(taken), now, here);
         assert!(!camera.due(now + SimTime::from_s(2.0), here));
     }
@@ -419,8 +419,8 @@ mod tests {
             camera.step(SimTime::from_ms(*ms), 0.001, &mut changes);
             changes.take().0.contains(&CAMERA_CAPTURE_STATUS_DATA::ID)
         });
-        assert_eq!(told.count(), 8, "twice a second for four seconds");
-        // A repeated start command, such as after a lost acknowledgment, must continue the recording.
+        assert_eq!(told.count(), 8, "the status must be sent twice per second for four seconds");
+        // A repeated start command, for example after a lost acknowledgment, must not interrupt the recording.
         assert_eq!(camera.start_recording(0.0, SimTime::from_ms(4_000)), Ok(()));
         assert_eq!(camera.summary(SimTime::from_ms(5_000)).recording, Some(SimTime::from_ms(5_000)));
         camera.stop_recording(SimTime::from_ms(5_000));

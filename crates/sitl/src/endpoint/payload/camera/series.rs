@@ -3,16 +3,16 @@
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 
-/// Minimum distance between images of a series, m.
+/// Minimum distance between images in a series, m.
 const MIN_DISTANCE_M: f64 = 0.1;
-/// Minimum and maximum interval between images of a series, s.
+/// Minimum and maximum interval between images in a series, s.
 const MIN_INTERVAL_S: f64 = 0.2;
 const MAX_INTERVAL_S: f64 = 86_400.0;
 /// Maximum accepted count and distance.
 const MAX_PICTURES: f64 = 1e6;
 const MAX_DISTANCE_M: f64 = 1e5;
 
-/// Images still to be taken.
+/// The images that remain to be taken: single images and the current series.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CaptureSeries {
     interval_s: Option<f64>,
@@ -20,24 +20,26 @@ pub struct CaptureSeries {
     left: Option<u32>,
     /// Distance between images, m, and the position of the last one.
     by_distance: Option<(f64, Vec3<Enu>)>,
-    /// Single images still to be taken. Commands may arrive faster than images are taken, and none may be lost.
+    /// Number of single images still to be taken. Commands may arrive faster than images are taken, and none may be
+    /// lost.
     singles: u32,
 }
 
 impl CaptureSeries {
-    /// Returns the interval of a running time-lapse series in seconds.
+    /// Returns the interval, in seconds, of a time-lapse series in progress.
     #[must_use]
     pub fn interval_s(&self) -> Option<f64> {
         self.interval_s
     }
 
-    /// Checks whether a distance-triggered series is running.
+    /// Checks whether a distance-triggered series is in progress.
     #[must_use]
     pub fn is_by_distance(&self) -> bool {
         self.by_distance.is_some()
     }
 
-    /// Starts a series or takes one image. A `count` of 0 means until stopped. Returns false if a value is invalid.
+    /// Starts a series or takes one image. If `count` is 0, the series continues until it is stopped. Returns false if
+    /// a value is invalid.
     pub fn start(&mut self, interval_s: f64, count: f64, now: SimTime) -> bool {
         if !(0.0..=MAX_PICTURES).contains(&count) || !(0.0..=MAX_INTERVAL_S).contains(&interval_s) {
             return false;

@@ -1,12 +1,12 @@
-//! Camera settings for ground stations: accessed by name or index over PARAM_EXT, described by a camera definition file
-//! (<https://mavlink.io/en/services/camera_def.html>).
+//! Camera settings for ground stations, accessed by name or index over PARAM_EXT and described by a camera definition
+//! file (<https://mavlink.io/en/services/camera_def.html>).
 
 use super::{CameraError, CameraSettings, CameraState};
 use std::fmt::Write;
 
 /// Path of the definition file on the camera's file server.
 pub const FILE: &str = "camera.xml";
-/// URI of the definition file, sent to ground stations.
+/// Address of the definition file, sent to ground stations.
 pub const URI: &str = "mftp://camera.xml";
 /// Version of the definition, which ground stations use as a cache key. Increment it with every change to the table
 /// below.
@@ -15,7 +15,7 @@ pub const VERSION: u16 = 1;
 /// Values that a setting accepts.
 #[derive(Debug, Clone, Copy)]
 pub enum AllowedValues {
-    /// Named options.
+    /// A list of named options.
     Options(&'static [(&'static str, u32)]),
     /// Minimum, maximum and step.
     Range(u32, u32, u32),

@@ -14,13 +14,13 @@ pub struct StorageCard {
 }
 
 impl StorageCard {
-    /// Returns the images of the image log, in index order.
+    /// Returns the images in the image log, in index order.
     #[must_use]
     pub fn images(&self) -> &[CaptureRecord] {
         &self.images
     }
 
-    /// Returns the storage used by images and finished recordings, MiB.
+    /// Returns the storage, in MiB, used by images and finished recordings.
     #[must_use]
     pub fn used_mib(&self) -> f64 {
         self.pictures_mib + self.videos_mib
@@ -42,7 +42,7 @@ impl StorageCard {
         self.images.clear();
     }
 
-    /// Deletes everything.
+    /// Deletes all images and recordings.
     pub fn format(&mut self) {
         *self = Self::default();
     }

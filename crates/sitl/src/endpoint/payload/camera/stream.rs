@@ -1,12 +1,12 @@
-//! The live video stream. The vehicle does not render it: the process that renders and sends the video reports it with
-//! VIDEO_STREAM_STATUS, and the camera announces the stream for as long as the reports continue.
+//! The live video stream. The vehicle does not render it. Another process renders and sends the video, and reports the
+//! stream with VIDEO_STREAM_STATUS. The camera announces the stream as long as these reports continue.
 
 use spandrel_model::time::SimTime;
 
 /// UDP port on which ground stations receive the video (docs/src/reference/wire.md, "Camera, gimbal and lamp"). It is
 /// fixed because VIDEO_STREAM_STATUS has no field for it.
 pub const PORT: u16 = 5600;
-/// A running video stream.
+/// An active video stream.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VideoStream {
     /// Width, px.
@@ -19,7 +19,7 @@ pub struct VideoStream {
     pub bits_s: u32,
 }
 
-/// The last report of the stream's sender and the time at which it expires.
+/// The last report from the stream's sender, and the time at which it expires.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StreamReport(Option<(VideoStream, SimTime)>);
 

@@ -12,21 +12,21 @@ pub struct CameraSummary {
     pub announced: bool,
     /// Number of images in the image log.
     pub pictures: usize,
-    /// Interval of a running time-lapse series, s.
+    /// Interval of the time-lapse series in progress, s.
     pub interval_s: Option<f64>,
-    /// Whether a distance-triggered series is running.
+    /// Whether a distance-triggered series is in progress.
     pub series: bool,
     /// Capture mode.
     pub mode: CaptureMode,
-    /// Duration of the running recording.
+    /// Duration of the recording in progress.
     pub recording: Option<SimTime>,
     /// Used storage, MiB.
     pub used_mib: f64,
-    /// Zoom position, 0 wide to 1 tele.
+    /// Zoom position, from 0 (wide) to 1 (tele).
     pub zoom: f64,
     /// Video bit rate, Mbit/s.
     pub video_mbit_s: u32,
-    /// The running video stream.
+    /// The active video stream.
     pub stream: Option<VideoStream>,
 }
 

@@ -6,9 +6,10 @@ pub use spandrel_model::vehicle::SENSOR_WIDTH_MM;
 
 /// Time to travel the whole zoom range, s (estimate: small motorized zooms take 2 to 4 s).
 const FULL_TRAVEL_S: f64 = 3.0;
-/// Number of zoom steps across the range (estimate).
+/// Number of zoom steps across the zoom range (estimate).
 const STEPS: f64 = 10.0;
-/// Relative tolerance within which an out-of-range focal length or field of view is clamped, because clients round.
+/// Relative tolerance within which an out-of-range focal length or field of view is clamped instead of rejected,
+/// because clients round.
 const TOLERANCE: f64 = 0.01;
 
 /// A zoom command.
@@ -16,9 +17,9 @@ const TOLERANCE: f64 = 0.01;
 pub enum ZoomCommand {
     /// Number of steps toward tele.
     Step(f64),
-    /// Continuous zoom, from -1 (wide) to 1 (tele) of full speed; 0 stops.
+    /// Continuous zoom as a fraction of full speed, from -1 (wide) to 1 (tele); 0 stops.
     Rate(f64),
-    /// Position in the range, 0 wide to 1 tele.
+    /// Position in the zoom range, from 0 (wide) to 1 (tele).
     Level(f64),
     /// A focal length, mm.
     FocalMm(f64),
@@ -34,21 +35,21 @@ enum ZoomDrive {
     Rate(f64),
 }
 
-/// State of the lens. Its position in the range is linear in the focal length.
+/// Lens state. The position in the range is linear in the focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ZoomLens {
     level: f64,
     drive: ZoomDrive,
 }
 
-/// Returns the focal length at the wide end in mm.
+/// Returns the wide-end focal length in mm.
 #[must_use]
 pub fn wide_mm(camera: &Camera) -> f64 {
     camera.focal_mm()
 }
 
 impl ZoomLens {
-    /// Returns the position in the range, 0 wide to 1 tele.
+    /// Returns the position in the zoom range, from 0 (wide) to 1 (tele).
     #[must_use]
     pub fn level(&self) -> f64 {
         self.level
@@ -89,7 +90,7 @@ impl ZoomLens {
         drive.is_some()
     }
 
-    /// Moves the lens for `dt_s`, s. Returns true when it stops.
+    /// Moves the lens for `dt_s` seconds. Returns true when it stops.
     pub fn step(&mut self, dt_s: f64) -> bool {
         let most = dt_s / FULL_TRAVEL_S;
         let moved = match self.drive {
@@ -133,20 +134,20 @@ mod tests {
         gimbal_pitch_max_rad: 1.57,
         gimbal_rate_rad_s: 1.0,
     };
-    /// Tolerance for rounding, in ratios and radians.
+    /// Rounding tolerance for ratios and for angles in radians.
     const NEAR: f64 = 1e-12;
 
     fn at_rest(request: ZoomCommand) -> ZoomLens {
         let mut zoom = ZoomLens::default();
         assert!(zoom.command(request, &CAMERA), "{request:?}");
         let ticks = (0..10_000).take_while(|_| !zoom.step(0.01)).count();
-        assert!(ticks < 10_000, "{request:?} never comes to rest");
+        assert!(ticks < 10_000, "{request:?}: the lens never stops");
         zoom
     }
 
     #[test]
     fn exact_every_zoom_command_reaches_the_requested_focal_length() {
-        // tan 45 deg is 1: the focal length is half the sensor's width, and doubling it results in a field of view of 2
+        // tan 45 deg is 1: the focal length is half the sensor's width, and doubling it gives a field of view of 2
         // atan(1/2).
         let field = 2.0 * math::atan2(1.0, 2.0);
         for request in [ZoomCommand::Level(0.5), ZoomCommand::FocalMm(SENSOR_WIDTH_MM), ZoomCommand::FieldOfView(field)] {

@@ -65,7 +65,7 @@ pub(super) const ROWS: &[PayloadCommand] = &[
         p.changes.add_warning("Camera: no video stream available");
         FAILED
     }),
-    // The video is sent to a fixed destination, so starting and stopping change nothing.
+    // The video is sent to a fixed destination, so starting and stopping the stream have no effect.
     (MavCmd::MAV_CMD_VIDEO_STOP_STREAMING, |c, _, p| {
         if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM) {
             return DENIED;
@@ -87,7 +87,7 @@ fn report(payload: &mut Payload, messages: &[u32]) -> MavResult {
     ACCEPTED
 }
 
-/// Converts the outcome to a result; an error caused by the camera's state is also sent as a text.
+/// Converts the outcome to a result. An error caused by the camera's state is also sent as a text.
 fn outcome(done: Result<(), CameraError>, messages: &[u32], payload: &mut Payload) -> MavResult {
     match done.map_err(CameraError::text) {
         Ok(()) => report(payload, messages),
@@ -99,7 +99,7 @@ fn outcome(done: Result<(), CameraError>, messages: &[u32], payload: &mut Payloa
     }
 }
 
-/// Checks whether a camera ID parameter means this camera: 0 (all), the component ID, or 1 when addressed to this
+/// Checks whether a camera ID parameter refers to this camera: 0 (all), the component ID, or 1 when addressed to this
 /// component.
 fn targets_this_camera(c: &VehicleCommand, k: usize) -> bool {
     let first = c.component == CAMERA;
@@ -111,7 +111,7 @@ fn is_one_or_all(c: &VehicleCommand, k: usize, one: f64) -> bool {
     c.finite_param(k).is_none_or(|id| id == 0.0 || id == one)
 }
 
-/// Parameter 2 is the interval, 3 the count and, for single images, 4 a sequence number that identifies repeats.
+/// Parameter 2 is the interval and 3 the count. For single images, 4 is a sequence number that identifies repeats.
 fn start(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     if !targets_this_camera(c, 0) {
         return DENIED;
@@ -141,7 +141,7 @@ fn mode(c: &VehicleCommand, _: &PayloadInput, payload: &mut Payload) -> MavResul
     outcome(payload.camera.set_mode(mode), &[CAMERA_SETTINGS_DATA::ID], payload)
 }
 
-/// Parameter 1 is the zoom type (CAMERA_ZOOM_TYPE), 2 the value.
+/// Parameter 1 is the zoom type (CAMERA_ZOOM_TYPE), and 2 is the value.
 fn zoom(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     let camera = &input.vehicle.camera;
     if camera.zoom_max <= 1.0 {
@@ -161,7 +161,7 @@ fn zoom(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavR
     report(payload, &[CAMERA_SETTINGS_DATA::ID, CAMERA_FOV_STATUS_DATA::ID])
 }
 
-/// The camera is always in focus: autofocus commands (SET_FOCUS_TYPE 4 to 6) succeed, manual focus is unsupported.
+/// The camera is always in focus: autofocus commands (SET_FOCUS_TYPE 4 to 6) succeed, and manual focus is unsupported.
 fn focus(c: &VehicleCommand, _: &PayloadInput, payload: &mut Payload) -> MavResult {
     match c.p[0] {
         4.0..=6.0 if targets_this_camera(c, 2) => report(payload, &[CAMERA_SETTINGS_DATA::ID]),
@@ -170,7 +170,7 @@ fn focus(c: &VehicleCommand, _: &PayloadInput, payload: &mut Payload) -> MavResu
     }
 }
 
-/// Parameter 1 is the card; 2 formats it, 3 only resets the image counter.
+/// Parameter 1 is the card; 2 formats it, and 3 only resets the image counter.
 fn format(c: &VehicleCommand, _: &PayloadInput, payload: &mut Payload) -> MavResult {
     let flag = |k: usize| match c.finite_param(k) {
         None | Some(0.0) => Some(false),

@@ -10,7 +10,7 @@ use crate::endpoint::vehicle_command::VehicleCommand;
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{GIMBAL_MANAGER_STATUS_DATA, MavCmd, MavResult};
 
-/// GIMBAL_MANAGER_FLAGS_RETRACT and _NEUTRAL. This gimbal cannot retract.
+/// Values of GIMBAL_MANAGER_FLAGS_RETRACT and GIMBAL_MANAGER_FLAGS_NEUTRAL. This gimbal cannot retract.
 const RETRACT: u32 = 1;
 const NEUTRAL: u32 = 2;
 
@@ -34,12 +34,12 @@ fn aim(aim: GimbalTarget, c: &VehicleCommand, input: &PayloadInput, payload: &mu
     accepted_if(may_move(c, gimbal) && gimbal.set(aim, &input.vehicle.camera))
 }
 
-/// Checks whether the device ID in parameter 7 means this gimbal: 0 (all) or its own ID.
+/// Checks whether the device ID in parameter 7 refers to this gimbal: 0 (all) or its own ID.
 fn targets_this_gimbal(c: &VehicleCommand) -> bool {
     c.finite_param(6).is_none_or(|device| device == 0.0 || device == f64::from(DEVICE))
 }
 
-/// Sets a pitch angle with an optional rate, or a pitch rate alone, relative to the horizon, degrees. Yaw always
+/// Sets a pitch angle with an optional rate, or a pitch rate alone, in degrees relative to the horizon. Yaw always
 /// follows the vehicle; a command for yaw alone is denied.
 fn pitch_yaw(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     let flags = c.small_integer(4).map_or(0, |flags| flags as u32);
@@ -56,8 +56,9 @@ fn pitch_yaw(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) ->
     }
 }
 
-/// Sets who is in control: system and component of primary control in parameters 1 and 2, of secondary control in 3 and
-/// 4. 0 means no one, -1 no change, -2 the sender, -3 no one if the sender is in control (MAVLink common).
+/// Sets who controls the gimbal. Parameters 1 and 2 are the primary controller's system and component ID; 3 and 4 are
+/// the secondary controller's. 0 means no one, -1 no change, -2 the sender, and -3 no one if the sender is in control
+/// (MAVLink common).
 fn configure(c: &VehicleCommand, payload: &mut Payload) -> MavResult {
     let gimbal = &mut payload.gimbal;
     let id_of = |id: f64, now: u8, own: u8, is_own: bool| match id {

@@ -6,9 +6,9 @@ use super::handler::{ACCEPTED, DENIED, PayloadCommand, accepted_if};
 use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::dialect::{MavCmd, MavResult};
 
-/// Servo output of the lamp: the first after eight motors, ArduPilot's first auxiliary output.
+/// Servo output for the lamp: the first one after the eight motor outputs, which is ArduPilot's first auxiliary output.
 const SERVO: f64 = 9.0;
-/// Pulse width above which the lamp is on, and the range of valid pulses, microseconds.
+/// Pulse width above which the lamp is on, and the range of valid pulse widths, microseconds.
 const ON_THRESHOLD_US: f64 = 1_500.0;
 const PULSES_US: std::ops::RangeInclusive<f64> = 800.0..=2_200.0;
 
@@ -34,8 +34,8 @@ fn switch(value: f64, input: &PayloadInput, payload: &mut Payload) -> MavResult 
     ACCEPTED
 }
 
-/// Parameters 1 to 6 are actuator values, 7 is the set. Actuator 1 of set 0 is the lamp, on above 0; no other actuators
-/// exist.
+/// Parameters 1 to 6 are actuator values, and 7 is the actuator set. Actuator 1 of set 0 is the lamp, which is on for
+/// values above 0; the vehicle has no other actuators.
 fn actuator(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> MavResult {
     let others = (1..6).any(|k| c.finite_param(k).is_some_and(|value| value != 0.0));
     match (c.finite_param(6).unwrap_or(0.0), c.finite_param(0)) {
@@ -45,8 +45,8 @@ fn actuator(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> 
     }
 }
 
-/// Parameters: 1 mode (0 and 1 change nothing), 2 brightness in percent, 3 strobe period, 4 duty cycle. The lamp is
-/// either on or off: dimming and strobing are denied, because the exposure of images assumes full brightness.
+/// Parameters: 1 mode (0 and 1 change nothing), 2 brightness in percent, 3 strobe period, 4 duty cycle. Dimming and
+/// strobing are denied: the lamp is either on or off, because image exposure assumes full brightness.
 fn configure(c: &VehicleCommand) -> MavResult {
     let mode = matches!(c.finite_param(0), None | Some(0.0 | 1.0));
     let strobes = c.finite_param(2).is_some_and(|period| period != 0.0) || !matches!(c.finite_param(3), None | Some(0.0 | 100.0));

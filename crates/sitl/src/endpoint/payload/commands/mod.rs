@@ -40,7 +40,7 @@ pub(crate) fn handles(c: &VehicleCommand) -> bool {
     camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known as u16 == c.number)
 }
 
-/// Returns the rejection reason of a command, as text.
+/// Returns the reason for rejecting a command, as text.
 pub(crate) fn refusal_text(c: &VehicleCommand, input: &PayloadInput, payload: &Payload) -> String {
     if row(c.number, gimbal::ROWS).is_some() {
         let (gimbal, camera) = (&payload.gimbal, &input.vehicle.camera);
@@ -52,7 +52,8 @@ pub(crate) fn refusal_text(c: &VehicleCommand, input: &PayloadInput, payload: &P
     }
     if row(c.number, lamp::ROWS).is_some() {
         let has_lamp = input.vehicle.lamp.flux_lm > 0.0;
-        return if has_lamp { "lamp is relay 0 or servo 9, on or off only" } else { "this aircraft has no lamp" }.into();
+        return if has_lamp { "the lamp is relay 0 or servo 9 and can only be on or off" } else { "this aircraft has no lamp" }
+            .into();
     }
-    "camera does not support these values or this mode".into()
+    "the camera does not support these values or this mode".into()
 }

@@ -7,8 +7,8 @@ use spandrel_mavlink::dialect::MavCmd;
 use spandrel_model::frames::{Enu, Ned, Vec3};
 use spandrel_model::geodesy::Geo;
 
-/// Returns the position that a command makes the vehicle face. `None` for other commands or an unusable position,
-/// `Some(None)` if it clears the target.
+/// Returns the position that a command tells the vehicle to face: `None` for other commands or an unusable position,
+/// `Some(None)` if the command clears the target.
 pub(crate) fn target(c: &VehicleCommand, input: &PayloadInput) -> Option<Option<Vec3<Ned>>> {
     match c.number {
         n if n == MavCmd::MAV_CMD_DO_SET_ROI_NONE as u16 => Some(None),

@@ -1,4 +1,4 @@
-//! Messages of the camera.
+//! Builders for the camera's messages.
 
 use super::super::camera::storage_card::CARD_MIB;
 use super::super::camera::stream::{PORT, VideoStream};
@@ -167,7 +167,7 @@ pub(crate) fn stream_status(v: &PayloadSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Creates the record of an image taken now.
+/// Creates the record for an image taken now.
 pub(crate) fn capture_record(v: &PayloadSnapshot) -> CaptureRecord {
     let geo = v.input.geo();
     CaptureRecord::new(CAMERA_IMAGE_CAPTURED_DATA {

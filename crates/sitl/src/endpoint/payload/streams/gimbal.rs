@@ -1,4 +1,4 @@
-//! Messages of the gimbal and its manager.
+//! Builders for messages from the gimbal and its manager.
 
 use super::super::gimbal::DEVICE;
 use super::super::snapshot::PayloadSnapshot;

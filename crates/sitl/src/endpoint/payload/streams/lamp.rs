@@ -1,4 +1,4 @@
-//! Messages of the lamp.
+//! Builders for the lamp's messages.
 
 use super::super::snapshot::PayloadSnapshot;
 use spandrel_mavlink::dialect::{ILLUMINATOR_STATUS_DATA, IlluminatorErrorFlags, IlluminatorMode, MavMessage, RELAY_STATUS_DATA};

@@ -1,4 +1,4 @@
-//! Messages of the equipment and the scoring feed.
+//! Builders for messages from the equipment and the scoring feed.
 
 pub(crate) mod camera;
 pub(crate) mod gimbal;

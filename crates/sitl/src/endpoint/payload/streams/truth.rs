@@ -1,5 +1,5 @@
-//! Ground truth for scoring (docs/src/reference/wire.md, "Scoring data"), separate from the estimate, and the sticks as
-//! received.
+//! Ground truth for scoring (docs/src/reference/wire.md, "Scoring data"), separate from the estimate, and the stick
+//! input as received.
 
 use super::super::snapshot::PayloadSnapshot;
 use spandrel_mavlink::contract::sticks;
@@ -20,8 +20,8 @@ pub(crate) fn state(v: &PayloadSnapshot) -> Option<MavMessage> {
     Some(MavMessage::HIL_STATE_QUATERNION(published.message()))
 }
 
-/// Sticks as received, for payload processes: roll, pitch, throttle, yaw, 1500 + 500 x axis microseconds, forward
-/// positive.
+/// Stick input as received, for payload processes: roll, pitch, throttle and yaw as 1500 + 500 x axis microseconds
+/// (positive: forward).
 pub(crate) fn stick_axes(v: &PayloadSnapshot) -> Option<MavMessage> {
     let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = sticks::to_us(v.input.sticks?);
     Some(MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {

@@ -1,4 +1,4 @@
-//! Measurement of a sensor at rest.
+//! Measures a sensor at rest.
 
 use super::texts::CalibratedSensor;
 use crate::sensors::Readings;
@@ -60,7 +60,7 @@ impl Calibration {
         age_s >= MEASUREMENT_S
     }
 
-    /// Returns the gyroscope bias, rad/s, or the reason for the failure.
+    /// Returns the gyroscope bias in rad/s, or the reason for the failure.
     pub(super) fn outcome(&self) -> Result<Vec3<Frd>, &'static str> {
         let [(rates_0, force_0), (rates_1, force_1)] = self.halves.map(|half| half.means());
         let force = (force_0 + force_1) * 0.5;

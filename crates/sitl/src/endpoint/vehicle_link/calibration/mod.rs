@@ -18,8 +18,8 @@ pub use texts::CalibrationTexts;
 /// Number of progress reports.
 const STEPS: u32 = 5;
 
-/// Handles the command: parameters 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, 7 ESC. All
-/// zero cancels the calibration.
+/// Handles the command. Its parameters are 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, and 7
+/// ESC. All zeros cancel the calibration.
 pub(super) fn command(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) -> MavResult {
     use MavResult as R;
     let texts = v.flavor.calibration;
@@ -33,7 +33,7 @@ pub(super) fn command(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessag
     if a.autopilot.status().armed || v.calibration.is_some() {
         return v.flavor.refusals.temporarily;
     }
-    // The radio is calibrated by the ground station; the vehicle only reads its channels.
+    // The ground station calibrates the radio; the vehicle only reads its channels.
     if param(3) != 0.0 {
         return R::MAV_RESULT_ACCEPTED;
     }

@@ -1,6 +1,6 @@
 //! Calibration texts, which ground stations parse.
 
-/// The sensor or reference being calibrated.
+/// The sensor or reference that is being calibrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CalibratedSensor {
     Gyro,
@@ -21,7 +21,7 @@ impl CalibratedSensor {
     }
 }
 
-/// Format of the calibration texts.
+/// Calibration text format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CalibrationTexts {
     /// PX4's texts, which begin with `[cal]` (QGroundControl: SensorsComponentController).

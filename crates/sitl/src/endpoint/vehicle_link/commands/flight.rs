@@ -43,7 +43,7 @@ pub(super) fn handle(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMes
     Some(v.result_of(outcome))
 }
 
-/// Arming and modes.
+/// Handles arming and mode commands.
 fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
@@ -76,7 +76,7 @@ fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Opt
     })
 }
 
-/// Takeoff, landing and go-to commands.
+/// Handles takeoff, landing and go-to commands.
 fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
@@ -89,7 +89,7 @@ fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -
         n if n == M::MAV_CMD_DO_REPOSITION as u16 => Answer(go_to(c, v, a)),
         n if n == M::MAV_CMD_DO_ORBIT as u16 => match orbit(c, a) {
             Some(orbit) => Request(AutopilotRequest::Orbit(orbit)),
-            None => Answer(v.deny("Orbit: center within 20 km, yaw behavior 0 to 5")),
+            None => Answer(v.deny("Orbit: center must be within 20 km, yaw mode 0-5")),
         },
         n if n == M::MAV_CMD_CONDITION_YAW as u16 => match condition_yaw(c, a) {
             Some(request) => Request(request),
@@ -103,7 +103,7 @@ fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -
     })
 }
 
-/// Mission commands: start, pause, jump.
+/// Handles mission commands: start, pause, and jump.
 fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
@@ -125,7 +125,7 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
         n if n == M::MAV_CMD_MISSION_START as u16 => {
             // ArduPilot always starts a mission from its first item.
             if v.flavor.home_item && c.p[..2].iter().any(|item| *item != 0.0) {
-                return Some(Answer(v.deny("Mission start: an item range is not supported")));
+                return Some(Answer(v.deny("Mission start: item ranges are not supported")));
             }
             Request(AutopilotRequest::StartMission { first: c.finite_param(0).filter(|f| *f > 0.0).map(|f| index(f, v)) })
         }
@@ -136,31 +136,31 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
     })
 }
 
-/// Speed and geofence commands.
+/// Handles speed and geofence commands.
 fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(match c.number {
         // Climb and descent speeds have their own parameters.
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 && c.finite_param(0).is_some_and(|kind| kind > 1.0) => {
-            Answer(v.deny("Speed: type must be 0 or 1; climb has parameters"))
+            Answer(v.deny("Speed: type must be 0 or 1 (not climb or descent)"))
         }
         n if n == M::MAV_CMD_DO_CHANGE_SPEED as u16 => match c.finite_param(1) {
-            // -1 means no change, -2 restores the parameter's value (MAVLink common).
+            // -1 means no change, and -2 restores the parameter's value (MAVLink common).
             Some(-1.0) => Answer(MavResult::MAV_RESULT_ACCEPTED),
             Some(-2.0) => Request(AutopilotRequest::SetSpeed(None)),
             Some(speed) if speed > 0.0 => Request(AutopilotRequest::SetSpeed(Some(speed))),
-            _ => Answer(v.deny("Speed: must be above 0, -1 (keep) or -2 (default)")),
+            _ => Answer(v.deny("Speed: must be > 0, -1 (keep) or -2 (default)")),
         },
         n if n == M::MAV_CMD_DO_FENCE_ENABLE as u16 => match c.p[0] {
             0.0 => Request(AutopilotRequest::EnableFence(false)),
             1.0 => Request(AutopilotRequest::EnableFence(true)),
-            _ => Answer(v.deny("Fence: must be 0 (disable) or 1 (enable)")),
+            _ => Answer(v.deny("Fence: parameter 1 must be 0 (off) or 1 (on)")),
         },
         _ => return None,
     })
 }
 
-/// Commands that don't involve the autopilot: failure injection, calibration, storage, checks, reboot.
+/// Handles commands that don't involve the autopilot: failure injection, calibration, storage, checks, and reboot.
 fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
     use MavCmd as M;
     Some(Answer(match c.number {
@@ -173,10 +173,10 @@ fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
     }))
 }
 
-/// Parameters 1 unit, 2 failure type, 3 instance. As in PX4, denied unless SYS_FAILURE_EN is set.
+/// Parameters: 1 unit, 2 failure type, 3 instance. As in PX4, the command is denied unless SYS_FAILURE_EN is set.
 fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     if v.params.whole("SYS_FAILURE_EN") != Some(1) {
-        v.warn("Failure injection is off (SYS_FAILURE_EN)");
+        v.warn("Failure injection is disabled (SYS_FAILURE_EN)");
         return MavResult::MAV_RESULT_DENIED;
     }
     let whole = |k: usize| c.finite_param(k).map(|value| value as i64);
@@ -196,12 +196,12 @@ fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
     MavResult::MAV_RESULT_ACCEPTED
 }
 
-/// Parameter 1: 0 does nothing, 1 and 3 reboot the autopilot. A client cannot shut the simulated vehicle down.
+/// Parameter 1: 0 does nothing, and 1 or 3 reboots the autopilot. Clients cannot shut down the simulated vehicle.
 fn reboot(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     match c.p[0] {
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
         1.0 | 3.0 if a.autopilot.status().armed => {
-            v.warn("Reboot denied: armed");
+            v.warn("Reboot denied: vehicle is armed");
             v.flavor.refusals.temporarily
         }
         1.0 | 3.0 => {
@@ -221,8 +221,8 @@ fn arm(c: &VehicleCommand, v: &VehicleLink) -> Option<AutopilotRequest> {
     }
 }
 
-/// Arms the motors. If the flavor reports them, each failed check is sent as a separate text. In the mode that accepts
-/// go-to commands (GUIDED), arming by a transmitter switch must be allowed (`GUID_OPTIONS`).
+/// Arms the motors. If the flavor reports failed checks, each one is sent as a separate text. In the mode that accepts
+/// go-to commands (GUIDED), a transmitter switch can arm only if `GUID_OPTIONS` allows it.
 fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let (flavor, now) = (v.flavor, a.now());
     if let Some(words) = flavor.arming_check_prefix
@@ -273,8 +273,8 @@ fn index(seq: f64, v: &VehicleLink) -> usize {
     (seq as usize).saturating_sub(usize::from(v.plans.summary().lead))
 }
 
-/// Parameter 1 is the item, -1 the current one (rejected by ArduPilot); 1 in parameter 2 resets the mission's progress.
-/// Broadcasts MISSION_CURRENT, as MISSION_SET_CURRENT does.
+/// Parameter 1 is the item (-1: the current one, which ArduPilot rejects); 1 in parameter 2 resets the mission's
+/// progress. Broadcasts MISSION_CURRENT, as MISSION_SET_CURRENT does.
 fn set_current(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> bool {
     let item = match c.finite_param(0) {
         Some(-1.0) if !v.flavor.home_item => a.autopilot.status().mission_current,
@@ -296,7 +296,7 @@ fn go_to(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Mav
     if !(errands.is_none() || changes || v.is_guided(a.autopilot)) {
         return v.deny("Go-to: not allowed in this mode");
     }
-    let Some(request) = reposition(c, a) else { return v.deny("Go-to: beyond 20 km or unknown frame") };
+    let Some(request) = reposition(c, a) else { return v.deny("Go-to: target beyond 20 km or unknown frame") };
     let outcome = a.autopilot.request(request, a.now());
     if outcome == RequestOutcome::Accepted {
         v.requested_mode = errands.unwrap_or(v.requested_mode);
@@ -327,7 +327,7 @@ fn reposition(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest
     Some(AutopilotRequest::GoTo { north_east_m, up_m, yaw_rad: c.finite_param(3), speed_m_s })
 }
 
-/// Pauses or resumes. Flavors with this command can pause only missions and go-to commands.
+/// Pauses or resumes a flight. Flavors with this command can pause only missions and go-to commands.
 fn pause(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     let pausable = v.is_guided(a.autopilot) || a.autopilot.status().mode == FlightMode::Mission;
     let pause = match c.p[0] {
@@ -340,10 +340,10 @@ fn pause(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Mav
     v.result_of(outcome)
 }
 
-/// ORBIT_YAW_BEHAVIOUR_UNCHANGED.
+/// The value of ORBIT_YAW_BEHAVIOUR_UNCHANGED.
 const YAW_UNCHANGED: i64 = 5;
 
-/// Parameters 1 radius, 2 speed, 3 yaw behavior, 4 arc in radians, 5 to 7 center.
+/// Parameters: 1 radius, 2 speed, 3 yaw behavior, 4 arc in radians, 5 to 7 center.
 fn orbit(c: &VehicleCommand, a: &InboundMessage) -> Option<OrbitRequest> {
     let AutopilotRequest::GoTo { north_east_m, up_m, .. } = reposition(c, a)? else { return None };
     let yaw = match c.finite_param(2).map(|number| number.round() as i64) {
@@ -354,7 +354,8 @@ fn orbit(c: &VehicleCommand, a: &InboundMessage) -> Option<OrbitRequest> {
     Some(OrbitRequest { center_m: north_east_m, up_m, radius_m: c.finite_param(0), speed_m_s: c.finite_param(1), yaw, arc_rad })
 }
 
-/// Parameters 1 angle in degrees, 2 rate in deg/s (0: default), 3 direction, 4 whether relative to the current heading.
+/// Parameters: 1 angle in degrees, 2 rate in deg/s (0: default), 3 direction, 4 whether the angle is relative to the
+/// current heading.
 fn condition_yaw(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest> {
     let angle = c.finite_param(0)?.to_radians();
     let relative = c.is_one(3);

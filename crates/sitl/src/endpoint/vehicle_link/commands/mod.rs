@@ -1,4 +1,4 @@
-//! Commands to the autopilot, one file for each group. Every command is answered immediately.
+//! Commands to the autopilot, one file per group. Every command is answered immediately.
 
 mod flight;
 mod storage;
@@ -25,7 +25,7 @@ pub(crate) fn execute(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMe
     result
 }
 
-/// Handles commands that point the gimbal at a position: the vehicle also turns toward it.
+/// Handles commands that point the gimbal at a position. The vehicle also turns toward this position.
 fn point_at(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<MavResult> {
     let target = payload::region_of_interest::target(c, a.input)?;
     let result = payload::handle(c, a.input, a.payload);

@@ -1,11 +1,11 @@
-//! PREFLIGHT_STORAGE.
+//! The PREFLIGHT_STORAGE command, which loads, saves or resets the parameters.
 
 use super::super::VehicleLink;
 use super::super::host_requests::StorageRequest;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::dialect::MavResult;
 
-/// Handles PREFLIGHT_STORAGE: parameter 1 is 0 to load the file, 1 to save it, 2 to restore the defaults (MAVLink
+/// Handles PREFLIGHT_STORAGE. Parameter 1 is 0 to load the file, 1 to save it, and 2 to restore the defaults (MAVLink
 /// common).
 pub(super) fn preflight_storage(c: &VehicleCommand, v: &mut VehicleLink) -> MavResult {
     let request = match c.p[0] {
@@ -15,7 +15,7 @@ pub(super) fn preflight_storage(c: &VehicleCommand, v: &mut VehicleLink) -> MavR
             v.params.reset(v.storage.defaults());
             return MavResult::MAV_RESULT_ACCEPTED;
         }
-        // -1 does nothing.
+        // A value of -1 does nothing.
         -1.0 => return MavResult::MAV_RESULT_ACCEPTED,
         _ => return MavResult::MAV_RESULT_DENIED,
     };

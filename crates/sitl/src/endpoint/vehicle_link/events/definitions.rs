@@ -3,7 +3,7 @@
 use super::notices;
 use serde_json::{Value as Json, json};
 
-/// Bits of `health_component_t` (PX4: enums.json).
+/// Component bits in `health_component_t` (PX4: enums.json).
 const COMPONENTS: [(u8, &str, &str); 10] = [
     (0, "none", "None"),
     (1, "absolute_pressure", "Absolute pressure"),
@@ -17,7 +17,7 @@ const COMPONENTS: [(u8, &str, &str); 10] = [
     (29, "gyro", "Gyroscope"),
 ];
 const SYSTEM: u8 = 20;
-/// PX4's number, name and custom mode of each mode group, and whether it requires a position.
+/// For each mode group: PX4's number, name and custom mode, and whether the group requires a position.
 pub(super) const GROUPS: [(u8, &str, u32, bool); 12] = [
     (1, "altctl", 2 << 16, false),
     (2, "posctl", 3 << 16, true),
@@ -33,7 +33,7 @@ pub(super) const GROUPS: [(u8, &str, u32, bool); 12] = [
     (21, "orbit", 3 << 16 | 1 << 24, true),
 ];
 pub(super) const MISSION_GROUP: u8 = 3;
-/// Arming checks: the autopilot's text, the event name, the affected component.
+/// Arming checks: the autopilot's text, the event name, and the affected component.
 const CHECKS: [(&str, &str, u8); 13] = [
     ("Booting", "check_booting", SYSTEM),
     ("Attitude not aligned", "check_attitude_not_aligned", 16),

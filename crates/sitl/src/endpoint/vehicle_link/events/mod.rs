@@ -21,7 +21,7 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// Maximum number of events for each request (estimate: a whole report; clients request the remainder again).
+/// Maximum number of events sent per request (estimate: one full report; clients request the rest again).
 const MAX_EVENTS_PER_REQUEST: u16 = 10;
 /// Minimum interval between reports, and interval of the sequence number message.
 const REPORT_INTERVAL: SimTime = SimTime::from_ms(500);
@@ -94,8 +94,8 @@ fn event_links(links: &mut Links) -> impl Iterator<Item = &mut PeerLink> {
     links.iter_mut().map(|(_, link)| link).filter(|link| link.kind != LinkKind::Payload)
 }
 
-/// Resends events. If the first one is no longer kept, reports the oldest available, and the client requests again from
-/// there.
+/// Resends events. If the first one is no longer available, reports the oldest one that is, and the client makes a new
+/// request starting there.
 pub(super) fn request(v: &mut VehicleLink, r: &REQUEST_EVENT_DATA, a: &mut InboundMessage) {
     if !v.flavor.events {
         return;

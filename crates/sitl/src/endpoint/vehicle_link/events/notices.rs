@@ -11,11 +11,11 @@ const INFO: u8 = 0x66;
 /// An event without arguments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Notice {
-    /// Beginning of the text.
+    /// Prefix of the text.
     pub text_prefix: &'static str,
     /// Name of the event.
     pub name: &'static str,
-    /// Log levels.
+    /// Internal and external log levels.
     pub levels: u8,
 }
 
@@ -23,7 +23,7 @@ const fn notice(text_prefix: &'static str, name: &'static str, levels: u8) -> No
     Notice { text_prefix, name, levels }
 }
 
-/// All notices.
+/// All texts that are also sent as events.
 pub const NOTICES: [Notice; 34] = [
     notice("Arming denied", "commander_arming_denied", CRITICAL),
     notice("Disarming denied: not landed", "commander_disarming_denied_not_landed", CRITICAL),
@@ -67,8 +67,8 @@ pub fn of(text: &str) -> Option<&'static Notice> {
     NOTICES.iter().find(|notice| text.starts_with(notice.text_prefix))
 }
 
-/// Checks whether the event conveys the whole text, so a ground station that shows events does not have to show the
-/// text. PX4 marks such texts with a trailing tab, and QGroundControl hides them.
+/// Checks whether the event conveys the whole text. If so, a ground station that shows events does not have to show the
+/// text as well. PX4 marks such texts with a trailing tab, and QGroundControl hides them.
 #[must_use]
 pub fn covers_whole_text(text: &str) -> bool {
     of(text).is_some_and(|notice| notice.text_prefix == text)

@@ -17,7 +17,7 @@ pub struct EventReports {
     pub(super) reported: Option<(Vec<String>, [u32; 5])>,
     pub(super) next_report: SimTime,
     pub(super) next_sequence: SimTime,
-    /// Report even if nothing changed.
+    /// Whether to send a report even if nothing has changed.
     pub requested: bool,
 }
 

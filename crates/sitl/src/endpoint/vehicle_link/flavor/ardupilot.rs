@@ -49,7 +49,7 @@ impl ModeRow {
         self
     }
 
-    /// Makes the vehicle hold position while armed without stick input, still reporting this mode number.
+    /// Makes the vehicle hold position while it is armed without stick input, but still report this mode number.
     const fn hold_without_sticks(mut self) -> Self {
         self.mode_without_sticks = Some(FlightMode::Hold);
         self.also_showing(&[FlightMode::Hold])
@@ -62,8 +62,8 @@ impl ModeRow {
 }
 
 /// Order, numbers and names of ArduCopter's AVAILABLE_MODES (GCS_MAVLink_Copter.cpp, send_available_mode; mode.h),
-/// without the modes not supported here. ArduCopter reports no standard modes and no properties. LOITER and POSHOLD
-/// behave the same.
+/// without the modes that this vehicle does not support. ArduCopter reports no standard modes and no properties. LOITER
+/// and POSHOLD behave the same.
 const MODES: &[ModeRow] = &[
     row(AUTO_RTL, FlightMode::Mission, "AUTO RTL", POSITION_CONTROLLED)
         .entered_by(AutopilotRequest::LandingSequence)
@@ -81,8 +81,8 @@ const MODES: &[ModeRow] = &[
     row(9, FlightMode::Land, "LAND", POSITION_CONTROLLED).without_arming(),
     row(6, FlightMode::Return, "RTL", POSITION_CONTROLLED).without_arming(),
     row(16, FlightMode::Position, "POSHOLD", POSITION_CONTROLLED).hold_without_sticks(),
-    // Armable, unlike in ArduPilot: without stick input, the other manual modes switch to it on arming, and it is the
-    // final mode after a landing.
+    // Unlike in ArduPilot, the vehicle can be armed in this mode: without stick input, the other manual modes switch to
+    // it on arming, and it is the final mode after a landing.
     row(17, FlightMode::Hold, "BRAKE", POSITION_CONTROLLED),
     row(21, FlightMode::SmartReturn, "SMARTRTL", POSITION_CONTROLLED).without_arming(),
     row(23, FlightMode::Follow, "FOLLOW", POSITION_CONTROLLED).without_arming(),
@@ -154,7 +154,7 @@ pub static FLAVOR: Flavor = Flavor {
     },
 };
 
-/// Reports boot until the attitude is valid, critical during a failsafe, and active from takeoff to landing.
+/// Reports "boot" until the attitude is valid, "critical" during a failsafe, and "active" from takeoff to landing.
 fn state(estimate: &Estimate, status: &AutopilotStatus) -> MavState {
     if !estimate.attitude_valid {
         MavState::MAV_STATE_BOOT

@@ -10,18 +10,18 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// A flight mode as presented to clients of a flavor.
+/// A flight mode as a flavor presents it to clients.
 #[derive(Debug, Clone, Copy)]
 pub struct ModeRow {
-    /// HEARTBEAT.custom_mode.
+    /// The mode's number in HEARTBEAT.custom_mode.
     pub number: u32,
-    /// The internal mode that it enters.
+    /// The internal mode that this mode enters.
     pub mode: FlightMode,
-    /// The request that enters the mode.
+    /// The autopilot request that enters the mode.
     pub request: AutopilotRequest,
     /// Mode used instead while the vehicle is armed without stick input.
     pub mode_without_sticks: Option<FlightMode>,
-    /// Whether the mode is shown only after it has been requested by its number.
+    /// Whether the mode is shown only after a client has requested it by its number.
     pub only_if_requested: bool,
     /// Other internal modes shown under the same number.
     pub also_shown_for: &'static [FlightMode],
@@ -29,9 +29,9 @@ pub struct ModeRow {
     pub name: &'static str,
     /// The corresponding standard mode.
     pub standard: MavStandardMode,
-    /// HEARTBEAT.base_mode without the armed bit.
+    /// The value of HEARTBEAT.base_mode without the armed bit.
     pub base: MavModeFlag,
-    /// Whether the mode flies autonomously.
+    /// Whether the vehicle flies autonomously in this mode.
     pub auto: bool,
     /// Whether ground stations list the mode for selection.
     pub selectable: bool,
@@ -54,42 +54,42 @@ impl ModeRow {
 /// Results sent for rejected commands and requests.
 #[derive(Debug, Clone, Copy)]
 pub struct RefusalResults {
-    /// Temporarily rejected.
+    /// Result for a temporary rejection.
     pub temporarily: MavResult,
-    /// Rejected in the current state.
+    /// Result for a request rejected in the current state.
     pub denied: MavResult,
-    /// Unknown mode.
+    /// Result for an unknown mode.
     pub unknown_mode: MavResult,
-    /// REQUEST_MESSAGE for an unsupported message.
+    /// Result of REQUEST_MESSAGE for an unsupported message.
     pub message: MavResult,
-    /// SET_MESSAGE_INTERVAL for an unsupported message.
+    /// Result of SET_MESSAGE_INTERVAL for an unsupported message.
     pub interval: MavResult,
 }
 
 /// How NAV_TAKEOFF is interpreted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TakeOffRule {
-    /// In any mode; parameter 7 is the altitude above mean sea level, and in COMMAND_INT it is in the given frame
+    /// Accepted in any mode. Parameter 7 is the altitude above mean sea level or, in COMMAND_INT, in the given frame
     /// (PX4).
     AboveSeaLevel,
-    /// Only from the ground, while armed, in the mode that accepts go-to commands; parameter 7 is the height above home
-    /// (ArduPilot).
+    /// Accepted only on the ground, while armed, in the mode that accepts go-to commands. Parameter 7 is the height
+    /// above home (ArduPilot).
     AboveHomeInGuided,
 }
 
 /// An autopilot interface.
 #[derive(Debug)]
 pub struct Flavor {
-    /// Name on the command line.
+    /// The flavor's name on the command line.
     pub name: &'static str,
-    /// HEARTBEAT.autopilot.
+    /// The value of HEARTBEAT.autopilot.
     pub autopilot: MavAutopilot,
-    /// AUTOPILOT_VERSION.flight_sw_version.
+    /// The value of AUTOPILOT_VERSION.flight_sw_version.
     pub software_version: u32,
-    /// AUTOPILOT_VERSION.capabilities.
+    /// The value of AUTOPILOT_VERSION.capabilities.
     pub capabilities: MavProtocolCapability,
-    /// All modes, in the order of AVAILABLE_MODES. If several rows show the same internal mode, the first that enters
-    /// it is its default.
+    /// All modes, in the order of AVAILABLE_MODES. If several rows show the same internal mode, the first row that
+    /// enters the mode is its default.
     pub modes: &'static [ModeRow],
     /// Bits of the custom mode that identify the mode.
     pub mode_bits: u32,
@@ -98,16 +98,16 @@ pub struct Flavor {
     /// Whether SET_MODE requires the custom mode flag; without it, the message has another meaning (ArduPilot: the
     /// safety switch).
     pub custom_flag: bool,
-    /// HEARTBEAT.system_status.
+    /// Returns the value of HEARTBEAT.system_status.
     pub state: fn(&Estimate, &AutopilotStatus) -> MavState,
     /// Number of the mode that accepts go-to commands and offboard setpoints directly (GUIDED). `None`: offboard
     /// setpoints have their own mode, and go-to commands are accepted in any mode.
     pub goto_mode: Option<u32>,
-    /// Interpretation of NAV_TAKEOFF.
+    /// How NAV_TAKEOFF is interpreted.
     pub take_off: TakeOffRule,
     /// Values in COMPONENT_ARM_DISARM that force arming or disarming.
     pub force: &'static [f64],
-    /// Whether the altitude of a region of interest command is above mean sea level, regardless of its frame.
+    /// Whether the altitude of a region-of-interest command is above mean sea level, regardless of its frame.
     pub roi_altitude_above_sea_level: bool,
     /// Results for rejected requests.
     pub refusals: RefusalResults,
@@ -127,23 +127,23 @@ pub struct Flavor {
     pub sends_message_after_ack: bool,
     /// Message groups of REQUEST_DATA_STREAM.
     pub groups: &'static [(u8, &'static [u32])],
-    /// Whether messages of ArduPilot's dialect are sent.
+    /// Whether messages from ArduPilot's dialect are sent.
     pub ardupilot_dialect: bool,
-    /// Format of the calibration texts.
+    /// Calibration text format.
     pub calibration: CalibrationTexts,
     /// Whether SERIAL_CONTROL opens a shell.
     pub shell: bool,
     /// Whether arming checks and health are reported as events.
     pub events: bool,
-    /// Number of the mode that NAV_LOITER_UNLIM enters; `None`: Hold mode.
+    /// Number of the mode that NAV_LOITER_UNLIM enters, or `None` for Hold mode.
     pub loiter_mode: Option<u32>,
     /// Whether setpoint positions in body and offset frames are relative to the vehicle; otherwise they are ignored.
     pub offsets: bool,
-    /// Whether DO_PAUSE_CONTINUE pauses the current operation; otherwise it enters Hold mode.
+    /// Whether DO_PAUSE_CONTINUE pauses the current operation; if not, it enters Hold mode.
     pub pauses: bool,
-    /// EXTENDED_SYS_STATE.vtol_state.
+    /// The value of EXTENDED_SYS_STATE.vtol_state.
     pub vtol_state: MavVtolState,
-    /// Whether missions may contain NAV_SPLINE_WAYPOINT, which is flown as a waypoint.
+    /// Whether missions may contain NAV_SPLINE_WAYPOINT items, which are flown as ordinary waypoints.
     pub splines: bool,
     /// Whether coordinates of 0, 0 in a mission item or in DO_SET_HOME mean the vehicle's position at that time, and an
     /// item altitude of 0 its altitude.
@@ -166,21 +166,21 @@ impl Flavor {
         requested_row.unwrap_or_else(|| self.default_mode(mode))
     }
 
-    /// Returns the default row of a mode.
+    /// Returns a mode's default row.
     #[must_use]
     pub fn default_mode(&self, mode: FlightMode) -> &'static ModeRow {
         let enters = self.modes.iter().find(|row| row.mode == mode && !row.only_if_requested);
-        // Every mode is shown by some row; a test checks this.
+        // Every mode has a row that shows it; a test checks this.
         enters.or_else(|| self.modes.iter().find(|row| row.shows(mode))).unwrap_or(&self.modes[0])
     }
 
-    /// Returns the row of a custom mode.
+    /// Returns the row for a custom mode number.
     #[must_use]
     pub fn row(&self, custom_mode: u32) -> Option<&'static ModeRow> {
         self.modes.iter().find(|row| row.number == custom_mode & self.mode_bits)
     }
 
-    /// Returns the row of a standard mode.
+    /// Returns the row for a standard mode.
     #[must_use]
     pub fn standard(&self, number: u32) -> Option<&'static ModeRow> {
         self.modes.iter().find(|row| number != 0 && row.standard as u32 == number)
@@ -206,8 +206,8 @@ impl Flavor {
         }
         *requested = row.number;
         if before == FlightMode::Hold && autopilot.status().mode == FlightMode::Hold && from != row.number {
-            // The internal mode is unchanged, so the autopilot would continue to the previous mode's target. Rejected
-            // on the ground, where it has no effect.
+            // Because the internal mode does not change, the autopilot would otherwise continue to the previous mode's
+            // target. On the ground, where the request has no effect, it is rejected.
             autopilot.request(AutopilotRequest::GoTo { north_east_m: None, up_m: None, yaw_rad: None, speed_m_s: None }, now);
         }
         outcome

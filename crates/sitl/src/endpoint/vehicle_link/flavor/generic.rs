@@ -1,5 +1,5 @@
 //! A generic MAVLink interface without an autopilot's dialect. It offers MAVLink's standard modes where they exist. The
-//! standard does not define custom mode numbers; PX4's are used because many SDKs and recorders assume them.
+//! standard does not define custom mode numbers, so this interface uses PX4's, which many SDKs and recorders assume.
 
 use super::definition::{COMMON, Flavor, ModeRow, TakeOffRule, named_mode};
 use super::px4::{self, row};
@@ -63,7 +63,7 @@ pub static FLAVOR: Flavor = Flavor {
     tune: |_| {},
 };
 
-/// This software's version: major and minor.
+/// This software's major and minor version.
 const VERSION: u32 = digits(env!("CARGO_PKG_VERSION_MAJOR")) << 24 | digits(env!("CARGO_PKG_VERSION_MINOR")) << 16;
 
 const fn digits(text: &str) -> u32 {

@@ -1,5 +1,5 @@
-//! Autopilot flavors: one table for each autopilot interface, with everything that differs on the wire. All other
-//! behavior is shared.
+//! Autopilot flavors: one table per autopilot interface, with everything that differs on the wire. All other behavior
+//! is shared.
 
 pub mod ardupilot;
 mod definition;
@@ -43,7 +43,7 @@ mod tests {
             }
             for row in flavor.modes {
                 assert_eq!(flavor.row(row.number).unwrap().name, row.name);
-                assert_eq!(flavor.row_of(row.mode, row.number).name, row.name, "requested mode");
+                assert_eq!(flavor.row_of(row.mode, row.number).name, row.name, "name of the requested mode");
             }
             assert!(flavor.standard(0).is_none() && flavor.standard(99).is_none());
         }
@@ -58,8 +58,8 @@ mod tests {
         }
         assert_eq!(copter.row_of(FlightMode::Position, 4).number, 5);
         assert_eq!(copter.row_of(FlightMode::Position, 16).number, 16);
-        assert_eq!(copter.row_of(FlightMode::Hold, 3).number, 17, "an unrequested hold is reported as BRAKE");
-        assert_eq!(copter.row_of(FlightMode::Hold, 5).number, 5, "LOITER holds without sticks");
+        assert_eq!(copter.row_of(FlightMode::Hold, 3).number, 17, "an unrequested hold must be reported as BRAKE");
+        assert_eq!(copter.row_of(FlightMode::Hold, 5).number, 5, "LOITER must hold without stick input");
         assert_eq!((copter.default_mode(FlightMode::Mission).number, copter.row_of(FlightMode::Mission, 27).number), (3, 27));
     }
 }

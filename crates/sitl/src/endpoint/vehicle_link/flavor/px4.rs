@@ -54,11 +54,11 @@ const MODES: &[ModeRow] = &[
     row(FlightMode::Follow, (4, 8), "Follow Me", S::MAV_STANDARD_MODE_NON_STANDARD, true, true),
     row(FlightMode::Acro, (5, 0), "Acro", S::MAV_STANDARD_MODE_NON_STANDARD, false, true),
 ];
-/// Bits of the main and sub mode.
+/// Bits that encode the main and sub mode.
 pub(super) const MODE_BITS: u32 = 0xFFFF_0000;
 
-/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"). Reports a development version, so that no
-/// ground station offers an update.
+/// PX4's interface (docs/src/reference/wire.md, "Autopilot interfaces"). Reports a development version so that ground
+/// stations do not offer an update.
 pub static FLAVOR: Flavor = Flavor {
     name: "px4",
     autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
@@ -102,7 +102,7 @@ pub static FLAVOR: Flavor = Flavor {
 
 /// Magic value that forces arming or disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
 pub(super) const FORCE: f64 = 21196.0;
-/// PX4's results.
+/// Results that PX4 sends for rejected requests.
 pub(super) const REFUSALS: RefusalResults = RefusalResults {
     temporarily: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
     denied: MavResult::MAV_RESULT_DENIED,

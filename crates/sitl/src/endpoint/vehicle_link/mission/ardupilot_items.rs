@@ -11,7 +11,7 @@ use spandrel_mavlink::dialect::{
 use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::Vec3;
 
-/// MISSION_ITEM.current values: fly to the position, or change altitude only.
+/// Values of MISSION_ITEM.current: fly to the position, or change only the altitude.
 const GO_TO: u8 = 2;
 const CHANGE_HEIGHT: u8 = 3;
 

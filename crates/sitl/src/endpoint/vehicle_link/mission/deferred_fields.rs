@@ -8,7 +8,7 @@ use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 
-/// First parameter of NAV_DELAY if hour, minute and second are used; ArduPilot sends 0 instead.
+/// Value of NAV_DELAY's first parameter if hour, minute and second are used; ArduPilot sends 0 instead.
 const BY_TIME_OF_DAY: f32 = -1.0;
 const TURN_DEG: f32 = 360.0;
 
@@ -43,7 +43,7 @@ pub(super) fn with_placeholder(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane)
     if item.command == MavCmd::MAV_CMD_NAV_DELAY && item.param1 == 0.0 && timed {
         item.param1 = BY_TIME_OF_DAY;
     }
-    // An angle above one turn is reduced to its remainder.
+    // Angles above one turn are reduced to the remainder.
     if item.command == MavCmd::MAV_CMD_CONDITION_YAW && item.param1.is_finite() {
         item.param1 %= TURN_DEG;
     }
@@ -54,7 +54,7 @@ pub(super) fn with_placeholder(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane)
     item
 }
 
-/// Fills open fields with the position of the previous step, where the vehicle will be when the step starts.
+/// Fills open fields with the previous step's position, which is where the vehicle will be when the step starts.
 pub(super) fn fill_from_previous_steps(steps: &mut [MissionStep], open: &[DeferredFields], home_m: Option<Vec3<Ned>>) {
     let mut before = home_m;
     for (step, open) in steps.iter_mut().zip(open) {

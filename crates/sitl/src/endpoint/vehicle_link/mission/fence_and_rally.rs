@@ -1,4 +1,4 @@
-//! Converts the geofence and rally points of a plan for the autopilot.
+//! Converts a plan's geofence and rally points for the autopilot.
 
 use super::positions::{flyable_position, place, relative};
 use crate::autopilot::fence::{FenceOutline, FenceZone};
@@ -37,7 +37,7 @@ pub(super) fn is_complete(items: &[MISSION_ITEM_INT_DATA]) -> Result<(), MavMiss
         let corners = corners(item);
         let run = items.iter().skip(at).take(corners);
         let alike = run.filter(|other| other.command == item.command && other.param1 == item.param1).count();
-        // Other items are complete on their own; their first parameter need not be finite.
+        // Other items are complete on their own; their first parameter does not have to be finite.
         if corners > 1 && alike < corners {
             return Err(MavMissionResult::MAV_MISSION_INVALID_PARAM1);
         }
@@ -62,7 +62,7 @@ fn corners(item: &MISSION_ITEM_INT_DATA) -> usize {
     }
 }
 
-/// Returns the areas of a valid, complete fence.
+/// Returns the areas in a valid, complete fence.
 pub(super) fn zones(items: &[MISSION_ITEM_INT_DATA], plane: &LocalPlane) -> Vec<FenceZone> {
     let flat = |item: &MISSION_ITEM_INT_DATA| place(item, plane, 0.0).map_or((0.0, 0.0), |p| (p.north(), p.east()));
     let mut out = Vec::new();

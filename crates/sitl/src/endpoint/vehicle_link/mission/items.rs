@@ -8,15 +8,15 @@ use crate::endpoint::payload::commands as payload;
 use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavFrame, MavMissionResult, MavMissionType};
 use spandrel_model::geodesy::LocalPlane;
 
-/// Maximum hold time of an item, s.
+/// Maximum hold time for an item, s.
 const MAX_HOLD_S: f32 = 86_400.0;
 /// Allowed circle radii, m.
 const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;
 /// Default circle radius, m.
 const DEFAULT_RADIUS_M: f64 = 5.0;
-/// Allowed speeds, m/s; -1 means no change, -2 restores the parameter's value (MAVLink common).
+/// Allowed speeds, m/s; -1 means no change, and -2 restores the parameter's value (MAVLink common).
 const SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
-/// Minimum number of repetitions that counts as an endless jump.
+/// Minimum number of repetitions at which a jump counts as endless.
 const ENDLESS_REPETITIONS: f32 = 64.0;
 
 type ItemResult = Result<(), MavMissionResult>;
@@ -97,7 +97,8 @@ fn time_of_day(item: &MISSION_ITEM_INT_DATA) -> Result<TimeOfDay, MavMissionResu
     })
 }
 
-/// Parameter 1 is the number of turns, 3 the radius, negative for counterclockwise; 0 or NaN selects the default.
+/// Parameter 1 is the number of turns. Parameter 3 is the radius: negative means counterclockwise, and 0 or NaN selects
+/// the default.
 fn circle(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     check_range(item.param1, (0.0, 1_000.0), MavMissionResult::MAV_MISSION_INVALID_PARAM1)?;
     let radius = item.param3.abs();
@@ -105,7 +106,7 @@ fn circle(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if known { Ok(()) } else { Err(MavMissionResult::MAV_MISSION_INVALID_PARAM3) }
 }
 
-/// Parameter 1 is the angle in degrees, 2 the rate in deg/s (0: default), 3 the direction, 4 whether relative to the
+/// Parameters: 1 angle in degrees, 2 rate in deg/s (0: default), 3 direction, 4 whether the angle is relative to the
 /// current heading.
 fn turn(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     use MavMissionResult as R;
@@ -186,7 +187,7 @@ fn check_no_offsets(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     }
 }
 
-/// Converts an item to an autopilot step. `home_up_m` is home's height above the origin, m.
+/// Converts an item to an autopilot step. `home_up_m` is home's height above the origin in meters.
 pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> MissionStep {
     let number = |x: f32, or: f64| if x.is_finite() { f64::from(x) } else { or };
     let somewhere = |make: fn(spandrel_model::frames::Vec3<spandrel_model::frames::Ned>) -> MissionStep| {
@@ -285,7 +286,7 @@ mod tests {
             (vec![fly(), jump(0.0, -1.0)], Ok(())),
             (vec![photo(), jump(0.0, 1e6)], refused),
             (vec![photo(), jump(0.0, 3.0)], Ok(())),
-            // A jump past the waypoint.
+            // A jump that skips the waypoint.
             (vec![jump(2.0, -1.0), fly(), jump(0.0, -1.0)], refused),
             (vec![jump(2.0, -1.0), fly(), photo()], Ok(())),
         ] {

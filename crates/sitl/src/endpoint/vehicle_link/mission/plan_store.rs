@@ -20,18 +20,18 @@ use spandrel_model::time::SimTime;
 const MAX_ITEMS: u16 = 2_000;
 /// Timeout after which a stalled upload is canceled, s; longer than clients keep retrying.
 const STALL_S: f64 = 10.0;
-/// Every n-th retry of the first item request uses the other encoding (estimate: one second at the usual timeout).
+/// Every nth retry of the first item request uses the other encoding (estimate: one second at the usual timeout).
 const SWITCH_ENCODING_EVERY: u8 = 4;
 /// Timeout after which a mission item request is repeated, s, as in PX4.
 const RETRY_INTERVAL_S: f64 = 0.25;
-/// For an uploader that usually responds faster, the request is repeated sooner: after this multiple of its usual
-/// delay, but not before the minimum interval, s. MAVSDK gives up on an item after five half-seconds without a request;
-/// at 0.25 s only one retry fits into each.
+/// For an uploader that usually responds faster, the request is repeated after this multiple of its usual delay, but
+/// not before the minimum interval, s. MAVSDK gives up on an item after five half-second periods without a request; at
+/// 0.25 s, only one retry fits into each period.
 const RETRY_DELAY_FACTOR: f64 = 4.0;
 const MIN_RETRY_INTERVAL_S: f64 = 0.12;
-/// Number of unanswered requests after which earlier items are requested on a link that reorders datagrams, stepping
-/// further back each time: an uploader that a delayed request has set back ignores requests for later items (MAVSDK). A
-/// lower number would use up MAVSDK's five attempts where requests are merely lost.
+/// On a link that reorders datagrams, number of unanswered requests after which earlier items are requested, stepping
+/// further back each time. An uploader that a delayed request has set back ignores requests for later items (MAVSDK). A
+/// lower number would use up MAVSDK's five attempts when requests are merely lost.
 const STEP_BACK_AFTER: u8 = 4;
 /// Number of steps back, each twice as far as the previous one: up to 128 items, more than are transferred while a
 /// request is delayed.
@@ -57,21 +57,21 @@ pub struct PlanStore {
     speed_factor: f64,
     /// Number of items at the start of a transferred mission that are not flown (home).
     lead: u16,
-    /// Whether items specific to ArduPilot are accepted: splines, delays until a time of day.
+    /// Whether items specific to ArduPilot are accepted: such as splines and delays until a time of day.
     splines: bool,
     /// Whether zero coordinates in an item mean the vehicle's position at that time.
     zero_means_current_position: bool,
-    /// Encoding that is tried first when requesting items.
+    /// Encoding to try first when requesting items.
     encoding: ItemEncoding,
 }
 
-/// The two messages that request an item of an upload. Clients support one or both.
+/// The two messages that request an item in an upload. Clients support one or both of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ItemEncoding {
-    /// MISSION_REQUEST_INT.
+    /// Items are requested with MISSION_REQUEST_INT.
     #[default]
     Int,
-    /// MISSION_REQUEST.
+    /// Items are requested with MISSION_REQUEST.
     Float,
 }
 
@@ -115,13 +115,13 @@ struct PlanUpload {
     /// Whether a request had to be repeated, which means that the link loses datagrams.
     is_lossy: bool,
     encoding: ItemEncoding,
-    /// Whether the current item was requested again, which makes its delay meaningless.
+    /// Whether the current item was requested again, in which case its delay is meaningless.
     is_retry: bool,
     /// Number of unanswered requests since the last item.
     unanswered: u8,
     /// Usual delay between a request and its item, s.
     delay_s: Option<f64>,
-    /// Sequence number of the last requested item: the first missing one, or an earlier one that makes an uploader
+    /// Sequence number of the last requested item: the first missing item, or an earlier one that lets an uploader
     /// catch up.
     requested: u16,
     /// Sequence number after an item that was received again without a request: the uploader may continue from there.
@@ -157,9 +157,9 @@ impl PlanUpload {
         self.first + self.items.len() as u16
     }
 
-    /// Handles an item that was already received. If it was requested, requests the next one; otherwise, `poll_retries`
-    /// continues from it once the missing item is overdue. A request for every repeated item would double all
-    /// subsequent traffic, and clients that count repeats would give up.
+    /// Handles an item that was already received. If the item was requested, requests the next one. Otherwise,
+    /// `poll_retries` continues from it once the missing item is overdue. Requesting another item for every repeat
+    /// would double all subsequent traffic, and clients that count repeats would give up.
     fn repeated(&mut self, seq: u16, now: SimTime) -> Option<MavMessage> {
         if seq == self.requested {
             (self.requested, self.last_request, self.is_retry, self.unanswered) = (seq + 1, now, true, 0);
@@ -182,13 +182,13 @@ impl PlanUpload {
         }
     }
 
-    /// Returns the timeout of a request in seconds.
+    /// Returns a request's timeout in seconds.
     fn retry_interval_s(&self, pace: f64) -> f64 {
         let usual_s = self.delay_s.map_or(RETRY_INTERVAL_S * pace, |delay_s| RETRY_DELAY_FACTOR * delay_s);
         usual_s.clamp(MIN_RETRY_INTERVAL_S * pace, RETRY_INTERVAL_S * pace)
     }
 
-    /// Records the arrival of the expected item.
+    /// Records that the expected item has arrived.
     fn answered(&mut self, now: SimTime) {
         (self.unanswered, self.set_back_to) = (0, None);
         if !std::mem::take(&mut self.is_retry) {
@@ -199,8 +199,8 @@ impl PlanUpload {
     }
 }
 
-/// The repeated acknowledgment of an upload over a lossy link. Clients wait for it without sending anything (MAVSDK),
-/// so losing it would make a complete upload fail.
+/// A repeated acknowledgment for an upload over a lossy link. Clients wait for the acknowledgment without sending
+/// anything (MAVSDK), so losing it would make a complete upload fail.
 #[derive(Debug, Clone, PartialEq)]
 struct AckRepeat {
     to: PlanPeer,
@@ -216,7 +216,7 @@ pub enum PlanReply {
     Reply(MavMessage),
     /// A plan was completed or cleared: send a reply and update the autopilot.
     Updated(MavMissionType, MavMessage),
-    /// No action.
+    /// Do nothing.
     Nothing,
 }
 
@@ -281,7 +281,7 @@ impl PlanStore {
         Self { zero_means_current_position, ..self }
     }
 
-    /// Sets the encoding that is tried first when requesting items.
+    /// Sets the encoding to try first when requesting items.
     #[must_use]
     pub fn with_encoding(self, encoding: ItemEncoding) -> Self {
         Self { encoding, ..self }
@@ -319,7 +319,7 @@ impl PlanStore {
         self.plans[1].iter().any(fence_and_rally::is_return)
     }
 
-    /// Returns the number of items of a plan as transferred.
+    /// Returns the number of items in a plan as transferred.
     fn count(&self, kind: MavMissionType, slot: usize) -> u16 {
         let stored = self.plans[slot].len() as u16;
         if stored == 0 { 0 } else { stored + self.lead(kind) }
@@ -341,7 +341,7 @@ impl PlanStore {
         self.speed_factor = pace;
     }
 
-    /// Returns the numbers of mission items, fence items and rally points, for the parameters.
+    /// Returns the number of mission items, fence items and rally points, for the parameters.
     #[must_use]
     pub fn totals(&self) -> [u16; 3] {
         [self.count(MavMissionType::MAV_MISSION_TYPE_MISSION, 0), self.plans[1].len() as u16, self.plans[2].len() as u16]
@@ -415,8 +415,8 @@ impl PlanStore {
         }
     }
 
-    /// Stops repeating the acknowledgment to a peer that sends another plan message: it has received it or no longer
-    /// waits for it.
+    /// Stops repeating the acknowledgment to a peer that sends another plan message: the peer has received the
+    /// acknowledgment or no longer waits for it.
     fn stop_ack_repeats(&mut self, from: PlanPeer) {
         self.ack_repeat.take_if(|echo| echo.to == from);
     }
@@ -539,9 +539,9 @@ impl PlanStore {
         PlanReply::Updated(kind, done)
     }
 
-    /// Handles an item without an upload: an error, unless it repeats an item of the plan that this peer has just
-    /// finished. A repeat of the last item means that the acknowledgment was lost; a repeat of an earlier item was only
-    /// delayed, and an error would invalidate the acknowledgment in transit.
+    /// Handles an item without an upload in progress. This is an error unless it repeats an item from the plan that
+    /// this peer has just finished. A repeat of the last item means that the acknowledgment was lost. A repeat of an
+    /// earlier item was only delayed, and an error would invalidate the acknowledgment in transit.
     fn reply_without_upload(&self, from: PlanPeer, item: &MISSION_ITEM_INT_DATA) -> PlanReply {
         let last = self.done.filter(|&(peer, kind, _)| (peer, kind) == (from, item.mission_type)).map(|(_, _, last)| last);
         match last.filter(|_| self.matches_stored(item)) {
@@ -567,7 +567,7 @@ impl PlanStore {
         item.seq < lead || stored.is_some_and(same)
     }
 
-    /// Rejects an upload with an item that the dialect cannot represent (unknown command or frame).
+    /// Rejects an upload that contains an item the dialect cannot represent (unknown command or frame).
     pub fn receive_undefined_item(&mut self, from: PlanPeer) -> PlanReply {
         match self.upload.take_if(|u| u.from == from) {
             Some(upload) => PlanReply::Reply(ack(from, upload.kind, MavMissionResult::MAV_MISSION_UNSUPPORTED)),
@@ -635,7 +635,7 @@ impl PlanStore {
         Some(again)
     }
 
-    /// Returns the mission as autopilot steps. `home_m` is home's position relative to the origin, m.
+    /// Returns the mission as autopilot steps. `home_m` is home's position relative to the origin in meters.
     #[must_use]
     pub fn steps(&self, plane: &LocalPlane, home_m: Option<Vec3<Ned>>) -> Vec<MissionStep> {
         let all = &self.plans[0];
@@ -654,7 +654,7 @@ impl PlanStore {
     }
 }
 
-/// Shifts an item's sequence number, and the target of a jump, by `by`.
+/// Shifts an item's sequence number and a jump's target by `by`.
 fn shift_sequence(mut item: MISSION_ITEM_INT_DATA, by: i32) -> MISSION_ITEM_INT_DATA {
     item.seq = (i32::from(item.seq) + by).max(0) as u16;
     if item.command == MavCmd::MAV_CMD_DO_JUMP {

@@ -7,6 +7,6 @@ pub struct PlanSummary {
     pub mission_items: u16,
     /// IDs of mission, fence and rally points, which stations use to detect changes; 0 for an empty plan.
     pub ids: [u32; 3],
-    /// Number of leading items of a transferred mission that are not flown (home).
+    /// Number of leading items in a transferred mission that are not flown (home).
     pub lead: u16,
 }

@@ -9,8 +9,8 @@ use spandrel_model::geodesy::LocalPlane;
 /// Maximum altitude, m.
 pub(super) const MAX_ALTITUDE_M: f32 = 10_000.0;
 
-/// Checks whether a frame's altitude is relative to home. `None` for frames without a global position and for
-/// terrain-relative altitudes: the vehicle has no terrain map, and bridge decks and water are not terrain.
+/// Checks whether a frame's altitude is relative to home. Returns `None` for frames without a global position and for
+/// terrain-relative altitudes, because the vehicle has no terrain map, and bridge decks and water are not terrain.
 pub(super) fn relative(frame: MavFrame) -> Option<bool> {
     match frame {
         MavFrame::MAV_FRAME_GLOBAL | MavFrame::MAV_FRAME_GLOBAL_INT => Some(false),

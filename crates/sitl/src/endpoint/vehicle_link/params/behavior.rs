@@ -1,6 +1,6 @@
-//! PX4 parameters for behavior: failsafe actions, return, limits, missions. Unless stated otherwise, ranges and
-//! defaults are PX4's (PX4ParameterFactMetaData.xml of QGroundControl 5.0.1). `OperatorRules` of the autopilot
-//! documents the effects.
+//! PX4 behavior parameters: failsafe actions, returns, limits, and missions. Unless stated otherwise, ranges and
+//! defaults are PX4's (PX4ParameterFactMetaData.xml of QGroundControl 5.0.1). The autopilot's `OperatorRules` documents
+//! the effects.
 
 use super::param_value::ParamValue::{self, Int, Real};
 use super::row::{Row, row};
@@ -10,7 +10,7 @@ const CONTROL: &str = "Multicopter Position Control";
 const MISSION: &str = "Mission";
 const RETURN: &str = "Return Mode";
 
-/// Modes for a switch position, with PX4's numbers.
+/// Modes that a switch position can select, with PX4's numbers.
 const FLIGHT_MODES: &[(i32, &str)] = &[
     (-1, "Unassigned"),
     (0, "Manual"),
@@ -47,7 +47,7 @@ const fn slot(name: &'static str, short: &'static str) -> Row {
     row(name, Int(-1), (-1.0, 107.0), "", COMMANDER, short).values(FLIGHT_MODES).token()
 }
 
-/// Rows, in any order.
+/// The parameter rows, in any order.
 pub(super) const ROWS: &[Row] = &[
     row("BAT_EMERGEN_THR", Real(0.05), (0.0, 0.5), "norm", "Battery", "Emergency battery level"),
     row("COM_ACT_FAIL_ACT", Int(0), (0.0, 4.0), "", COMMANDER, "Motor failure action").values(&[
@@ -66,7 +66,8 @@ pub(super) const ROWS: &[Row] = &[
         "Minimum battery level for arming; negative: critical level",
     ),
     row("COM_ARM_MIS_REQ", Int(0), (0.0, 1.0), "", COMMANDER, "Require a mission for arming").values(OFF_ON),
-    row("COM_DLL_EXCEPT", Int(0), (0.0, 7.0), "", COMMANDER, "Modes without a ground station loss failsafe").bits(LINK_BITS),
+    row("COM_DLL_EXCEPT", Int(0), (0.0, 7.0), "", COMMANDER, "Modes exempt from the ground station loss failsafe")
+        .bits(LINK_BITS),
     row("COM_FAIL_ACT_T", Real(5.0), (0.0, 25.0), "s", COMMANDER, "Hold time before the failsafe action"),
     slot("COM_FLTMODE1", "Mode at switch position 1"),
     slot("COM_FLTMODE2", "Mode at switch position 2"),
@@ -94,10 +95,11 @@ pub(super) const ROWS: &[Row] = &[
     row("COM_POSCTL_NAVL", Int(0), (0.0, 1.0), "", COMMANDER, "Position loss action in manual flight")
         .values(&[(0, "Altitude mode"), (1, "Land mode")]),
     // The default is 7 instead of PX4's 0, because trainees put the controller down during automatic flight.
-    row("COM_RCL_EXCEPT", Int(7), (0.0, 31.0), "", COMMANDER, "Modes without a manual control loss failsafe").bits(LINK_BITS),
+    row("COM_RCL_EXCEPT", Int(7), (0.0, 31.0), "", COMMANDER, "Modes exempt from the manual control loss failsafe")
+        .bits(LINK_BITS),
     row("COM_RC_OVERRIDE", Int(1), (0.0, 3.0), "", COMMANDER, "Modes that stick movement can interrupt")
         .bits(&[(0, "Automatic modes"), (1, "Offboard")]),
-    row("COM_RC_STICK_OV", Real(30.0), (5.0, 80.0), "%", COMMANDER, "Stick deflection for a pilot takeover"),
+    row("COM_RC_STICK_OV", Real(30.0), (5.0, 80.0), "%", COMMANDER, "Stick deflection that triggers a pilot takeover"),
     row("FD_ACT_EN", Int(1), (0.0, 1.0), "", "Failure Detector", "Trigger COM_ACT_FAIL_ACT on motor failure").values(OFF_ON),
     row("EKF2_HGT_REF", Int(1), (0.0, 3.0), "", "Estimator", "Height reference sensor").values(&[
         (0, "Barometer"),
@@ -111,7 +113,7 @@ pub(super) const ROWS: &[Row] = &[
         (500_000.0, 60_000_000.0),
         "us",
         "Estimator",
-        "Timeout without GNSS and optical flow before position loss",
+        "Time without GNSS and optical flow before position loss",
     ),
     row(
         "MIS_DIST_1WP",
@@ -119,7 +121,7 @@ pub(super) const ROWS: &[Row] = &[
         (-1.0, 100_000.0),
         "m",
         MISSION,
-        "Maximum distance of the first waypoint from home; 0 or less: no limit",
+        "Maximum distance from home to the first waypoint; 0 or less: no limit",
     ),
     row("MIS_TKO_LAND_REQ", Int(0), (0.0, 4.0), "", MISSION, "Required mission items").values(&[
         (0, "Nothing"),
@@ -138,7 +140,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row("MPC_ACC_HOR", Real(3.0), (0.5, 15.0), "m/s^2", CONTROL, "Maximum horizontal acceleration in automatic modes"),
     row("MPC_ACC_UP_MAX", Real(4.0), (0.5, 15.0), "m/s^2", CONTROL, "Maximum vertical acceleration in automatic modes"),
-    row("MPC_LAND_ALT2", Real(5.0), (0.0, 122.0), "m", CONTROL, "Height below which the landing descent slows down"),
+    row("MPC_LAND_ALT2", Real(5.0), (0.0, 122.0), "m", CONTROL, "Height below which the landing descent is slower"),
     row("MPC_MAN_TILT_MAX", Real(35.0), (1.0, 70.0), "deg", CONTROL, "Maximum tilt in manual modes"),
     row("MPC_MAN_Y_MAX", Real(150.0), (0.0, 400.0), "deg/s", CONTROL, "Maximum yaw rate in manual modes"),
     row("MPC_VEL_MANUAL", Real(10.0), (0.5, 30.0), "m/s", CONTROL, "Maximum horizontal speed in manual modes"),
@@ -156,8 +158,8 @@ pub(super) const ROWS: &[Row] = &[
     row("RTL_CONE_ANG", Int(0), (0.0, 90.0), "deg", RETURN, "Half-angle of the cone that limits the return climb; 0: off"),
     row("RTL_DESCEND_ALT", Real(10.0), (0.0, 500.0), "m", RETURN, "Loiter height before a return landing"),
     row("RTL_LAND_DELAY", Real(0.0), (-1.0, 300.0), "s", RETURN, "Delay before a return landing; negative: no landing"),
-    row("RTL_MIN_DIST", Real(5.0), (0.5, 1_000.0), "m", RETURN, "Distance from home beyond which a return climbs first"),
-    row("RTL_TYPE", Int(0), (0.0, 5.0), "", RETURN, "Return destination, reached in a straight line").values(&[
+    row("RTL_MIN_DIST", Real(5.0), (0.5, 1_000.0), "m", RETURN, "Distance from home above which a return climbs first"),
+    row("RTL_TYPE", Int(0), (0.0, 5.0), "", RETURN, "Return destination (flown to in a straight line)").values(&[
         (0, "Home or a rally point, whichever is nearest"),
         (1, "Mission landing or rally point, else home"),
         (2, "Mission landing, else home"),

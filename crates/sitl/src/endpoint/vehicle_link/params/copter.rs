@@ -1,6 +1,6 @@
 //! Parameter names that clients expect from ArduCopter (docs/src/reference/wire.md, "Parameters"; source code of
-//! QGroundControl and MAVProxy), with ArduPilot's units and values. Parameters that correspond to an internal one take
-//! effect; the rest describe the vehicle and are read-only.
+//! QGroundControl and MAVProxy), with ArduPilot's units and values. Parameters that correspond to an internal parameter
+//! take effect. The others describe the vehicle and are read-only.
 
 use super::derived_rows::{mapped, scaled};
 use super::param_value::ParamValue::{self, Int, Real};
@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 pub const DEFAULTS: &[(&str, ParamValue)] = &[("COM_RC_LOSS_T", Real(3.0)), ("COM_DL_LOSS_T", Int(5))];
 
 const LOSS_VALUES: &[(i32, &str)] = &[(0, "Disabled"), (1, "Return"), (5, "Land"), (7, "Brake")];
-/// ArduPilot's link loss actions, and the corresponding internal ones.
+/// ArduPilot's link loss actions, and the corresponding internal actions.
 const LOSS_ACTIONS: &[(i32, i32)] = &[(0, 0), (1, 2), (5, 3), (7, 1)];
 const STICK_LOSS_VALUES: &[(i32, &str)] = &[(1, "Return"), (3, "Land"), (7, "Brake")];
 const STICK_LOSS_ACTIONS: &[(i32, i32)] = &[(1, 2), (3, 3), (7, 1)];
@@ -80,7 +80,7 @@ fn active_rows() -> Vec<Row> {
         mapped("FS_GCS_ENABLE", "NAV_DLL_ACT", LOSS_ACTIONS, LOSS_VALUES, "FS"),
         scaled("FS_GCS_TIMEOUT", "COM_DL_LOSS_T", 1.0, REAL32, "s", "FS"),
         mapped("FS_THR_ENABLE", "NAV_RCL_ACT", STICK_LOSS_ACTIONS, STICK_LOSS_VALUES, "FS"),
-        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies to targets directly and
+        // ArduCopter's other bits (4 to 7) can be set but have no effect: this vehicle flies directly to targets and
         // never turns into the wind.
         row("GUID_OPTIONS", Int(0), (0.0, 255.0), "", "GUID", "GUIDED mode options").wire(INT32).bits(&[
             (0, "Allow arming from the transmitter"),
@@ -119,7 +119,7 @@ fn read_only_rows() -> Vec<Row> {
     };
     let compass = |name| read_only_row(name, nominal, REAL32, "COMPASS", "Compass offset (nominal)").unit("mGauss");
     vec![
-        row("ARMING_CHECK", Int(1), (0.0, 1_048_575.0), "", "ARMING", "Arming checks; all are performed")
+        row("ARMING_CHECK", Int(1), (0.0, 1_048_575.0), "", "ARMING", "Arming checks (this vehicle always performs all of them)")
             .bits(&[(0, "All")])
             .token(),
         read_only_row("ARMING_REQUIRE", Int(1), INT8, "ARMING", "Require arming").values(FIXED_VALUE),
@@ -127,7 +127,7 @@ fn read_only_rows() -> Vec<Row> {
         read_only_row("BATT_MONITOR", Int(4), INT8, "BATT", "Battery monitor type").values(&[(4, "Voltage and current")]),
         read_only_row("COMPASS_DEV_ID", Int(97_539), INT32, "COMPASS", "Compass ID"),
         read_only_row("COMPASS_ENABLE", Int(1), INT8, "COMPASS", "Enable the compass").values(FIXED_VALUE),
-        read_only_row("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "External compass"),
+        read_only_row("COMPASS_EXTERNAL", Int(0), INT8, "COMPASS", "Whether the compass is external"),
         none("COMPASS_DEV_ID2", INT32, "COMPASS"),
         none("COMPASS_DEV_ID3", INT32, "COMPASS"),
         none("COMPASS_OFS2_X", REAL32, "COMPASS"),
@@ -143,7 +143,7 @@ fn read_only_rows() -> Vec<Row> {
         compass("COMPASS_OFS_X"),
         compass("COMPASS_OFS_Y"),
         compass("COMPASS_OFS_Z"),
-        read_only_row("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "ID of the primary compass"),
+        read_only_row("COMPASS_PRIO1_ID", Int(97_539), INT32, "COMPASS", "Primary compass ID"),
         read_only_row("COMPASS_USE", Int(1), INT8, "COMPASS", "Use the compass").values(FIXED_VALUE),
         read_only_row("FORMAT_VERSION", Int(120), INT16, "FORMAT", "Parameter format version"),
         read_only_row("FRAME_CLASS", Int(1), INT8, "FRAME", "Frame class").values(&[(1, "Quad")]),
@@ -152,11 +152,11 @@ fn read_only_rows() -> Vec<Row> {
         offset("INS_ACCOFFS_Y"),
         offset("INS_ACCOFFS_Z"),
         read_only_row("INS_USE", Int(1), INT8, "INS", "Use the inertial sensor").values(FIXED_VALUE),
-        read_only_row("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "Function of relay 1, the lamp").values(&[(1, "Relay")]),
+        read_only_row("RELAY1_FUNCTION", Int(1), INT8, "RELAY", "Relay 1 (lamp) function").values(&[(1, "Relay")]),
     ]
 }
 
-/// Modes for a switch position, with ArduCopter's numbers.
+/// Modes that a switch position can select, with ArduCopter's numbers.
 const FLIGHT_MODES: &[(i32, &str)] = &[
     (0, "Stabilize"),
     (1, "Acro"),
@@ -200,7 +200,7 @@ fn mode_switch() -> Vec<Row> {
     out
 }
 
-/// Returns the parameters of CIRCLE and FOLLOW modes, with ArduCopter's defaults.
+/// Returns the parameters for the CIRCLE and FOLLOW modes, with ArduCopter's defaults.
 fn circle_and_follow_rows() -> Vec<Row> {
     let whole = |name, default, high, wire, short| {
         let mut out = row(name, Int(default), (0.0, high), "", "FOLL", short);
@@ -210,9 +210,9 @@ fn circle_and_follow_rows() -> Vec<Row> {
     let offset = |name, short| row(name, Real(0.0), (-100.0, 100.0), "m", "FOLL", short);
     vec![
         row("CIRCLE_RADIUS", Real(1_000.0), (0.0, 200_000.0), "cm", "CIRCLE", "Circle radius"),
-        row("CIRCLE_RATE", Real(20.0), (-90.0, 90.0), "deg/s", "CIRCLE", "Angular rate around the circle; positive: clockwise"),
+        row("CIRCLE_RATE", Real(20.0), (-90.0, 90.0), "deg/s", "CIRCLE", "Angular rate on the circle; positive: clockwise"),
         whole("FOLL_ENABLE", 0, 1.0, INT8, "Enable FOLLOW mode").values(OFF_ON),
-        whole("FOLL_SYSID", 0, 255.0, INT16, "System ID of the target; 0: the first system that reports a position"),
+        whole("FOLL_SYSID", 0, 255.0, INT16, "System ID of the target; 0: first system that reports a position"),
         row("FOLL_DIST_MAX", Real(100.0), (1.0, 1_000.0), "m", "FOLL", "Maximum distance to the target"),
         whole("FOLL_OFS_TYPE", 0, 1.0, INT8, "Offset frame")
             .values(&[(0, "North-East-Down"), (1, "Relative to lead vehicle heading")]),
@@ -257,7 +257,12 @@ mod tests {
                 ParamSource::Own => continue,
                 ParamSource::Scaled(other, _) | ParamSource::Capacity(other) | ParamSource::Mapped(other, _) => other,
             };
-            assert_eq!(super::super::find(other).map(|row| row.name), Some(other), "behind {}", row.name);
+            assert_eq!(
+                super::super::find(other).map(|row| row.name),
+                Some(other),
+                "the parameter behind {} must exist",
+                row.name
+            );
             if let ParamSource::Mapped(_, pairs) = row.source {
                 let other = px4_row(other);
                 assert!(pairs.iter().all(|(_, theirs)| (other.low..=other.high).contains(&f64::from(*theirs))), "{}", row.name);

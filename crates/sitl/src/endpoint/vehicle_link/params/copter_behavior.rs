@@ -19,7 +19,7 @@ const BATTERY_ACTIONS: &[(i32, &str)] = &[
 ];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 
-/// Rows, in any order.
+/// The parameter rows, in any order.
 pub(super) fn rows() -> Vec<Row> {
     [failsafes(), return_rows(), limits(), missions()].concat()
 }
@@ -55,10 +55,10 @@ fn failsafes() -> Vec<Row> {
         // flight.
         row("FS_OPTIONS", Int(21), (0.0, 63.0), "", "FS", "Failsafe exceptions").wire(INT32).bits(&[
             (0, "Continue in AUTO without manual control"),
-            (1, "Continue in AUTO without ground station"),
+            (1, "Continue in AUTO without a ground station"),
             (2, "Continue in GUIDED without manual control"),
             (3, "Continue landing"),
-            (4, "Continue in manual modes without ground station"),
+            (4, "Continue in manual modes without a ground station"),
             (5, "Open the gripper"),
         ]),
         row("FS_THR_VALUE", Int(975), (910.0, 1100.0), "us", "FS", "Throttle pulse width that signals manual control loss")

@@ -12,9 +12,9 @@ use spandrel_mavlink::ftp::checksum;
 use std::io::Cursor;
 use std::sync::{Arc, LazyLock};
 
-/// COMP_METADATA_TYPE_PARAMETER.
+/// The value of COMP_METADATA_TYPE_PARAMETER.
 const PARAMETER: u8 = 1;
-/// COMP_METADATA_TYPE_EVENTS.
+/// The value of COMP_METADATA_TYPE_EVENTS.
 const EVENTS: u8 = 4;
 /// Paths of the files on the vehicle's file server.
 const PARAMETER_PATH: &str = "/etc/extras/parameter.json.xz";
@@ -28,7 +28,7 @@ pub struct MetadataFile {
     pub path: &'static str,
     /// URI sent to clients.
     pub uri: String,
-    /// Checksum of the bytes.
+    /// Checksum of the compressed content.
     pub crc: u32,
     /// Compressed content.
     pub bytes: Arc<[u8]>,
@@ -43,7 +43,7 @@ impl MetadataFile {
     }
 }
 
-/// Metadata files of a flavor.
+/// A flavor's metadata files.
 #[derive(Debug)]
 pub struct MetadataFiles {
     /// The general metadata file, which lists the other files.
@@ -54,7 +54,7 @@ pub struct MetadataFiles {
     pub events: Option<MetadataFile>,
 }
 
-/// Returns the metadata files of a flavor.
+/// Returns a flavor's metadata files.
 #[must_use]
 pub fn files(face: &ParamView) -> &'static MetadataFiles {
     static COMMON: LazyLock<MetadataFiles> = LazyLock::new(|| make(&PX4));
@@ -75,9 +75,9 @@ fn make(face: &ParamView) -> MetadataFiles {
 /// Returns the long description, which states whether setting the parameter has an effect.
 fn long(row: &Row) -> String {
     if row.token && row.read_only {
-        format!("{}. It describes this vehicle and cannot be changed.", row.short)
+        format!("{}. This parameter describes the vehicle and cannot be changed.", row.short)
     } else if row.token {
-        format!("{}. No effect on this vehicle: the value is stored for clients that expect it.", row.short)
+        format!("{}. No effect on this vehicle; the value is stored only for clients that expect it.", row.short)
     } else {
         row.short.into()
     }

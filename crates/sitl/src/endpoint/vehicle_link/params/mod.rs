@@ -1,5 +1,5 @@
 //! Parameters: names that ground stations expect, this software's own group, ranges, and each flavor's view. Values are
-//! stored under one set of names; the names of other flavors convert them to their own units.
+//! stored under one set of names; other flavors' names convert them to their own units.
 
 mod behavior;
 mod copter;
@@ -31,34 +31,34 @@ use std::collections::BTreeMap;
 pub const HASH: &str = "_HASH_CHECK";
 /// Name of the parameter that enables the geofence, for flavors that have one.
 pub const FENCE_SWITCH: &str = "FENCE_ENABLE";
-/// Reason why a parameter was not set.
+/// The reason a parameter was not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ParamRefusal {
-    /// Unknown name.
+    /// No parameter has this name.
     Unknown,
-    /// Out of range or NaN.
+    /// The value is out of range or NaN.
     OutOfRange,
-    /// Type mismatch.
+    /// The value has the wrong type.
     Type,
-    /// Read-only.
+    /// The parameter is read-only.
     ReadOnly,
 }
 
 /// Battery thresholds; the job's rules apply until an operator changes them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatteryThresholds {
-    /// Low, %.
+    /// Low battery threshold, %.
     pub low_pct: f64,
-    /// Critical, %.
+    /// Critical battery threshold, %.
     pub critical_pct: f64,
 }
 
-/// Properties of the aircraft that parameters report.
+/// Aircraft properties that parameters report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AircraftValues {
     /// Number of cells in series.
     pub cells: u32,
-    /// Capacity, mAh.
+    /// Battery capacity, mAh.
     pub capacity_mah: f64,
     /// Battery thresholds.
     pub thresholds: BatteryThresholds,
@@ -88,12 +88,12 @@ impl AircraftValues {
     };
 }
 
-/// A parameter as sent.
+/// A parameter as sent to clients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutgoingParam {
     /// Parameter name.
     pub name: &'static str,
-    /// Value of the float field.
+    /// Value of the message's float field.
     pub wire: f32,
     /// Type of the parameter.
     pub kind: MavParamType,
@@ -106,18 +106,18 @@ pub struct InstructorSettings {
     pub wind: Option<(f64, f64)>,
     /// Fraction of datagrams lost, each way.
     pub loss: f64,
-    /// Delay of the remaining datagrams, each way.
+    /// Delay of the datagrams that are not lost, each way.
     pub delay: SimTime,
     /// Whether the bridges are open to traffic.
     pub open: bool,
 }
 
-/// Policy when a second sender moves the sticks while another has control.
+/// Policy for a second sender that moves the sticks while another has control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StickPolicy {
     /// The sender in control keeps it until it times out or releases the sticks.
     FirstSenderKeeps,
-    /// A sender that deflects a stick takes control.
+    /// Any sender that deflects a stick takes control.
     LastMoverTakes,
 }
 
@@ -181,7 +181,7 @@ impl Params {
         self.face
     }
 
-    /// Returns the allowed range of a parameter.
+    /// Returns a parameter's allowed range.
     #[must_use]
     pub fn range(&self, name: &str) -> Option<(f64, f64)> {
         self.row(name).map(|(_, row)| self.span(row))
@@ -218,7 +218,7 @@ impl Params {
         self.row(name).map(|(index, row)| (index, row.name, self.shown(row)))
     }
 
-    /// Returns the parameter at a list index as sent.
+    /// Returns the parameter at a list index as sent to clients.
     #[must_use]
     pub fn outgoing(&self, index: usize) -> Option<OutgoingParam> {
         let row = self.face.rows().get(index)?;
@@ -319,13 +319,13 @@ impl Params {
         Ok(())
     }
 
-    /// Returns the value of an integer parameter.
+    /// Returns an integer parameter's value.
     #[must_use]
     pub fn whole(&self, name: &str) -> Option<i32> {
         self.values.get(name).and_then(|value| if let Int(whole) = value { Some(*whole) } else { None })
     }
 
-    /// Returns the arbitration policy for several stick senders.
+    /// Returns the arbitration policy for multiple stick senders.
     #[must_use]
     pub fn stick_policy(&self) -> StickPolicy {
         if self.whole("SPAN_STICKS") == Some(1) { StickPolicy::LastMoverTakes } else { StickPolicy::FirstSenderKeeps }
@@ -337,7 +337,7 @@ impl Params {
         self.whole("SPAN_CAMERA") != Some(0)
     }
 
-    /// Returns the speed of missions, returns and go-to commands, m/s.
+    /// Returns the speed for missions, returns and go-to commands in m/s.
     #[must_use]
     pub fn cruise_m_s(&self) -> f64 {
         self.number("MPC_XY_CRUISE")
@@ -367,7 +367,7 @@ impl Params {
         self.whole("SYSID_MYGCS").and_then(|id| u8::try_from(id).ok()).filter(|id| *id > 0)
     }
 
-    /// Returns the throttle pulse width below which the transmitter counts as lost, microseconds.
+    /// Returns the throttle pulse width, in microseconds, below which the transmitter counts as lost.
     #[must_use]
     pub fn throttle_loss_us(&self) -> Option<u16> {
         self.whole("FS_THR_VALUE").and_then(|us| u16::try_from(us).ok())
@@ -391,7 +391,7 @@ impl Params {
         self.whole("AUTO_OPTIONS").is_some_and(|bits| bits & 1 != 0)
     }
 
-    /// Updates the parameters for the number of mission, fence and rally items.
+    /// Updates the parameters that report the number of mission, fence and rally items.
     pub fn update_plan_counts(&mut self, items: [u16; 3]) {
         for (name, count) in ["MIS_TOTAL", "FENCE_TOTAL", "RALLY_TOTAL"].into_iter().zip(items) {
             if let Some(value) = self.values.get_mut(name) {

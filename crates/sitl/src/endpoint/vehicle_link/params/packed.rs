@@ -1,6 +1,7 @@
-//! ArduPilot's packed parameter file, `@PARAM/param.pck` over MAVLink FTP. The header has three 16-bit numbers: format,
-//! number of parameters in the file, total number. Each parameter follows with type and flags, lengths, the part of its
-//! name that differs from the previous one, its value and, if requested and different, its default.
+//! ArduPilot's packed parameter file, `@PARAM/param.pck` over MAVLink FTP. The header consists of three 16-bit numbers:
+//! the format, the number of parameters in the file, and the total number. For each parameter, the file then contains
+//! the type and flags, the lengths, the part of the name that differs from the previous one, the value and, if
+//! requested and different, the default.
 
 use super::row::Row;
 use super::{ParamValue, Params};
@@ -74,7 +75,7 @@ fn pack(selection: ParamSelection, params: &Params, defaults: &Params) -> Vec<u8
     out
 }
 
-/// Returns ArduPilot's number of a type.
+/// Returns ArduPilot's number for a type.
 fn kind(wire: MavParamType) -> u8 {
     match wire {
         MavParamType::MAV_PARAM_TYPE_INT8 => 1,

@@ -1,16 +1,16 @@
-//! A parameter value with its type.
+//! A parameter value and its type.
 
-/// A parameter value with its type.
+/// A parameter value and its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ParamValue {
-    /// INT32.
+    /// An integer, sent as INT32.
     Int(i32),
-    /// REAL32.
+    /// A floating-point number, sent as REAL32.
     Real(f32),
 }
 
 impl ParamValue {
-    /// Returns the value bytewise encoded in the float field of the message.
+    /// Returns the value encoded bytewise in the message's float field.
     #[must_use]
     pub fn to_wire(self) -> f32 {
         match self {
@@ -25,7 +25,7 @@ impl ParamValue {
         self.number() as f32
     }
 
-    /// Returns a number as a value of the same type.
+    /// Converts a number to a value of the same type.
     pub(super) fn with_number(self, number: f64) -> Self {
         match self {
             Self::Int(_) => Self::Int(number.round() as i32),

@@ -8,7 +8,7 @@ use super::table;
 /// A flavor's view of the parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParamView {
-    /// Number of the flavor in SPAN_FLAVOUR.
+    /// The flavor's number in SPAN_FLAVOUR.
     pub number: i32,
     /// Whether values are cast to float; otherwise they are encoded bytewise.
     pub cast: bool,
@@ -30,7 +30,7 @@ impl ParamView {
 
 /// PX4's names, encoded bytewise.
 pub const PX4: ParamView = ParamView { number: 0, cast: false, hash: true, packed: false, defaults: &[] };
-/// Copter's names, cast.
+/// Copter's names, with values cast to float.
 pub const COPTER: ParamView = ParamView { number: 1, cast: true, hash: false, packed: true, defaults: copter::DEFAULTS };
 /// PX4's names, because there is no standard set.
 pub const GENERIC: ParamView = ParamView { number: 2, hash: false, ..PX4 };

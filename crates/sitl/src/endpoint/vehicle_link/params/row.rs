@@ -23,9 +23,9 @@ pub struct Row {
     pub name: &'static str,
     /// Default value.
     pub default: ParamValue,
-    /// Minimum value.
+    /// Minimum allowed value.
     pub low: f64,
-    /// Maximum value.
+    /// Maximum allowed value.
     pub high: f64,
     /// Unit, in the notation of ground stations.
     pub unit: &'static str,

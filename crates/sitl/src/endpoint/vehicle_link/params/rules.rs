@@ -6,13 +6,13 @@ use crate::autopilot::operator_rules::{
     LinkLossExceptions, MissionRequirement, OffboardLoss, OperatorRules, ReturnRules, ReturnTargets, SCENARIO_BATTERY_ACTIONS,
 };
 
-/// Bits of ArduPilot's `FS_OPTIONS`.
+/// Bits in ArduPilot's `FS_OPTIONS`.
 const AUTO_WITHOUT_STICKS: i32 = 1;
 const AUTO_WITHOUT_STATION: i32 = 1 << 1;
 const GUIDED_WITHOUT_STICKS: i32 = 1 << 2;
 const PILOT_WITHOUT_STATION: i32 = 1 << 4;
 
-/// Converts a `COM_ACT_FAIL_ACT` value to a response.
+/// Converts a `COM_ACT_FAIL_ACT` value to a motor failure response.
 fn actuator_response(number: i32) -> FailsafeResponse {
     match number {
         1 => FailsafeResponse::Hold,
@@ -23,7 +23,7 @@ fn actuator_response(number: i32) -> FailsafeResponse {
     }
 }
 
-/// Converts a `BATT_FS_LOW_ACT` value to a response.
+/// Converts a `BATT_FS_LOW_ACT` value to a battery response.
 fn battery_response(number: i32) -> Option<FailsafeResponse> {
     match number {
         1 => Some(FailsafeResponse::Land),

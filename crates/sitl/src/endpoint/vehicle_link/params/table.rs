@@ -118,17 +118,17 @@ pub const ROWS: &[Row] = &[
     button("BTN7_FUNCTION"),
     button("BTN8_FUNCTION"),
     button("BTN9_FUNCTION"),
-    row("CAL_ACC0_ID", Int(1_310_988), (0.0, 2e9), "", CALIBRATION, "ID of the calibrated accelerometer").token(),
-    row("CAL_GYRO0_ID", Int(1_310_988), (0.0, 2e9), "", CALIBRATION, "ID of the calibrated gyroscope").token(),
+    row("CAL_ACC0_ID", Int(1_310_988), (0.0, 2e9), "", CALIBRATION, "Calibrated accelerometer ID").token(),
+    row("CAL_GYRO0_ID", Int(1_310_988), (0.0, 2e9), "", CALIBRATION, "Calibrated gyroscope ID").token(),
     row("CAL_GYRO0_XOFF", Real(0.0), (-10.0, 10.0), "rad/s", CALIBRATION, "Measured gyroscope offset, forward").token(),
     row("CAL_GYRO0_YOFF", Real(0.0), (-10.0, 10.0), "rad/s", CALIBRATION, "Measured gyroscope offset, right").token(),
     row("CAL_GYRO0_ZOFF", Real(0.0), (-10.0, 10.0), "rad/s", CALIBRATION, "Measured gyroscope offset, down").token(),
-    row("CAL_MAG0_ID", Int(197_388), (0.0, 2e9), "", CALIBRATION, "ID of the calibrated magnetometer").token(),
+    row("CAL_MAG0_ID", Int(197_388), (0.0, 2e9), "", CALIBRATION, "Calibrated magnetometer ID").token(),
     row("CAL_MAG0_ROT", Int(0), (-1.0, 40.0), "", CALIBRATION, "Magnetometer rotation relative to the board")
         .values(ROTATIONS)
         .token(),
     row("COM_DISARM_LAND", Real(2.0), (-1.0, 60.0), "s", COMMANDER, "Delay from landing to disarming; 0 or less: never"),
-    row("COM_DISARM_PRFLT", Real(10.0), (-1.0, 600.0), "s", COMMANDER, "Timeout for takeoff after arming; 0 or less: none"),
+    row("COM_DISARM_PRFLT", Real(10.0), (-1.0, 600.0), "s", COMMANDER, "Takeoff timeout after arming; 0 or less: none"),
     row("COM_DL_LOSS_T", Int(10), (1.0, 300.0), "s", COMMANDER, "Ground station loss timeout"),
     row("COM_OF_LOSS_T", Real(1.0), (0.1, 60.0), "s", COMMANDER, "Offboard setpoint loss timeout"),
     row("COM_RC_IN_MODE", Int(1), (0.0, 5.0), "", COMMANDER, "Manual control source").values(&[(1, "Joystick only")]).token(),
@@ -140,7 +140,7 @@ pub const ROWS: &[Row] = &[
     row("FLW_TGT_FA", Real(180.0), (-180.0, 180.0), "deg", FOLLOWING, "Angle from the target's course; 180: behind"),
     row("FLW_TGT_HT", Real(8.0), (8.0, 500.0), "m", FOLLOWING, "Height while following"),
     row("FLW_TGT_MAX_VEL", Real(5.0), (0.0, 20.0), "m/s", FOLLOWING, "Maximum speed while following"),
-    row("FLW_TGT_RS", Real(0.1), (0.0, 1.0), "", FOLLOWING, "Smoothing of the target motion; 0: off"),
+    row("FLW_TGT_RS", Real(0.1), (0.0, 1.0), "", FOLLOWING, "Target motion smoothing; 0: off"),
     row("GF_ACTION", Int(2), (0.0, 5.0), "", FENCE, "Geofence breach action").values(&[
         (0, "None"),
         (1, "Warning"),
@@ -159,7 +159,7 @@ pub const ROWS: &[Row] = &[
     row("MIS_TAKEOFF_ALT", Real(2.5), (0.5, 500.0), "m", MISSION, "Default takeoff height above home"),
     row("MPC_LAND_SPEED", Real(0.7), (0.3, 3.0), "m/s", FLIGHT, "Landing descent speed near the ground"),
     row("MPC_TKO_SPEED", Real(1.5), (0.5, 5.0), "m/s", FLIGHT, "Takeoff climb speed"),
-    row("MPC_XY_CRUISE", Real(5.0), (0.5, 20.0), "m/s", FLIGHT, "Horizontal speed in missions, returns and go-to"),
+    row("MPC_XY_CRUISE", Real(5.0), (0.5, 20.0), "m/s", FLIGHT, "Horizontal speed in missions, returns and go-to flights"),
     row("MPC_XY_VEL_MAX", Real(12.0), (0.5, 30.0), "m/s", FLIGHT, "Maximum horizontal speed in automatic modes"),
     row("MPC_Z_VEL_MAX_DN", Real(1.5), (0.3, 10.0), "m/s", FLIGHT, "Maximum descent speed in automatic modes"),
     row("MPC_Z_VEL_MAX_UP", Real(3.0), (0.3, 15.0), "m/s", FLIGHT, "Maximum climb speed in automatic modes"),
@@ -184,7 +184,7 @@ pub const ROWS: &[Row] = &[
         (0.0, 1.0),
         "",
         SIMULATION,
-        "Bridge traffic. Closing stops new traffic; vehicles on the bridge leave",
+        "Bridge traffic. Closing keeps new vehicles off; those on the bridge leave",
     )
     .values(&[(0, "Closed"), (1, "Open")]),
     row(
@@ -193,7 +193,7 @@ pub const ROWS: &[Row] = &[
         (0.0, 360.0),
         "deg",
         SIMULATION,
-        "Direction that the wind comes from, clockwise from north; used if SIM_WIND_SPD is set",
+        "Direction the wind blows from, clockwise from north; used if SIM_WIND_SPD is set",
     ),
     row(
         "SIM_WIND_SPD",
@@ -204,13 +204,13 @@ pub const ROWS: &[Row] = &[
         "Mean wind speed 6 m above the water; negative: use the scenario's wind",
     ),
     row("SPAN_CAMERA", Int(1), (0.0, 1.0), "", SYSTEM, "Send heartbeats from the camera component (100)")
-        .values(&[(0, "Off, for clients that mistake them for vehicle heartbeats"), (1, "On")]),
+        .values(&[(0, "Off (for clients that mistake them for vehicle heartbeats)"), (1, "On")]),
     row("SPAN_FLAVOUR", Int(0), (0.0, 2.0), "", SYSTEM, "Autopilot protocol")
         .values(&[(0, "PX4"), (1, "ArduPilot"), (2, "Generic MAVLink")])
         .read_only(),
-    row("SPAN_STICKS", Int(0), (0.0, 1.0), "", JOYSTICK, "Control arbitration between stick senders")
-        .values(&[(0, "First sender, until it times out"), (1, "Last sender to move a stick")]),
-    row("SYS_AUTOCONFIG", Int(0), (0.0, 2.0), "", SYSTEM, "Reset the configuration at startup")
+    row("SPAN_STICKS", Int(0), (0.0, 1.0), "", JOYSTICK, "Which sender's sticks take control")
+        .values(&[(0, "The first sender, until it times out"), (1, "The last sender to move a stick")]),
+    row("SYS_AUTOCONFIG", Int(0), (0.0, 2.0), "", SYSTEM, "Configuration reset at startup")
         .values(&[(0, "Keep"), (1, "Reset to defaults"), (2, "Reset, keeping calibration")])
         .token(),
     row("SYS_AUTOSTART", Int(4001), (0.0, 1e6), "", SYSTEM, "Airframe").token(),

@@ -30,7 +30,7 @@ fn exact_copter_names_read_and_set_the_underlying_parameter_in_their_units() {
     assert_eq!((params.cruise_m_s(), params.find("WPNAV_SPEED").map(|p| p.2)), (3.5, Some(Real(350.0))));
     assert_eq!(params.set("FS_GCS_ENABLE", 5.0, REAL), Ok(()), "the value must be cast regardless of the declared type");
     assert_eq!(params.whole("NAV_DLL_ACT"), Some(3));
-    assert_eq!(params.set("FS_GCS_ENABLE", 4.0, INT), Err(ParamRefusal::OutOfRange), "the vehicle has no such action");
+    assert_eq!(params.set("FS_GCS_ENABLE", 4.0, INT), Err(ParamRefusal::OutOfRange), "the vehicle does not support this action");
     assert_eq!(params.set("BATT_LOW_MAH", 1_040.0, REAL), Ok(()));
     assert_eq!(params.number("BAT_LOW_THR") as f32, 0.2);
     assert_eq!(params.set("FRAME_CLASS", 2.0, INT), Err(ParamRefusal::ReadOnly));
@@ -68,7 +68,7 @@ fn regress_every_value_has_the_type_of_its_row() {
     }
 }
 
-/// Computes the checksum bit by bit: polynomial 0xEDB88320, register starts at zero, no inversion.
+/// Computes the checksum bit by bit: with polynomial 0xEDB88320, a register that starts at zero, and no inversion.
 #[test]
 fn exact_checksum_uses_the_plain_polynomial_and_depends_on_every_value() {
     let mut params = of(&param_view::PX4);

@@ -1,11 +1,11 @@
-//! Parameter files: the tab-separated text format of QGroundControl (`.params`).
+//! Parameter files in QGroundControl's tab-separated text format (`.params`).
 
 use super::{ParamRefusal, ParamValue, Params};
 
-/// MAV_PARAM_TYPE_INT32 and MAV_PARAM_TYPE_REAL32.
+/// Type codes of MAV_PARAM_TYPE_INT32 and MAV_PARAM_TYPE_REAL32.
 const INT32: &str = "6";
 const REAL32: &str = "9";
-/// MAV_PARAM_TYPE_INT8 and MAV_PARAM_TYPE_INT16, which ArduPilot also uses.
+/// Type codes of MAV_PARAM_TYPE_INT8 and MAV_PARAM_TYPE_INT16, which ArduPilot also uses.
 const NARROW_TYPES: [&str; 2] = ["2", "4"];
 
 /// An error in a line of a parameter file.
@@ -14,7 +14,7 @@ const NARROW_TYPES: [&str; 2] = ["2", "4"];
 pub struct ParamFileProblem {
     /// Line number, from 1.
     pub line: usize,
-    /// Description of the error, with the allowed range.
+    /// What is wrong, including the allowed range.
     pub what: String,
 }
 
@@ -33,11 +33,11 @@ pub fn write(params: &Params, system_id: u8) -> String {
     out
 }
 
-/// Applies a parameter file. Names that this vehicle does not have, and read-only parameters, are skipped because the
-/// file may come from another vehicle.
+/// Applies a parameter file. Skips read-only parameters and names that this vehicle does not have, because the file may
+/// come from another vehicle.
 ///
 /// # Errors
-/// Returns all invalid lines; no parameter is set in that case.
+/// Returns all invalid lines. No parameter is set in that case.
 pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<ParamFileProblem>> {
     let mut fresh = params.clone();
     let mut problems = Vec::new();
@@ -56,7 +56,7 @@ pub fn read(params: &mut Params, text: &str) -> Result<(), Vec<ParamFileProblem>
 fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let fields: Vec<&str> = line.split('\t').map(str::trim).collect();
     let [_, _, name, value, kind] = fields[..] else {
-        return Err(format!("{} tab-separated fields (required: vehicle, component, name, value, type)", fields.len()));
+        return Err(format!("{} tab-separated fields, but 5 are required: vehicle, component, name, value, type", fields.len()));
     };
     // A parameter of another vehicle is skipped, regardless of its type.
     if params.range(name).is_none() {
@@ -67,7 +67,11 @@ fn read_line(params: &mut Params, line: &str) -> Result<(), String> {
     let value_read = match kind {
         REAL32 => ParamValue::Real(value.parse().map_err(|_| no_number("a real number"))?),
         _ if kind == INT32 || narrow => ParamValue::Int(value.parse().map_err(|_| no_number("a whole number"))?),
-        _ => return Err(format!("{name}: type '{kind}' (allowed: {INT32} for whole numbers, {REAL32} for real numbers)")),
+        _ => {
+            return Err(format!(
+                "{name}: type '{kind}' is not supported (allowed: {INT32} for whole numbers, {REAL32} for real numbers)"
+            ));
+        }
     };
     match params.set_value(name, value_read) {
         Ok(()) | Err(ParamRefusal::Unknown | ParamRefusal::ReadOnly) => Ok(()),
@@ -101,7 +105,7 @@ mod tests {
         copter.set_value("FENCE_ACTION", ParamValue::Int(2)).unwrap();
         copter.set_value("RTL_ALT", ParamValue::Int(2_500)).unwrap();
         let text = write(&copter, 3);
-        assert!(text.contains("3\t1\tFENCE_ACTION\t2\t2\n"), "as narrow as ArduPilot's");
+        assert!(text.contains("3\t1\tFENCE_ACTION\t2\t2\n"), "the type must be as narrow as ArduPilot's");
         let mut read_back = of(&param_view::COPTER);
         read(&mut read_back, &text).unwrap();
         assert_eq!(write(&read_back, 3), text);

@@ -1,4 +1,4 @@
-//! Short names for the types of parameters on the wire.
+//! Short names for parameter wire types.
 
 use spandrel_mavlink::dialect::MavParamType;
 

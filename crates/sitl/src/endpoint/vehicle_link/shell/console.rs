@@ -1,4 +1,4 @@
-//! The shell's client, its line and the pending output.
+//! The shell's client, its input line, and the pending output.
 
 use crate::endpoint::link::LinkId;
 use std::collections::VecDeque;

@@ -20,7 +20,7 @@ const MAX_LINE_BYTES: usize = 256;
 /// Maximum number of messages per tick.
 const MESSAGES_PER_TICK: usize = 4;
 const PROMPT: &str = "nsh> ";
-/// PX4's mode numbers, by their names in its shell.
+/// PX4's mode numbers, by their names in the shell.
 const MODES: [(&str, f64, f64); 11] = [
     ("manual", 1.0, 0.0),
     ("acro", 5.0, 0.0),

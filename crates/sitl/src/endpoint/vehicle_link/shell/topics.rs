@@ -1,4 +1,4 @@
-//! `listener TOPIC`: the latest values of a topic, under PX4's names.
+//! The shell command `listener TOPIC`, which prints a topic's latest values under PX4's names.
 
 use super::super::snapshot::VehicleSnapshot;
 use super::super::streams::position;
@@ -71,7 +71,7 @@ fn global_position(v: &VehicleSnapshot) -> TopicFields {
 }
 
 fn local_position(v: &VehicleSnapshot) -> TopicFields {
-    // Same frame as in the streamed message.
+    // Same frame as the streamed message.
     let Some(MavMessage::LOCAL_POSITION_NED(p)) = position::local(v) else { return TopicFields::new() };
     let number = |value: f32| format!("{value:.5}");
     vec![

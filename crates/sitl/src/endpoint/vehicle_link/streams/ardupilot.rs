@@ -1,4 +1,4 @@
-//! Additional messages that ArduCopter streams.
+//! Builders for additional messages that ArduCopter streams.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::ardupilotmega::{AHRS, DialectMessage, EKF_STATUS_REPORT, MEMINFO, SIMSTATE, WIND};
@@ -7,7 +7,7 @@ use spandrel_mavlink::units::deg_e7;
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 
-/// Bits of EKF_STATUS_FLAGS (ardupilotmega.xml).
+/// Flag bits from EKF_STATUS_FLAGS (ardupilotmega.xml).
 const ATTITUDE: u16 = 1;
 const VERTICAL: u16 = 4 | 32;
 const HORIZONTAL: u16 = 2 | 8 | 16 | 256 | 512;
@@ -41,7 +41,7 @@ pub(crate) fn estimator(v: &VehicleSnapshot) -> Option<DialectMessage> {
     ]))
 }
 
-/// Sends the gyroscope drift: the correction that the estimator adds to its readings. The estimator does not track its
+/// Sends the gyroscope drift: the correction that the estimator adds to the readings. The estimator does not track its
 /// attitude error, so those fields are 0.
 pub(crate) fn ahrs(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let drift = v.readings.imu.map_or(Vec3::zero(), |imu| v.estimate.rates_rad_s - imu.rates_rad_s);

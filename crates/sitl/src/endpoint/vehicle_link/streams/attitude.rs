@@ -1,4 +1,4 @@
-//! Messages with the estimated and target attitude.
+//! Builders for messages with the estimated and target attitude.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{

@@ -1,4 +1,4 @@
-//! Transmitter channels as the autopilot reports them.
+//! Builders for the transmitter channels as the autopilot reports them.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{MavMessage, RC_CHANNELS_DATA};

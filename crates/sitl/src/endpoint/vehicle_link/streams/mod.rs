@@ -1,4 +1,4 @@
-//! Messages of the autopilot.
+//! Builders for the autopilot's messages.
 
 pub(crate) mod ardupilot;
 pub(crate) mod attitude;

@@ -1,4 +1,4 @@
-//! Position messages: estimate, target and home.
+//! Builders for position messages: estimate, target and home.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{

@@ -1,4 +1,4 @@
-//! Messages with sensor measurements.
+//! Builders for messages with sensor measurements.
 
 use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{
@@ -64,8 +64,8 @@ pub(crate) fn highres_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Returns the specific force, milli-g; angular rates, mrad/s; magnetic field, mgauss. RAW_IMU does not define units;
-/// ArduPilot uses these.
+/// Returns the specific force in milli-g, the angular rates in mrad/s, and the magnetic field in mgauss. RAW_IMU does
+/// not define units; these are ArduPilot's.
 fn milli(v: &VehicleSnapshot) -> Option<[[i16; 3]; 3]> {
     let imu = v.readings.imu.as_ref()?;
     let milli = |value: f64| (1000.0 * value).round() as i16;
@@ -143,7 +143,7 @@ pub(crate) fn range_down(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(range(v, 0, v.readings.range_down_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_270))
 }
 
-/// Distance to the soffit.
+/// Builds the message with the distance to the soffit.
 pub(crate) fn range_up(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(range(v, 1, v.readings.range_up_m?, MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_90))
 }
@@ -163,12 +163,12 @@ const HORIZONTAL_ORIENTATIONS: [MavSensorOrientation; 8] = [
 /// ID of the first horizontal range finder; 0 is down, 1 is up.
 const FIRST_HORIZONTAL_ID: u8 = 2;
 
-/// The horizontal range finder at the nose.
+/// Builds the message for the horizontal range finder at the nose.
 pub(crate) fn range_ahead(v: &VehicleSnapshot) -> Option<MavMessage> {
     range_beside(v, 0)
 }
 
-/// One of the eight horizontal range finders.
+/// Builds the message for one of the eight horizontal range finders.
 pub(crate) fn range_beside(v: &VehicleSnapshot, k: usize) -> Option<MavMessage> {
     Some(range(v, FIRST_HORIZONTAL_ID + k as u8, *v.readings.range_around_m?.get(k)?, *HORIZONTAL_ORIENTATIONS.get(k)?))
 }
@@ -189,7 +189,7 @@ fn range(v: &VehicleSnapshot, id: u8, distance_m: f64, orientation: MavSensorOri
     })
 }
 
-/// Returns the variance of a standard deviation, cm², limited to 255, which means "unknown".
+/// Returns the variance for a standard deviation in cm², limited to 255, which means "unknown".
 fn variance_cm2(noise_m: f64) -> u8 {
     (noise_m * 100.0 * noise_m * 100.0).round().min(f64::from(u8::MAX)) as u8
 }

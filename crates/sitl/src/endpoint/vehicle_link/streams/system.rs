@@ -1,4 +1,4 @@
-//! Messages with the overall vehicle state.
+//! Builders for messages with the overall vehicle state.
 #![allow(deprecated, reason = "clients still request PROTOCOL_VERSION")]
 
 use super::super::params::metadata;
@@ -54,7 +54,7 @@ pub(crate) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     if v.flavor.home_item {
         present |= S::MAV_SYS_STATUS_GEOFENCE;
     }
-    // Healthy even without a fence: MAVProxy would interpret its absence as a breach.
+    // Reported as healthy even without a fence, because MAVProxy would interpret a missing flag as a breach.
     let mut health = present | S::MAV_SYS_STATUS_GEOFENCE;
     health.set(S::MAV_SYS_STATUS_GEOFENCE, v.status.fence.breach.is_none());
     let fix = v.readings.gnss.is_some_and(|g| g.fix >= 3);
@@ -127,7 +127,7 @@ pub(crate) fn extended_state(v: &VehicleSnapshot) -> Option<MavMessage> {
     let landed_state = match v.status.landed {
         LandedState::OnGround => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
         LandedState::TakingOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
-        // As in PX4 and ArduPilot: until the takeoff height is reached.
+        // As in PX4 and ArduPilot, the state lasts until the takeoff height is reached.
         LandedState::InAir if v.status.climbing_out => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
         LandedState::InAir => MavLandedState::MAV_LANDED_STATE_IN_AIR,
         LandedState::Landing => MavLandedState::MAV_LANDED_STATE_LANDING,
@@ -216,7 +216,7 @@ pub(crate) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
         seq: if v.plans.mission_items == 0 { 0 } else { v.plans.lead } + item,
         total: v.plans.mission_items,
         mission_state: state,
-        // 1: in mission mode; 2: not in mission mode.
+        // 1 means in mission mode, and 2 means not in mission mode.
         mission_mode: if flying { 1 } else { 2 },
         mission_id: v.plans.ids[0],
         fence_id: v.plans.ids[1],
@@ -275,14 +275,14 @@ pub(crate) fn version(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Sends the location of the parameter metadata.
+/// Sends the parameter metadata's location.
 pub(crate) fn metadata(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavor.params).general;
     let uri = general.uri.as_str().into();
     Some(MavMessage::COMPONENT_METADATA(COMPONENT_METADATA_DATA { time_boot_ms: v.clock.boot_ms(), file_crc: general.crc, uri }))
 }
 
-/// The same for older clients.
+/// The same location for older clients.
 pub(crate) fn information(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavor.params).general;
     Some(MavMessage::COMPONENT_INFORMATION(COMPONENT_INFORMATION_DATA {
